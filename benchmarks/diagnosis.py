@@ -17,13 +17,15 @@ from pathlib import Path
 from typing import Any
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.diagnose import diagnose
-from modeler.diagnose.analyse import analysed
-from modeler.improve import Logs, add_effect
-from modeler.observation import Log, read_log
-from modeler.robot import robot_from_text
-from modeler.simulate import SimulationSettings, simulate, write_log
-from modeler.simulate.hidden import hidden_from_text
+from modeler.diagnosis.add import add_effect
+from modeler.diagnosis.added_model import Logs
+from modeler.diagnosis.analyse import analysed
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.observation.log import Log
+from modeler.observation.read import read_log
+from modeler.robot.read import robot_from_text
+from modeler.simulation import SimulationSettings, simulate, write_log
+from modeler.simulation.hidden import hidden_from_text
 
 EFFECT, JOINT = "load_friction", "2"
 

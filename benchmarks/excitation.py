@@ -16,11 +16,12 @@ from scipy.optimize import differential_evolution, minimize
 
 from modeler.api import compile_model, derive, generate
 from modeler.cli.excite import bounds_of
-from modeler.excite.criterion import condition
-from modeler.excite.search import Wish, excite, random_motion, task_of, usual_harmonics
-from modeler.excite.task import Task
-from modeler.robot import Robot, read_robot, robot_from_text
+from modeler.excitation.criterion import condition
+from modeler.excitation.search import Wish, excite, random_motion, task_of, usual_harmonics
+from modeler.excitation.task import Task
 from modeler.robot.edit import with_effects
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.robot import Robot
 
 ROBOTS = ("scara", "ur10e", "tx40", "panda")
 PATIENCE = 4.0

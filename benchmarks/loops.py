@@ -10,10 +10,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from benchmarks.line import Key, Line
-from modeler.base.numeric import random_states
-from modeler.compiled import CompiledModel, load
-from modeler.derivation import derive, generate
-from modeler.derivation import load as robot
+from modeler.codegen.derivation import derive, generate
+from modeler.codegen.derivation import load as robot
+from modeler.derivation.numeric_rank import random_states
+from modeler.runtime.model import CompiledModel, load
 
 ROBOTS = (
     "sr400", "dvrk-psm", "five-bar", "3rrr", "delta", "orthoglide-2003", "orthoglide-2012",

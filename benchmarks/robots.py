@@ -3,10 +3,11 @@
 import dataclasses
 import functools
 
-from modeler.compiled import CompiledModel, load
-from modeler.core.contract import Emitted
-from modeler.derivation import derive, generate
-from modeler.robot import EffectUse, Robot, read_robot
+from modeler.codegen.derivation import derive, generate
+from modeler.core.manifest import Emitted
+from modeler.robot.read import read_robot
+from modeler.robot.robot import EffectUse, Robot
+from modeler.runtime.model import CompiledModel, load
 
 ROBOTS = ("wrist", "puma560", "panda")
 EFFECTS = ("rotor_inertia", "viscous", "coulomb")

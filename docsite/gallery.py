@@ -6,11 +6,12 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 
 from docsite.markdown import block, cell, code, table
-from modeler.base.render import as_markdown
-from modeler.derivation import Derivation, derive, generate
-from modeler.robot import builtin_names, builtin_text, read_robot
-from modeler.show import picture_bytes
-from modeler.showing import show
+from modeler.codegen.derivation import Derivation, derive, generate
+from modeler.derivation.relations import as_markdown
+from modeler.report.robot_drawing import picture_bytes
+from modeler.report.showing import show
+from modeler.robot.library import builtin_names, builtin_text
+from modeler.robot.read import read_robot
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,14 @@
 
 Data flows one way::
 
-    effects -> robot -> symbolic -> base -> codegen => C + manifest
-            => compiled -> observation -> estimate -> fit -> compare
+    effects -> robot -> derivation -> codegen => C + manifest
+            => runtime -> observation -> estimation -> validation -> diagnosis -> robot ...
 
-The stages before the emitted C derive (sympy, casadi, jinja2); those after it only use numbers.
-A robot names effects of the catalogue; `terms` stands beside codegen and writes for people;
-`simulate` has physics of its own, `show` draws a robot from its table alone. `derivation` and
-`api` put the steps in a row.
+The rooms before the emitted C derive (sympy, casadi, jinja2); those after it only use numbers.
+A robot names effects of the catalogue; `formulas` stands beside codegen and writes for people;
+`simulation` has physics of its own; `logs` reads what people have, `numerics` has the linear
+algebra of all; `fleet`, `excitation` and `papers` build on them; `report` shows results, `api` and
+`cli` put the steps in a row. docs/architecture.md shows the house.
 This module imports nothing, so that the numeric stages never load the symbolic ones.
 """
 

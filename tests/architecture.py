@@ -1,120 +1,91 @@
 """The house rules as a program: reads the syntax trees of a package, gives what breaks a rule."""
 
 import ast
+import io
 import sys
-from collections.abc import Iterator
+import tokenize
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-NORTH = ("effects", "robot", "symbolic", "base", "terms", "papers", "codegen")
+NORTH = ("effects", "robot", "derivation", "formulas", "codegen")
 SOUTH = (
-    "pictures", "compiled", "logs", "observation", "estimate", "fit", "residuals", "compare",
-    "freerun", "fleet", "hypotheses", "scoring", "diagnose", "excite", "pages",
+    "numerics", "runtime", "logs", "observation", "estimation", "diagnosis", "validation", "fleet",
+    "excitation",
 )  # fmt: skip
 
-# Which stages a stage may import, besides itself. The south knows a robot by its manifest only,
-# and of the north the catalogue of effects, which imports nothing but the core: columns of an
-# effect are evaluated from the same definition that is emitted. The simulator shares no dynamics
-# with what it is there to test.
+# Which rooms a room may import, besides itself. The south knows a robot by its manifest only, and
+# of the north the catalogue of effects, which imports nothing but the core: columns of an effect
+# are evaluated from the same definition that is emitted. The simulator shares no dynamics with what
+# it is there to test.
 STAGES: dict[str, set[str]] = {
     "core": set(),
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
-    "fleet": {"core", "effects", *SOUTH[: SOUTH.index("fleet")]},
-    "jobs": {"core"},
-    "hypotheses": {"core", "effects", *SOUTH[: SOUTH.index("hypotheses")]},
-    "scoring": {"core", "effects", *SOUTH[: SOUTH.index("scoring")]},
-    "diagnose": {"core", "effects", *SOUTH[: SOUTH.index("diagnose")]},
     "logs": {"core"},
-    "excite": {"core", "effects", "pictures", "compiled", "observation", "hypotheses"},
-    "pages": {"core", "effects", "robot", "show", *SOUTH[: SOUTH.index("pages")]},
-    "simulate": {"core", "robot"},
-    "show": {"core", "robot"},
-    "derivation": {"core", *NORTH},
-    "showing": {"core", *NORTH, "show", "pages"},
-    "improve": {"core", *NORTH, *SOUTH, "derivation"},
-    "methods": {"core", *NORTH, *SOUTH, "simulate", "derivation"},
-    "notebook": {"core", *NORTH, *SOUTH, "simulate", "show", "derivation", "showing"},
-    "api": {
-        "core",
-        *NORTH,
-        *SOUTH,
-        "simulate",
-        "derivation",
-        "showing",
-        "improve",
-        "jobs",
-        "notebook",
-    },
-    "cli": {
-        "core",
-        *NORTH,
-        *SOUTH,
-        "simulate",
-        "show",
-        "derivation",
-        "showing",
-        "improve",
-        "jobs",
-        "methods",
-        "notebook",
-        "api",
-    },
+    "diagnosis": {"core", "effects", *SOUTH[: SOUTH.index("diagnosis")]},
+    "fleet": {"core", "effects", *SOUTH[: SOUTH.index("fleet")]},
+    "excitation": {"core", "effects", "numerics", "runtime", "observation", "diagnosis"},
+    "simulation": {"core", "robot"},
+    "papers": {"core", *NORTH, "numerics", "runtime", "observation", "estimation", "simulation"},
+    "report": {"core", *NORTH, *SOUTH, "simulation"},
+    "api": {"core", *NORTH, *SOUTH, "simulation", "report"},
+    "cli": {"core", *NORTH, *SOUTH, "simulation", "papers", "report", "api"},
 }
 
-# Which packages of others a stage may import, besides the standard library.
+# An effect goes round: from the diagnosis into the robot description, and from there all the way.
+ROUND = {
+    "diagnosis/add.py": {"robot", "codegen"},
+    "diagnosis/added_model.py": {"robot"},
+}
+
+# Which packages of others a room may import, besides the standard library.
 PACKAGES: dict[str, set[str]] = {
-    "core": {"numpy", "mpmath", "pandas"},
+    "core": {"numpy", "mpmath", "pandas", "distributed"},
+    "numerics": {"numpy", "scipy"},
     "effects": set(),
     "robot": set(),
-    "symbolic": {"numpy", "sympy", "casadi", "flint"},
-    "base": {"numpy", "sympy"},
-    "terms": {"numpy", "sympy"},
-    "papers": {"sympy"},
+    "derivation": {"numpy", "sympy", "casadi", "flint"},
+    "formulas": {"numpy", "sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
-    "pictures": {"numpy", "matplotlib"},
-    "compiled": {"numpy", "cffi", "cupy"},
+    "runtime": {"numpy", "cffi", "cupy"},
     "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags"},
     "observation": {"numpy", "scipy"},
-    "estimate": {"numpy", "scipy", "clarabel", "cvxpy"},
-    "fit": {"numpy", "scipy"},
-    "residuals": {"numpy", "scipy"},
-    "compare": {"numpy", "scipy"},
-    "freerun": {"numpy", "scipy"},
+    "estimation": {"numpy", "scipy", "clarabel", "cvxpy"},
+    "diagnosis": {"numpy", "scipy", "threadpoolctl"},
+    "validation": {"numpy", "scipy"},
     "fleet": {"numpy", "scipy"},
-    "jobs": {"distributed"},
-    "hypotheses": {"numpy", "scipy"},
-    "scoring": {"numpy", "scipy"},
-    "diagnose": {"numpy", "threadpoolctl"},
-    "pages": {"numpy", "scipy", "jinja2"},
-    "simulate": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
-    "excite": {"numpy", "matplotlib", "pyarrow"},
-    "show": {"numpy", "matplotlib"},
-    "derivation": set(),
-    "showing": set(),
-    "improve": {"numpy", "threadpoolctl"},
-    "methods": {"numpy"},
-    "notebook": {"numpy"},
+    "excitation": {"numpy", "matplotlib", "pyarrow"},
+    "simulation": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
+    "papers": {"numpy", "sympy"},
+    "report": {"numpy", "scipy", "matplotlib", "jinja2"},
     "api": {"numpy"},
     "cli": {"numpy", "rich"},
 }
 
 # Packages that few files may know: what replaces such a package replaces these files.
 ONLY_IN = {
-    "jinja2": ("codegen/render.py", "pages/render.py"),
-    "cupy": ("compiled/gpu.py",),
-    "cffi": ("compiled/bind.py", "compiled/bind_fused.py", "compiled/bind_tile.py"),
-    "casadi": ("symbolic/lagrange.py", "simulate/"),
-    "clarabel": ("estimate/possible.py",),
-    "cvxpy": ("estimate/consistent.py", "simulate/completion.py"),
-    "flint": ("symbolic/balls.py",),
+    "jinja2": ("codegen/package.py", "report/page.py"),
+    "cupy": ("runtime/gpu.py",),
+    "cffi": ("runtime/bind.py",),
+    "casadi": ("derivation/lagrange.py", "simulation/"),
+    "clarabel": ("estimation/nearest_body.py",),
+    "cvxpy": ("estimation/consistent.py", "simulation/completion.py"),
+    "flint": ("derivation/precise.py",),
     "pandas": ("core/table.py",),
-    "h5py": ("logs/mat.py",),
+    "h5py": ("logs/arrays.py",),
     "rosbags": ("logs/bags.py",),
-    "distributed": ("jobs/cluster.py",),
+    "distributed": ("core/jobs.py",),
+    "matplotlib": ("report/", "excitation/result.py"),
 }
 
+# The ratchet: it may only be lowered, or raised by a line that says why.
+MOST_PACKAGES = 20
+MOST_MODULES = 359
+MOST_CODE_LINES = 57_700
+MOST_CIRCLES = 0
+
 NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}
-MODULE_LINES = 600
+MODULE_LINES = 700
 
 
 def broken_rules(package: Path) -> list[str]:
@@ -169,7 +140,7 @@ def _imports(relative: str, tree: ast.AST) -> Iterator[tuple[int, str]]:
             yield line, f"imports {name}; the package itself imports nothing"
         elif top == "modeler":
             other = rest.split(".")[0]
-            if other not in {stage, "__version__"} | STAGES[stage]:
+            if other not in {stage, "__version__"} | STAGES[stage] | ROUND.get(relative, set()):
                 yield line, f"imports {name}; {stage} may import {_listed(STAGES[stage])}"
         elif top not in sys.stdlib_module_names:
             if top not in PACKAGES[stage]:
@@ -209,3 +180,72 @@ def _sizes(text: str) -> Iterator[tuple[int, str]]:
 
 def _listed(names: set[str]) -> str:
     return ", ".join(sorted(names)) or "nothing"
+
+
+def code_lines(package: Path) -> int:
+    """Lines of the package without blanks, comments and docstrings."""
+    return sum(_code_lines(path.read_text(encoding="utf-8")) for path in modules(package))
+
+
+def _code_lines(text: str) -> int:
+    docs: set[int] = set()
+    for node in ast.walk(ast.parse(text)):
+        value = node.value if isinstance(node, ast.Expr) else None
+        if isinstance(value, ast.Constant) and isinstance(value.value, str):
+            docs |= set(range(value.lineno, (value.end_lineno or value.lineno) + 1))
+    skipped = {
+        tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT,
+        tokenize.ENDMARKER,
+    }  # fmt: skip
+    lines: set[int] = set()
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type not in skipped:
+            lines |= set(range(token.start[0], token.end[0] + 1))
+    return len(lines - docs)
+
+
+def circles(package: Path) -> list[set[str]]:
+    """Modules that import each other, in functions and for types too."""
+    names = {_dotted(path, package): path for path in modules(package)}
+    graph = {
+        name: {
+            found
+            for _, target in _targets(ast.parse(path.read_bytes()))
+            if (found := target if target in names else target.rpartition(".")[0]) in names
+            and found != name and names[found].name != "__init__.py"
+        }
+        for name, path in names.items()
+        if path.name != "__init__.py"
+    }  # fmt: skip
+    reached = {name: _reached(graph, name) for name in graph}
+    rings = {
+        frozenset({name, *(other for other in reached[name] if name in reached[other])})
+        for name in graph
+        if name in reached[name]
+    }
+    return [set(ring) for ring in rings]
+
+
+def _dotted(path: Path, package: Path) -> str:
+    parts = path.relative_to(package.parent).with_suffix("").parts
+    return ".".join(parts).removesuffix(".__init__")
+
+
+def _targets(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Line and dotted name of all that is imported, names from modules with them."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            yield from ((node.lineno, f"{node.module}.{alias.name}") for alias in node.names)
+
+
+def _reached(graph: Mapping[str, set[str]], start: str) -> set[str]:
+    found: set[str] = set()
+    left = list(graph[start])
+    while left:
+        name = left.pop()
+        if name not in found:
+            found.add(name)
+            left += graph.get(name, ())
+    return found

@@ -2,7 +2,7 @@
 
 import re
 
-from modeler.pictures.picture import COLOR_NAMES, SHADE, Heat, Picture
+from modeler.core.figure import COLOR_NAMES, SHADE, Heat, Picture
 
 
 def colours_said(picture: Picture) -> set[str]:

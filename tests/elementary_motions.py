@@ -5,7 +5,7 @@ Shares nothing with the tool but the numbers in the cells.
 
 import numpy as np
 
-from modeler.robot import read_robot
+from modeler.robot.read import read_robot
 
 
 def turn(axis, angle):

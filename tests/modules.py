@@ -7,11 +7,14 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from modeler.base import BaseParameters, base_parameters
-from modeler.codegen import Emitted, emit
-from modeler.compiled import CompiledModel, load
-from modeler.robot import read_robot
-from modeler.symbolic import SymbolicModel, derive_model
+from modeler.codegen.emit import emit
+from modeler.core.manifest import Emitted
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.result import BaseParameters
+from modeler.robot.read import read_robot
+from modeler.runtime.model import CompiledModel, load
 
 
 class Module(NamedTuple):

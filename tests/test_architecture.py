@@ -9,16 +9,22 @@ from pathlib import Path
 
 import pytest
 
-from modeler.effects import CATALOGUE
-from modeler.effects.standard import STANDARD
+from modeler.effects.catalogue import CATALOGUE, STANDARD
 from tests.architecture import (
     MODULE_LINES,
+    MOST_CIRCLES,
+    MOST_CODE_LINES,
+    MOST_MODULES,
+    MOST_PACKAGES,
     NORTH,
     ONLY_IN,
     PACKAGES,
+    ROUND,
     SOUTH,
     STAGES,
     broken_rules,
+    circles,
+    code_lines,
     imported_packages,
     modules,
 )
@@ -42,7 +48,28 @@ def test_every_stage_has_its_rules_and_every_rule_its_stage() -> None:
             assert stage not in STAGES[earlier], f"{stage} and {earlier} may import each other"
 
 
+def test_the_house_does_not_grow() -> None:
+    """Whoever raises one of these says why, beside the number."""
+    files = modules(PACKAGE)
+    assert len({path.parent for path in files} - {PACKAGE}) <= MOST_PACKAGES
+    assert len(files) <= MOST_MODULES
+    assert code_lines(PACKAGE) <= MOST_CODE_LINES
+    assert len(found := circles(PACKAGE)) <= MOST_CIRCLES, found
+
+
+def test_circles_are_seen(tmp_path: Path) -> None:
+    house = tmp_path / "modeler" / "core"
+    house.mkdir(parents=True)
+    (house / "a.py").write_text("def f():\n    from modeler.core.b import x\n")
+    (house / "b.py").write_text("import modeler.core.c\n\nx = 1\n")
+    (house / "c.py").write_text('"""Two\nlines."""\n\nfrom modeler.core import a  # late\n')
+    (house / "d.py").write_text("from modeler.core.a import f\n")
+    assert circles(tmp_path / "modeler") == [{f"modeler.core.{name}" for name in "abc"}]
+    assert code_lines(tmp_path / "modeler") == 6
+
+
 def test_exceptions_are_still_needed() -> None:
+    assert all((PACKAGE / file).exists() for file in ROUND)
     for places in ONLY_IN.values():
         assert all((PACKAGE / place).exists() for place in places)
 
@@ -70,29 +97,58 @@ def _names(lines: list[str]) -> set[str]:
 
 # file, its text, what the checker must say of it
 PLANTED = {
-    "north in the south": ("fit/a.py", "from modeler.symbolic import X", "a.py:1: imports modeler"),
-    "manifest only": ("compiled/a.py", "import modeler.robot.read", "compiled may import core"),
-    "hidden in a function": ("compare/a.py", "def f():\n    import sympy", "a.py:2: imports sympy"),
-    "package as a name": ("observation/a.py", "from modeler import base", "imports modeler.base"),
-    "later stage": ("symbolic/a.py", "from modeler.base import X", "imports modeler.base"),
-    "later south stage": ("observation/a.py", "import modeler.fit", "imports modeler.fit"),
+    "north in the south": (
+        "estimation/a.py",
+        "from modeler.derivation import X",
+        "a.py:1: imports modeler",
+    ),
+    "manifest only": ("runtime/a.py", "import modeler.robot.read", "runtime may import core"),
+    "hidden in a function": (
+        "validation/a.py",
+        "def f():\n    import sympy",
+        "a.py:2: imports sympy",
+    ),
+    "package as a name": (
+        "observation/a.py",
+        "from modeler import derivation",
+        "imports modeler.derivation",
+    ),
+    "later stage": ("derivation/a.py", "from modeler.codegen import X", "imports modeler.codegen"),
+    "later south stage": (
+        "observation/a.py",
+        "import modeler.estimation",
+        "imports modeler.estimation",
+    ),
     "core imports ours": ("core/a.py", "import modeler.effects", "core may import nothing"),
-    "cli as a library": ("fit/a.py", "from modeler.cli import main", "imports modeler.cli"),
-    "simulator and model": ("simulate/a.py", "import modeler.symbolic", "may import core, robot"),
-    "model and simulator": ("fit/a.py", "from modeler.simulate import X", "modeler.simulate"),
-    "jinja2 elsewhere": ("codegen/emit.py", "import jinja2", "only codegen/render.py, pages/"),
-    "cffi elsewhere": ("compiled/build.py", "from cffi import FFI", "only compiled/bind.py"),
-    "casadi elsewhere": ("symbolic/a.py", "import casadi as ca", "only simulate/, symbolic/"),
+    "cli as a library": ("estimation/a.py", "from modeler.cli import main", "imports modeler.cli"),
+    "simulator and model": (
+        "simulation/a.py",
+        "import modeler.derivation",
+        "may import core, robot",
+    ),
+    "model and simulator": (
+        "estimation/a.py",
+        "from modeler.simulation import X",
+        "modeler.simulation",
+    ),
+    "round elsewhere": (
+        "diagnosis/search.py",
+        "from modeler.codegen import X",
+        "imports modeler.codegen",
+    ),
+    "jinja2 elsewhere": ("codegen/emit.py", "import jinja2", "only codegen/package.py, report/"),
+    "cffi elsewhere": ("runtime/build.py", "from cffi import FFI", "only runtime/bind.py"),
+    "casadi elsewhere": ("derivation/a.py", "import casadi as ca", "only derivation/lagrange.py"),
     "undeclared package": ("core/a.py", "import requests", "imports requests"),
-    "relative": ("fit/a.py", "from .rank import rank", "relative import"),
-    "relative, package": ("fit/a.py", "from . import rank", "relative import"),
-    "print": ("fit/a.py", "print('done')", "only cli prints"),
-    "print handed on": ("fit/a.py", "run(log=print)", "only cli prints"),
-    "import by name": ("fit/a.py", "importlib.import_module('sympy')", "import by name"),
-    "name": ("fit/utils.py", "", "name the idea"),
+    "relative": ("estimation/a.py", "from .rank import rank", "relative import"),
+    "relative, package": ("estimation/a.py", "from . import rank", "relative import"),
+    "print": ("estimation/a.py", "print('done')", "only cli prints"),
+    "print handed on": ("estimation/a.py", "run(log=print)", "only cli prints"),
+    "import by name": ("estimation/a.py", "importlib.import_module('sympy')", "import by name"),
+    "name": ("estimation/utils.py", "", "name the idea"),
     "unknown stage": ("magic/a.py", "import sympy", "magic is no stage we know"),
     "eager package": ("__init__.py", "from modeler.robot import Robot", "imports nothing"),
-    "long module": ("fit/a.py", "x = 1\n" * (MODULE_LINES + 1), "at most 600"),
+    "long module": ("estimation/a.py", "x = 1\n" * (MODULE_LINES + 1), "at most 700"),
 }
 
 
@@ -107,12 +163,13 @@ def test_a_planted_violation_is_found(tmp_path: Path, case: str) -> None:
 
 
 ALLOWED = {
-    "codegen/render.py": "import jinja2\nfrom modeler.terms import X",
-    "simulate/plant.py": "import casadi\nfrom modeler.robot import Robot",
-    "cli/main.py": "from modeler.fit import X\nfrom modeler.simulate import Y\nprint('done')",
-    "fit/long.py": "x = 1\n" * MODULE_LINES,
-    "fit/words.py": '"""print("a"), import sympy"""\nimport json\nimport modeler.estimate.rank',
-    "api.py": "from modeler import compare",
+    "codegen/package.py": "import jinja2\nfrom modeler.formulas import X",
+    "simulation/plant.py": "import casadi\nfrom modeler.robot import Robot",
+    "cli/main.py": "from modeler.fleet import X\nfrom modeler.simulation import Y\nprint('done')",
+    "estimation/long.py": "x = 1\n" * MODULE_LINES,
+    "estimation/words.py": '"""print("a"), import sympy"""\nimport modeler.numerics.noise',
+    "diagnosis/add.py": "from modeler.codegen import emit",
+    "api.py": "from modeler import validation",
     "cli/version.py": "from modeler import __version__, api",
 }
 
@@ -130,10 +187,11 @@ import importlib, pkgutil, sys
 for stage in sys.argv[1:]:
     package = importlib.import_module(f"modeler.{stage}")
     for module in pkgutil.walk_packages(package.__path__, f"modeler.{stage}."):
-        importlib.import_module(module.name)
+        if module.name not in %r:
+            importlib.import_module(module.name)
 names = {n for n in sys.modules if n.startswith("modeler.")}
 print(*sorted({n.split(".")[0] for n in sys.modules} | {".".join(n.split(".")[:2]) for n in names}))
-"""
+""" % [f"modeler.{file.removesuffix('.py').replace('/', '.')}" for file in ROUND]
 
 
 def loaded_by(*stages: str) -> set[str]:
@@ -154,12 +212,12 @@ def test_numbers_do_not_need_symbols(stage: str) -> None:
 
 
 def test_the_north_would_be_noticed() -> None:
-    assert loaded_by("symbolic", "codegen") >= SYMBOLIC
+    assert loaded_by("derivation", "codegen") >= SYMBOLIC
 
 
 def test_the_simulator_shares_no_dynamics_with_the_model() -> None:
-    ours = {name for name in loaded_by("simulate") if name.startswith("modeler.")}
-    assert ours == {"modeler.core", "modeler.effects", "modeler.robot", "modeler.simulate"}
+    ours = {name for name in loaded_by("simulation") if name.startswith("modeler.")}
+    assert ours == {"modeler.core", "modeler.effects", "modeler.robot", "modeler.simulation"}
 
 
 def test_the_package_itself_loads_nothing() -> None:

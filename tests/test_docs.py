@@ -16,12 +16,13 @@ import pytest
 
 from modeler.cli import main, parser
 from modeler.core.errors import RobotError
-from modeler.effects import CATALOGUE, Acts
-from modeler.observation import Processing
-from modeler.robot import builtin_text, robot_from_text
-from modeler.robot.read import _KEYS
+from modeler.effects.catalogue import CATALOGUE
+from modeler.effects.effect import Acts
+from modeler.observation.processing import Processing
+from modeler.robot.library import builtin_text
+from modeler.robot.read import _KEYS, robot_from_text
 from modeler.robot.table import COLUMNS
-from modeler.simulate.hidden_catalogue import HIDDEN
+from modeler.simulation.hidden import HIDDEN
 
 ROOT = Path(__file__).resolve().parents[1]
 RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "docs/processing.md",

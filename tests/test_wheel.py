@@ -76,15 +76,15 @@ _USE = """
 import sys
 import numpy as np
 import modeler
-from modeler.compiled import load, load_folder
+from modeler.runtime import load, load_folder
 assert modeler.__file__.startswith(sys.prefix), modeler.__file__
 model = load_folder(sys.argv[1])
 assert not {"sympy", "casadi", "jinja2"} & set(sys.modules)
 
-from modeler.base import base_parameters
+from modeler.derivation import base_parameters
 from modeler.codegen import emit
 from modeler.robot import read_robot
-from modeler.symbolic import derive_model
+from modeler.derivation import derive_model
 symbolic = derive_model(read_robot("two-link"))
 emitted = emit(symbolic, base_parameters(symbolic))
 assert emitted.spec == model.spec

@@ -19,7 +19,7 @@ that a stage has too are that stage's, with the usual choices; use the stages fo
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-import modeler.notebook as notebook
+import modeler.report.notebook as notebook
 
 _FIRST = frozenset(
     {
@@ -36,8 +36,8 @@ else:
     def __getattr__(name: str) -> Any:
         """One of `entries`, kept once it was asked for."""
         if name in _FIRST:
-            import modeler.api.chain as chain
-            import modeler.api.door as door
+            import modeler.api.arguments as door
+            import modeler.api.model as chain
 
             found = door.checked(getattr(chain, name))
         elif name == "__all__":

@@ -6,31 +6,24 @@ from typing import Any
 
 import numpy as np
 
-from modeler.compiled import CompiledModel
-from modeler.core.choices import GAIN_METHOD, TWO_STEPS
-from modeler.core.errors import DataError
-from modeler.core.estimators import ABOUT
-from modeler.estimate.alone import Directions
-from modeler.estimate.compressed import Compressed
-from modeler.fit import (
-    FitResult,
-    Payload,
-    are_currents,
-    identify,
-    identify_energy,
-    identify_with_payloads,
-    known_doubts,
-    two_step,
-    with_verdict,
-)
-from modeler.fit.doubts import Told
-from modeler.fit.identify import Equations
-from modeler.fit.payload import loaded_equations
-from modeler.observation import Observation
+from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError
+from modeler.estimation import two_step_result as two_step
+from modeler.estimation.doubts import Told
+from modeler.estimation.drive_gains import are_currents
+from modeler.estimation.energy import identify_energy
+from modeler.estimation.identify import Equations, identify
+from modeler.estimation.known import known_doubts
+from modeler.estimation.least_squares import ABOUT
+from modeler.estimation.payload import Payload, identify_with_payloads, loaded_equations
+from modeler.estimation.result import FitResult
+from modeler.estimation.two_step import Directions
+from modeler.estimation.verdict import with_verdict
+from modeler.numerics.least_squares import Compressed
 from modeler.observation.findings import findings_of_fit
-from modeler.robot import Robot
+from modeler.observation.observation import Observation
 from modeler.robot.motors import joint_directions
-from modeler.robot.place import near
+from modeler.robot.robot import Robot, near
+from modeler.runtime.model import CompiledModel
 
 WITHOUT_LOADS = ("iv", "iv-direct", "didim", "consistent", TWO_STEPS)
 """Methods that know no loads."""

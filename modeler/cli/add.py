@@ -4,19 +4,19 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api.chain import read_logs, recompile
-from modeler.api.improving import auto_added
+from modeler.api.improve import auto_added
+from modeler.api.model import read_logs, recompile
 from modeler.cli.console import Json, progress, say, say_next, working
-from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.fit import IdentifiedModel, load_model, save_model
-from modeler.improve import Logs, add_effect, added, notes, undone
-from modeler.observation.apart import check_apart
-from modeler.pages.additions import write_additions
-from modeler.pages.following import after_add
-from modeler.pages.sheet import Origin
-from modeler.scoring.score import DIGITS, percent
+from modeler.diagnosis.add import add_effect, undone
+from modeler.diagnosis.added_model import Logs, added, notes
+from modeler.diagnosis.score import DIGITS, percent
+from modeler.estimation.model_file import IdentifiedModel, load_model, save_model
+from modeler.observation.log import check_apart
+from modeler.report.history import write_additions
+from modeler.report.page import Origin, after_add
+from modeler.runtime.model import CompiledModel
 
 _WIDTH = 40  # characters of the longest bar
 

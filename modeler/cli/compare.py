@@ -4,28 +4,23 @@ import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from modeler.api.chain import Mapped, read_logs, recompile
-from modeler.api.judging import compared
+from modeler.api.checks import compared
+from modeler.api.model import Mapped, read_logs, recompile
 from modeler.cli.console import Json, note, progress, say, say_next, working
 from modeler.cli.places import ModelFile
-from modeler.compare import Comparison, compare, verdict, write_pictures
-from modeler.compare.together import check_joints, predict_together
-from modeler.compare.verdict import looks_like_noise
-from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
-from modeler.core.estimators import titled
-from modeler.fit import IdentifiedModel, load_model
-from modeler.fit.reduced import with_essential_only
-from modeler.observation import Log, Observation
-from modeler.observation.apart import check_apart
+from modeler.estimation.least_squares import titled
+from modeler.estimation.model_file import IdentifiedModel, load_model, with_essential_only
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_prediction
-from modeler.pages.comparison import write_report
-from modeler.pages.contest import write_contest, write_overlays
-from modeler.pages.following import after_compare
-from modeler.pages.sheet import Origin
-from modeler.scoring.contest import contest
-from modeler.scoring.contest_text import contest_lines
+from modeler.observation.log import Log, check_apart
+from modeler.observation.observation import Observation
+from modeler.report.comparison import write_contest, write_overlays, write_pictures, write_report
+from modeler.report.page import Origin, after_compare
+from modeler.runtime.model import CompiledModel
+from modeler.validation.comparison import Comparison, compare
+from modeler.validation.models import check_joints, contest, contest_lines, predict_together
+from modeler.validation.verdict import looks_like_noise, verdict
 
 _TRAINING = "training only: "
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from modeler.cli.console import Json, say
-from modeler.cli.parsers.words import arguments_of, options_of, sorted_words
+from modeler.cli.options import arguments_of, options_of, sorted_words
 from modeler.cli.places import (
     Input,
     LogFile,
@@ -20,12 +20,11 @@ from modeler.cli.places import (
     log_endings,
     model_or_log,
 )
-from modeler.core.estimators import ABOUT
-from modeler.effects import CATALOGUE as EFFECTS
+from modeler.effects.catalogue import CATALOGUE as EFFECTS
+from modeler.estimation.least_squares import ABOUT
 from modeler.papers.paper import paper_names
-from modeler.robot.builtin import builtin_names
-from modeler.robot.converted import OTHER_PROGRAMS
-from modeler.simulate.settings import MOTIONS
+from modeler.robot.library import OTHER_PROGRAMS, builtin_names
+from modeler.simulation.settings import MOTIONS
 
 _BASH = """\
 _modeler() {
@@ -66,22 +65,20 @@ def run_completion(args: argparse.Namespace) -> Json:
     if args.words is None:
         say(SCRIPTS[args.shell].rstrip())
         return {"shell": args.shell, "script": SCRIPTS[args.shell]}
-    found = candidates(args.words[1:])
+    found = candidates(args.words[1:], args.top)
     for each in found:
         say(each)
     return found
 
 
-def candidates(words: Sequence[str]) -> list[str]:
+def candidates(words: Sequence[str], top: argparse.ArgumentParser) -> list[str]:
     """What the last of the words may become, the others standing before it.
 
     Args:
         words: after the name of the program; bash cuts `--out=x` into three of them.
+        top: the parser of all commands.
     """
-    from modeler.cli.parsers import parser
-
     words, before = _joined(words)
-    top = parser()
     (commands,) = (a for a in top._actions if isinstance(a, argparse._SubParsersAction))
     names: dict[str, argparse.ArgumentParser] = dict(commands.choices)
     *typed, last = words or [""]

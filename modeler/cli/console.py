@@ -5,21 +5,147 @@ import contextlib
 import io
 import json
 import os
+import platform
+import signal
 import sys
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, redirect_stdout
 from contextvars import ContextVar
+from enum import Enum
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from modeler.cli.loudness import Loudness, loudness, step
-from modeler.core.destination import Kind, destination
+from modeler import __version__
 from modeler.core.errors import ModelerError
-from modeler.core.files import write_atomically
-from modeler.core.json_text import nulled
+from modeler.core.files import Kind, destination, write_atomically
+from modeler.core.json import nulled
 
 if TYPE_CHECKING:
     from rich.console import Console
+
+
+# How much is told beside the results: `--quiet` and `--verbose`.
+
+
+class Loudness(Enum):
+    """What goes to stderr: errors alone; notes and, on a terminal, progress; every step."""
+
+    QUIET = "quiet"
+    USUAL = "usual"
+    VERBOSE = "verbose"
+
+
+_LOUDNESS: ContextVar[Loudness] = ContextVar("loudness", default=Loudness.USUAL)
+
+_TICK = 0.5  # s
+
+_PACKAGES = (
+    "numpy", "scipy", "sympy", "python-flint", "casadi", "cffi", "pyarrow", "matplotlib", "rich",
+)  # fmt: skip
+
+
+def loudness() -> Loudness:
+    """Of the command that runs."""
+    return _LOUDNESS.get()
+
+
+@contextlib.contextmanager
+def told(wanted: Loudness) -> Iterator[None]:
+    """While this lasts, so much is told; warnings of libraries too."""
+    import warnings
+
+    before = _LOUDNESS.set(wanted)
+    try:
+        with warnings.catch_warnings():
+            if wanted is Loudness.QUIET:
+                warnings.simplefilter("ignore")
+            elif wanted is Loudness.VERBOSE:
+                warnings.simplefilter("default")
+            yield
+    finally:
+        _LOUDNESS.reset(before)
+
+
+@contextlib.contextmanager
+def step(title: str) -> Iterator[None]:
+    """Told with its seconds, if every step is."""
+    if loudness() is not Loudness.VERBOSE:
+        yield
+        return
+    begun = time.perf_counter()
+    _line(f"{title} ...")
+    how = "stopped"
+    try:
+        yield
+        how = "done"
+    finally:
+        _line(f"{title}: {how} after {time.perf_counter() - begun:.2f} s")
+
+
+@contextlib.contextmanager
+def clock(title: str) -> Iterator[None]:
+    """Title and seconds on a terminal, while what could draw a bar is itself being loaded."""
+    stream = sys.stderr
+    if loudness() is Loudness.QUIET or stream is None or not stream.isatty():
+        yield
+        return
+    import threading
+
+    ended = threading.Event()
+
+    def tick() -> None:
+        begun = time.perf_counter()
+        while not ended.wait(_TICK):
+            _raw(f"\r{title} {time.perf_counter() - begun:.1f} s")
+        _raw("\r\x1b[2K")
+
+    ticking = threading.Thread(target=tick, daemon=True)
+    ticking.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        ticking.join()
+
+
+def versions() -> list[str]:
+    """What runs here: of this program, of Python, and of what it counts with."""
+    from importlib.metadata import PackageNotFoundError, version
+
+    found = [f"modeler {__version__}", f"Python {platform.python_version()}", platform.platform()]
+    for name in _PACKAGES:
+        with contextlib.suppress(PackageNotFoundError):
+            found.append(f"{name} {version(name)}")
+    return found
+
+
+def tell_start(words: Sequence[str]) -> None:
+    """The command as it was read, and the versions."""
+    if loudness() is Loudness.VERBOSE:
+        _line(f"words: {' '.join(words)}")
+        _line(", ".join(versions()))
+
+
+def tell_error() -> None:
+    """Where the error that is being handled came from."""
+    if loudness() is Loudness.VERBOSE:
+        import traceback
+
+        _raw(traceback.format_exc())
+
+
+def _line(text: str) -> None:
+    _raw(f"modeler: {text}\n")
+
+
+def _raw(text: str) -> None:
+    with contextlib.suppress(OSError, ValueError):
+        if sys.stderr is not None:
+            sys.stderr.write(text)
+            sys.stderr.flush()
+
 
 _SHOWN: ContextVar[bool] = ContextVar("shown", default=False)
 """Whether a bar is on the terminal: work inside work adds none."""
@@ -175,3 +301,40 @@ def _terminal() -> "Console | None":
     from rich.console import Console
 
     return Console(stderr=True)
+
+
+# What Ctrl-C does: it ends the program with one line and status 130, whatever it was doing.
+#
+# While modules load, an exception is not enough: some of what is loaded swallows it, or turns it
+# into another. Nothing is written then, so the program just ends. While a command runs, it is an
+# exception, so that what is half done can be cleaned up.
+
+
+INTERRUPTED = 130
+"""Exit status, as of a shell: 128 + SIGINT."""
+
+
+@contextlib.contextmanager
+def loading() -> Iterator[None]:
+    """While this lasts, an interrupt ends the program at once; nothing may be half done."""
+    before = signal.getsignal(signal.SIGINT)
+    if before is not signal.default_int_handler:  # ignored, or somebody else's
+        yield
+        return
+    signal.signal(signal.SIGINT, _end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def ending() -> None:
+    """All is done or given up; another interrupt can only spoil how it is told."""
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    with contextlib.suppress(OSError):
+        os.write(2, b"modeler: interrupted\n")
+    os._exit(INTERRUPTED)

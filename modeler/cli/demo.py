@@ -4,24 +4,24 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeler.api.chain import compile_model, derive, fit, generate, load, observe, read_logs
+from modeler.api.model import compile_model, derive, fit, generate, load, observe, read_logs
 from modeler.cli.add import waterfall
 from modeler.cli.compare import judged
 from modeler.cli.console import Json, progress, say, working
-from modeler.compare import verdict, write_pictures
-from modeler.compiled import CompiledModel
-from modeler.diagnose import Diagnosis, diagnose
-from modeler.diagnose.lines import lines
-from modeler.fit import IdentifiedModel, save_model
-from modeler.improve import Logs, add_findings
-from modeler.pages.additions import write_additions
-from modeler.pages.comparison import write_report
-from modeler.pages.following import after_add, after_compare, after_diagnosis
-from modeler.pages.index import write_index
-from modeler.pages.report import write_diagnosis
-from modeler.pages.sheet import Origin
-from modeler.simulate import HiddenEffect, SimulationSettings, simulate, write_log
-from modeler.simulate.settings import check_settings
+from modeler.diagnosis.add import add_findings
+from modeler.diagnosis.added_model import Logs
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.result import Diagnosis
+from modeler.diagnosis.sentences import lines
+from modeler.estimation.model_file import IdentifiedModel, save_model
+from modeler.report.comparison import write_pictures, write_report
+from modeler.report.diagnosis import write_diagnosis
+from modeler.report.history import write_additions
+from modeler.report.page import Origin, after_add, after_compare, after_diagnosis, write_index
+from modeler.runtime.model import CompiledModel
+from modeler.simulation import HiddenEffect, SimulationSettings, simulate, write_log
+from modeler.simulation.settings import check_settings
+from modeler.validation.verdict import verdict
 
 _RUNS = (("train", 1), ("held_out", 2))
 

@@ -5,30 +5,37 @@ import dataclasses
 import textwrap
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from modeler.base import BaseParameters
-from modeler.base.numeric import random_states, regressor_values
-from modeler.base.relation_formula import relation_formula
-from modeler.base.render import (
+from modeler.cli.console import Json, complain, say, working
+from modeler.cli.formula_output import Words, check_loops, check_request, forms_wanted
+from modeler.cli.lists import robot_of, robot_with_effects
+from modeler.cli.options import Form
+from modeler.codegen.derivation import Derivation, derive, generate
+from modeler.codegen.package import leftovers
+from modeler.core.errors import DataError, RobotError
+from modeler.core.manifest import Emitted, FittedSpec, FunctionSpec
+from modeler.derivation.columns import LinkColumn
+from modeler.derivation.lagrange import lagrange_torque
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.numeric_rank import random_states, regressor_values
+from modeler.derivation.relations import (
     as_json,
     as_latex,
     as_markdown,
     as_text,
     proof_paragraphs,
     proof_text,
+    relation_formula,
 )
-from modeler.cli.console import Json, working
-from modeler.cli.parsers.derive import Form
-from modeler.cli.requested import check_loops, check_request, forms_wanted
-from modeler.cli.robots import robot_of, robot_with_effects
-from modeler.cli.words import Words
-from modeler.core.errors import RobotError
-from modeler.derivation import Derivation, derive
-from modeler.robot import Robot
-from modeler.symbolic import LinkColumn, SymbolicModel
-from modeler.symbolic.second_opinion import lagrange_torque
+from modeler.derivation.result import BaseParameters
+from modeler.robot.robot import Robot
+
+if TYPE_CHECKING:
+    from modeler.estimation.model_file import IdentifiedModel
+
 
 _FORMS: dict[Form, Callable[[BaseParameters], str]] = {
     "text": as_text,
@@ -59,7 +66,7 @@ def run_derive(args: argparse.Namespace) -> Json:
     words.say(proof_text(base.proof))
     words.say(_agreement(opinion))
     if forms_wanted(args, derivation):
-        from modeler.cli.closed_forms import say_closed_forms  # it takes long to load
+        from modeler.cli.formula_output import say_closed_forms  # it takes long to load
 
         result |= say_closed_forms(args, derivation, words)
     if args.page is not None:
@@ -69,7 +76,7 @@ def run_derive(args: argparse.Namespace) -> Json:
 
 
 def _page(args: argparse.Namespace, derivation: Derivation, opinion: float) -> Path:
-    from modeler.pages.derivation import Derived, write_derivation
+    from modeler.report.derivation import Derived, write_derivation
 
     base = derivation.base
     units = (base.columns[parameter.column].unit for parameter in base.parameters)
@@ -134,3 +141,78 @@ def second_opinion(derivation: Derivation, samples: int = 50) -> float:
     other = lagrange_torque(model, *states, chi)
     largest = float(np.max(np.abs(other)))
     return float(np.max(np.abs(tau - other))) / largest if largest else 0.0
+
+
+# `modeler generate ROBOT|MODEL --out DIR`.
+
+
+def run_generate(args: argparse.Namespace) -> Json:
+    """Writes the folder and says what is in it."""
+    model = _model(args)
+    emitted = _written(args, model)
+    spec, fitted = emitted.spec, emitted.spec.fitted
+    for line in () if model is None else model.warning:
+        complain(line)
+    single = ", single precision" if spec.precision == "single" else ""
+    say(f"{spec.robot}: {len(spec.base)} base parameters{single}, written to {args.out}:")
+    for name in sorted(emitted.files):
+        say(f"  {name}")
+    for function in spec.functions:
+        say(_told(function))
+    for name in leftovers(emitted, args.out):
+        complain(
+            f"{args.out}: {name} is of an earlier generate and belongs to this code no more; it "
+            "was edited since, so it stays: remove it, or keep it elsewhere"
+        )
+    result = {"robot": spec.robot, "folder": args.out, "files": sorted(emitted.files)}
+    return result if fitted is None else result | _say_fitted(fitted)
+
+
+def _model(args: argparse.Namespace) -> "IdentifiedModel | None":
+    """None of a robot."""
+    if not args.robot.endswith(".json"):
+        return None
+    if args.effects is not None:
+        raise DataError(
+            f"--effects: got it with {args.robot}, a model, which has the effects that it was "
+            "fitted with; leave --effects out, or fit the robot with them"
+        )
+    from modeler.estimation.model_file import load_model  # a robot needs no fits
+
+    return load_model(args.robot)
+
+
+def _written(args: argparse.Namespace, model: "IdentifiedModel | None") -> Emitted:
+    if model is not None:
+        from modeler.api.model import generate as generate_of_model
+
+        with working(f"deriving {model.spec.robot}"):
+            return generate_of_model(model, args.out, args.force, **_kinds(args))
+    robot = robot_of(args)
+    with working(f"deriving {robot.name}"):
+        return generate(derive(robot), args.out, args.force, **_kinds(args))
+
+
+def _kinds(args: argparse.Namespace) -> dict[str, Any]:
+    return {"precision": args.precision, "cuda": args.cuda}
+
+
+def _say_fitted(fitted: FittedSpec) -> dict[str, Json]:
+    """What has the values."""
+    say(f"with the fitted values, signature {fitted.signature}:")
+    for function in fitted.functions:
+        say(_told(function))
+    if fitted.widths:
+        say(f"  widths of the Coulomb friction: {', '.join(fitted.widths)}")
+    return {
+        "fitted_signature": fitted.signature,
+        "usable": fitted.usable,
+        "doubts": list(fitted.doubts),
+    }
+
+
+def _told(function: FunctionSpec) -> str:
+    return (
+        f"  {function.name}: {function.equation} ({function.additions} additions, "
+        f"{function.multiplications} multiplications)"
+    )

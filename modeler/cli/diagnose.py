@@ -4,19 +4,21 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api.chain import read_logs, recompile
+from modeler.api.model import read_logs, recompile
 from modeler.cli.console import Json, progress, say, say_next, working
 from modeler.core.errors import DataError
-from modeler.diagnose import Diagnosis, Known, diagnose
-from modeler.diagnose.lines import lines
-from modeler.effects import Effect, effect_named
-from modeler.fit import IdentifiedModel, load_model
-from modeler.observation.apart import check_apart
-from modeler.pages.following import after_diagnosis
-from modeler.pages.report import write_diagnosis
-from modeler.pages.sheet import Origin
-from modeler.robot import robot_from_text
-from modeler.robot.place import near
+from modeler.diagnosis.candidates import Known
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.result import Diagnosis
+from modeler.diagnosis.sentences import lines
+from modeler.effects.catalogue import effect_named
+from modeler.effects.effect import Effect
+from modeler.estimation.model_file import IdentifiedModel, load_model
+from modeler.observation.log import check_apart
+from modeler.report.diagnosis import write_diagnosis
+from modeler.report.page import Origin, after_diagnosis
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import near
 
 
 def run_diagnose(args: argparse.Namespace) -> Json:

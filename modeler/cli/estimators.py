@@ -3,16 +3,15 @@
 import argparse
 from pathlib import Path
 
-from modeler.api.chain import compile_model, derive, generate
-from modeler.api.trials import chosen_methods, observed_apart
+from modeler.api.fit import chosen_methods, observed_apart
+from modeler.api.model import compile_model, derive, generate
 from modeler.cli.console import Json, progress, say, working
-from modeler.cli.robots import robot_of
-from modeler.core.choices import Method
-from modeler.core.errors import DataError
-from modeler.core.estimators import ABOUT
+from modeler.cli.lists import robot_of
+from modeler.core.errors import DataError, Method
 from modeler.core.table import aligned
-from modeler.fit.side_by_side import Tried, side_by_side
-from modeler.pages.estimators import table_of, values_of, write_estimators
+from modeler.estimation.least_squares import ABOUT
+from modeler.estimation.side_by_side import Tried, side_by_side
+from modeler.report.estimators import table_of, values_of, write_estimators
 
 
 def run_estimators(args: argparse.Namespace) -> Json:

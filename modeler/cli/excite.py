@@ -5,24 +5,21 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api.exciting import Subject, question_of, subject_of
-from modeler.api.exciting import bounds_of as bounds_within
+from modeler.api.motion import Subject, question_of, subject_of
+from modeler.api.motion import bounds_of as bounds_within
 from modeler.cli.console import Json, progress, say, working
-from modeler.cli.robots import robot_of
-from modeler.compiled import CompiledModel
+from modeler.cli.lists import robot_of
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.excite.between import tell_apart
-from modeler.excite.bounds import Bounds
-from modeler.excite.choose import choose
-from modeler.excite.columns import signals
-from modeler.excite.picture import check_kind, picture
-from modeler.excite.result import Exciting, csv_text, motion_table
-from modeler.excite.search import Wish, usual_harmonics
-from modeler.fit import load_model
-from modeler.robot import Robot
-from modeler.robot.place import near
-from modeler.simulate import check_suffix, read_motion
+from modeler.estimation.model_file import load_model
+from modeler.excitation.criterion import signals
+from modeler.excitation.motion import Bounds
+from modeler.excitation.result import Exciting, check_kind, csv_text, motion_table, picture
+from modeler.excitation.search import Wish, usual_harmonics
+from modeler.excitation.separate import choose, tell_apart
+from modeler.robot.robot import Robot, near
+from modeler.runtime.model import CompiledModel
+from modeler.simulation import check_suffix, read_motion
 
 
 def run_excite(args: argparse.Namespace) -> Json:

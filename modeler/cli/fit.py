@@ -1,25 +1,113 @@
 """`modeler fit ROBOT LOG... --out MODEL`."""
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from modeler.api.chain import compile_model, derive, generate, identified, read_logs
-from modeler.api.ways import estimated, judged
+from modeler.api.fit import Load, found_with_gains
+from modeler.api.model import compile_model, derive, generate, identified, read_logs
+from modeler.api.ways import OF_WINDOWS, WITHOUT_LOADS, Asked, estimated, judged
 from modeler.cli.console import Json, say, say_next, working
-from modeler.cli.drive_gains import check_load, fit_with_gains
+from modeler.cli.lists import robot_of
 from modeler.cli.long_logs import fit_if_long
-from modeler.cli.robots import robot_of
-from modeler.cli.ways import asked, check_way
-from modeler.core.choices import GAIN_METHOD
-from modeler.core.errors import DataError
+from modeler.codegen.derivation import Derivation
+from modeler.core.errors import GAIN_METHOD, DataError
 from modeler.core.files import write_atomically
-from modeler.fit import FitResult, IdentifiedModel, save_model
-from modeler.observation import Log, Observation, Processing, observe
-from modeler.observation.apart import check_apart
-from modeler.pages.following import after_fit
-from modeler.robot import INERTIAL, Robot, robot_from_text
+from modeler.estimation.model_file import IdentifiedModel, save_model
+from modeler.estimation.payload import Payload
+from modeler.estimation.result import FitResult
+from modeler.observation.log import Log, check_apart
+from modeler.observation.observation import Observation, observe
+from modeler.observation.processing import Processing
+from modeler.report.page import after_fit
 from modeler.robot.edit import with_parameters
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import INERTIAL, Robot
+from modeler.runtime.model import CompiledModel
+
+# `modeler fit ROBOT LOG... --payload-log LOG --payload-mass KG --method tls`.
+
+
+Checked = Callable[[argparse.Namespace, Sequence[Log], Sequence[Log]], None]
+"""Refuses logs that do not belong together."""
+
+
+def fit_with_gains(
+    args: argparse.Namespace,
+    derivation: Derivation,
+    compiled: CompiledModel,
+    processing: Processing,
+    check: Checked,
+) -> tuple[IdentifiedModel, Observation]:
+    """The model whose robot file has the drive gains that the logs tell."""
+    check_load(args)
+    return found_with_gains(
+        derivation, compiled, args.logs, _load(args), processing,
+        lambda logs, loaded: check(args, logs, loaded), working, args.map,
+    )  # fmt: skip
+
+
+def check_load(args: argparse.Namespace) -> None:
+    """Nothing, if a loaded log and the mass of its load are given.
+
+    Raises:
+        DataError: says which is missing.
+    """
+    if not args.payload_log:
+        raise DataError(
+            "--method tls: no loaded log; the gains of drives show in what a load of known mass "
+            "adds to their currents; add --payload-log LOG --payload-mass KG"
+        )
+    if args.payload_mass is None:
+        raise DataError(
+            "--method tls: no --payload-mass; without a known mass all gains and all parameters "
+            "may be larger by one factor; weigh the load and give its mass in kg"
+        )
+
+
+def carried(args: argparse.Namespace, loaded: Sequence[Log]) -> list[Payload]:
+    """The load of the loaded logs; one for each if it was taken off in between."""
+    return _load(args).payloads(loaded)
+
+
+def _load(args: argparse.Namespace) -> Load:
+    return Load(args.payload_log, args.payload_mass, args.payload_link, args.payload_moved)
+
+
+# The options of `modeler fit` that choose a way to fit.
+
+
+def asked(args: argparse.Namespace, loaded: Sequence[Log]) -> Asked:
+    """What the options ask for."""
+    payloads = tuple(carried(args, loaded)) if loaded else ()
+    return Asked(args.method, args.model == "energy", args.window, payloads, args.essential_below)
+
+
+def check_way(args: argparse.Namespace) -> None:
+    """Refuse options that do not go together."""
+    for option in ("payload_mass", "payload_link", "payload_moved"):
+        value = getattr(args, option)
+        if value is not None and value is not False and not args.payload_log:  # 0 is given too
+            flag = "--" + option.replace("_", "-")
+            raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
+    if args.payload_log and args.method in WITHOUT_LOADS:
+        raise DataError(
+            f"--payload-log: got it with --method {args.method}, which knows no loads; expected "
+            "--method weighted, ordinary, robust, ridge or tls"
+        )
+    if args.method == GAIN_METHOD and args.essential_below is not None:
+        raise DataError(f"--essential-below: got it with --method {GAIN_METHOD}; leave it out")
+    if args.model != "energy" and args.window is not None:
+        raise DataError("--window: only windows of --model energy have a length; add that option")
+    if args.model == "energy" and args.method not in OF_WINDOWS:
+        raise DataError(
+            f"--method {args.method}: got it with --model energy, whose rows are windows; expected "
+            "--method weighted or ordinary"
+        )
+    if args.model == "energy" and args.payload_log:
+        raise DataError(
+            "--payload-log: the energy model takes logs without load; leave out --model energy"
+        )
 
 
 def _processing(args: argparse.Namespace) -> Processing:
@@ -78,7 +166,7 @@ def _written(
         say(line)
     say(f"written: {args.out}")
     if args.report is not None:
-        from modeler.pages.fitted import write_fit  # pages take long to load
+        from modeler.report.fit import write_fit  # pages take long to load
 
         following = after_fit(args.out, args.logs, args.robot, model.fit)
         place = write_fit(Path(args.report), model, observation.report.lines(), args.out, following)

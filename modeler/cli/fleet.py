@@ -6,17 +6,17 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import compile_model, derive, generate
-from modeler.api.fleets import file_and_at, reduce_logs
+from modeler.api.fleet import file_and_at, reduce_logs
 from modeler.cli.console import Json, progress, say, working
+from modeler.cli.lists import robot_of
 from modeler.cli.places import log_endings
-from modeler.cli.robots import robot_of
 from modeler.core.errors import DataError
-from modeler.fleet import Named, fleet_of, named_logs
-from modeler.fleet.naming import listed_logs
-from modeler.fleet.text import fleet_lines
-from modeler.jobs import open_workers
-from modeler.observation import Processing
-from modeler.pages.fleet import write_fleet
+from modeler.core.jobs import open_workers
+from modeler.fleet.fleet import fleet_of
+from modeler.fleet.naming import Named, listed_logs, named_logs
+from modeler.fleet.result import fleet_lines
+from modeler.observation.processing import Processing
+from modeler.report.fleet import write_fleet
 
 _MANY = 32  # logs from which several processes are worth their start
 

@@ -4,15 +4,15 @@ import argparse
 import math
 from pathlib import Path
 
-from modeler.api.chain import read_logs, recompile
+from modeler.api.model import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import DataError
-from modeler.fit import load_model
-from modeler.freerun import Asked, free_run
-from modeler.freerun.controlled import Gains
-from modeler.freerun.pictures import free_run_pictures
-from modeler.observation.apart import check_apart
-from modeler.pictures.files import write_files
+from modeler.estimation.model_file import load_model
+from modeler.observation.log import check_apart
+from modeler.report.figure_matplotlib import write_files
+from modeler.validation.controlled import Gains
+from modeler.validation.free_run import Asked, free_run
+from modeler.validation.free_run_result import free_run_pictures
 
 
 def run_free_run(args: argparse.Namespace) -> Json:

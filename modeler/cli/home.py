@@ -5,19 +5,54 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.api.postures import chosen_mode
-from modeler.api.postures import home as home_modes
+from modeler.api.motion import chosen_mode
+from modeler.api.motion import home as home_modes
 from modeler.cli.console import Json, say, working
-from modeler.cli.mode_pictures import MODE_PICTURES, modes_file
-from modeler.cli.robots import read_told
+from modeler.cli.lists import read_told
 from modeler.core.errors import DataError
 from modeler.core.files import check_writable, write_atomically
-from modeler.robot import Robot, builtin_names
-from modeler.robot.converted import OTHER_PROGRAMS
-from modeler.robot.home_text import home_lines, with_home_text
+from modeler.derivation.assembly_modes import AssemblyMode
+from modeler.derivation.home import HomeModes, written
+from modeler.derivation.walks import Linkage
+from modeler.report.robot import modes_html
+from modeler.report.robot_closing import Posture
+from modeler.report.robot_skeleton import PICTURE_KINDS, size_of, skeleton_of
+from modeler.robot.edit import home_lines, with_home_text
+from modeler.robot.library import OTHER_PROGRAMS, builtin_names
 from modeler.robot.loops import read_home
-from modeler.robot.place import Place
-from modeler.symbolic import AssemblyMode, HomeModes, Linkage, written
+from modeler.robot.robot import Place, Robot
+
+# A small picture of every assembly mode, beside each other.
+
+
+MODE_PICTURES = (*PICTURE_KINDS, ".html")
+
+
+def modes_file(found: HomeModes, kind: str) -> bytes:
+    """The modes as a file that needs no other.
+
+    Args:
+        found: the modes.
+        kind: one of `MODE_PICTURES`.
+    """
+    if kind in PICTURE_KINDS:
+        return _drawn(found, kind)
+    robot, svg = found.linkage.robot, _drawn(found, ".svg").decode()
+    return modes_html(robot.name, robot.title, len(found.modes), svg).encode()
+
+
+def _drawn(found: HomeModes, kind: str) -> bytes:
+    from modeler.report.robot_drawing import modes_bytes
+
+    skeleton = skeleton_of(found.linkage.robot)
+    size = size_of(skeleton, found.modes[0].posture)
+    postures = [Posture(mode.posture, size, closed=True, held=True) for mode in found.modes]
+    titles = [
+        mode.letter + (" (as in the file)" if k == found.own else "")
+        for k, mode in enumerate(found.modes)
+    ]
+    return modes_bytes(skeleton, postures, titles, kind)
+
 
 _MOST_VALUES = 6
 

@@ -7,7 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeler.api.chain import (
+from modeler.api.checks import look_at
+from modeler.api.long_logs import are_long, judged_long, too_long
+from modeler.api.model import (
     compile_model,
     derive,
     file_and_span,
@@ -16,23 +18,22 @@ from modeler.api.chain import (
     observe,
     read_mapped,
 )
-from modeler.api.long_logs import are_long, judged_long, too_long
-from modeler.api.looking import look_at
 from modeler.api.ways import Way, judged
 from modeler.cli.console import Json, progress, say, working
-from modeler.cli.robots import read_told
-from modeler.compiled import CompiledModel
+from modeler.cli.lists import read_told
 from modeler.core.errors import ModelerError
-from modeler.fit import FitResult, identify
-from modeler.fit.streamed import stream
-from modeler.logs import LogMap, map_from_table, map_from_words
-from modeler.logs.look import Look
-from modeler.observation import Observation
+from modeler.estimation.identify import identify
+from modeler.estimation.long_logs import stream
+from modeler.estimation.result import FitResult
+from modeler.logs.inspect import Look
+from modeler.logs.mapping import LogMap, map_from_table, map_from_words
 from modeler.observation.findings import findings_of_fit
-from modeler.observation.source import source_of
+from modeler.observation.observation import Observation
+from modeler.observation.read import source_of
 from modeler.observation.survey import WholeNeeded
-from modeler.pages.log import channel_rows, clock_line, log_pictures, write_log_page
-from modeler.pictures.files import write_files
+from modeler.report.figure_matplotlib import write_files
+from modeler.report.log import channel_rows, clock_line, log_pictures, write_log_page
+from modeler.runtime.model import CompiledModel
 
 _WIDEST = 44  # letters of a cell
 

@@ -4,19 +4,27 @@ import argparse
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-from modeler.api.long_logs import are_long, check_whole, fit_long, sources_of, too_long
-from modeler.api.spread import by_workers, from_anywhere
+from modeler.api.long_logs import (
+    are_long,
+    by_workers,
+    check_whole,
+    fit_long,
+    from_anywhere,
+    sources_of,
+    too_long,
+)
 from modeler.cli.console import note, progress
-from modeler.compiled import CompiledModel
-from modeler.core.contract import Emitted
+from modeler.codegen.derivation import Derivation
 from modeler.core.errors import DataError
-from modeler.derivation import Derivation
-from modeler.fit import IdentifiedModel
-from modeler.fit.streamed import OF_TRIANGLES, Reducer
-from modeler.jobs import open_workers
-from modeler.observation import Observation, Processing
-from modeler.observation.source import Source
+from modeler.core.jobs import open_workers
+from modeler.core.manifest import Emitted
+from modeler.estimation.long_logs import OF_TRIANGLES, Reducer
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.observation.observation import Observation
+from modeler.observation.processing import Processing
+from modeler.observation.read import Source
 from modeler.observation.survey import WholeNeeded
+from modeler.runtime.model import CompiledModel
 
 
 def fit_if_long(

@@ -3,24 +3,18 @@
 import argparse
 from pathlib import Path
 
-from modeler.api.letters import UNITS, Physical, PhysicalValues, physical
+from modeler.api.physical import UNITS, Physical, PhysicalValues, physical
 from modeler.cli.console import Json, note, progress, say, working
-from modeler.cli.robots import read_told
+from modeler.cli.lists import read_told
+from modeler.codegen.derivation import Derivation, derive
 from modeler.core.errors import DataError
-from modeler.derivation import Derivation, derive
-from modeler.fit import IdentifiedModel, load_model
-from modeler.terms.against_fit import CadComparison, KnownAgainstFit
-from modeler.terms.given_values import Given, given_from_text
-from modeler.terms.known_sets import KnownSets, easiest_set, smallest_number
-from modeler.terms.physical_system import PhysicalSystem
-from modeler.terms.set_sensitivity import Rated
-from modeler.terms.solution_text import (
-    definition_lines,
-    missing_lines,
-    solution_json,
-    solution_lines,
-)
-from modeler.terms.solved_values import VERIFIED
+from modeler.estimation.model_file import IdentifiedModel, load_model
+from modeler.formulas.cad import CadComparison, KnownAgainstFit
+from modeler.formulas.physical_system import PhysicalSystem
+from modeler.formulas.set_sensitivity import Rated
+from modeler.formulas.solve import definition_lines, missing_lines, solution_json, solution_lines
+from modeler.formulas.sufficient_sets import KnownSets, easiest_set, smallest_number
+from modeler.formulas.values import VERIFIED, Given, given_from_text
 
 _SHOWN = 10
 _KINDS = {"mass": "masses", "length": "lengths", "centre": "mass centres", "inertia": "inertias",

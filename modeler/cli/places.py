@@ -13,13 +13,17 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from modeler.core.destination import Destination, Kind, destination
-from modeler.core.errors import DataError, ModelerError
-from modeler.core.files import check_folder_writable, check_writable, page_place
-from modeler.core.window import file_and_window
-from modeler.robot.builtin import builtin_file, builtin_names
-from modeler.robot.converted import OTHER_PROGRAMS
-from modeler.simulate.settings import MOTIONS
+from modeler.core.errors import DataError, ModelerError, file_and_window
+from modeler.core.files import (
+    Destination,
+    Kind,
+    check_folder_writable,
+    check_writable,
+    destination,
+    page_place,
+)
+from modeler.robot.library import OTHER_PROGRAMS, builtin_file, builtin_names
+from modeler.simulation.settings import MOTIONS
 
 _MOTIONS = (".csv", ".parquet")
 _LOGS = (*_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy")

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING
 
-from modeler.cli.interrupt import INTERRUPTED, ending, loading
+from modeler.cli.console import INTERRUPTED, ending, loading
 
 if TYPE_CHECKING:
     import argparse
@@ -61,8 +61,8 @@ def _run(words: Sequence[str], phase: Phase) -> int:
 
 def _answer(words: Sequence[str], phase: Phase) -> None:
     with phase():
-        from modeler.cli.loudness import Loudness, tell_error, tell_start, told
-        from modeler.cli.parsers import parsed
+        from modeler.cli.console import Loudness, tell_error, tell_start, told
+        from modeler.cli.parser import parsed
         from modeler.core.errors import ModelerError
 
         args, wanted = parsed(words)
@@ -77,8 +77,7 @@ def _answer(words: Sequence[str], phase: Phase) -> None:
 
 def _carried_out(args: "argparse.Namespace", phase: Phase, every_line: bool) -> None:
     with phase():
-        from modeler.cli.console import note, run_command
-        from modeler.cli.loudness import clock, step
+        from modeler.cli.console import clock, note, run_command, step
         from modeler.cli.places import check_places
 
     if args.read_as:

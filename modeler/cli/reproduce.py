@@ -7,9 +7,10 @@ from dataclasses import asdict
 
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import ModelerError
-from modeler.methods import MethodTable, Outcome, run_methods
 from modeler.papers import Derived, Line, Paper, Verdict, check_paper, derived_robot, read_paper
+from modeler.papers.method_report import MethodTable, Outcome
 from modeler.papers.paper import SLIPS
+from modeler.papers.run import run_methods
 
 
 def run_reproduce(args: argparse.Namespace) -> Json:

@@ -5,10 +5,10 @@ import math
 from pathlib import Path
 
 from modeler.cli.console import Json, progress, say
-from modeler.cli.robots import robot_of
+from modeler.cli.lists import robot_of
 from modeler.core.errors import DataError
-from modeler.robot import Robot
-from modeler.simulate import (
+from modeler.robot.robot import Robot
+from modeler.simulation import (
     KEPT,
     MOTIONS,
     Reference,

@@ -10,13 +10,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeler.codegen import layout
+from modeler.codegen import functions as layout
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.functions import Function
-from modeler.codegen.render import render
-from modeler.codegen.target import DOUBLE
-from modeler.core.contract import CUDA_THREADS, ModuleSpec
+from modeler.codegen.package import render
+from modeler.codegen.targets import DOUBLE
 from modeler.core.errors import EmitError
+from modeler.core.manifest import CUDA_THREADS, ModuleSpec
 
 CUDA = dataclasses.replace(DOUBLE, sincos="sincos")
 """CUDA has all functions of math.h, and one of its own for both."""

@@ -11,8 +11,9 @@ from fractions import Fraction
 
 import numpy as np
 
-from modeler.symbolic import Expr, Graph, SymbolicModel
-from modeler.symbolic.closed_states import closing_of
+from modeler.derivation.closed_states import closing_of
+from modeler.derivation.graph import Expr, Graph
+from modeler.derivation.model import SymbolicModel
 
 SMALLEST = 1e-2
 """Share of its row's size below which a pivot counts as small when the code runs."""

@@ -1,27 +1,23 @@
 """Symbolic model and base parameters to the files of a C module; touches no disk but templates."""
 
 import dataclasses
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from modeler.base.result import BaseParameters
-from modeler.codegen import layout
-from modeler.codegen.block import Block, make_block
-from modeler.codegen.closed import closed_functions
-from modeler.codegen.closure_functions import closure_tables, solving_of
+import sympy
+
+from modeler.codegen import functions as layout
+from modeler.codegen.block import Block, float_text, make_block
+from modeler.codegen.closed import closed_functions, closure_tables, solving_of
 from modeler.codegen.cuda import cuda_files
-from modeler.codegen.fitted import (
-    UNIT,
-    check_values,
-    fitted_functions,
-    fitted_texts,
-    widths,
-)
+from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import Function, tree_functions
-from modeler.codegen.manifest import function_specs, module_spec
+from modeler.codegen.fused import UNIT as TILE_UNIT
+from modeler.codegen.fused import Tile, tile_of
 from modeler.codegen.names import (
     enumerators,
     graph_places,
@@ -29,29 +25,307 @@ from modeler.codegen.names import (
     symbol_constants,
     symbol_macros,
 )
-from modeler.codegen.package import package_files
-from modeler.codegen.render import render
-from modeler.codegen.single import WIDE, of_precision
-from modeler.codegen.symbols import SymbolLines, symbol_lines
-from modeler.codegen.target import OF_PRECISION
-from modeler.codegen.tile import UNIT as TILE_UNIT
-from modeler.codegen.tile import Tile, tile_of
+from modeler.codegen.package import package_files, render
+from modeler.codegen.targets import OF_PRECISION, WIDE, of_precision
 from modeler.codegen.vectors import stored_states
-from modeler.core.choices import Precision
-from modeler.core.contract import (
+from modeler.core.errors import EmitError, Precision
+from modeler.core.expression import Expression
+from modeler.core.files import resource_dir
+from modeler.core.manifest import (
     CLOSURE_RUNTIME,
+    FORMAT,
     MANIFEST,
     RUNTIME,
     TILE_RUNTIME,
+    BaseSpec,
+    ClosureSpec,
     Emitted,
     FittedSpec,
+    FunctionSpec,
+    JointSpec,
     ModuleSpec,
+    ParameterSpec,
+    SignalSpec,
+    SymbolSpec,
+    TermSpec,
     code_digest,
     text_digest,
 )
-from modeler.core.errors import EmitError
-from modeler.core.resources import resource_dir
-from modeler.symbolic import SymbolicModel
+from modeler.derivation.columns import Signal, StandardColumn
+from modeler.derivation.geometry import Geometry, geometric_symbol
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.precise import precise_values
+from modeler.derivation.relations import coefficient_text
+from modeler.derivation.result import BaseParameters
+from modeler.robot.robot import Joint, Robot
+
+# The manifest of an emitted module: everything the numeric stages will know of the robot.
+
+
+def module_spec(
+    model: SymbolicModel, base: BaseParameters, blocks: Iterable[tuple[Function, Block | None]]
+) -> ModuleSpec:
+    """The manifest of the module with these functions; None is a function that is all zeros."""
+    robot = model.robot
+    prefix = module_prefix(robot.name)
+    values = model.geometry.values
+    return ModuleSpec(
+        robot=robot.name,
+        title=robot.title,
+        prefix=prefix,
+        format=FORMAT,
+        symbols=tuple(SymbolSpec(name, value) for name, value in values.items()),
+        joints=tuple(_joint(robot, joint) for joint in robot.coordinates),
+        standard=tuple(_standard(model, column) for column in model.columns),
+        base=_bases(model, base),
+        unidentifiable=tuple(base.unidentifiable),
+        functions=function_specs(prefix, list(blocks)),
+        closure=_closure(model),
+        signals=tuple(_signal(model, signal) for signal in model.signals),
+    )
+
+
+def _signal(model: SymbolicModel, signal: Signal) -> SignalSpec:
+    joint = model.robot.joints[signal.row].name if signal.row >= 0 else ""
+    unit = {"time": "s", "temperature": "K or degC", "slip": "1"}[signal.kind]
+    return SignalSpec(signal.kind, joint, unit, signal.value)
+
+
+def _closure(model: SymbolicModel) -> ClosureSpec | None:
+    closure = model.closure
+    if closure is None:
+        return None
+    return ClosureSpec(
+        variables=tuple(joint.name for joint in model.robot.free),
+        units=tuple(joint.unit for joint in model.robot.free),
+        given=closure.given,
+        platform=closure.platform or (),
+        home=closure.home,
+        carrier=model.robot.platform[-1] if model.robot.platform else "",
+    )
+
+
+def _joint(robot: Robot, joint: Joint) -> JointSpec:
+    return JointSpec(
+        name=joint.name,
+        kind="revolute" if joint.angular else "prismatic",
+        unit=joint.unit,
+        effort_unit=joint.effort_unit,
+        actuated=joint.actuated,
+        drive_gain=robot.drive_gains.get(joint.name),
+    )
+
+
+def _standard(model: SymbolicModel, column: StandardColumn) -> ParameterSpec:
+    return ParameterSpec(
+        name=column.name,
+        unit=column.unit,
+        kind=column.kind,
+        effect=column.effect,
+        joint=model.robot.joints[column.row].name,
+        nominal=model.robot.parameters.get(column.name),
+        nonnegative=column.nonnegative,
+    )
+
+
+def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[BaseSpec, ...]:
+    """The base parameters; entries of the regressor and equal coefficients are looked at once."""
+    rows: dict[int, list[int]] = {}
+    for joint, place in model.regressor:
+        rows.setdefault(place, []).append(joint)
+    every = range(len(model.closure.given)) if model.closure is not None else None
+    terms: dict[sympy.Expr, tuple[str, float]] = {}
+    for parameter in base.parameters:
+        for term in parameter.terms:
+            if term.coefficient not in terms:
+                number = _number(model, term.coefficient, model.geometry.values)
+                terms[term.coefficient] = coefficient_text(term.coefficient), number
+    found = []
+    for parameter in base.parameters:
+        column = model.columns[parameter.column]
+        found.append(
+            BaseSpec(
+                name=parameter.name,
+                column_of=column.name,
+                unit=column.unit,
+                kind=column.kind,
+                # With loops a column can enter the torque of every coordinate.
+                rows=tuple(every or sorted(rows.get(parameter.column, ()))),
+                terms=tuple(TermSpec(*terms[t.coefficient], t.parameter) for t in parameter.terms),
+            )
+        )
+    return tuple(found)
+
+
+def _number(model: SymbolicModel, coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
+    return float(precise_values(model.graph, [model.algebra.static(coefficient)], values)[0])
+
+
+def function_specs(
+    prefix: str,
+    blocks: Sequence[tuple[Function, Block | None]],
+    called: Sequence[tuple[Function, Block | None]] = (),
+) -> tuple[FunctionSpec, ...]:
+    """The public ones; one that closes loops has the operations of all that it calls, once each.
+
+    Args:
+        prefix: of the module.
+        blocks: the functions.
+        called: functions of other units that they may call.
+    """
+    own = {function.role: _operations(block) for function, block in (*called, *blocks)}
+    found = []
+    for function, block in blocks:
+        if function.internal:
+            continue
+        parts = [_operations(block)]
+        if function.closed is not None:
+            parts = [own[role] for role in function.closed.calls if role in own]
+        found.append(
+            FunctionSpec(
+                name=f"{prefix}_{function.role}",
+                equation=function.equation,
+                inputs=function.inputs,
+                outputs=(function.output,),
+                additions=sum(additions for additions, _ in parts),
+                multiplications=sum(multiplications for _, multiplications in parts),
+                status=function.closed is not None,
+            )
+        )
+    return tuple(found)
+
+
+def _operations(block: Block | None) -> tuple[int, int]:
+    return (block.additions, block.multiplications) if block else (0, 0)
+
+
+# Geometric symbols in C: which of them -D may replace, and why the others not.
+
+
+_SAME = 1e-12  # relative: a cell and its exact entry differ by rounding
+
+_SOME = "Their values decide which terms there are."
+_ALL = "The base parameters hold for these values only."
+
+
+@dataclass(frozen=True)
+class SymbolLines:
+    """Finished names and values of the geometric symbols.
+
+    Attributes:
+        free: (macro, value) of those that -D replaces.
+        fixed: macros of those that must stay.
+        why: why these must stay, one sentence.
+        initial: {symbol: what its constant is initialised with}: the macro, or the value.
+        texts: {symbol: its value}.
+    """
+
+    free: tuple[tuple[str, str], ...]
+    fixed: tuple[str, ...]
+    why: str
+    initial: Mapping[str, str]
+    texts: Mapping[str, str]
+
+    @property
+    def macros(self) -> tuple[str, ...]:
+        """All of them."""
+        return (*(name for name, _ in self.free), *self.fixed)
+
+
+def symbol_lines(
+    model: SymbolicModel, base: BaseParameters, macros: Mapping[str, str]
+) -> SymbolLines:
+    """What is written of every declared symbol.
+
+    Relations proved for the letters hold for any value of them. Where they are not, or where a
+    value decides the structure (worth 0, a right angle), the code would be wrong for another one.
+
+    Args:
+        model: as derived.
+        base: the base parameters of the same model.
+        macros: of all declared symbols.
+    """
+    values = model.geometry.values
+    exact = base.proof.kind == "exact"
+    stay = deciding_symbols(model.geometry) if exact else frozenset(values)
+    texts = {name: float_text(value) for name, value in values.items()}
+    return SymbolLines(
+        free=tuple((macros[name], text) for name, text in texts.items() if name not in stay),
+        fixed=tuple(
+            macros[name] for name in model.robot.symbols if name in stay or name not in texts
+        ),
+        why=_SOME if exact else _ALL,
+        initial={name: text if name in stay else macros[name] for name, text in texts.items()},
+        texts=texts,
+    )
+
+
+def deciding_symbols(geometry: Geometry) -> frozenset[str]:
+    """Symbols left in the geometry that cannot change without changing its structure.
+
+    `d = "L1 + L2 - L3"` worth 0 is left out of the table, an angle `"a1 + a2"` worth pi/2 is that
+    right angle: with another L1 or a1 the entries would not be those of the table any more. So the
+    symbols are moved a little, and the entries compared with the cells as they were written.
+    """
+    robot = geometry.robot
+    moved = {
+        name: value * (1 + 1 / (97 + 12 * place))
+        for place, (name, value) in enumerate(geometry.values.items())
+    }
+    numbers = _numbers(robot, moved)
+    found: set[str] = set()
+    for cell, entry in _cells(geometry):
+        leaves = {name: moved[name] for name in _leaves(robot, cell) if name in moved}
+        found |= leaves.keys() - {symbol.name for symbol in entry.free_symbols}
+        if leaves and not _same(cell, entry, numbers, leaves):
+            found |= leaves.keys()
+    return frozenset(found)
+
+
+def _numbers(robot: Robot, moved: Mapping[str, float]) -> dict[str, float]:
+    """Values of all symbols, and 0 for the joint variables, with some symbols moved."""
+    values: dict[str, float] = {}
+    for name, expression in robot.symbols.items():
+        try:
+            values[name] = moved[name] if name in moved else expression.number(values)
+        except (ArithmeticError, ValueError):
+            values[name] = math.nan  # equal to nothing
+    return values | {joint.variable: 0.0 for joint in robot.joints}
+
+
+def _cells(geometry: Geometry) -> Iterator[tuple[Expression, sympy.Expr]]:
+    """Every cell of the table and of gravity, as written and as an exact entry."""
+    for row in geometry.rows:
+        for column in ("gamma", "b", "alpha", "d", "theta", "r"):
+            yield getattr(row.joint, column), getattr(row, column)
+    yield from zip(geometry.robot.gravity, geometry.gravity, strict=True)
+
+
+def _leaves(robot: Robot, cell: Expression) -> set[str]:
+    """Declared symbols that the cell depends on, through those given by expressions too."""
+    found: set[str] = set()
+    waiting = [name for name in cell.names if name in robot.symbols]
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += robot.symbols[name].names
+    return found
+
+
+def _same(
+    cell: Expression,
+    entry: sympy.Expr,
+    numbers: Mapping[str, float],
+    leaves: Mapping[str, float],
+) -> bool:
+    symbols = {geometric_symbol(name): value for name, value in leaves.items()}
+    try:
+        written, exact = cell.number(numbers), complex(entry.evalf(subs=symbols))
+    except (ArithmeticError, ValueError, TypeError):
+        return False
+    return abs(written - exact) <= _SAME * max(abs(written), *map(abs, leaves.values()))
+
 
 _CLOSED = {"double": 1e-9, "single": 1e-5}
 """Residual of a closed loop, relative to the robot's size."""

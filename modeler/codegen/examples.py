@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from modeler.core.contract import FunctionSpec, ModuleSpec
+from modeler.core.manifest import FunctionSpec, ModuleSpec
 
 FOLDER = "programs"
 """Of a module's folder, so that all C files beside the library's are the library's."""

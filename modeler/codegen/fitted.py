@@ -12,16 +12,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from modeler.base.result import BaseParameters
-from modeler.codegen import layout
+from modeler.codegen import functions as layout
 from modeler.codegen.closed import closed_dynamics
 from modeler.codegen.functions import Closed, Function, arguments_of, dynamics_functions
 from modeler.codegen.names import enumerators
-from modeler.core.contract import FittedParameter, FittedSpec, ModuleSpec
 from modeler.core.errors import EmitError
-from modeler.symbolic import ShaftColumn, SymbolicModel
-from modeler.symbolic.effects import along
-from modeler.symbolic.graph import Node
+from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec
+from modeler.derivation.columns import ShaftColumn, along
+from modeler.derivation.graph import Node
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.result import BaseParameters
 
 UNIT = "_fitted"
 """C file of these functions, without the robot's name and `.c`."""

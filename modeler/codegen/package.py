@@ -1,23 +1,208 @@
 """What makes an emitted folder a package: its version, what is installed, texts of the build."""
 
+import hashlib
 import re
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 from typing import Any
+
+import jinja2
 
 from modeler.codegen.examples import (
     COUNT,
+    EXAMPLES,
     FOLDER,
+    PROGRAMS,
     SELF_CHECK,
     call_head,
     count_values,
     example_values,
     examples_of,
 )
-from modeler.codegen.render import render
-from modeler.codegen.single import of_precision
+from modeler.codegen.targets import of_precision
 from modeler.codegen.vectors import PRODUCTS, TURNING
-from modeler.core.contract import FunctionSpec, ModuleSpec
+from modeler.core.errors import ModelerError
+from modeler.core.files import resource_dir, write_atomically, write_together
+from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec
+
+# Which files of a folder an earlier `modeler generate` wrote, and as what.
+#
+# The record is the file `generated.sha256` beside them, in the form that `sha256sum -c` reads: one
+# line per file, checksum and name.
+
+
+RECORD = "generated.sha256"
+_LINE = re.compile(r"([0-9a-f]{64})  (\S.*)")
+
+Record = Mapping[str, frozenset[str]]
+"""Checksums by name of file; two of a file while it is being replaced."""
+
+
+def checksum(content: bytes) -> str:
+    """SHA-256, in hexadecimal digits."""
+    return hashlib.sha256(content).hexdigest()
+
+
+def read_record(folder: Path) -> Record | None:
+    """What was written into the folder; empty if nothing is known; None if that file is no record.
+
+    Raises:
+        OSError: the record cannot be read.
+    """
+    path = folder / RECORD
+    if not path.exists():
+        return {}
+    if not path.is_file():
+        return None
+    found: dict[str, frozenset[str]] = {}
+    for line in path.read_bytes().decode(errors="replace").splitlines():
+        match = _LINE.fullmatch(line)
+        if match is None:
+            return None
+        found[match[2]] = found.get(match[2], frozenset()) | {match[1]}
+    return found
+
+
+def record_text(record: Record) -> str:
+    """The record as a file."""
+    lines = [f"{sum_}  {name}" for name in sorted(record) for sum_ in sorted(record[name])]
+    return "".join(f"{line}\n" for line in lines)
+
+
+# Emitted files to disk, over what an earlier run wrote and over nothing else.
+
+
+def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[str, ...]:
+    """Names of the files that were written: those that are new or have changed.
+
+    A file that says the same already keeps its time, so that `make` has nothing to do. Other files
+    of the folder are left alone: it may be the user's controller. What is written is recorded
+    beside it (`generated.sha256`), so that the next run knows its own files from the user's. What
+    had the values of a model goes where none are emitted, unless it was edited (`leftovers`).
+
+    Args:
+        emitted: the files.
+        folder: made if it is not there.
+        force: write also over files that no earlier run wrote, or that were edited since.
+
+    Raises:
+        ModelerError: the folder holds such files, which are named, and nothing is written; or it
+            cannot be written.
+    """
+    folder = Path(folder)
+    new = {name: text.encode() for name, text in emitted.files.items()}
+    try:
+        old = {name: _content(folder / name) for name in new}
+        known = read_record(folder)
+    except OSError as error:
+        raise ModelerError(
+            f"{error.filename or folder}: cannot be read ({error.strerror}); nothing is written "
+            "over what is not known; choose another folder"
+        ) from error
+    changed = [name for name in new if old[name] != new[name]]
+    if not force:
+        _check(folder, [name for name in changed if old[name] is not None], old, known)
+    record = {name: sums for name, sums in (known or {}).items() if (folder / name).is_file()}
+    sums = {name: frozenset([checksum(content)]) for name, content in new.items()}
+    gone = _unedited(folder, {n: s for n, s in record.items() if n in _unwanted(emitted)})
+    # Both are known while files are replaced, so that a run that was killed can be repeated.
+    both = {**record, **{n: s | record.get(n, frozenset()) for n, s in sums.items()}}
+    files = [(folder / name, new[name]) for name in changed]
+    if files or gone:
+        texts = [(folder / RECORD, record_text(both).encode()), *files]
+        write_together(texts, [folder / name for name in gone])
+    last = {**{n: s for n, s in record.items() if (folder / n).is_file()}, **sums}
+    if last != known:
+        write_atomically(folder / RECORD, record_text(last))
+    return tuple(changed)
+
+
+def _unwanted(emitted: Emitted) -> set[str]:
+    """Files that hold a model's values, or need them, or CUDA, and are not emitted now.
+
+    And programs that stand among the library's files, as earlier versions wrote them.
+    """
+    prefix = emitted.spec.prefix
+    names = {f"{prefix}_fitted.c", f"{prefix}_fitted.h", f"{prefix}.cu"}
+    names |= {f"{FOLDER}/{name}.c" for name in EXAMPLES} | {f"{name}.c" for name in PROGRAMS}
+    return names - emitted.files.keys()
+
+
+def leftovers(emitted: Emitted, folder: str | Path) -> list[str]:
+    """Files with a model's values that are not emitted now, and stay because they were edited.
+
+    Args:
+        emitted: what `write_emitted` wrote.
+        folder: where.
+    """
+    known = read_record(Path(folder)) or {}
+    return sorted(known.keys() & _unwanted(emitted))
+
+
+def _unedited(folder: Path, stale: Record) -> set[str]:
+    """Names of the files of an earlier run that say what it wrote."""
+    same = set()
+    for name, sums in stale.items():
+        with suppress(OSError):  # what cannot be read stays
+            if checksum((folder / name).read_bytes()) in sums:
+                same.add(name)
+    return same
+
+
+def _content(path: Path) -> bytes | None:
+    """Of a file; empty of anything else, None of nothing."""
+    if path.is_file():
+        return path.read_bytes()
+    return b"" if path.exists() else None
+
+
+def _check(
+    folder: Path, changed: Sequence[str], old: dict[str, bytes | None], known: Record | None
+) -> None:
+    """Nothing is lost that somebody wrote by hand."""
+    foreign, edited = [RECORD] if known is None else [], []
+    for name in changed:
+        content = old[name]
+        if not known or name not in known:
+            foreign.append(name)
+        elif content is not None and checksum(content) not in known[name]:
+            edited.append(name)
+    told = []
+    if foreign:
+        told.append(f"{', '.join(sorted(foreign))}, not known to be of an earlier generate")
+    if edited:
+        told.append(f"{', '.join(sorted(edited))}, edited since an earlier generate")
+    if told:
+        raise ModelerError(
+            f"{folder}: would write over {'; and over '.join(told)}; choose another folder, or "
+            "write over them with --force"
+        )
+
+
+# The Jinja environment; nothing else knows Jinja.
+#
+# Templates lay out finished strings, with `for` and `if` and nothing more.
+
+
+@cache
+def _environment() -> jinja2.Environment:
+    return jinja2.Environment(
+        loader=jinja2.FileSystemLoader(resource_dir("templates")),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,  # C, make and Markdown are no HTML
+    )
+
+
+def render(template: str, **values: Any) -> str:
+    """Text of `templates/<template>.jinja` with these values."""
+    return _environment().get_template(f"{template}.jinja").render(**values)
+
 
 C_INTERFACE = 1
 """Raised when a function of the emitted C takes other arguments under the same name."""

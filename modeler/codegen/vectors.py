@@ -12,14 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from modeler.codegen.functions import Closed, Function
-from modeler.codegen.layout import name_lines
+from modeler.codegen.functions import Closed, Function, name_lines
 from modeler.core.errors import EmitError
-from modeler.symbolic import Closure, SymbolicModel
-from modeler.symbolic.balls import Ball, BallFunction, exact_ball, flint
-from modeler.symbolic.closed_states import closing_of
-from modeler.symbolic.closing import moved_postures
-from modeler.symbolic.enclosed import EnclosedState, Enclosures, NotEnclosed
+from modeler.derivation.closed_states import closing_of
+from modeler.derivation.closing import moved_postures
+from modeler.derivation.closure import Closure
+from modeler.derivation.enclosed import EnclosedState, Enclosures, NotEnclosed
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.precise import Ball, BallFunction, exact_ball, flint
 
 STATES = 2
 PRODUCTS = ("regressor", "base_regressor", "base_regressor_nonzeros", "platform_base_regressor")

@@ -1,5 +1,8 @@
 """The errors a user may see: one line that says where, got, expected, what to do."""
 
+from pathlib import Path
+from typing import Literal
+
 LONGEST = 1000
 """Characters of a line that somebody still reads."""
 
@@ -66,3 +69,39 @@ def on_one_line(message: str) -> str:
     if len(text) <= LONGEST:
         return text
     return f"{text[: LONGEST // 2]} ... {text[-LONGEST // 2 :]}"
+
+
+# Choices that a user is offered, where parsers and the stages that make them both can look.
+
+
+Method = Literal[
+    "weighted", "ordinary", "robust", "ridge", "iv", "iv-direct", "didim", "consistent",
+]  # fmt: skip
+"""Estimators; `core.estimators` says what each is."""
+
+ModelKind = Literal["torque", "energy"]
+"""What a row of the fit states: a joint's torque, or the energy balance of a window."""
+
+Precision = Literal["double", "single"]
+"""Of the emitted C: its numbers are `double`, or `float`."""
+
+GAIN_METHOD = "tls"
+"""Total least squares, for drive gains besides."""
+
+TWO_STEPS = "two-step"
+"""Each joint that moves alone, then the parameters."""
+
+Derivatives = Literal["auto", "log", "position"]
+"""Whether velocities are taken from the log or differentiated; auto: the quieter."""
+
+LOW_SPEED = 0.02
+"""Rows below this share of a joint's top speed are left out, where friction depends on its sign."""
+
+
+# A log, or a piece of it, as it is typed: FILE, or FILE@START:END.
+
+
+def file_and_window(place: str) -> tuple[str, str | None]:
+    """The file, and what stands after its last "@"; None if that belongs to the file's name."""
+    path, at, window = place.rpartition("@")
+    return (place, None) if not at or Path(place).exists() else (path, window)

@@ -1,17 +1,109 @@
 """Files: none is read without end, none half-written, and nothing but a file replaced."""
 
 import contextlib
+import enum
 import errno
 import os
+import re
 import signal
 import stat
 import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
-from modeler.core.destination import Destination, Kind, destination
 from modeler.core.errors import DataError, ModelerError
+
+# Where a write to a path lands: its links followed, and what is there now.
+
+
+# Files that a process has open, by number. These look like links, and lead to a place that may be
+# a pipe without a name, or a file at whose end we stand already: they are written to, not followed.
+_OPEN_FILES = re.compile(r"(?:/proc/(\d+)(?:/task/\d+)?|/dev)/fd")
+_MOST_LINKS = 40  # as in Linux
+
+
+class Kind(enum.Enum):
+    """What is at a place, as far as writing is concerned."""
+
+    NEW = enum.auto()
+    FILE = enum.auto()
+    NODE = enum.auto()  # a device, a pipe, a file that another process holds open
+    DESCRIPTOR = enum.auto()  # a file that we hold open, such as stdout
+
+
+@dataclass(frozen=True)
+class Destination:
+    """The place that a path leads to.
+
+    Attributes:
+        place: with all links followed.
+        kind: what is there.
+        status: of what is there; None if it is new.
+    """
+
+    place: Path
+    kind: Kind
+    status: os.stat_result | None
+
+    @property
+    def descriptor(self) -> int:
+        """The number of our open file; only of kind DESCRIPTOR."""
+        return int(self.place.name)
+
+    @property
+    def identity(self) -> object:
+        """Equal for two paths that lead to one file, by any link; None for a device."""
+        if self.status is None:
+            return self.place
+        if self.kind is Kind.NODE and not stat.S_ISFIFO(self.status.st_mode):
+            return None
+        return self.status.st_dev, self.status.st_ino
+
+
+def destination(path: Path) -> Destination:
+    """Where a write to `path` lands.
+
+    Raises:
+        ModelerError: a folder or a socket is there.
+        OSError: the links lead in a circle, or may not be followed.
+    """
+    if "\0" in str(path):
+        raise ModelerError(f"{path}: has a NUL in its name; expected the name of a file")
+    place = _followed(Path(path))
+    owner = _OPEN_FILES.fullmatch(str(place.parent))
+    if owner is not None and place.name.isdigit() and owner[1] in (None, str(os.getpid())):
+        return _checked(path, Destination(place, Kind.DESCRIPTOR, os.fstat(int(place.name))))
+    try:
+        status = place.stat()
+    except FileNotFoundError:
+        return Destination(place, Kind.NEW, None)
+    except NotADirectoryError:
+        return Destination(place, Kind.NEW, None)
+    replaceable = stat.S_ISREG(status.st_mode) and owner is None
+    return _checked(path, Destination(place, Kind.FILE if replaceable else Kind.NODE, status))
+
+
+def _followed(path: Path) -> Path:
+    for _ in range(_MOST_LINKS):
+        place = Path(os.path.realpath(path.parent), path.name)
+        if _OPEN_FILES.fullmatch(str(place.parent)) or not place.is_symlink():
+            return place
+        path = place.parent / place.readlink()
+    raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+
+
+def _checked(path: Path, found: Destination) -> Destination:
+    assert found.status is not None
+    mode = found.status.st_mode
+    if stat.S_ISDIR(mode):
+        raise ModelerError(f"{path}: is a folder; expected the name of a file to write")
+    if stat.S_ISSOCK(mode) and found.kind is not Kind.DESCRIPTOR:
+        raise ModelerError(f"{path}: is a socket; expected the name of a file to write")
+    return found
+
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
 
@@ -102,7 +194,7 @@ def write_together(files: Iterable[tuple[Path, bytes | str]], gone: Iterable[Pat
     staged, made = list[tuple[Path, Path]](), list[Path]()
     try:
         for path, content in files:
-            with _told(path):
+            with _errors_named(path):
                 data = (
                     content
                     if isinstance(content, bytes)
@@ -119,7 +211,7 @@ def write_together(files: Iterable[tuple[Path, bytes | str]], gone: Iterable[Pat
         with undisturbed():
             while staged:
                 beside, place = staged.pop(0)
-                with _told(place):
+                with _errors_named(place):
                     beside.replace(place)
             for path in gone:
                 with contextlib.suppress(OSError):  # what cannot be removed stays
@@ -160,7 +252,7 @@ def check_writable(path: Path) -> None:
             cannot be made, or is not writable; says which.
     """
     path = Path(path)
-    with _told(path):
+    with _errors_named(path):
         found = destination(path)
         if found.kind is Kind.DESCRIPTOR:
             _check_descriptor(found.descriptor)
@@ -177,7 +269,7 @@ def check_folder_writable(folder: Path) -> None:
         ModelerError: says why.
     """
     folder = Path(folder)
-    with _told(folder):
+    with _errors_named(folder):
         _check_folder(Path(os.path.realpath(folder)))
 
 
@@ -197,7 +289,7 @@ def page_place(path: Path, name: str) -> Path:
 
 
 @contextlib.contextmanager
-def _told(path: Path) -> Iterator[None]:
+def _errors_named(path: Path) -> Iterator[None]:
     try:
         yield
     except BrokenPipeError:
@@ -284,3 +376,17 @@ def _check_folder(folder: Path) -> None:
         os.close(os.open(beside, _CREATE, 0o600))
     finally:
         beside.unlink(missing_ok=True)
+
+
+# The one place that knows where the templates and the C runtime live.
+
+
+_PACKAGE = Path(__file__).resolve().parents[1]
+
+
+def resource_dir(kind: Literal["templates", "csrc"]) -> Path:
+    """Folder of shipped data: inside the wheel (`_templates`), or at the top of a checkout."""
+    for place in (_PACKAGE / f"_{kind}", _PACKAGE.parent / kind):
+        if place.is_dir():
+            return place
+    raise FileNotFoundError(f"{kind}/ is neither inside the package ({_PACKAGE}) nor beside it")

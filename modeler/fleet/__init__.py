@@ -1,6 +1,6 @@
 """One robot kind, many machines and days: what drifts where."""
 
-from modeler.fleet.assemble import fleet_of as fleet_of
+from modeler.fleet.fleet import fleet_of as fleet_of
 from modeler.fleet.naming import Named as Named
 from modeler.fleet.naming import named_logs as named_logs
 from modeler.fleet.result import Fleet as Fleet

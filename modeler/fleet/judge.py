@@ -6,10 +6,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.fleet.joint_fit import JointFit
-from modeler.fleet.layout import GAIN, LOAD, Layout, Quantity
-from modeler.fleet.odd import Odd, odd_ones
-from modeler.fleet.series import Move, Scatter, Series, least_told, line_of, move_of, scatters
+from modeler.fleet.drift import (
+    Move,
+    Odd,
+    Scatter,
+    Series,
+    least_told,
+    line_of,
+    move_of,
+    odd_ones,
+    scatters,
+)
+from modeler.fleet.joint_fit import GAIN, LOAD, JointFit, Layout, Quantity
 from modeler.fleet.summary import LogSummary
 
 FALSE_ALARM = 0.05

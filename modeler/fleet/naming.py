@@ -9,7 +9,7 @@ from pathlib import Path
 
 from modeler.core.errors import DataError
 from modeler.core.files import read_text
-from modeler.core.json_text import parse_toml
+from modeler.core.json import parse_toml
 
 PATTERN = "{machine}/{period}.*"
 """How logs are named where nobody says it: the folder is the machine, the file the period."""

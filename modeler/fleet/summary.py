@@ -1,26 +1,27 @@
 """One log of a fleet, read once: triangles and what its residuals remember, no rows."""
 
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.compiled import CompiledModel
-from modeler.compiled.once import compiled_once
-from modeler.core.contract import Emitted
 from modeler.core.errors import DataError, LoopError
-from modeler.estimate.coloured import remembered, repeated_whole
-from modeler.estimate.compressed import Compressed, compress
-from modeler.estimate.least_squares import least_squares
-from modeler.fit import contradictions, identify
-from modeler.fit.identify import dead_joints
+from modeler.core.manifest import Emitted
+from modeler.estimation.covariance import remembered, repeated_whole
+from modeler.estimation.identify import dead_joints, identify
+from modeler.estimation.least_squares import least_squares
+from modeler.estimation.verdict import contradictions
 from modeler.fleet.naming import Named
-from modeler.logs import LogMap
-from modeler.observation import Observation, Processing, observe
-from modeler.observation.adapted import faults_of_fit
+from modeler.logs.mapping import LogMap
+from modeler.numerics.least_squares import Compressed, compress
+from modeler.observation.channel_shift import faults_of_fit
 from modeler.observation.log import Log
+from modeler.observation.observation import Observation, observe
+from modeler.observation.processing import Processing
 from modeler.observation.read import read_log
 from modeler.observation.window import window
+from modeler.runtime.model import CompiledModel, compiled_once
 
 TEMPERATURE = "temperature"
 """How the names of columns of temperatures begin; the rest is the joint, or nothing."""
@@ -171,3 +172,36 @@ def _joints_beyond(columns: Iterable[str]) -> tuple[str, ...]:
     """Joints with a position and a torque among columns that are none of the robot's."""
     names = set(columns)
     return tuple(sorted(name[1:] for name in names if name[0] == "q" and f"tau{name[1:]}" in names))
+
+
+# Logs that hold channels of joints which the robot has not: of another robot, it seems.
+
+
+def of_another_robot(used: Sequence[LogSummary]) -> tuple[list[LogSummary], list[Left], list[str]]:
+    """The logs to compare, those that are left out, and what is to be said of the others.
+
+    A log with positions and torques of more joints than the robot has is left out where more than
+    half of all logs have other joints than it; where no such half is, or it has them too, it is
+    told.
+    """
+    kinds = Counter(each.beyond for each in used)
+    kept, left, told = [], [], dict[tuple[str, ...], list[str]]()
+    for each in used:
+        others = max((n for joints, n in kinds.items() if joints != each.beyond), default=0)
+        if each.beyond and 2 * others > len(used):
+            why = (
+                f"has joint{'s' * (len(each.beyond) > 1)} {', '.join(each.beyond)} besides, which "
+                "most logs have not; a log of another robot? name the right one"
+            )
+            left.append(Left(each.named, f"{each.named.place}: {why}"))
+            continue
+        kept.append(each)
+        if each.beyond:
+            told.setdefault(each.beyond, []).append(each.named.place)
+    notes = [
+        f"{places[0]}{f' and {len(places) - 1} more' * (len(places) > 1)}: positions and torques "
+        f"of joints besides those of the robot ({', '.join(joints)}) are not read; is the robot "
+        "file that of these machines?"
+        for joints, places in told.items()
+    ]
+    return kept, left, notes

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from modeler.fleet.joint_fit import LOAD
 from modeler.fleet.judge import Judged
-from modeler.fleet.layout import LOAD
 from modeler.fleet.summary import LogSummary
 
 FAR = 5.0

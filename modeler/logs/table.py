@@ -6,13 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
+from modeler.core.manifest import JointSpec
 from modeler.logs.arrays import LEAST_ROWS
 from modeler.logs.columns import Column, Columns, NotNumbers, Wanted
-from modeler.logs.formats import read_columns
-from modeler.logs.mapping import Entry, LogMap, near
-from modeler.logs.units import Unit, find_unit, si_unit
+from modeler.logs.mapping import Entry, LogMap, Unit, find_unit, near, si_unit
+from modeler.logs.readers import read_columns
 
 _TINY, _HUGE = 1e-100, 1e100  # in any unit; squares of what is beyond are no numbers any more
 _SHOWN = 40  # names of columns that a message lists

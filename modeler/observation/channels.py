@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.observation.observation import Observation
-from modeler.observation.torque import model_torque
+from modeler.observation.observation import Observation, model_torque
 
 if TYPE_CHECKING:
-    from modeler.compiled import CompiledModel
+    from modeler.runtime.model import CompiledModel
 
 WRONG = 0.5
 """Relative error of a joint from which on its channels are suspected."""

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.numerics.filters import reach_of
 from modeler.observation.log import FINGER, Log
 from modeler.observation.processing import Processing
-from modeler.observation.row_filter import reach_of
-from modeler.observation.source import Source, cut, joined
+from modeler.observation.read import Source, cut, joined
 
 MEMORY = 12.0
 """Periods of the position filter after which nothing of it is left: its slowest poles fade as

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.observation.low_speed import signals_of
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
 from modeler.observation.segments import runs
-from modeler.observation.signals import signals_of
 
 if TYPE_CHECKING:
-    from modeler.compiled import CompiledModel
+    from modeler.runtime.model import CompiledModel
 
 Rule = Literal["simpson", "trapezoid"]
 """How powers are integrated."""

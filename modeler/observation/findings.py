@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.observation.adapted import faults_of_fit
+from modeler.observation.channel_shift import faults_of_fit
 from modeler.observation.channels import Fault, faults
 from modeler.observation.observation import Observation
 from modeler.observation.thinned import Rows, thinned
 
 if TYPE_CHECKING:
-    from modeler.compiled import CompiledModel
+    from modeler.runtime.model import CompiledModel
 
 LONGEST = 0.15
 """s, the largest delay that is looked for: beyond it, channels do not look late but wrong."""

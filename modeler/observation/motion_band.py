@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.observation.ringing import ringing
+from modeler.numerics.spectra import MotionSpectrum, motion_spectrum
+from modeler.observation.excitation import ringing
 from modeler.observation.segments import Piece
-from modeler.observation.spectrum import Spectrum, spectrum
 
 SHARE = 0.99
 """The motion band holds this share of the energy of the velocity."""
@@ -42,7 +42,7 @@ class MotionBands:
     trembling: np.ndarray
 
 
-def motion_bands(piece: Piece, measured: Spectrum) -> MotionBands:
+def motion_bands(piece: Piece, measured: MotionSpectrum) -> MotionBands:
     """The motion band of each joint, whatever its noise.
 
     What counts is the power above white noise, up to where the joint rings or trembles; where
@@ -113,7 +113,7 @@ def _commanded(piece: Piece) -> np.ndarray:
     """(J,) band of the commanded positions, Hz; NaN where none is known, or none moves."""
     if piece.commanded is None:
         return np.full(piece.q.shape[1], np.nan)
-    command = spectrum(piece.commanded, piece.step)
+    command = motion_spectrum(piece.commanded, piece.step)
     above = command.above
     size = np.sqrt(above.sum(axis=0))
     moves = size > REST * size.max()

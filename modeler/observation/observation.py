@@ -1,16 +1,47 @@
-"""The rows of y = W beta, and which is which."""
+"""y = W beta: the rows of all logs through the compiled model and the parallel filter."""
 
-from collections.abc import Callable
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from modeler.core.contract import JointSpec
-from modeler.core.presented import Presented
-from modeler.observation.motion import Segment
-from modeler.observation.report import DataReport
-from modeler.observation.stretch import Stretch
+from modeler.core.errors import DataError
+from modeler.core.manifest import JointSpec
+from modeler.core.result import Presented
+from modeler.numerics.filters import row_filter
+from modeler.observation.log import Log
+from modeler.observation.low_speed import (
+    Shaft,
+    floors_of,
+    moving,
+    shafts,
+    signals_of,
+    with_every_joint,
+)
+from modeler.observation.motion import (
+    BRIDGES,
+    CAUSES,
+    CONTRADICTED,
+    EDGE,
+    MISSING,
+    OPEN,
+    SATURATED,
+    Segment,
+)
+from modeler.observation.prepare import Mending, Prepared, prepare, with_floors, without_open
+from modeler.observation.processing import Processing
+from modeler.observation.report import DataReport, JointReport, LogReport
+from modeler.observation.stretch import Stretch, stretch
+
+if TYPE_CHECKING:
+    from modeler.runtime.fused import Pattern, Triangles
+    from modeler.runtime.model import CompiledModel
+
+
+# The rows of y = W beta, and which is which.
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,3 +125,349 @@ class Observation(Presented):
         return np.concatenate(
             [part.filtered(partial(evaluate, part.segment)) for part in self.stretches]
         )
+
+
+# A compiled model over the segments of an observation: its regressor, and what needs none.
+
+
+class Evaluated:
+    """The base regressor over the samples of a segment, with what its effects read."""
+
+    def __init__(self, model: "CompiledModel", stretches: Sequence[Stretch]) -> None:
+        self._model = model
+        self._signals = {
+            id(part.segment): signals_of(model.spec, part.segment) for part in stretches
+        }
+
+    def __call__(self, s: Segment, w: slice | np.ndarray) -> np.ndarray:
+        """(b, n, c) for the b samples of a window, or of indices."""
+        return self._model.base_regressor(s.q[w], s.qd[w], s.qdd[w], self._read(s, w))
+
+    @property
+    def pattern(self) -> "Pattern":
+        """Which columns can enter the torque of each joint."""
+        return self._model.pattern
+
+    @property
+    def multiplies(self) -> bool:
+        """True if `products` can be had."""
+        return self._model.emits_entries
+
+    def torque(self, s: Segment, w: slice | np.ndarray, beta: np.ndarray) -> np.ndarray:
+        """(b, n) torque of the model, by the inverse dynamics; w may be indices."""
+        return self._model.inverse_dynamics(s.q[w], s.qd[w], s.qdd[w], beta, self._read(s, w))
+
+    def triangles(self, part: Stretch, use: np.ndarray, state: "Triangles | None") -> "Triangles":
+        """Triangles of the rows of a stretch whose rows are samples; use (rows, n) bool."""
+        some = np.flatnonzero(use.any(axis=1))
+        s, w = part.segment, near(part.rows.centres[some])
+        found = self._model.triangles(
+            s.q[w], s.qd[w], s.qdd[w], s.tau[w], use[near(some)], self._read(s, w), state=state
+        )
+        if found.left_out.any():  # the regressor says of which sample, and why
+            bad = part.rows.centres[some][found.left_out]
+            self._model.base_regressor(s.q[bad], s.qd[bad], s.qdd[bad], self._read(s, bad))
+        return found
+
+    def products(self, part: Stretch, use: np.ndarray, last: Sequence[int]) -> list[np.ndarray]:
+        """Products of rows 1 .. last_j apart, of a stretch whose rows are samples."""
+        s, w = part.segment, near(part.rows.centres)
+        return self._model.products(
+            s.q[w], s.qd[w], s.qdd[w], s.tau[w], last, use, self._read(s, w), first=1
+        )
+
+    def _read(self, s: Segment, w: slice | np.ndarray) -> np.ndarray | None:
+        read = self._signals[id(s)]
+        return None if read is None else read[w]
+
+
+def near(places: np.ndarray) -> slice | np.ndarray:
+    """The same places as a slice where they are neighbours: no copy."""
+    if len(places) and places[-1] - places[0] == len(places) - 1:
+        return slice(int(places[0]), int(places[-1]) + 1)
+    return places
+
+
+def observe(
+    model: "CompiledModel",
+    logs: Sequence[Log],
+    processing: Processing | None = None,
+    every_joint: bool = False,
+    mending: Mending | None = None,
+) -> Observation:
+    """The observation of logs: W, y, and which row is which.
+
+    One parallel filter and decimation for the torque and every column (Guegan, Khalil and Lemoine
+    2003, section 5.2). Samples below the speed floor, saturated or missing ones have no weight.
+
+    Args:
+        model: the compiled robot.
+        logs: read with the same manifest.
+        processing: None: automatic. For held-out logs `report.processing` of the fit.
+        every_joint: mask low speeds also on joints whose dry friction the model lacks.
+        mending: of the same logs, where it is shared.
+
+    Raises:
+        DataError: no logs, of another robot, or no usable row.
+        LoopError: hardly a sample closes the loops.
+    """
+    prepared = prepare(model.spec, logs, processing or Processing(), mending)
+    return observed(model, logs, prepared, every_joint)
+
+
+def observed(
+    model: "CompiledModel", logs: Sequence[Log], prepared: Prepared, every_joint: bool = False
+) -> Observation:
+    """The observation of logs that are prepared already, for this or a like robot.
+
+    Raises:
+        DataError: no usable row.
+        LoopError: hardly a sample closes the loops.
+    """
+    prepared, open_times = without_open(model, logs, prepared)
+    parts = with_every_joint(model) if every_joint else shafts(model)
+    floors = floors_of(prepared.processing, parts, prepared.segments)
+    chosen = with_floors(prepared.processing, floors)
+    stretches = tuple(_stretch(segment, parts, chosen) for segment in prepared.segments)
+    report = DataReport(
+        processing=chosen,
+        choices=prepared.choices,
+        trembles=prepared.trembles,
+        band=prepared.band,
+        logs=tuple(
+            dataclasses.replace(_log_report(log, run, prepared, stretches), open_times=times)
+            for run, (log, times) in enumerate(zip(logs, open_times, strict=True))
+        ),
+        joints=joint_reports(model.spec.joints, parts, floors, _counts(stretches)),
+    )
+    if not any(part.used.any() for part in stretches):
+        raise no_row_left(report, [f"{log.name}: {note}" for log in logs for note in log.notes])
+    return stacked(model, [log.name for log in logs], stretches, report)
+
+
+def no_row_left(report: DataReport, notes: Sequence[str] = ()) -> DataError:
+    """What is told of logs without a usable row."""
+    return DataError(
+        f"{', '.join(log.name for log in report.logs)}: no usable row is left: "
+        + "; ".join([*(joint.line() for joint in report.joints), *notes])
+        + "; check these columns, or record longer and faster motion of every joint"
+    )
+
+
+def observed_alike(model: "CompiledModel", like: Observation) -> Observation:
+    """What a robot makes of logs that another one has seen, which masks the same samples."""
+    return dataclasses.replace(
+        like,
+        robot=model.spec.robot,
+        joints=model.spec.joints,
+        names=tuple(base.name for base in model.spec.base),
+        units=tuple(base.unit for base in model.spec.base),
+        regressor=Evaluated(model, like.stretches),
+    )
+
+
+def _stretch(segment: Segment, parts: Sequence[Shaft], processing: Processing) -> Stretch:
+    assert processing.parallel_cutoff is not None
+    assert processing.speed_floors is not None
+    usable = segment.valid & moving(segment, parts, processing.speed_floors)
+    rows = row_filter(
+        segment.whole, segment.step, processing.parallel_cutoff, processing.decimation
+    )
+    return stretch(segment, usable, rows)
+
+
+def stacked(
+    model: "CompiledModel",
+    logs: Sequence[str],
+    stretches: tuple[Stretch, ...],
+    report: DataReport,
+) -> Observation:
+    """The rows of some stretches of logs of these names, with what is told of them."""
+    motion = np.concatenate([_motion(part) for part in stretches])
+    counts = [len(part.rows.centres) for part in stretches]
+    return Observation(
+        robot=model.spec.robot,
+        joints=model.spec.joints,
+        names=tuple(base.name for base in model.spec.base),
+        units=tuple(base.unit for base in model.spec.base),
+        logs=tuple(logs),
+        run=np.repeat([part.segment.run for part in stretches], counts),
+        segment=np.repeat(np.arange(len(stretches)), counts),
+        time=np.concatenate([part.segment.time[part.rows.centres] for part in stretches]),
+        q=motion[:, 0],
+        qd=motion[:, 1],
+        qdd=motion[:, 2],
+        torque=np.concatenate([part.filtered(torque_of(part.segment)) for part in stretches]),
+        used=np.concatenate([part.used for part in stretches]),
+        stretches=stretches,
+        regressor=Evaluated(model, stretches),
+        report=report,
+    )
+
+
+def _motion(part: Stretch) -> np.ndarray:
+    """(rows, 3, joints) q, qd, qdd over all whole samples."""
+    s = part.segment
+    return np.concatenate(
+        [
+            rows.means(np.stack([s.q[w], s.qd[w], s.qdd[w]], axis=1), s.whole[w])
+            for rows, w, _ in part.parts()
+        ]
+    )
+
+
+def torque_of(segment: Segment) -> Callable[[slice], np.ndarray]:
+    """What is filtered of a segment, a window at a time."""
+    return lambda window: segment.tau[window]
+
+
+def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stretch]) -> LogReport:
+    own = [part for part in stretches if part.segment.run == run]
+    check = prepared.checks[run]
+    pieces, split = prepared.pieces[run], prepared.splits[run]
+    clipped = (
+        np.sum([np.sum(piece.clipped, axis=0) for piece in pieces], axis=0)
+        if pieces
+        else np.zeros(len(log.joints), dtype=int)
+    )
+    spacing = [int(part.rows.centres[1] - part.rows.centres[0]) for part in own
+               if len(part.rows.centres) > 1]  # fmt: skip
+    return LogReport(
+        name=log.name,
+        rows=log.rows,
+        missing=dict(log.missing),
+        saturated={n: int(k) for n, k in zip(log.joints, clipped, strict=True) if k},
+        rate=1.0 / log.step,
+        jitter=split.jitter,
+        gaps=split.gaps,
+        longest_gap=split.longest_gap,
+        pieces=len(pieces),
+        resampled=sum(piece.resampled for piece in pieces),
+        short=split.short + prepared.dropped[run],
+        derivatives=prepared.derivatives[run],
+        decimation=spacing[0] if spacing else 1,
+        samples=sum(len(part.rows.centres) for part in own),
+        notes=log.notes + prepared.rings[run] + (check.notes if check else ()),
+        contradictions=check.contradictions if check else (),
+        contradicted=sum(int(bad.sum()) for bad in check.bad) if check else 0,
+        damages=prepared.damages[run],
+        content=log.content,
+        span=(float(log.time[0]), float(log.time[-1])),
+        torque_source=log.torque_source,
+    )
+
+
+def _counts(stretches: Sequence[Stretch]) -> dict[str, Any]:
+    """Samples of all stretches, by joint, as a `Tally` has them of chunks."""
+    return {
+        "full": sum(part.segment.samples for part in stretches),
+        "valid": sum(np.sum(part.segment.valid, axis=0) for part in stretches),
+        "usable": sum(np.sum(part.usable, axis=0) for part in stretches),
+        "used": sum(np.sum(part.used, axis=0) for part in stretches),
+    } | {cause: sum(part.segment.lost[cause] for part in stretches) for cause in CAUSES}
+
+
+def joint_reports(
+    joints: Sequence[JointSpec],
+    parts: Sequence[Shaft],
+    floors: Mapping[str, float],
+    counts: Mapping[str, Any],
+) -> tuple[JointReport, ...]:
+    """What became of the samples of each joint.
+
+    Args:
+        joints: of the robot.
+        parts: its shafts.
+        floors: speeds below which they do not count.
+        counts: "full" samples, and by joint those "valid", "usable", "used" and lost by each cause.
+    """
+    reports = []
+    for j, joint in enumerate(joints):
+        own = [floors[part.name] for part in parts if j in part.joints]
+        reports.append(
+            JointReport(
+                name=joint.name,
+                used=int(counts["used"][j]),
+                slow=float(1.0 - counts["usable"][j] / max(1, counts["valid"][j])),
+                speed_floor=max(own) if own else None,
+                unit=f"{joint.unit}/s",
+                samples=int(counts["full"]),
+                lost={cause: int(counts[cause][j]) for cause in CAUSES if counts[cause][j]},
+            )
+        )
+    return tuple(reports)
+
+
+# Why a row does not count, for those who draw it.
+
+
+MASKS = (
+    "low speed", "torque at its limit", "no good value", "impossible derivative", "filter end",
+    "loops open",
+)  # fmt: skip
+"""In short, for legends."""
+
+WHY = {
+    "low speed": "the joint moves so slowly that the sign of its friction is doubtful",
+    "torque at its limit": "the drive gave all it could, so the torque is not what was asked",
+    "no good value": "a position or torque is missing or damaged, or lies beside one that is",
+    "impossible derivative": "a logged speed or acceleration is not that of the positions",
+    "filter end": "the position filter still starts up there",
+    "loops open": "the loops cannot be closed with these positions",
+}
+"""In a sentence."""
+
+_OF = {
+    SATURATED: "torque at its limit",
+    MISSING: "no good value",
+    BRIDGES: "no good value",
+    CONTRADICTED: "impossible derivative",
+    EDGE: "filter end",
+    OPEN: "loops open",
+}
+
+
+def masks_of(observation: Observation) -> np.ndarray:
+    """(s, n) place in MASKS of what most weight of a row falls on; -1 where the row counts.
+
+    Args:
+        observation: of logs.
+    """
+    return np.concatenate([_masks(part) for part in observation.stretches])
+
+
+def _masks(part: Stretch) -> np.ndarray:
+    """(rows, n)."""
+    cause = part.segment.cause
+    of = np.array([MASKS.index(_OF[name]) for name in CAUSES] + [0])  # the last: low speed
+    flags = np.where(part.usable, -1, of[-1] if cause is None else of[cause])
+    shares = np.stack([part.rows.share(flags == k) for k in range(len(MASKS))])
+    return np.where(part.used, -1, np.argmax(shares, axis=0)).astype(np.int8)
+
+
+# The torque of a model over the samples of an observation, through the filter of its rows.
+
+
+def model_torque(
+    observation: Observation,
+    model: "CompiledModel",
+    beta: np.ndarray,
+    turn: np.ndarray | None = None,
+) -> np.ndarray:
+    """(s, n) `observation.predicted(beta)` without its columns, by the inverse dynamics.
+
+    Args:
+        observation: of the robot.
+        model: it, or one with other effects on the same joints.
+        beta: (c,) base parameters of the model.
+        turn: (n, n) if given, the motion is q turn instead of q.
+    """
+
+    def torque(segment: Segment, window: slice) -> np.ndarray:
+        read = signals_of(model.spec, segment)
+        q, qd, qdd = (x[window] for x in (segment.q, segment.qd, segment.qdd))
+        if turn is not None:
+            q, qd, qdd = q @ turn, qd @ turn, qdd @ turn
+        return model.inverse_dynamics(q, qd, qdd, beta, None if read is None else read[window])
+
+    return observation.filtered(torque)

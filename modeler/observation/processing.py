@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 from modeler.core.brief import Brief
-from modeler.core.choices import LOW_SPEED, Derivatives
-from modeler.core.errors import DataError
+from modeler.core.errors import LOW_SPEED, DataError, Derivatives
 
 
 @dataclass(frozen=True)

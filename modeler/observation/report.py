@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from modeler.core.brief import Brief
-from modeler.core.presented import Presented
+from modeler.core.result import Presented
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
-from modeler.observation.damage import Damage
+from modeler.observation.outliers import Damage
 from modeler.observation.processing import Processing
 from modeler.observation.segments import JITTER
 

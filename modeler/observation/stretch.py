@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.brief import Brief
+from modeler.numerics.filters import LEAST_WEIGHT, RowFilter
 from modeler.observation.motion import Segment
-from modeler.observation.row_filter import LEAST_WEIGHT, RowFilter
 
 _BLOCK = 20_000  # samples evaluated at a time: 20 000 x 7 joints x 60 columns is 67 MB
 

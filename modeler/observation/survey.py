@@ -8,20 +8,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError
+from modeler.numerics.filters import spacing
 from modeler.observation.chunk import chunk_rows, margin
-from modeler.observation.dry_friction import Shaft, shafts
+from modeler.observation.chunks import Chosen
 from modeler.observation.log import FINGER, Log
-from modeler.observation.observation import Observation
+from modeler.observation.low_speed import Shaft, shafts
+from modeler.observation.observation import Observation, observed
 from modeler.observation.prepare import Prepared, prepare, with_floors
 from modeler.observation.processing import Processing
-from modeler.observation.read import Ranges
-from modeler.observation.row_filter import spacing
-from modeler.observation.seen import Chosen
-from modeler.observation.source import Source, windows_joined
-from modeler.observation.stack import observed
+from modeler.observation.read import Ranges, Source, windows_joined
 
 if TYPE_CHECKING:
-    from modeler.compiled import CompiledModel
+    from modeler.runtime.model import CompiledModel
 
 WINDOWS = 8
 """Windows of all logs together, at least one of each log."""

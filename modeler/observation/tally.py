@@ -8,9 +8,9 @@ import numpy as np
 
 from modeler.observation.chunk import Chunk
 from modeler.observation.consistency import Consistency, Contradiction
-from modeler.observation.damage import Defects
 from modeler.observation.log import Log
 from modeler.observation.motion import CAUSES, Segment
+from modeler.observation.outliers import Defects
 from modeler.observation.read import Ranges
 from modeler.observation.segments import GAP, Piece
 from modeler.observation.stretch import Stretch

@@ -5,16 +5,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.observation.closable import nearest_closed
+from modeler.numerics.filters import RowFilter
+from modeler.observation.low_speed import signals_of
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
-from modeler.observation.passing import columns_at
-from modeler.observation.row_filter import RowFilter
-from modeler.observation.signals import signals_of
+from modeler.observation.prepare import nearest_closed
+from modeler.observation.reduce import columns_at
 from modeler.observation.stretch import Stretch
 
 if TYPE_CHECKING:
-    from modeler.compiled import CompiledModel
+    from modeler.runtime.model import CompiledModel
 
 _MOST = 1200  # rows: enough for any fit, and quick with every change that is tried
 _CELLS = 8000  # joints times rows, at most: many joints make many pairs to exchange

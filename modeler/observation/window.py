@@ -5,12 +5,11 @@ from collections import Counter
 
 import numpy as np
 
-from modeler.core.contract import ModuleSpec
 from modeler.core.errors import DataError
+from modeler.core.manifest import ModuleSpec
 from modeler.observation.chunk import chunks
 from modeler.observation.log import FINGER, Log, finger, fingerprint_of
-from modeler.observation.read import Ranges
-from modeler.observation.source import FileSource, cut, joined
+from modeler.observation.read import FileSource, Ranges, cut, joined
 from modeler.observation.tally import missing as missing_of
 
 

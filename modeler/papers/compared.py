@@ -5,8 +5,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from modeler.papers.derived import Derived
-from modeler.papers.paper import Paper, PrintedLine
+from modeler.papers.paper import Derived, Paper, PrintedLine
 from modeler.papers.quotation import Amount, Monomial, Sum, added, read_sum, times
 
 _SLACK = 1 + 1e-9

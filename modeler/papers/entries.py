@@ -5,10 +5,10 @@ from modeler.papers.check import Verdict as Verdict
 from modeler.papers.check import check_line as check_line
 from modeler.papers.check import check_paper as check_paper
 from modeler.papers.check import written_out as written_out
-from modeler.papers.derived import Derived as Derived
-from modeler.papers.derived import derived_robot as derived_robot
+from modeler.papers.paper import Derived as Derived
 from modeler.papers.paper import Paper as Paper
 from modeler.papers.paper import PrintedLine as PrintedLine
+from modeler.papers.paper import derived_robot as derived_robot
 from modeler.papers.paper import paper_names as paper_names
 from modeler.papers.paper import read_paper as read_paper
 from modeler.papers.wrist import coefficient_quotations as coefficient_quotations

@@ -6,14 +6,40 @@ quotation itself. Where the print is not what is derived, the file states the di
 minus printed, and the reason; nothing else passes.
 """
 
+import ast
+import itertools
+import math
+import operator
 import tomllib
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from fnmatch import fnmatchcase
+from fractions import Fraction
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import sympy
+
 from modeler.core.errors import RobotError
-from modeler.core.plain import built
+from modeler.core.expression import parse
+from modeler.core.json import built
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.result import BaseParameters
+from modeler.formulas.coefficients import CoefficientTable, coefficient_table
+from modeler.papers.quotation import (
+    Amount,
+    Monomial,
+    QuotationError,
+    Sum,
+    read_sum,
+    sum_text,
+    times,
+)
+from modeler.robot.read import read_robot
+from modeler.robot.robot import Robot
 
 _FOLDER = Path(__file__).parent / "library"
 
@@ -157,3 +183,230 @@ def _line(entry: Mapping[str, Any]) -> PrintedLine:
     assert bool(entry.get("quote")) != bool(entry.get("ours")), f"{entry} is quoted or ours"
     assert entry.get("slip", "scan") in SLIPS, f"{entry['slip']} is no slip"
     return built(PrintedLine, entry)
+
+
+# What is derived of a robot, in the form in which quotations are compared with it.
+#
+# Numbers and sets of names are asked for in a small arithmetic: `count(zero("*11"))`,
+# `count(base) - 3`, `100*b/abs(a)`: names, calls, sums and products, and comparisons for what must
+# hold.
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A robot with its model and base parameters."""
+
+    robot: Robot
+    model: SymbolicModel
+    base: BaseParameters
+
+    @property
+    def values(self) -> Mapping[str, float]:
+        """Nominal values of the geometric symbols."""
+        return self.model.geometry.values
+
+    @cached_property
+    def relations(self) -> Mapping[str, Sum]:
+        """Every base parameter as a sum of standard parameters."""
+        return {
+            p.name: {
+                times(monomial, ((term.parameter, 1),)): value
+                for term in p.terms
+                for monomial, value in sum_of(term.coefficient).items()
+            }
+            for p in self.base.parameters
+        }
+
+    @cached_property
+    def standard(self) -> tuple[str, ...]:
+        """Names of the standard parameters."""
+        return tuple(column.name for column in self.base.columns)
+
+    @cached_property
+    def kept(self) -> frozenset[str]:
+        """Standard parameters whose columns are those of base parameters."""
+        return frozenset(self.base.columns[p.column].name for p in self.base.parameters)
+
+    @cached_property
+    def grouping(self) -> Mapping[str, list[sympy.Rational]]:
+        """By standard parameter: how much of it is in each base parameter, at nominal values."""
+        found = {name: [sympy.S.Zero] * self.base.rank for name in self.standard}
+        for k, parameter in enumerate(self.base.parameters):
+            for term in parameter.terms:
+                put = {s: self.values[s.name] for s in term.coefficient.free_symbols}
+                found[term.parameter][k] = sympy.Rational(float(term.coefficient.subs(put)))
+        return found
+
+    @cached_property
+    def table(self) -> CoefficientTable:
+        """Coefficients of the closed form."""
+        return coefficient_table(self.model, self.base)
+
+    @cached_property
+    def tied(self) -> Mapping[str, Sum]:
+        """Joint variables that follow others, and those that follow themselves."""
+        free = {j.variable: read_sum(j.variable, str) for j in self.robot.moving}
+        tied = {f"q{name}": read_sum(text.text, str) for name, text in self.robot.relations.items()}
+        return free | tied
+
+
+def derived_robot(name: str, variant: Variant | None = None) -> Derived:
+    """A built-in robot, or one of that name that differs from a built-in one as `variant` says."""
+    robot = read_robot(name if variant is None else variant.of)
+    if variant is not None:
+        robot = replace(robot.opened() if variant.open else robot, name=name)
+        if variant.gravity:
+            x, y, z = (parse(text) for text in variant.gravity)
+            robot = replace(robot, gravity=(x, y, z))
+    model = derive_model(robot)
+    return Derived(robot, model, base_parameters(model))
+
+
+def sum_of(expression: sympy.Expr) -> Sum:
+    """An expression of symbols, sines and cosines as a sum."""
+    found: dict[Monomial, Amount] = {}
+    for term in sympy.Add.make_args(sympy.expand(expression)):
+        number, rest = term.as_coeff_Mul()
+        if number:
+            value = sympy.Rational(number)
+            powers = sorted((str(b), int(e)) for b, e in rest.as_powers_dict().items() if b != 1)
+            found[tuple(powers)] = Amount(Fraction(int(value.p), int(value.q)))
+    return found
+
+
+def expression_of(whole: Sum, symbols: Mapping[str, sympy.Expr]) -> sympy.Expr:
+    """A sum as an expression, with these for its names where they are given."""
+    return sympy.sympify(sum_text(whole).replace("^", "**"), symbols)
+
+
+def without_squared_sines(expression: sympy.Expr) -> sympy.Expr:
+    """The normal form in which an expression that is zero for all angles is 0."""
+    found = sympy.expand(expression)
+    for sine in found.atoms(sympy.sin):
+        s, square = sympy.Dummy(), 1 - sympy.cos(sine.args[0]) ** 2
+        found = sympy.rem(found.subs(sine, s), s**2 - square, s).subs(s, sine)
+    return sympy.expand(found)
+
+
+_BINARY: Mapping[type, Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul,
+    ast.Div: operator.truediv, ast.Pow: operator.pow, ast.Mod: operator.mod,
+}  # fmt: skip
+_COMPARED: Mapping[type, Callable[[Any, Any], bool]] = {
+    ast.Lt: operator.lt, ast.LtE: operator.le, ast.Gt: operator.gt, ast.GtE: operator.ge,
+    ast.Eq: operator.eq,
+}  # fmt: skip
+
+
+def evaluate(text: str, values: Mapping[str, Any]) -> Any:
+    """The value of an expression.
+
+    Args:
+        text: of the language above.
+        values: of its names; functions are values too.
+
+    Raises:
+        QuotationError: it asks for what there is not.
+    """
+    return _walk(ast.parse(text, mode="eval").body, values, text)
+
+
+def _walk(node: ast.expr, values: Mapping[str, Any], text: str) -> Any:
+    if isinstance(node, ast.Constant):
+        return node.value
+    if isinstance(node, ast.Name) and node.id in values:
+        return values[node.id]
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        return -_walk(node.operand, values, text)
+    if isinstance(node, ast.BinOp):
+        left, right = (_walk(side, values, text) for side in (node.left, node.right))
+        return _BINARY[type(node.op)](left, right)
+    if isinstance(node, ast.Compare):
+        chain = [_walk(part, values, text) for part in (node.left, *node.comparators)]
+        steps = zip(node.ops, chain, chain[1:], strict=False)
+        return all(_COMPARED[type(op)](a, b) for op, a, b in steps)
+    if isinstance(node, ast.Call):
+        arguments = [_walk(argument, values, text) for argument in node.args]
+        return _walk(node.func, values, text)(*arguments)
+    raise QuotationError(f'"{text}" asks for {ast.unparse(node)}, which is not known here')
+
+
+_ARITHMETIC: Mapping[str, Any] = {
+    "abs": abs, "pi": math.pi, "count": len,
+    "mean": lambda *x: sum(x) / len(x),
+    "falling": lambda *x: all(a >= b for a, b in itertools.pairwise(x)),
+}  # fmt: skip
+
+
+def quantities(derived: Derived) -> dict[str, Any]:
+    """What can be asked of a robot: sets of names, by pattern, and what counts them.
+
+    `standard`, `base`, `zero` (without effect), `grouped` (neither base nor zero), `joints`,
+    `actuated`, `passive` (of the table, the platform's left out), `links`; `within(a, b)`: what of
+    a is grouped with b.
+    """
+    robot, base = derived.robot, derived.base
+    joints = [joint for joint in robot.moving if joint.name not in robot.platform]
+    zero = frozenset(base.unidentifiable)
+    standard = frozenset(derived.standard)
+    sets: dict[str, frozenset[str]] = {
+        "standard": standard,
+        "base": frozenset(derived.relations),
+        "zero": zero,
+        "grouped": standard - zero - derived.kept,
+        "joints": frozenset(joint.name for joint in joints),
+        "actuated": frozenset(joint.name for joint in joints if joint.actuated),
+        "passive": frozenset(joint.name for joint in joints if not joint.actuated),
+        "links": frozenset(
+            robot.joints[c.row].name for c in base.columns if c.kind == "inertial"
+        ),
+    }  # fmt: skip
+    found = {**_ARITHMETIC, **{name: _pattern(members) for name, members in sets.items()}}
+    found["prefix"] = lambda names: frozenset(
+        column.prefix for column in base.columns if column.name in names
+    )
+    found["efforts"] = lambda names: frozenset(f"Gamma{name}" for name in names)
+    found["within"] = lambda own, others: _within(derived, own, others)
+    found["terms"] = lambda name: len(derived.relations.get(name, ()))
+    return found | (_coefficients(derived) if robot.physical else {})
+
+
+def _pattern(members: frozenset[str]) -> Callable[..., frozenset[str]]:
+    def chosen(*patterns: str) -> frozenset[str]:
+        if not patterns:
+            return members
+        return frozenset(n for n in members if any(fnmatchcase(n, p) for p in patterns))
+
+    return chosen
+
+
+def _within(derived: Derived, own: frozenset[str], others: frozenset[str]) -> frozenset[str]:
+    """What of `own` is grouped and a combination of `others` and of what is kept of `own`."""
+    columns = derived.grouping
+    basis = [columns[name] for name in sorted(others | (own & derived.kept)) if any(columns[name])]
+    rank = sympy.Matrix(basis).rank()
+    grouped = (name for name in own - derived.kept if any(columns[name]))
+    return frozenset(n for n in grouped if sympy.Matrix([*basis, columns[n]]).rank() == rank)
+
+
+def _coefficients(derived: Derived) -> dict[str, Any]:
+    """Of a robot whose links have a paper's letters."""
+    table = derived.table
+    known = table.identifiability
+    return {
+        "coefficients": len(table.coefficients),
+        "independent": len(table.relations.independent),
+        "letters": len(known.letters),
+        "appearing": len(known.appearing),
+        "vanishing": frozenset(known.vanishing),
+        "identifiable": known.jacobian_rank,
+        "missing": lambda letter: _missing(derived, letter),
+        "monomials": lambda name: sum(c.function == name for c in table.coefficients),
+    }
+
+
+def _missing(derived: Derived, letter: str) -> frozenset[str]:
+    """Functions that are zero: S_ijk with j > k by convention, and those that vanish."""
+    names = [joint.name for joint in derived.robot.moving]
+    every = {letter + i + j + k for i in names for j in names for k in names}
+    return frozenset(every - set(derived.table.closed.by_name))

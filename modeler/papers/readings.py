@@ -8,16 +8,19 @@ from typing import Any
 
 import sympy
 
+from modeler.derivation.geometry import Row
+from modeler.derivation.kinematics import base_poses, pose, poses
 from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered, renamer
-from modeler.papers.derived import (
+from modeler.papers.paper import (
     Derived,
+    Paper,
+    PrintedLine,
     evaluate,
     expression_of,
     quantities,
     sum_of,
     without_squared_sines,
 )
-from modeler.papers.paper import Paper, PrintedLine
 from modeler.papers.quotation import (
     Amount,
     Monomial,
@@ -31,9 +34,7 @@ from modeler.papers.quotation import (
     sum_text,
 )
 from modeler.papers.wrist import WRIST_READINGS
-from modeler.robot import Joint
-from modeler.symbolic.geometry import Row
-from modeler.symbolic.kinematics import base_poses, pose, poses
+from modeler.robot.robot import Joint
 
 _LEGS = "123456"
 _ONE = Amount(Fraction(1))

@@ -11,20 +11,26 @@ from typing import Any
 import sympy
 
 from modeler.core.expression import Expression, parse
-from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered
-from modeler.papers.derived import Derived, expression_of, sum_of, without_squared_sines
-from modeler.papers.paper import Paper, PrintedLine
-from modeler.papers.quotation import Amount, QuotationError, Sum, amount, read_sum, sum_text
-from modeler.terms import CoefficientTable
-from modeler.terms.checks import (
+from modeler.formulas.coefficients import CoefficientTable
+from modeler.formulas.print_checks import (
     check_independent,
     check_solutions,
     wrong_definitions,
     wrong_functions,
 )
-from modeler.terms.friction import check_friction
-from modeler.terms.printed import Print
-from modeler.terms.text import monomial_text
+from modeler.formulas.print_report import check_friction
+from modeler.formulas.printed import Print
+from modeler.formulas.text import monomial_text
+from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered
+from modeler.papers.paper import (
+    Derived,
+    Paper,
+    PrintedLine,
+    expression_of,
+    sum_of,
+    without_squared_sines,
+)
+from modeler.papers.quotation import Amount, QuotationError, Sum, amount, read_sum, sum_text
 
 _PLACES = {"definition": "section 2.2", "function": "section 2.2", "solution": "section 4"}
 

@@ -1,13 +1,127 @@
 """Single values of a robot file: expressions, numbers, names, lists."""
 
+import keyword
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import Any
 
-from modeler.core.expression import LARGEST_EXPONENT, Expression, ExpressionError, parse
-from modeler.robot.linear import HighPower, Linear, NotLinear, linear_form
-from modeler.robot.place import Place, listed, near, shown
+from modeler.core import rounded
+from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, ExpressionError, parse
+from modeler.robot.robot import Place, listed, near, shown
+
+# Expressions that are linear in the joint variables, taken apart.
+
+
+class NotLinear(ValueError):
+    """The expression is not linear in the variables."""
+
+
+class HighPower(ArithmeticError):
+    """An exponent beyond `LARGEST_EXPONENT`."""
+
+
+@dataclass(frozen=True)
+class Linear:
+    """constant + sum of coefficient * variable."""
+
+    constant: float
+    coefficients: Mapping[str, float] = field(default_factory=dict)
+
+    def __add__(self, other: "Linear") -> "Linear":
+        names = {**self.coefficients, **other.coefficients}
+        return Linear(
+            self.constant + other.constant,
+            {n: self.coefficients.get(n, 0.0) + other.coefficients.get(n, 0.0) for n in names},
+        )
+
+    def __neg__(self) -> "Linear":
+        return self._times(-1.0)
+
+    def __sub__(self, other: "Linear") -> "Linear":
+        return self + -other
+
+    def __mul__(self, other: "Linear") -> "Linear":
+        if self.coefficients and other.coefficients:
+            raise NotLinear
+        if self.coefficients:
+            return self._times(other.constant)
+        return other._times(self.constant)
+
+    def __truediv__(self, other: "Linear") -> "Linear":
+        if other.coefficients:
+            raise NotLinear
+        if other.constant == 0.0:
+            raise ZeroDivisionError
+        return Linear(
+            self.constant / other.constant,
+            {n: c / other.constant for n, c in self.coefficients.items()},
+        )
+
+    def __pow__(self, exponent: "Linear | int") -> "Linear":
+        power = exponent if isinstance(exponent, int) else exponent._number()
+        if abs(power) > LARGEST_EXPONENT:
+            raise HighPower
+        return Linear(_real(rounded.power(self._number(), power)))
+
+    def _times(self, factor: float) -> "Linear":
+        return Linear(self.constant * factor, {n: c * factor for n, c in self.coefficients.items()})
+
+    def _number(self) -> float:
+        if self.coefficients:
+            raise NotLinear
+        return self.constant
+
+
+def linear_form(expression: Expression, symbols: Mapping[str, float]) -> Linear:
+    """The expression as constant + sum of coefficient * variable; zero coefficients left out.
+
+    Every name that is not among `symbols` is a variable.
+
+    Raises:
+        NotLinear: a variable stands in a product, a power or a function.
+        HighPower: an exponent is beyond `LARGEST_EXPONENT`.
+        ArithmeticError: division by zero, overflow, or no real value.
+    """
+    values = {
+        name: Linear(symbols[name]) if name in symbols else Linear(0.0, {name: 1.0})
+        for name in expression.names
+    }
+    form = expression.fold(values, _LIFTED, Linear(math.pi), _constant)
+    form = Linear(form.constant, {n: c for n, c in form.coefficients.items() if c != 0.0})
+    if not all(map(math.isfinite, (form.constant, *form.coefficients.values()))):
+        raise OverflowError
+    return form
+
+
+def _lifted(name: str) -> Callable[["Linear"], "Linear"]:
+    function = rounded.FUNCTIONS[name]
+
+    def lifted(argument: Linear) -> Linear:
+        try:
+            return Linear(function(argument._number()))
+        except NotLinear:
+            raise
+        except ValueError as error:  # sqrt(-1)
+            raise ArithmeticError from error
+
+    return lifted
+
+
+_LIFTED = {name: _lifted(name) for name in FUNCTIONS}
+
+
+def _constant(value: Fraction) -> Linear:
+    return Linear(float(value))
+
+
+def _real(value: complex | float) -> float:
+    if isinstance(value, complex):
+        raise ArithmeticError
+    return float(value)
+
 
 LARGEST = 1e12
 """Size of any number, in SI units: squares and products of larger ones leave double precision."""
@@ -256,3 +370,93 @@ def _last_digit(text: str) -> float:
     """One unit of the last decimal that is written: 0.01 for 1.57."""
     decimals = [len(digits) for digits in re.findall(r"\.(\d*)", text)]
     return 10.0 ** -max(decimals, default=0)
+
+
+# The `[symbols]` table and the gravity of a robot file.
+
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+# Symbols become names in C.
+C_WORDS = """
+    auto break case char const continue default do double else enum extern float for goto if
+    inline int long register restrict return short signed sizeof static struct switch typedef
+    union unsigned void volatile while
+"""
+
+
+def read_symbols(value: Any, variables: Collection[str], place: Place) -> dict[str, Expression]:
+    """Symbols and their values, so ordered that each stands after those its value uses.
+
+    Args:
+        value: the table.
+        variables: names of the joint variables, which symbols must not shadow.
+        place: where it stands.
+
+    Raises:
+        RobotError: a bad name, a value that is no number, a circle of values.
+    """
+    table = table_at(value, place, "[symbols] D3 = 0.45")
+    symbols = {}
+    for name, cell in table.items():
+        _check_name(name, variables, place)
+        symbols[name] = expression_at(cell, place.at(name))
+        check_declared(symbols[name], table, place.at(name))
+    return _ordered(symbols, place)
+
+
+def read_gravity(
+    value: Any, variables: Collection[str], symbols: Mapping[str, float], place: Place
+) -> tuple[Expression, Expression, Expression]:
+    """Acceleration of gravity in frame 0, m/s2.
+
+    Raises:
+        RobotError: not three entries, or entries that are not constants.
+    """
+    cells = list_at(value, place, '[0, 0, "-g"]', length=3)
+    for number, cell in enumerate(cells, start=1):
+        here = place.at(f"entry {number}")
+        expression = expression_at(cell, here)
+        moving = sorted(expression.names & set(variables))
+        if moving:
+            raise here.error(
+                f"got {shown(expression.text)}, which uses the joint variable {moving[0]}; "
+                "gravity is constant in frame 0: expected numbers and symbols"
+            )
+        check_declared(expression, symbols, here)
+        length_at(expression, symbols, here)
+    x, y, z = (expression_at(cell, place) for cell in cells)
+    return x, y, z
+
+
+def _check_name(name: str, variables: Collection[str], place: Place) -> None:
+    if not name.isascii() or not _NAME.fullmatch(name):
+        raise place.error(
+            f"got the name {shown(name)}; expected a letter, then letters, digits or _, such as D3"
+        )
+    check_name_length(name, place)
+    taken = {
+        "a joint variable": name in variables,
+        "the number pi": name == "pi",
+        "a function": name in FUNCTIONS,
+        "a word of the C language": name in C_WORDS.split(),
+        "a word of the expression language": keyword.iskeyword(name),
+    }
+    for what, is_taken in taken.items():
+        if is_taken:
+            raise place.error(f"{shown(name)} is the name of {what}; choose another name")
+
+
+def _ordered(symbols: Mapping[str, Expression], place: Place) -> dict[str, Expression]:
+    ordered: dict[str, Expression] = {}
+    values: dict[str, float] = {}
+    waiting = dict(symbols)
+    while waiting:
+        ready = next((n for n, e in waiting.items() if e.names <= ordered.keys()), None)
+        if ready is None:
+            names = ", ".join(waiting)
+            raise place.error(
+                f"the values of {names} refer to each other in a circle; give one of them a number"
+            )
+        ordered[ready] = waiting.pop(ready)
+        values[ready] = form_at(ordered[ready], values, place.at(ready)).constant
+    return ordered

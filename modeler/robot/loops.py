@@ -1,14 +1,26 @@
 """The `[loops]` and `[home]` of a robot file."""
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from modeler.robot.cells import list_at, name_of, number_at, table_at, text_at
-from modeler.robot.joint import Joint, JointKind
-from modeler.robot.other_joints import other_joint
-from modeler.robot.place import Place, listed, near, shown
-from modeler.robot.robot import LOOP_KINDS, Loop
+from modeler.core.expression import Expression
+from modeler.robot.cells import (
+    LARGEST_RATIO,
+    check_declared,
+    check_size,
+    expression_at,
+    form_at,
+    list_at,
+    name_of,
+    number_at,
+    table_at,
+    text_at,
+)
+from modeler.robot.robot import LOOP_KINDS, Joint, JointKind, Loop, Place, listed, near, shown
+from modeler.robot.sections import other_joint
+from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
 
 MOST_LOOPS = 50
 """As many as legs."""
@@ -134,3 +146,277 @@ def _check_turn(joint: Joint, value: float, place: Place) -> None:
             f"got {value:g} rad, which is more than a turn; angles are in radians: write "
             f'"{value:g}*pi/180" for degrees'
         )
+
+
+# Joints that follow others: `[relations]`, and cells that hold other rows' variables.
+
+
+_RELATION_EXAMPLE = '[relations] q4 = "-q3"'
+
+
+def read_relations(
+    value: Any,
+    rows: Sequence[tuple[Row, Place]],
+    symbols: Mapping[str, float],
+    place: Place,
+) -> dict[str, Expression]:
+    """The relations of a file, by row; rows that follow others become passive in `rows`.
+
+    A row whose theta (revolute) or r (prismatic) holds other rows' variables and not its own
+    follows them: its variable is that cell.
+
+    Raises:
+        RobotError: unknown joints, a relation that is not linear, a circle, an actuated joint
+            that follows others.
+    """
+    kinds = {row["j"]: row_kind(row, spot) for row, spot in rows}
+    variables = {f"q{name}": name for name, kind in kinds.items() if kind in HOME}
+    places = {row["j"]: spot for row, spot in rows}
+    found: dict[str, tuple[Expression, Place]] = {}
+    for row, spot in rows:
+        _take_cell(row, spot.at(f"column {HOME.get(kinds[row['j']], '')}"), kinds, found)
+    for key, cell in table_at(value, place, _RELATION_EXAMPLE).items():
+        here = place.at(shown(key))
+        if key not in variables:
+            raise here.error(
+                f"is no joint variable{near(key, variables)}; expected one such as "
+                f"{_RELATION_EXAMPLE}"
+            )
+        if variables[key] in found:
+            raise here.error(f"{key} stands as a relation in the table too; keep one of them")
+        found[variables[key]] = (expression_at(cell, here), here)
+    for name, (expression, here) in found.items():
+        _check(name, expression, variables, symbols, here)
+        _make_passive(next(row for row, _ in rows if row["j"] == name), places[name], here)
+    _check_circles({name: expression for name, (expression, _) in found.items()}, place)
+    return {name: expression for name, (expression, _) in found.items()}
+
+
+def _take_cell(
+    row: Row, place: Place, kinds: Mapping[str, Any], found: dict[str, tuple[Expression, Place]]
+) -> None:
+    """Take a cell that is a relation out of the row."""
+    column, own = HOME.get(kinds[row["j"]]), f"q{row['j']}"
+    if column is None or not isinstance(row.get(column), str):
+        return
+    expression = expression_at(row[column], place)
+    others = {n for n in expression.names if n.startswith("q") and n[1:] in kinds and n != own}
+    if others and own not in expression.names:
+        found[row["j"]] = (expression, place)
+        row[column] = own
+
+
+def _check(
+    name: str,
+    expression: Expression,
+    variables: Mapping[str, str],
+    symbols: Mapping[str, float],
+    place: Place,
+) -> None:
+    check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, place)
+    if f"q{name}" in expression.names:
+        raise place.error(
+            f"got {shown(expression.text)}, which holds q{name} itself; expected other joints"
+        )
+    form = form_at(expression, symbols, place, "-q2 - pi/2")
+    check_size(expression, form.coefficients.values(), LARGEST_RATIO, place)
+    if not form.coefficients:
+        raise place.error(
+            f"got {shown(expression.text)}, a constant; a joint that does not move has sigma 2"
+        )
+
+
+def _make_passive(row: Row, place: Place, relation: Place) -> None:
+    if row.get("mu", 0) == 1:
+        raise place.at("column mu").error(
+            f"got 1, and q{row['j']} follows other joints ({relation.spot}); write 0, or remove "
+            "the relation"
+        )
+    row["mu"] = 0
+
+
+def _check_circles(relations: Mapping[str, Expression], place: Place) -> None:
+    left = dict(relations)
+    while left:
+        names = {f"q{name}" for name in left}
+        ready = [name for name, expression in left.items() if not expression.names & names]
+        if not ready:
+            raise place.error(
+                f"{', '.join(f'q{name}' for name in left)} follow each other in a circle; leave "
+                "one of them free"
+            )
+        for name in ready:
+            del left[name]
+
+
+# Legs that are alike: what holds {i} is written once and stands for every leg.
+
+
+MARK = "{i}"
+MOST_LEGS = 50
+"""Legs of three rows fill the longest table."""
+_NAME = re.compile(r"[A-Za-z0-9]+")
+_UNTOUCHED = ("legs", "shared", "notes", "title", "name", "log")
+
+
+def expanded(document: dict[str, Any], place: Place) -> dict[str, Any]:
+    """The document with every {i} replaced by the names of the legs.
+
+    Consecutive rows of a table with {i} are repeated leg after leg; so is an entry of a list, and
+    a line `key = value`.
+
+    Raises:
+        RobotError: {i} without `legs`, wrong names of legs, another mark in braces.
+    """
+    legs = leg_names(document.get("legs"), place.at("legs"))
+    return {
+        key: value if key in _UNTOUCHED else _expanded(value, legs, place.at(key))
+        for key, value in document.items()
+    }
+
+
+def leg_names(value: Any, place: Place) -> tuple[str, ...]:
+    """Names of the legs; empty if the file has no `legs`.
+
+    Raises:
+        RobotError: not a list of different letters and digits.
+    """
+    if value is None:
+        return ()
+    legs = [name_of(leg) for leg in list_at(value, place, '["1", "2", "3"]')]
+    if len(legs) > MOST_LEGS:
+        raise place.error(
+            f"got {len(legs)} legs; expected at most {MOST_LEGS}: model a few of them, or parts of "
+            "the robot in files of their own"
+        )
+    for leg in legs:
+        if not isinstance(leg, str) or not _NAME.fullmatch(leg) or not leg.isascii():
+            raise place.error(
+                f'got {shown(leg)}; expected names of letters and digits, as in ["1", "2", "3"]'
+            )
+        if legs.count(leg) > 1:
+            raise place.error(f"{shown(leg)} stands there twice; give each leg its own name")
+    if not legs:
+        raise place.error('got no legs; expected their names, as in ["1", "2", "3"]')
+    return tuple(legs)
+
+
+def _expanded(value: Any, legs: Sequence[str], place: Place) -> Any:
+    if isinstance(value, dict):
+        found: dict[str, Any] = {}
+        for key, entry in value.items():
+            if MARK in key:
+                _need(legs, key, place)
+                found |= {_filled(key, leg): _filled(entry, leg) for leg in legs}
+            else:
+                found[_checked(key, place)] = _expanded(entry, legs, place.at(key))
+        return found
+    if isinstance(value, list):
+        return _expanded_list(value, legs, place)
+    return _checked(value, place)
+
+
+def _expanded_list(value: list[Any], legs: Sequence[str], place: Place) -> list[Any]:
+    found: list[Any] = []
+    block: list[Any] = []
+    for entry in [*value, None]:
+        marked = entry is not None and _marked(entry)
+        if marked:
+            _need(legs, entry, place)
+            block.append(entry)
+        # Rows of a table go leg by leg; single entries each for itself.
+        if block and not (marked and isinstance(entry, list)):
+            found += [_filled(one, leg) for leg in legs for one in block]
+            block = []
+        if not marked and entry is not None:
+            found.append(_expanded(entry, legs, place))
+    return found
+
+
+def _marked(value: Any) -> bool:
+    if isinstance(value, list):
+        return any(_marked(entry) for entry in value)
+    return isinstance(value, str) and MARK in value
+
+
+def _filled(value: Any, leg: str) -> Any:
+    if isinstance(value, list):
+        return [_filled(entry, leg) for entry in value]
+    return value.replace(MARK, leg) if isinstance(value, str) else value
+
+
+def _need(legs: Sequence[str], value: Any, place: Place) -> None:
+    if not legs:
+        raise place.error(
+            f"got {shown(value)}: {MARK} stands for the legs, and the file names none; write "
+            'legs = ["1", "2", "3"] at its top'
+        )
+
+
+def _checked(value: Any, place: Place) -> Any:
+    if isinstance(value, str) and (mark := re.search(r"\{[^}]*\}?", value)):
+        raise place.error(
+            f"got {shown(value)} with {shown(mark[0])}; the only mark is {MARK}, "
+            "for the legs; correct it"
+        )
+    return value
+
+
+# The moving platform of a parallel robot: rows of the table that move it freely.
+
+
+_PLATFORM_EXAMPLE = '[platform] name = "P", motion = "translation"'
+_MOTIONS = {
+    "translation": ("x1", "y1", "1"),
+    "planar": ("x1", "y1", "0"),
+    "free": ("x1", "y1", "z1", "a0", "b0", "0"),
+}
+"""Per motion, the rows: suffix of the name and sigma."""
+
+
+def read_platform(value: Any, place: Place) -> tuple[list[tuple[Row, Place]], tuple[str, ...]]:
+    """Rows that carry the platform, and their names; none without a platform.
+
+    They stand before the table's, so that frames may be fixed on the platform. Each turns the axes
+    cyclically (gamma = alpha = pi/2: z is the x axis of the frame before), so that the travels are
+    along x0, y0, z0 and the platform's axes at rest those of frame 0.
+
+    translation: travels x, y, z; planar: travels x, y and a turn about z; free: travels x, y, z
+    and turns with R = Rx(a) Ry(b) Rz(c). Only the last row carries the platform.
+
+    Raises:
+        RobotError: unknown keys or motion, no name.
+    """
+    if value is None:
+        return [], ()
+    name, motion = _stated(table_at(value, place, _PLATFORM_EXAMPLE), place)
+    names = [name if len(step) == 1 else f"{name}{step[0]}" for step in _MOTIONS[motion]]
+    antecedents = ["0", *names]
+    rows = []
+    for step, own, antecedent in zip(_MOTIONS[motion], names, antecedents, strict=False):
+        sigma = int(step[-1])
+        row: Row = {
+            "j": own, "a": antecedent, "mu": 0, "sigma": sigma, "gamma": "pi/2", "alpha": "pi/2",
+            ("r" if sigma else "theta"): f"q{own}",
+        }  # fmt: skip
+        rows.append((row, place))
+    return rows, tuple(names)
+
+
+def _stated(table: dict[str, Any], place: Place) -> tuple[str, str]:
+    """Name and motion of the platform."""
+    keys = ("name", "motion")
+    for key in table:
+        if key not in keys:
+            raise place.error(f"unknown key {shown(key)}{near(key, keys)}; expected {listed(keys)}")
+    for key in ("name", "motion"):
+        if key not in table:
+            raise place.error(f"{key} is missing; write {_PLATFORM_EXAMPLE}")
+    name = text_at(name_of(table["name"]), place.at("name"), '"P"')
+    if not ROW_NAME.fullmatch(name):
+        raise place.at("name").error(f'got {shown(name)}; expected letters and digits such as "P"')
+    motion = table["motion"]
+    if motion not in _MOTIONS:
+        hint = near(motion, _MOTIONS) if isinstance(motion, str) else ""
+        raise place.at("motion").error(f"got {shown(motion)}{hint}; expected {listed(_MOTIONS)}")
+    return name, motion

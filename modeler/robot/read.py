@@ -13,27 +13,37 @@ from typing import Any
 
 from modeler.core.errors import RobotError
 from modeler.core.files import read_text
-from modeler.core.json_text import TomlError, parse_toml
-from modeler.robot.builtin import builtin_names, builtin_text
+from modeler.core.json import TomlError, parse_toml
 from modeler.robot.cells import (
     check_name_length,
     form_at,
     list_at,
     plain_number,
+    read_gravity,
+    read_symbols,
     table_at,
     text_at,
 )
-from modeler.robot.converted import check_known_format, converted
-from modeler.robot.effects import needs_reference, read_effects
-from modeler.robot.joint import Joint
-from modeler.robot.legs import expanded, leg_names
-from modeler.robot.loops import read_home, read_loops
-from modeler.robot.motors import check_driven, motor_rows, read_motors, with_driven
-from modeler.robot.own_effects import read_own_effects
-from modeler.robot.place import Place, listed, near, shown
-from modeler.robot.platform import read_platform
-from modeler.robot.relations import read_relations
-from modeler.robot.robot import Loop, Robot
+from modeler.robot.effects import needs_reference, read_effects, read_own_effects
+from modeler.robot.library import builtin_names, builtin_text, check_known_format, converted
+from modeler.robot.loops import (
+    expanded,
+    leg_names,
+    read_home,
+    read_loops,
+    read_platform,
+    read_relations,
+)
+from modeler.robot.motors import (
+    check_driven,
+    motor_rows,
+    read_links,
+    read_motors,
+    read_shared,
+    shared_names,
+    with_driven,
+)
+from modeler.robot.robot import Joint, Loop, Place, Robot, listed, near, shown
 from modeler.robot.sections import (
     read_coupling,
     read_drive_gains,
@@ -41,8 +51,6 @@ from modeler.robot.sections import (
     read_physical,
     read_reference,
 )
-from modeler.robot.sharing import read_links, read_shared, shared_names
-from modeler.robot.symbols import read_gravity, read_symbols
 from modeler.robot.table import Row, table_joints, table_rows
 
 _KEYS = (

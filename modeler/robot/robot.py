@@ -1,14 +1,132 @@
 """The robot as the user states it: data, no derivation."""
 
-from collections.abc import Mapping
+import difflib
+import enum
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
+from typing import Any
 
 from modeler.core.brief import Brief
+from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
-from modeler.core.presented import Presented
-from modeler.effects import CATALOGUE, Effect, Form, effect_named
-from modeler.robot.joint import Joint
+from modeler.core.result import Presented
+from modeler.effects.catalogue import CATALOGUE, effect_named
+from modeler.effects.effect import Effect, Form
+
+# Where in a robot file something stands, and how a mistake there is told.
+
+
+_LONGEST = 60  # letters of the user's text that are quoted
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place in a robot file: `arm.toml: [mdh] row "3", column theta`."""
+
+    file: str
+    spot: str = ""
+
+    def at(self, spot: str) -> "Place":
+        """The place inside this one."""
+        return Place(self.file, f"{self.spot}, {spot}" if self.spot else spot)
+
+    def error(self, what: str) -> RobotError:
+        """The error to raise: the place and `what`, as one line."""
+        where = f"{self.file}: {self.spot}" if self.spot else self.file
+        words = (w if len(w) <= _LONGEST else f"{w[:_LONGEST]}..." for w in what.split())
+        return RobotError(" ".join([*f"{where}:".split(), *words]))
+
+
+def shown(value: Any) -> str:
+    """The user's value as he wrote it, shortened: `"q1"`, `1.57`, `[1, 2]`."""
+    if isinstance(value, bool):
+        text = str(value).lower()
+    elif isinstance(value, str):
+        text = f'"{value}"'
+    else:
+        try:
+            text = f"{value!r}"
+        except ValueError:  # Python prints no integer of more than 4300 digits
+            text = "a number of thousands of digits"
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 4]} ..."
+
+
+def listed(names: Iterable[str]) -> str:
+    """`a, b, c`; `none` if there is nothing to list."""
+    return ", ".join(names) or "none"
+
+
+def near(name: str, names: Iterable[str]) -> str:
+    """` (did you mean "viscous"?)` for a misspelt name, else nothing."""
+    # Letter case is the commonest slip: d3 for D3.
+    known = {known.lower(): known for known in names}
+    found = difflib.get_close_matches(name.lower(), known, n=2, cutoff=0.6)
+    if not found:
+        return ""
+    return f" (did you mean {' or '.join(shown(known[key]) for key in found)}?)"
+
+
+# One row of a modified Denavit-Hartenberg table.
+
+
+class JointKind(enum.IntEnum):
+    """sigma of the table."""
+
+    REVOLUTE = 0
+    PRISMATIC = 1
+    FIXED = 2
+
+
+@dataclass(frozen=True)
+class Joint(Brief):
+    """Frame j on link j, placed from its antecedent frame a(j).
+
+    T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r) (Khalil and Kleinfinger 1986);
+    the joint axis is z_j. Lengths in m, angles in rad.
+
+    Attributes:
+        name: row name; q<name> is its variable, in `theta` (revolute) or `r` (prismatic).
+        antecedent: name of the antecedent row, "0" for the base.
+        actuated: mu = 1.
+    """
+
+    name: str
+    antecedent: str
+    actuated: bool
+    kind: JointKind
+    gamma: Expression
+    b: Expression
+    alpha: Expression
+    d: Expression
+    theta: Expression
+    r: Expression
+
+    @property
+    def variable(self) -> str:
+        """Name of the joint variable."""
+        return f"q{self.name}"
+
+    @property
+    def moves(self) -> bool:
+        """False for a frame fixed on its antecedent (sigma = 2), which carries no link."""
+        return self.kind is not JointKind.FIXED
+
+    @property
+    def angular(self) -> bool:
+        """True for a revolute joint."""
+        return self.kind is JointKind.REVOLUTE
+
+    @property
+    def unit(self) -> str:
+        """Unit of the joint variable."""
+        return "rad" if self.angular else "m"
+
+    @property
+    def effort_unit(self) -> str:
+        """Unit of the joint torque or force."""
+        return "N m" if self.angular else "N"
+
 
 INERTIAL = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 """The ten standard inertial parameters of a link at the origin of its frame, in that frame
@@ -137,7 +255,7 @@ class Robot(Presented):
         drive_gains: joint torque per unit of the logged drive current, by joint.
         limits: range of motion for simulation, by joint.
         physical: the letters of a paper for the links, by joint.
-        terms: how a paper prints its coefficients (see `modeler.terms`).
+        terms: how a paper prints its coefficients (see `modeler.formulas`).
         log: which columns of logs are ours, and in which units (see `modeler.logs`).
         relations: variables of joints that follow others: row -> its variable as a linear
             expression of the variables of other rows (`q4 = "-q3"`).

@@ -1,10 +1,15 @@
 """The tables of a robot file that name joints: effects, coupling, drives, limits, links."""
 
-from collections.abc import Collection, Mapping
+import itertools
+import math
+import random
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from modeler.core.expression import Expression
+from modeler.effects.effect import VARIABLES, EffectColumn, Form, Shape
 from modeler.robot.cells import (
+    LARGEST,
     LARGEST_RATIO,
     check_declared,
     check_size,
@@ -16,9 +21,7 @@ from modeler.robot.cells import (
     plain_number,
     table_at,
 )
-from modeler.robot.joint import Joint
-from modeler.robot.place import Place, listed, near, shown
-from modeler.robot.robot import Limits, PhysicalLink
+from modeler.robot.robot import Joint, Limits, PhysicalLink, Place, listed, near, shown
 
 Coupling = dict[str, dict[str, float]]
 
@@ -180,3 +183,123 @@ def _physical_link(value: Any, variables: Collection[str], place: Place) -> Phys
     x, y, z = letters("centre", list_at(table["centre"], place.at("centre"), "[x, y, z]", 3))
     inertia = letters("inertia", list_at(table["inertia"], place.at("inertia"), example, 6))
     return PhysicalLink(mass, (x, y, z), tuple(inertia))
+
+
+# Joints that close no loop under their name, and what to write in their place.
+
+
+_OTHER_NAME = {
+    "revolute": ("pin", "hinge", "pivot", "bearing", "rotary", "rotational", "turning"),
+    "spherical": ("ball", "socket", "ball joint", "point"),
+    "rigid": ("fixed", "weld", "welded", "clamped", "same"),
+    "prismatic": ("slider", "sliding", "slide", "linear", "guide"),
+    "universal": ("cardan", "hooke", "cross", "u", "gimbal"),
+    "planar": ("plane", "plane contact", "face"),
+    "cylindrical": ("sleeve", "bushing"),
+}
+
+_INSTEAD = {
+    "it ties directions alone; give the frame three passive prismatic rows along x, y, z without "
+    "a body ([links]) and close by rigid": ("orientation", "parallel", "parallel axes", "rotation"),
+    "it ties angles by a number, which no frame shows; write a relation such as [relations] "
+    'q4 = "-2*q3"': ("gear", "gears", "belt", "chain", "rack", "pulley", "timing belt"),
+    "it ties a turn to a travel; write a prismatic row after a revolute one and a relation such as "
+    '[relations] q4 = "0.005*q3/(2*pi)"': ("screw", "helical", "spindle", "nut"),
+    "rolling ties speeds, not positions, and is not supported; where a wheel rolls along a "
+    'straight line it is a relation such as [relations] q2 = "-q1/0.3"': (
+        "rolling", "wheel", "roll", "no slip", "nonholonomic",
+    ),
+    "a straight slot or rod is a passive prismatic row on the link that has it, with a fixed row "
+    "whose z points along the pin; close that by revolute (in space by spherical)": (
+        "slot", "pin in slot", "line", "point on line", "track",
+    ),
+    "contacts that slide along a shape are not supported; only the joints of this column close a "
+    "loop": ("cam", "contact", "curve", "surface"),
+    "a rod of constant length is a link: give it rows that turn (two; one in a plane), and close "
+    "its far end by spherical (in a plane by revolute)": (
+        "rod", "bar", "distance", "rope", "cable",
+    ),
+    "a point on a plane is two passive prismatic rows along the plane, without a body ([links]), "
+    "and spherical": ("point on plane",),
+    "several links on one pin are several loops: one revolute row for each link but one, all with "
+    "the frame of that one": ("triple", "triple pin", "double pin", "multiple", "common pin"),
+}  # fmt: skip
+
+
+def other_joint(kind: str) -> str | None:
+    """What to write instead of a joint of that name; None if the name says nothing."""
+    name = kind.strip().lower().replace("_", " ").replace("-", " ").removesuffix(" joint")
+    for known, names in _OTHER_NAME.items():
+        if name in names or name == known:
+            return f"write {known}"
+    for told, names in _INSTEAD.items():
+        if name in names:
+            return told
+    return None
+
+
+# Equations of effects have a finite real value wherever a joint may be.
+
+
+MOST = 100
+"""Combinations of the first values of shapes: a diagnosis tries each on each joint."""
+
+_STATES = 12
+
+
+def check_combinations(shapes: Sequence[Shape], place: Place) -> None:
+    """Refuse more combinations of shapes than a diagnosis should try.
+
+    Raises:
+        RobotError: more than `MOST`.
+    """
+    count = math.prod(len(shape.grid) for shape in shapes)
+    if count > MOST:
+        raise place.error(
+            f"got {count} combinations of {listed(shape.name for shape in shapes)}; expected at "
+            f"most {MOST}: give fewer values, they are refined"
+        )
+
+
+def check_finite(form: Form, place: Place, given: Mapping[str, float] | None = None) -> None:
+    """Refuse equations that have no real value up to `LARGEST` at rest or in a random state.
+
+    Args:
+        form: of an effect.
+        place: of its equations.
+        given: values of its shapes; None for all combinations of their first values.
+
+    Raises:
+        RobotError: says the equation and where it has no value.
+    """
+    states = list(_states())
+    for shapes in [given] if given is not None else _grid(form.shapes):
+        for column, state in itertools.product(form.columns, states):
+            if not _is_finite(column, {**state, **shapes}):
+                used = column.equation.names
+                values = {**{n: v for n, v in state.items() if n in used}, **shapes}
+                raise place.error(
+                    f"{column.prefix} = {shown(column.equation.text)} has no finite value at "
+                    f"{listed(f'{name} = {value:.3g}' for name, value in values.items())}; "
+                    f"expected one of at most {LARGEST:g} in every state of the joint, at rest too"
+                )
+
+
+def _grid(shapes: Sequence[Shape]) -> Iterator[Mapping[str, float]]:
+    for values in itertools.product(*(shape.grid for shape in shapes)):
+        yield {shape.name: value for shape, value in zip(shapes, values, strict=True)}
+
+
+def _states() -> Iterator[Mapping[str, float]]:
+    """Rest, and states with both signs of everything."""
+    yield dict.fromkeys(VARIABLES, 0.0)
+    draw = random.Random(0)
+    for _ in range(_STATES):
+        yield {name: draw.uniform(-3.0, 3.0) for name in VARIABLES}
+
+
+def _is_finite(column: EffectColumn, values: Mapping[str, float]) -> bool:
+    try:
+        return abs(column.equation.number(values)) <= LARGEST
+    except (ArithmeticError, ValueError, TypeError):  # a root of a negative number is complex
+        return False

@@ -18,8 +18,7 @@ from modeler.robot.cells import (
     name_of,
     table_at,
 )
-from modeler.robot.joint import Joint, JointKind
-from modeler.robot.place import Place, listed, near, shown
+from modeler.robot.robot import Joint, JointKind, Place, listed, near, shown
 
 COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
 _GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")

@@ -14,7 +14,7 @@ import pytest
 import modeler.api as api
 from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError
-from modeler.fit import Payload
+from modeler.estimation.payload import Payload
 from tests.notebook.session import session
 
 

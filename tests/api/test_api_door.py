@@ -9,7 +9,7 @@ import pytest
 
 import modeler.api as api
 import modeler.api.entries as entries
-from modeler.api.door import fitting
+from modeler.api.arguments import fitting
 from modeler.core.errors import DataError
 
 FUNCTIONS = {name: f for name, f in vars(entries).items() if inspect.isfunction(f)}

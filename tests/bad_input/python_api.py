@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from modeler.api import (
+from modeler.api import (  # fmt: skip
     compare,
     compile_model,
     derive,
@@ -15,10 +15,10 @@ from modeler.api import (
     load,
     observe,
     own_effect,
-)  # fmt: skip
-from modeler.compiled import CompiledModel
-from modeler.fit import IdentifiedModel, load_model
-from modeler.observation import Processing
+)
+from modeler.estimation.model_file import IdentifiedModel, load_model
+from modeler.observation.processing import Processing
+from modeler.runtime.model import CompiledModel
 from tests.bad_input.row import Outcome, Row, row
 from tests.bad_input.yard import Yard
 

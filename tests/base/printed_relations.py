@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import sympy
 
-from modeler.base import BaseParameter, BaseParameters
-from modeler.base.render import as_json, as_latex, as_markdown, as_text
-from modeler.codegen import Emitted
+from modeler.core.manifest import Emitted
+from modeler.derivation.relations import as_json, as_latex, as_markdown, as_text
+from modeler.derivation.result import BaseParameter, BaseParameters
 from tests.base.formulas import Values, latex_value, name_of_latex, text_value
 
 Read = Callable[[str, Values], np.ndarray]

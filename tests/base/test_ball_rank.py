@@ -5,18 +5,18 @@ import json
 import numpy as np
 import pytest
 
-from modeler.base import ball_rank as balls
-from modeler.base import base_parameters
-from modeler.base.ball_rank import ball_rank
-from modeler.base.numeric import carried, regressor_values, sampled
-from modeler.base.render import as_json, proof_text
-from modeler.base.result import BallRank, ModularRank, SampledRank
+from modeler.codegen.derivation import ball_rank as balls
 from modeler.core.errors import LoopError
-from modeler.robot import read_robot, robot_from_text
-from modeler.symbolic import derive_model
-from modeler.symbolic.balls import flint, symbol_balls
-from modeler.symbolic.closed_states import closed_walk, closing_of
-from modeler.symbolic.enclosed import Enclosures, NotEnclosed
+from modeler.derivation.ball_rank import ball_rank
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.closed_states import closed_walk, closing_of
+from modeler.derivation.derive import derive_model
+from modeler.derivation.enclosed import Enclosures, NotEnclosed
+from modeler.derivation.numeric_rank import carried, regressor_values, sampled
+from modeler.derivation.precise import flint, symbol_balls
+from modeler.derivation.relations import as_json, proof_text
+from modeler.derivation.result import BallRank, ModularRank, SampledRank
+from modeler.robot.read import read_robot, robot_from_text
 from tests.base.test_hard_tables import CASES, model_of
 from tests.loops.test_loops_implied import FOUR_BAR
 from tests.modules import module

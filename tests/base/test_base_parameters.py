@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.base import base_parameters
-from modeler.base.relation_text import relation_text
-from modeler.base.render import as_json, as_latex, as_markdown, as_text
 from modeler.core.errors import DerivationError
-from modeler.robot import EffectUse, read_robot, robot_from_text
-from modeler.symbolic import derive_model
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.relations import as_json, as_latex, as_markdown, as_text, relation_text
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.robot import EffectUse
 from tests.base.ranks import seen
 from tests.robots import ROBOTS
 

@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.base.certificate import PRIME, ModularState, modular_rank
-from modeler.base.field import ExactField, geometry_field
-from modeler.base.grouping import column_relations
-from modeler.base.proof import NotProved, certificate
-from modeler.base.residues import inverse, power
-from modeler.robot import read_robot, robot_from_text
-from modeler.symbolic import derive_model
+from modeler.derivation.certificate import PRIME, ModularState, inverse, modular_rank, power
+from modeler.derivation.derive import derive_model
+from modeler.derivation.field import ExactField, geometry_field
+from modeler.derivation.grouping import column_relations
+from modeler.derivation.proof import NotProved, certificate
+from modeler.robot.read import read_robot, robot_from_text
 
 
 @pytest.fixture(scope="module")

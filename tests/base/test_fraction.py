@@ -6,7 +6,7 @@ import pytest
 from sympy import QQ
 from sympy.polys.fields import field
 
-from modeler.base.fraction import Fraction, cancelled
+from modeler.derivation.field import Fraction, cancelled
 
 LETTERS = [f"u{i}" for i in range(9)]
 

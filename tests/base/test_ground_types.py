@@ -11,8 +11,8 @@ import pytest
 _RUN = """
 import json
 from sympy.external.gmpy import GROUND_TYPES
-from modeler.base import base_parameters
-from modeler.base.render import as_json
+from modeler.derivation import base_parameters
+from modeler.derivation.relations import as_json
 from tests.base.test_hard_tables import CASES, model_of
 from tests.modules import module
 found = {}

@@ -2,10 +2,10 @@
 
 import pytest
 
-from modeler.base import base_parameters
-from modeler.base.relation_text import relation_text
-from modeler.robot import robot_from_text
-from modeler.symbolic import derive_model
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.relations import relation_text
+from modeler.robot.read import robot_from_text
 from tests.base.ranks import seen
 
 SYMBOLS = "g = 9.81\nL = 0.4\nal = 0.3\nL1 = 0.1\nL2 = 0.2\nL3 = 0.3\n"

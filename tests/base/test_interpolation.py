@@ -6,10 +6,18 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.base.elimination import TooLarge
-from modeler.base.field import ExactField
-from modeler.base.interpolation import Probes, coefficient
-from modeler.base.residues import LARGE, SMALL, circle, inverse, reconstructed, row_echelon, turned
+from modeler.derivation.certificate import (
+    LARGE,
+    SMALL,
+    circle,
+    inverse,
+    reconstructed,
+    row_echelon,
+    turned,
+)
+from modeler.derivation.elimination import TooLarge
+from modeler.derivation.field import ExactField
+from modeler.derivation.tied import Probes, coefficient
 
 al, L, d, r = sympy.symbols("al L d r", real=True)
 K = ExactField([sympy.cos(al), d, r, L])

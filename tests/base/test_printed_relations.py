@@ -5,13 +5,15 @@ import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from modeler.base import BaseParameter, BaseParameters, Term, base_parameters
-from modeler.base.relation_text import relation_latex, relation_text
-from modeler.codegen import Emitted, emit
+from modeler.codegen.emit import emit
 from modeler.core.errors import DerivationError, LoopError, RobotError
-from modeler.core.latex import latex_name
-from modeler.robot import read_robot
-from modeler.symbolic import derive_model
+from modeler.core.formula import latex_name
+from modeler.core.manifest import Emitted
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.relations import relation_latex, relation_text
+from modeler.derivation.result import BaseParameter, BaseParameters, Term
+from modeler.robot.read import read_robot
 from tests.base.formulas import UnreadableError, latex_value, name_of_latex, text_value
 from tests.base.printed_relations import Exact, printed_forms
 from tests.further_robots import FurtherRobots

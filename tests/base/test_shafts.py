@@ -4,9 +4,10 @@ from fractions import Fraction
 
 import numpy as np
 
-from modeler.base.shafts import friction_relations
-from modeler.effects import Acts, effect_named
-from modeler.symbolic import ShaftColumn
+from modeler.derivation.columns import ShaftColumn
+from modeler.derivation.grouping import friction_relations
+from modeler.effects.catalogue import effect_named
+from modeler.effects.effect import Acts
 
 
 def columns(effect: str, *shafts: dict[int, float]) -> list[ShaftColumn]:

@@ -7,15 +7,16 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.base import base_parameters
-from modeler.base.elimination import TooLarge, sparse_row_reduce
-from modeler.base.field import geometry_field
-from modeler.base.grouping import column_relations
-from modeler.base.numeric import random_states, regressor_values
-from modeler.base.proof import NotProved, certificate
-from modeler.base.tied import tied_relations
-from modeler.robot import builtin_text, read_robot, robot_from_text
-from modeler.symbolic import derive_model
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.elimination import TooLarge, sparse_row_reduce
+from modeler.derivation.field import geometry_field
+from modeler.derivation.grouping import column_relations
+from modeler.derivation.numeric_rank import random_states, regressor_values
+from modeler.derivation.proof import NotProved, certificate
+from modeler.derivation.tied import tied_relations
+from modeler.robot.library import builtin_text
+from modeler.robot.read import read_robot, robot_from_text
 from tests.base.ranks import seen
 from tests.robots import TREES
 

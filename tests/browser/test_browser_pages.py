@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from modeler.cli import main
-from modeler.pages.index import write_index
+from modeler.report.page import write_index
 from tests.browser.chromium import Chromium
 
 SIZES = [(1400, 900), (400, 800)]

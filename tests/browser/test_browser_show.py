@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from modeler.pages.robot import robot_html
-from modeler.robot import builtin_text, read_robot, robot_from_text
-from modeler.show import Posture, Skeleton, home_posture, poses, skeleton_of
-from modeler.show.closing import gaps_of, jacobian, residuals
-from modeler.show.content import page_content
-from modeler.showing import show
+from modeler.report.robot import robot_html
+from modeler.report.robot_closing import Posture, gaps_of, home_posture, jacobian, residuals
+from modeler.report.robot_page import page_content
+from modeler.report.robot_skeleton import Skeleton, poses, skeleton_of
+from modeler.report.showing import show
+from modeler.robot.library import builtin_text
+from modeler.robot.read import read_robot, robot_from_text
 from tests.browser.chromium import Chromium
 from tests.robots import ROBOTS
 

@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from modeler.cli import main, parser
-from modeler.fit.model_file import checksums
+from modeler.estimation.model_file import checksums
 
 COMMANDS = (
     "derive", "generate", "convert", "fit", "compare", "physical", "simulate", "excite", "robots",

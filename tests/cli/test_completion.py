@@ -12,11 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli import main
+from modeler.cli import main, parser
 from modeler.cli.completion import SCRIPTS, candidates
-from modeler.core.estimators import ABOUT
-from modeler.effects import CATALOGUE
-from modeler.robot.builtin import builtin_names
+from modeler.effects.catalogue import CATALOGUE
+from modeler.estimation.least_squares import ABOUT
+from modeler.robot.library import builtin_names
 
 
 @pytest.fixture
@@ -81,7 +81,7 @@ CASES = [
 
 @pytest.mark.parametrize(("words", "expected"), CASES, ids=lambda x: " ".join(x or [])[:40])
 def test_what_may_come_next(folder: Path, words: list[str], expected: list[str] | None) -> None:
-    found = candidates(words)
+    found = candidates(words, parser())
     if expected is None:
         assert {"derive", "fit", "completion"} <= set(found)
     else:
@@ -89,10 +89,10 @@ def test_what_may_come_next(folder: Path, words: list[str], expected: list[str] 
 
 
 def test_options_are_those_of_the_command(folder: Path) -> None:
-    found = candidates(["diagnose", "arm.model.json", "--"])
+    found = candidates(["diagnose", "arm.model.json", "--"], parser())
     assert {"--holdout", "--without", "--json", "--quiet"} <= set(found)
     assert "--method" not in found
-    assert candidates(["completion", "--wo"]) == []  # what only the scripts use
+    assert candidates(["completion", "--wo"], parser()) == []  # what only the scripts use
 
 
 @pytest.mark.parametrize("shell", SCRIPTS)

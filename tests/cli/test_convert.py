@@ -6,8 +6,8 @@ import shutil
 import pytest
 
 from modeler.cli import main
-from modeler.robot import read_robot
-from modeler.robot.builtin import builtin_file
+from modeler.robot.library import builtin_file
+from modeler.robot.read import read_robot
 from tests.robot.par_files import par_text
 
 TWO = par_text({"Ant": "0,1", "d": "0,L", "Theta": "t1,t2", "G": "-9.81,0,0"}, "arm")

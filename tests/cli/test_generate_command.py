@@ -12,8 +12,9 @@ import pytest
 from modeler.api import derive, generate, load, recompile
 from modeler.cli import main
 from modeler.core.errors import ManifestError
-from modeler.fit import Addition, Verdict, fitted_spec, load_model, save_model
-from modeler.fit.parameter import ParameterEstimate
+from modeler.estimation.model_file import Addition, fitted_spec, load_model, save_model
+from modeler.estimation.parameter import ParameterEstimate
+from modeler.estimation.result import Verdict
 from tests.codegen.fitted_library import Functions
 
 

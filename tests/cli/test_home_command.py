@@ -10,7 +10,8 @@ import pytest
 from matplotlib.image import imread
 
 from modeler.cli import main
-from modeler.robot import builtin_text, read_robot
+from modeler.robot.library import builtin_text
+from modeler.robot.read import read_robot
 from tests.loops.test_loops_mistakes import CRANK
 from tests.robot.par_files import par_text
 

@@ -45,17 +45,17 @@ def place(tmp_path_factory):
 def chunked(monkeypatch):
     """Logs of some thousand rows are long."""
     for where in ("modeler.observation.log.LONG", "modeler.api.long_logs.LONG",
-                  "modeler.observation.streamed_report.LONG",
-                  "modeler.api.looking.LONG"):  # fmt: skip
+                  "modeler.observation.chunked_report.LONG",
+                  "modeler.api.checks.LONG"):  # fmt: skip
         monkeypatch.setattr(where, 4000)
     for where in ("observation.log", "observation.seen", "api.looking"):
         monkeypatch.setattr(f"modeler.{where}.FINGER", 1024)
-    monkeypatch.setattr("modeler.api.looking.WINDOW", 900)
+    monkeypatch.setattr("modeler.api.checks.WINDOW", 900)
     monkeypatch.setattr(
-        "modeler.compare.predict.compare_long.__defaults__", (lambda share: None, 1024)
+        "modeler.validation.predict.compare_long.__defaults__", (lambda share: None, 1024)
     )
-    monkeypatch.setattr("modeler.fit.streamed.stream.__defaults__", (None, lambda share: None,
-                                                                     1024, None))  # fmt: skip
+    defaults = (None, lambda share: None, 1024, None)
+    monkeypatch.setattr("modeler.estimation.long_logs.stream.__defaults__", defaults)
 
 
 def fitted(place, log, name, *options):
@@ -202,7 +202,7 @@ def test_rows_of_a_comparison_are_no_more_than_fit_in_memory(place, chunked, tmp
     capsys.readouterr()
     every, out = told_of(words, tmp_path / "every", capsys)
     assert "training only: the model was fitted on run.parquet" in out
-    monkeypatch.setattr("modeler.compare.predict.MOST", 150)
+    monkeypatch.setattr("modeler.validation.predict.MOST", 150)
     some, _ = told_of(words, tmp_path / "some", capsys)
     assert 120 < some["samples"] <= 151 < every["samples"]
     assert some["relative_error"] == pytest.approx(every["relative_error"], rel=0.3)
@@ -223,7 +223,7 @@ def test_a_long_log_is_looked_at_in_blocks(log, place, chunked, tmp_path, monkey
     words = ["log", str(path), "--pictures", str(tmp_path / "drawn")]
     found, out = told_of(words, tmp_path / "long", capsys)
     assert f"long log: all {ROWS} rows are read for ranges" in out
-    monkeypatch.setattr("modeler.api.looking.LONG", 10**9)
+    monkeypatch.setattr("modeler.api.checks.LONG", 10**9)
     whole, _ = told_of(words, tmp_path / "whole", capsys)
     assert found["clock"]["gaps"] == 2 and found["clock"]["at"] == whole["clock"]["at"] == 5.115
     del found["notes"], whole["notes"]

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import main, parser
-from modeler.cli.console import working
-from modeler.cli.loudness import Loudness, clock, told
+from modeler.cli.console import Loudness, clock, told, working
 
 
 def run(capsys, *words: str) -> tuple[int, str, str]:
@@ -58,7 +57,7 @@ def test_verbose_tells_where_an_error_came_from(capsys) -> None:
 def test_verbose_shows_warnings_of_libraries_and_quiet_does_not(monkeypatch, recwarn) -> None:
     import warnings
 
-    import modeler.cli.robots as command
+    import modeler.cli.lists as command
 
     def warned(args):
         warnings.warn("a library says this", DeprecationWarning, stacklevel=1)

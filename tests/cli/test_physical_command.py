@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.fit import load_model, save_model
-from modeler.terms.printed import read_print
+from modeler.estimation.model_file import load_model, save_model
+from modeler.formulas.printed import read_print
 from tests.terms.cases import model_of
 from tests.terms.physical_cases import SEVEN, data_of, random_letters, system_of
 

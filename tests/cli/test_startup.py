@@ -11,11 +11,11 @@ from typing import get_args
 import pytest
 
 from modeler.cli import main, parser
-from modeler.cli.closed_forms import _CLOSED_FORMS, _COMMENT, _SHEETS, _TABLES
 from modeler.cli.derive import _FORMS
-from modeler.cli.parsers.derive import Form
-from modeler.effects import CATALOGUE
-from modeler.simulate import HIDDEN
+from modeler.cli.formula_output import _CLOSED_FORMS, _COMMENT, _SHEETS, _TABLES
+from modeler.cli.model_arguments import Form
+from modeler.effects.catalogue import CATALOGUE
+from modeler.simulation import HIDDEN
 
 LONG = {
     "sympy", "numpy", "scipy", "casadi", "pyarrow", "matplotlib", "plotly", "rich", "jinja2",

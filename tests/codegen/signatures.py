@@ -3,10 +3,10 @@
 import json
 import sys
 
-from modeler.base import base_parameters
-from modeler.codegen import emit
-from modeler.robot import read_robot
-from modeler.symbolic import derive_model
+from modeler.codegen.emit import emit
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.robot.read import read_robot
 
 if __name__ == "__main__":
     found = {}

@@ -3,7 +3,7 @@
 import re
 
 from modeler.codegen.block import make_block
-from modeler.symbolic import Graph
+from modeler.derivation.graph import Graph
 from tests.modules import module
 
 PLACES = {"q0": "q[0]", "q1": "q[1]", "D4": "ARM_GEO_D4", "g": "ARM_GEO_g"}

@@ -9,10 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from modeler.codegen import leftovers, write_emitted
-from modeler.codegen.record import RECORD, checksum
-from modeler.core.contract import Emitted
+from modeler.codegen.package import RECORD, checksum, leftovers, write_emitted
 from modeler.core.errors import ModelerError
+from modeler.core.manifest import Emitted
 from tests.modules import module
 
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from modeler.codegen.closure_functions import solving_of
+from modeler.codegen.closed import solving_of
 from modeler.codegen.fused import replaced
-from modeler.symbolic import Graph
-from modeler.symbolic.closed_states import closed_walk, closing_of
+from modeler.derivation.closed_states import closed_walk, closing_of
+from modeler.derivation.graph import Graph
 from tests.modules import module
 
 NAMES = ["five-bar", "orthoglide-2003", "stewart"]

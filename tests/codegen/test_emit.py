@@ -12,12 +12,13 @@ import pytest
 import sympy
 
 import modeler
-from modeler.base import grouping_matrix
-from modeler.codegen import emit, write_emitted
+from modeler.codegen.emit import emit
 from modeler.codegen.examples import FOLDER, PROGRAMS
 from modeler.codegen.names import module_prefix, symbol_macros
-from modeler.core.contract import module_from_json
+from modeler.codegen.package import write_emitted
 from modeler.core.errors import EmitError, ModelerError
+from modeler.core.manifest import module_from_json
+from modeler.derivation.numeric_rank import grouping_matrix
 from tests.codegen.fitted_library import fitted_of
 from tests.modules import STRICT, compiled, compiler, module, states
 from tests.repository import ROOT
@@ -195,9 +196,9 @@ def test_the_manifest_survives_its_file_and_describes_the_module(name):
 
 @pytest.mark.parametrize("name", TREES)
 def test_the_text_is_the_same_each_time_and_names_no_place_of_this_machine(name):
-    from modeler.base import base_parameters
-    from modeler.robot import read_robot
-    from modeler.symbolic import derive_model
+    from modeler.derivation.base_parameters import base_parameters
+    from modeler.derivation.derive import derive_model
+    from modeler.robot.read import read_robot
 
     emitted = module(name).emitted
     here = [str(ROOT), str(Path.home()), tempfile.gettempdir(), platform.node()]

@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.core.contract import FittedSpec
 from modeler.core.errors import EmitError
+from modeler.core.manifest import FittedSpec
 from tests.codegen.fitted_library import Functions, fitted_of, motion, robot_module, with_values
 
 KINDS = ("ur10e", "sr400", "orthoglide-2003", "slow-arm")

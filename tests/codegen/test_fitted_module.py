@@ -6,13 +6,14 @@ import subprocess
 
 import pytest
 
-from modeler.base import base_parameters
-from modeler.codegen import emit, write_emitted
+from modeler.codegen.emit import emit
 from modeler.codegen.names import enumerators
-from modeler.compiled import load_folder
-from modeler.core.contract import module_from_json
-from modeler.robot import robot_from_text
-from modeler.symbolic import derive_model
+from modeler.codegen.package import write_emitted
+from modeler.core.manifest import module_from_json
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.robot.read import robot_from_text
+from modeler.runtime.model import load_folder
 from tests.codegen.fitted_library import Functions, fitted_of, robot_module, with_values
 from tests.modules import STRICT, compiler
 

@@ -7,11 +7,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from modeler.codegen.block import make_block
-from modeler.codegen.printer import number_text
+from modeler.codegen.block import make_block, number_text
 from modeler.core.errors import EmitError
-from modeler.core.resources import resource_dir
-from modeler.symbolic import Expr, Graph
+from modeler.core.files import resource_dir
+from modeler.derivation.graph import Expr, Graph
 from tests.modules import compiler
 
 INPUTS = ("x", "y", "z")

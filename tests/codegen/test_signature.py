@@ -14,17 +14,16 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.base import base_parameters
-from modeler.codegen import emit
-from modeler.core.contract import code_digest
+from modeler.codegen.emit import emit
 from modeler.core.errors import LoopError
 from modeler.core.expression import parse
+from modeler.core.manifest import code_digest
 from modeler.core.rounded import FUNCTIONS, power
-from modeler.robot import read_robot
-from modeler.robot.read import robot_from_text
-from modeler.symbolic import derive_model
-from modeler.symbolic.closing import Closing, polished
-from modeler.symbolic.graph import Graph
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.closing import Closing, polished
+from modeler.derivation.derive import derive_model
+from modeler.derivation.graph import Graph
+from modeler.robot.read import read_robot, robot_from_text
 from tests.modules import module
 from tests.repository import ROOT
 from tests.robots import ROBOTS

@@ -11,12 +11,13 @@ import pytest
 
 from modeler.api import derive, generate
 from modeler.cli import main
-from modeler.codegen import emit, write_emitted
-from modeler.codegen.single import of_precision, single_text
-from modeler.compiled import CompiledModel, load, load_folder
-from modeler.core.contract import Emitted, module_from_json
+from modeler.codegen.emit import emit
+from modeler.codegen.package import write_emitted
+from modeler.codegen.targets import of_precision, single_text
 from modeler.core.errors import EmitError, ManifestError
-from modeler.core.resources import resource_dir
+from modeler.core.files import resource_dir
+from modeler.core.manifest import Emitted, module_from_json
+from modeler.runtime.model import CompiledModel, load, load_folder
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.modules import STRICT, compiled, compiler, module, states
 from tests.robots import ROBOTS, TREES

@@ -6,14 +6,15 @@ import subprocess
 import numpy as np
 import pytest
 
-from modeler.base import base_parameters
-from modeler.codegen import emit, write_emitted
-from modeler.codegen.symbols import deciding_symbols
-from modeler.compiled import load
-from modeler.core.contract import Emitted
-from modeler.robot import builtin_text
+from modeler.codegen.emit import deciding_symbols, emit
+from modeler.codegen.package import write_emitted
+from modeler.core.manifest import Emitted
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.model import SymbolicModel
+from modeler.robot.library import builtin_text
 from modeler.robot.read import robot_from_text
-from modeler.symbolic import SymbolicModel, derive_model
+from modeler.runtime.model import load
 from tests.modules import STRICT, compiler, module, states
 
 PLANAR = """

@@ -7,11 +7,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from modeler.codegen.block import Block, make_block
-from modeler.codegen.printer import number_text
-from modeler.codegen.target import DOUBLE, FUNCTIONS, SINGLE, TILE
+from modeler.codegen.block import Block, make_block, number_text
+from modeler.codegen.targets import DOUBLE, FUNCTIONS, SINGLE, TILE
 from modeler.core.errors import EmitError
-from modeler.symbolic import Expr, Graph
+from modeler.derivation.graph import Expr, Graph
 from tests.modules import compiler
 
 VALUES = {"x": 0.75, "y": -1.25, "L": 0.3}

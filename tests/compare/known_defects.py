@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from modeler.compare import JointInfo, Prediction
+from modeler.validation.prediction import JointInfo, Prediction
 
 Defect = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 PERIOD = 0.01  # s

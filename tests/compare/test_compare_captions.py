@@ -6,16 +6,15 @@ import numpy as np
 import pytest
 from known_defects import first_joint, prediction
 
-from modeler.compare import Comparison, Prediction, compare
-from modeler.compare.masked import masked_spans
-from modeler.compare.overlay_picture import overlay_picture
-from modeler.compare.pictures import all_pictures
-from modeler.compare.time_picture import time_picture
-from modeler.observation.masks import MASKS
-from modeler.pictures.draw_matplotlib import images
-from modeler.pictures.drawn import drawn, keys
-from modeler.pictures.numbers import Numbers
-from modeler.pictures.picture import Band, picture_csv
+from modeler.core.figure import Band, picture_csv
+from modeler.observation.observation import MASKS
+from modeler.report.comparison import all_pictures
+from modeler.report.figure_matplotlib import images
+from modeler.report.figure_page import Numbers, drawn, keys
+from modeler.validation.comparison import Comparison, compare
+from modeler.validation.pictures import overlay_picture
+from modeler.validation.prediction import Prediction
+from modeler.validation.time_picture import masked_spans, time_picture
 from tests.captions import assert_named, colours_drawn, colours_said
 
 

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from known_defects import PERIOD, prediction
 
-from modeler.compare import JointInfo, Prediction, compare
-from modeler.compare.where import REGIONS, WINDOW
 from modeler.core.errors import DataError, ShapeError
+from modeler.validation.comparison import REGIONS, WINDOW, compare
+from modeler.validation.prediction import JointInfo, Prediction
 
 
 def by_hand() -> Prediction:

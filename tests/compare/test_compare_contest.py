@@ -7,9 +7,9 @@ import pytest
 from known_defects import prediction
 from scipy.signal import lfilter
 
-from modeler.compare import Prediction
 from modeler.core.errors import DataError
-from modeler.scoring.contest import Contest, contest
+from modeler.validation.models import Contest, contest
+from modeler.validation.prediction import Prediction
 
 TRUTH = prediction(rows=3000, noise=0.0)
 

@@ -7,15 +7,14 @@ import numpy as np
 import pytest
 from known_defects import NOISE, prediction
 
-from modeler.compare import JointInfo, Prediction, compare, joint_verdict
-from modeler.compare.pictures import all_pictures
-from modeler.compare.prediction import FullRate, Motor
-from modeler.compare.verdict import best_pattern, kind_of_residual
 from modeler.core.errors import ShapeError
-from modeler.observation.travel import travel_since_reversal
-from modeler.pages.comparison import report_html
-from modeler.pictures.picture import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
-from modeler.residuals.orders import order_spectrum
+from modeler.core.figure import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
+from modeler.numerics.spectra import order_spectrum
+from modeler.observation.motion import travel_since_reversal
+from modeler.report.comparison import all_pictures, report_html
+from modeler.validation.comparison import compare
+from modeler.validation.prediction import FullRate, JointInfo, Motor, Prediction
+from modeler.validation.verdict import best_pattern, joint_verdict, kind_of_residual
 
 
 def test_travel_of_a_sine() -> None:

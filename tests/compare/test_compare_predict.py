@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.compare import Comparison, compare, joint_verdict
-from modeler.compare.predict import predict
-from modeler.compare.verdict import kind_of_residual
 from modeler.core.errors import DataError
-from modeler.diagnose import diagnose
-from modeler.observation import Log, Processing
-from modeler.observation.travel import travel_since_reversal
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.observation.log import Log
+from modeler.observation.motion import travel_since_reversal
+from modeler.observation.processing import Processing
+from modeler.validation.comparison import Comparison, compare
+from modeler.validation.predict import predict
+from modeler.validation.verdict import joint_verdict, kind_of_residual
 
 RATE, CUTOFF, NOISE = 400.0, 8.0, 0.8  # Hz, Hz, N m
 

@@ -17,15 +17,24 @@ import pytest
 from known_defects import first_joint, prediction
 
 from modeler.cli.places import PictureFolder
-from modeler.compare import Comparison, JointInfo, compare, write_pictures
-from modeler.compare.pictures import all_pictures
-from modeler.compare.residual_picture import binned_means
 from modeler.core.errors import ModelerError
-from modeler.pages.comparison import report_html, write_report
-from modeler.pictures.draw_matplotlib import images
-from modeler.pictures.numbers import Numbers
-from modeler.pictures.picture import Bars, Curve, Heat, Panel, Picture, picture_csv
-from modeler.pictures.thinning import LIMIT, thin_curves, thin_points
+from modeler.core.figure import (
+    LIMIT,
+    Bars,
+    Curve,
+    Heat,
+    Panel,
+    Picture,
+    picture_csv,
+    thin_curves,
+    thin_points,
+)
+from modeler.report.comparison import all_pictures, report_html, write_pictures, write_report
+from modeler.report.figure_matplotlib import images
+from modeler.report.figure_page import Numbers
+from modeler.validation.comparison import Comparison, compare
+from modeler.validation.pictures import binned_means
+from modeler.validation.prediction import JointInfo
 
 
 @pytest.fixture(scope="module")

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from known_defects import prediction
 
-from modeler.compare import JointInfo, Prediction, compare, joint_verdict
-from modeler.compare.comparison import scale
-from modeler.compare.shares import repetitions
-from modeler.residuals.laps import lap
+from modeler.numerics.spectra import lap
+from modeler.validation.comparison import compare, scale
+from modeler.validation.prediction import JointInfo, Prediction
+from modeler.validation.repeatability import repetitions
+from modeler.validation.verdict import joint_verdict
 
 STEP, NOISE, KNOWN = 0.01, 0.5, 0.9  # s; N m, standard deviation of the noise; amplitude
 WAVES = np.array([20.0, 15.0])  # 1/rad

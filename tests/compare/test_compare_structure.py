@@ -5,10 +5,17 @@ import pytest
 from known_defects import NOISE, PERIOD, Defect, prediction
 from scipy.signal import lfilter
 
-from modeler.compare import JointComparison, compare, headline, joint_verdict, verdict
-from modeler.compare.verdict import best_pattern, kind_of_residual, looks_like_noise, percent
-from modeler.residuals.flexible import flexible
-from modeler.residuals.smooth import curve
+from modeler.numerics.splines import curve, flexible
+from modeler.validation.comparison import JointComparison, compare
+from modeler.validation.verdict import (
+    best_pattern,
+    headline,
+    joint_verdict,
+    kind_of_residual,
+    looks_like_noise,
+    rounded_percent,
+    verdict,
+)
 
 
 def second_joint(defect: Defect | None, noise: float = NOISE, rows: int = 6000) -> JointComparison:
@@ -199,4 +206,4 @@ def test_a_joint_that_never_moves() -> None:
     ("share", "text"), [(0.033, "3.3 %"), (0.41, "41 %"), (0.0, "under 0.1 %"), (0.1, "10 %")]
 )
 def test_percent(share: float, text: str) -> None:
-    assert percent(share) == text
+    assert rounded_percent(share) == text

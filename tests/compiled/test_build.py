@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import modeler.compiled.build as build
-import modeler.compiled.cache as kept
-import modeler.compiled.model as compiled_model
-from modeler.codegen import write_emitted
-from modeler.compiled import load, load_folder
-from modeler.compiled.toolchain import find_toolchain
+import modeler.runtime.build as build
+import modeler.runtime.build as kept
+import modeler.runtime.model as compiled_model
+from modeler.codegen.package import write_emitted
 from modeler.core.errors import BuildError, ManifestError
+from modeler.runtime.build import find_toolchain
+from modeler.runtime.model import load, load_folder
 from tests.modules import compiler, module, states
 
 
@@ -79,7 +79,7 @@ def test_a_damaged_library_is_built_again(cache, emps, damage):
 def test_threads_and_processes_may_build_at_once(cache, emps, tmp_path):
     folder = tmp_path / "emps"
     write_emitted(emps, folder)
-    script = f"from modeler.compiled import load_folder; load_folder({str(folder)!r})"
+    script = f"from modeler.runtime import load_folder; load_folder({str(folder)!r})"
     processes = [subprocess.Popen([sys.executable, "-c", script]) for _ in range(2)]
     failed: list[BaseException] = []
 
@@ -277,8 +277,8 @@ def test_loading_needs_no_symbols(emps, tmp_path):
     write_emitted(emps, tmp_path)
     script = (
         "import sys\nfor name in ('sympy', 'casadi', 'jinja2'): sys.modules[name] = None\n"
-        f"from modeler.compiled import load_folder\nload_folder({str(tmp_path)!r})\n"
-        "assert not [m for m in sys.modules if m.startswith(('modeler.symbolic', 'modeler.robot',"
-        " 'modeler.effects', 'modeler.base', 'modeler.codegen'))]\n"
+        f"from modeler.runtime import load_folder\nload_folder({str(tmp_path)!r})\n"
+        "assert not [m for m in sys.modules if m.startswith(('modeler.derivation', 'modeler.robot',"
+        " 'modeler.effects', 'modeler.derivation', 'modeler.codegen'))]\n"
     )
     subprocess.run([sys.executable, "-c", script], check=True)

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-import modeler.compiled.cache as kept
-from modeler.compiled import load
-from modeler.compiled.build import build_library
+import modeler.runtime.build as kept
+from modeler.runtime.build import build_library
+from modeler.runtime.model import load
 from tests.modules import module
 
 OLD = kept.RECENT + 60.0

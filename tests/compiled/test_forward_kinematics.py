@@ -5,13 +5,12 @@ import re
 import numpy as np
 import pytest
 
-from modeler.base import base_parameters
-from modeler.codegen import emit
-from modeler.compiled import load
+from modeler.codegen.emit import emit
 from modeler.core.errors import ShapeError
-from modeler.robot import read_robot
-from modeler.robot.read import robot_from_text
-from modeler.symbolic import derive_model
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.runtime.model import load
 from tests.elementary_motions import frames
 from tests.modules import compiled, states
 from tests.robots import TREES

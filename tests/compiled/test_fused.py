@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from modeler.compiled import fused, threads
-from modeler.compiled.bind_fused import fused_library
 from modeler.core.errors import ShapeError
+from modeler.runtime import fused, threads
+from modeler.runtime.bind import fused_library
 from tests.modules import compiled, states
 
 EPS = np.finfo(float).eps

@@ -13,10 +13,10 @@ import pytest
 
 from modeler.api import derive, load, on_gpu
 from modeler.cli import main
-from modeler.codegen import emit
-from modeler.compiled.gpu import GpuModel, load_gpu
-from modeler.core.contract import Emitted
+from modeler.codegen.emit import emit
 from modeler.core.errors import BuildError, EmitError, ManifestError, ShapeError
+from modeler.core.manifest import Emitted
+from modeler.runtime.gpu import GpuModel, load_gpu
 from tests.codegen.fitted_library import robot_module
 from tests.compiled.cupy_on_cpu import cupy
 from tests.modules import compiled, compiler, module, states
@@ -80,7 +80,7 @@ def test_effects_that_read_signals(gpu):
     motion = states(3, 20)
     s = np.random.default_rng(2).uniform(0, 1, (20, len(model.spec.signals)))
     host = robot_module("slow-arm").emitted
-    from modeler.compiled import load as load_compiled
+    from modeler.runtime.model import load as load_compiled
 
     phi = load_compiled(host.spec, host.files).base_regressor(*motion, s=s)
     expected = np.array([phi[:, joint, column] for joint, column in model.spec.nonzeros])

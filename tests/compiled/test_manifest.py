@@ -6,10 +6,10 @@ import re
 
 import pytest
 
-from modeler.codegen import write_emitted
-from modeler.compiled import load, load_folder
-from modeler.core.contract import FORMAT, module_from_json
+from modeler.codegen.package import write_emitted
 from modeler.core.errors import ManifestError
+from modeler.core.manifest import FORMAT, module_from_json
+from modeler.runtime.model import load, load_folder
 from tests.modules import module
 
 

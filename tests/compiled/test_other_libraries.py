@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.robot import read_robot
+from modeler.robot.read import read_robot
 from tests.modules import compiled
 
 ROBOTS = ("wrist", "puma560", "rx90", "panda", "scara", "sr400-tree")

@@ -8,12 +8,12 @@ import subprocess
 import numpy as np
 import pytest
 
-import modeler.compiled.threads as threads
-import modeler.compiled.tiling as tiling
-from modeler.codegen import write_emitted
-from modeler.compiled import load, load_folder
+import modeler.runtime.fused as tiling
+import modeler.runtime.threads as threads
+from modeler.codegen.package import write_emitted
 from modeler.core.errors import ManifestError, ShapeError
-from modeler.robot import read_robot
+from modeler.robot.read import read_robot
+from modeler.runtime.model import load, load_folder
 from tests.codegen.fitted_library import robot_module
 from tests.modules import STRICT, compiled, compiler, module, states
 from tests.robots import ROBOTS

@@ -10,9 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from modeler.core.destination import destination
 from modeler.core.errors import ModelerError
-from modeler.core.files import check_folder_writable, check_writable, write_atomically
+from modeler.core.files import check_folder_writable, check_writable, destination, write_atomically
 
 
 def mode(path: Path) -> int:

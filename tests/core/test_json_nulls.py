@@ -11,8 +11,8 @@ import pytest
 from modeler.api import load
 from modeler.cli import main
 from modeler.cli.console import run_command
-from modeler.core.json_text import nulled, parse_json
-from modeler.simulate import SimulationSettings, simulate, write_log
+from modeler.core.json import nulled, parse_json
+from modeler.simulation import SimulationSettings, simulate, write_log
 
 ROBOT = "two-link"
 

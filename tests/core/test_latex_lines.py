@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from modeler.core.latex import latex_name, latex_text
-from modeler.core.latex_lines import Equation, broken, display, width
+from modeler.core.formula import latex_name, latex_text
+from modeler.core.latex_display import Equation, broken, display, width
 from tests.base.formulas import written_value
 
 LETTERS = {"a": 0.7, r"\mathit{MX}_{31c}": -1.3, r"\theta_{2}": 0.4, "D_{4}": 2.1, "s_{1-2}": 0.6}

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.core.contract import Emitted, FunctionSpec
+from modeler.core.manifest import Emitted, FunctionSpec
 
 HERE = Path(__file__).resolve().parent
 

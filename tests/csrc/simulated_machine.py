@@ -8,17 +8,17 @@ from typing import NamedTuple
 import numpy as np
 
 from modeler.api import compile_model, derive, fit, generate, observe
-from modeler.codegen import emit, write_emitted
-from modeler.core.contract import FittedParameter, FittedSpec
-from modeler.robot import Robot
-from modeler.simulate import SimulationSettings, simulate, write_log
-from modeler.simulate.hidden_draw import complete_effects
-from modeler.simulate.integrate import steps_per_tick, tick_function
-from modeler.simulate.limits import motion_limits
-from modeler.simulate.native import FastFunction
-from modeler.simulate.parameters import plant_parameters
-from modeler.simulate.run import _closed_task, _needed, _postures, _task
-from modeler.simulate.sensors import encoder_resolution, quantised
+from modeler.codegen.emit import emit
+from modeler.codegen.package import write_emitted
+from modeler.core.manifest import FittedParameter, FittedSpec
+from modeler.robot.robot import Robot
+from modeler.simulation import SimulationSettings, simulate, write_log
+from modeler.simulation.control import encoder_resolution, quantised
+from modeler.simulation.hidden_draw import complete_effects
+from modeler.simulation.parameters import plant_parameters
+from modeler.simulation.plant import FastFunction, steps_per_tick, tick_function
+from modeler.simulation.run import _closed_task, _needed, _postures, _task
+from modeler.simulation.trajectory import motion_limits
 
 
 class Driven(NamedTuple):

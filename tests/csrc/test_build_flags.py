@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.codegen import write_emitted
+from modeler.codegen.package import write_emitted
 from tests.modules import compiler, module
 
 TUNED = ["-fno-tree-slp-vectorize", "-fno-math-errno", "-fno-trapping-math", "-ffp-contract=fast"]

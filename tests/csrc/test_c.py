@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.codegen import write_emitted
-from modeler.core.resources import resource_dir
+from modeler.codegen.package import write_emitted
+from modeler.core.files import resource_dir
 from tests.modules import STRICT, compiler, module
 
 HERE = Path(__file__).resolve().parent

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.robot import read_robot
-from modeler.simulate import SimulationSettings
+from modeler.robot.read import read_robot
+from modeler.simulation import SimulationSettings
 from tests.csrc.simulated_machine import Driven, Machine, fitted_folder, rms
 from tests.modules import compiler
 

@@ -8,12 +8,14 @@ from functools import cache
 import numpy as np
 import pytest
 
-from modeler.base import base_parameters
-from modeler.codegen import emit, write_emitted
-from modeler.compiled import load
-from modeler.core.contract import Emitted
-from modeler.robot import EffectUse, read_robot
-from modeler.symbolic import derive_model
+from modeler.codegen.emit import emit
+from modeler.codegen.package import write_emitted
+from modeler.core.manifest import Emitted
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.robot.read import read_robot
+from modeler.robot.robot import EffectUse
+from modeler.runtime.model import load
 from tests.codegen.fitted_library import robot_module
 from tests.csrc.cortex_m import library, output, run, section_bytes, tool, undefined
 from tests.modules import states

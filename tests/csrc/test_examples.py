@@ -8,11 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.codegen import emit, write_emitted
-from modeler.core.contract import FittedSpec
-from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.codegen.emit import emit
+from modeler.codegen.package import write_emitted
+from modeler.core.manifest import FittedSpec
 from modeler.robot.edit import with_effects
-from modeler.simulate import HiddenEffect, SimulationSettings
+from modeler.robot.library import builtin_text
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.simulation import HiddenEffect, SimulationSettings
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.csrc.simulated_machine import Machine, fitted_folder, observed, rms, true_folder
 from tests.modules import compiler, module

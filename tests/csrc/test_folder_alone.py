@@ -6,8 +6,9 @@ import subprocess
 import numpy as np
 import pytest
 
-from modeler.codegen import emit, write_emitted
-from modeler.core.resources import resource_dir
+from modeler.codegen.emit import emit
+from modeler.codegen.package import write_emitted
+from modeler.core.files import resource_dir
 from tests.codegen.fitted_library import Functions, motion, robot_module, with_values
 from tests.modules import compiler, module
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.core.resources import resource_dir
+from modeler.core.files import resource_dir
 from tests.modules import STRICT, compiler
 
 HERE = Path(__file__).resolve().parent

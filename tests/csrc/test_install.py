@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.codegen import write_emitted
-from modeler.codegen.package import package_version
+from modeler.codegen.package import package_version, write_emitted
 from tests.modules import compiler, module
 
 CONSUMER = """cmake_minimum_required(VERSION 3.13)

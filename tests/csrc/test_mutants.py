@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.codegen import emit, write_emitted
-from modeler.core.contract import Emitted
+from modeler.codegen.emit import emit
+from modeler.codegen.package import write_emitted
+from modeler.core.manifest import Emitted
 from tests.codegen.fitted_library import Functions, motion, robot_module, with_values
 from tests.modules import compiler, module
 

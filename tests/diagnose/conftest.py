@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.compiled import CompiledModel
-from modeler.derivation import Derivation
-from modeler.fit import IdentifiedModel
-from modeler.observation import Log, read_log
-from modeler.simulate import SimulationSettings, simulate, write_log
+from modeler.codegen.derivation import Derivation
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.observation.log import Log
+from modeler.observation.read import read_log
+from modeler.runtime.model import CompiledModel
+from modeler.simulation import SimulationSettings, simulate, write_log
 
 SEEDS = {"train": (4, 30.0), "holdout": (5, 20.0)}
 

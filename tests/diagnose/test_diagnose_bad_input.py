@@ -12,7 +12,7 @@ import pytest
 
 from modeler.api import recompile
 from modeler.cli import main
-from modeler.fit import load_model
+from modeler.estimation.model_file import load_model
 
 Table = dict[str, np.ndarray]
 Run = Callable[..., tuple[int, str, str]]

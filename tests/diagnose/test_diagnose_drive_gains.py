@@ -5,11 +5,13 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from modeler.compiled import load
-from modeler.diagnose import Diagnosis, diagnose
-from modeler.improve import Logs, add_effect, add_findings
-from modeler.observation import Log
-from modeler.scoring.gains import gain_visible
+from modeler.diagnosis.add import add_effect, add_findings
+from modeler.diagnosis.added_model import Logs
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.drive_gains import gain_visible
+from modeler.diagnosis.result import Diagnosis
+from modeler.observation.log import Log
+from modeler.runtime.model import load
 from tests.diagnose.conftest import Case, Torque
 
 

@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 
 from modeler.api import load
-from modeler.diagnose import Diagnosis, diagnose
-from modeler.observation import Log, read_log
-from modeler.robot import robot_from_text
-from modeler.simulate import SimulationSettings, simulate, write_log
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.result import Diagnosis
+from modeler.observation.log import Log
+from modeler.observation.read import read_log
+from modeler.robot.read import robot_from_text
+from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.diagnose.conftest import Case, motion, on_joint
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from modeler.hypotheses.rows import Rows
-from modeler.scoring.gram import sigma_of
+from modeler.diagnosis.columns import Rows
+from modeler.diagnosis.gram import sigma_of
 
 
 def test_rows_without_torque_do_not_drive_the_parameters_to_zero() -> None:

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from modeler.diagnose import diagnose
-from modeler.observation import Log
-from modeler.scoring.score import printed
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.score import printed
+from modeler.observation.log import Log
 from tests.diagnose.conftest import Case, motion, on_joint
 
 

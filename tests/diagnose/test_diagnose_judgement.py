@@ -7,19 +7,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.core.json_text import nulled
-from modeler.diagnose import Known, doubts, errors, search
-from modeler.diagnose.assemble import _doubted, verdict
-from modeler.diagnose.braking import DRIVES
-from modeler.diagnose.judge import Judged, decide, possible
-from modeler.diagnose.looks import Look
-from modeler.diagnose.result import Finding
-from modeler.diagnose.sentences import other_names, refused_lines
-from modeler.diagnose.survey import Survey
-from modeler.effects import effect_named
-from modeler.hypotheses.candidates import Candidate, candidates, scales_of
+from modeler.core.json import nulled
+from modeler.diagnosis import data_checks as doubts
+from modeler.diagnosis import errors, search
+from modeler.diagnosis.assemble import _doubted, verdict
+from modeler.diagnosis.candidates import Candidate, Known, candidates, scales_of
+from modeler.diagnosis.cross_checks import Look
+from modeler.diagnosis.judge import Judged, decide, possible
+from modeler.diagnosis.plausible import DRIVES
+from modeler.diagnosis.result import Finding
+from modeler.diagnosis.score import Change, Score
+from modeler.diagnosis.search import Survey
+from modeler.diagnosis.sentences import other_names, refused_lines
+from modeler.effects.catalogue import effect_named
 from modeler.observation.channels import Fault
-from modeler.scoring.score import Change, Score
 from tests.diagnose.conftest import Case
 
 TURNING = ("counterbalance", "constant_force_spring", "encoder_eccentricity")

@@ -5,9 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.diagnose import diagnose
-from modeler.diagnose.analyse import analysis_processing, bands_line
-from modeler.observation import Log, Processing
+from modeler.diagnosis.analyse import analysis_processing, bands_line
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.observation.log import Log
+from modeler.observation.processing import Processing
 from tests.diagnose.conftest import Case, motion
 
 

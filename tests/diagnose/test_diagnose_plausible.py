@@ -5,10 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnose import plausible
-from modeler.diagnose.plausible import objection
-from modeler.effects import effect_named
-from modeler.hypotheses.candidates import Candidate, JointScale
+from modeler.diagnosis import plausible
+from modeler.diagnosis.candidates import Candidate, JointScale
+from modeler.diagnosis.plausible import objection
+from modeler.effects.catalogue import effect_named
 
 INERTIA = 2.0  # kg m^2
 

@@ -6,13 +6,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnose import Known, diagnose, diagnosis
-from modeler.diagnose import detected as module
-from modeler.diagnose.detected import detected
-from modeler.effects import effect_named
-from modeler.pages.event_pictures import play_picture
-from modeler.pages.report import write_diagnosis
-from modeler.scoring.score import Change, Score
+from modeler.diagnosis import detected as module
+from modeler.diagnosis import diagnosis
+from modeler.diagnosis.candidates import Known
+from modeler.diagnosis.detected import detected
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.score import Change, Score
+from modeler.effects.catalogue import effect_named
+from modeler.report.diagnosis import write_diagnosis
+from modeler.report.torque_picture import play_picture
 from tests.diagnose.conftest import Case, motion, on_joint
 
 ERRORS = {"1": 0.05, "2": 0.05, "3": 0.05}

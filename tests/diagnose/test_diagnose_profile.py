@@ -6,15 +6,17 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, generate, identified, load, observe
-from modeler.diagnose import Known
-from modeler.diagnose.analyse import analysed
-from modeler.diagnose.search import extended, surveyed
-from modeler.diagnose.values import profile_of, told_spread
-from modeler.fit import identify, load_model, save_model
-from modeler.improve import Logs, add_effect, added, undone
-from modeler.observation import read_log
-from modeler.scoring.state import Data, state_of
-from modeler.simulate import SimulationSettings, hidden_from_text, simulate, write_log
+from modeler.diagnosis.add import add_effect, undone
+from modeler.diagnosis.added_model import Logs, added
+from modeler.diagnosis.analyse import analysed
+from modeler.diagnosis.candidates import Known
+from modeler.diagnosis.search import extended, surveyed
+from modeler.diagnosis.state import Data, state_of
+from modeler.diagnosis.values import profile_of, told_spread
+from modeler.estimation.identify import identify
+from modeler.estimation.model_file import load_model, save_model
+from modeler.observation.read import read_log
+from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
 
 
 @pytest.fixture(scope="module")

@@ -6,13 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.diagnose import Diagnosis, Known, diagnose
-from modeler.effects import effect_named
-from modeler.hypotheses.candidates import candidates, scales_of
-from modeler.observation import Log
-from modeler.pages.event_pictures import push_picture
-from modeler.pages.report import write_diagnosis
-from modeler.scoring.score import printed
+from modeler.diagnosis.candidates import Known, candidates, scales_of
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.result import Diagnosis
+from modeler.diagnosis.score import printed
+from modeler.effects.catalogue import effect_named
+from modeler.observation.log import Log
+from modeler.report.diagnosis import write_diagnosis
+from modeler.report.torque_picture import push_picture
 from tests.diagnose.conftest import Case, motion, on_joint
 
 

@@ -8,14 +8,15 @@ import pytest
 
 from modeler.api import compile_model, derive, generate, load
 from modeler.core.expression import parse
-from modeler.diagnose.analyse import analysed
-from modeler.hypotheses import rows as rows_module
-from modeler.hypotheses import signals as signals_module
-from modeler.observation import Processing, read_log
+from modeler.diagnosis import columns as rows_module
+from modeler.diagnosis import signals as signals_module
+from modeler.diagnosis.analyse import analysed
+from modeler.diagnosis.propose import proposals
+from modeler.diagnosis.state import Data, all_columns_of, state_of
 from modeler.observation.prepare import Mending
-from modeler.scoring.propose import proposals
-from modeler.scoring.state import Data, all_columns_of, state_of
-from modeler.simulate import SimulationSettings, simulate, write_log
+from modeler.observation.processing import Processing
+from modeler.observation.read import read_log
+from modeler.simulation import SimulationSettings, simulate, write_log
 
 
 @pytest.fixture(scope="module")

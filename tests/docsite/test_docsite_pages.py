@@ -15,7 +15,7 @@ from docsite.markdown import cell, code, table
 from docsite.notebook import executed, notebook_page
 from modeler.api import derive, generate, load
 from modeler.cli import main
-from modeler.robot import builtin_names
+from modeler.robot.library import builtin_names
 from tests.repository import ROOT
 
 
@@ -73,7 +73,7 @@ def test_the_interface_has_every_name_once() -> None:
         assert getattr(importlib.import_module(module), name).__doc__, path
     for name in ("fit", "compare", "derive", "load"):
         assert getattr(modeler.api, name).__name__ in {path.rpartition(".")[2] for path in shown}
-    assert dict(exported("modeler.simulate"))["simulate"] == "modeler.simulate.run.simulate"
+    assert dict(exported("modeler.simulation"))["simulate"] == "modeler.simulation.run.simulate"
     for stage in (page[:-3] for page in pages if page != "python/index.md"):
         assert f"]({stage.removeprefix('python/')}.md)" in pages["python/index.md"]
 

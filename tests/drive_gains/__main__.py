@@ -11,7 +11,7 @@ import sys
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.fit import identify_gains
+from modeler.estimation.drive_gains import identify_gains
 from tests.drive_gains.runs import runs_of
 
 

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.api import compile_model, derive, generate, load
-from modeler.compiled import CompiledModel
-from modeler.fit import Payload
-from modeler.observation import Log, Observation, observe
-from modeler.robot import robot_from_text
+from modeler.estimation.payload import Payload
+from modeler.observation.log import Log
+from modeler.observation.observation import Observation, observe
 from modeler.robot.edit import with_drive_gains
-from modeler.simulate import SimulatedLog, SimulationSettings, hidden_from_text, simulate
+from modeler.robot.read import robot_from_text
+from modeler.runtime.model import CompiledModel
+from modeler.simulation import SimulatedLog, SimulationSettings, hidden_from_text, simulate
 
 BARE, LOADED = "bare", "loaded"
 

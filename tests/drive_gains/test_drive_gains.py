@@ -9,14 +9,16 @@ from scipy.optimize import least_squares as nonlinear
 
 from modeler.api import compile_model, derive, generate, load, read_currents
 from modeler.core.errors import DataError, RobotError
-from modeler.estimate.compressed import compress
-from modeler.estimate.tls import mixed_tls
-from modeler.fit import Payload, check_currents, identify_gains, known_doubts
-from modeler.fit.alike import mounted_differently, remounted
-from modeler.fit.known import deviations
-from modeler.observation import observe
-from modeler.robot import builtin_text, robot_from_text
+from modeler.estimation.doubts import mounted_differently, remounted
+from modeler.estimation.drive_gains import check_currents, identify_gains
+from modeler.estimation.known import deviations, known_doubts
+from modeler.estimation.payload import Payload
+from modeler.estimation.total_least_squares import mixed_tls
+from modeler.numerics.least_squares import compress
+from modeler.observation.observation import observe
 from modeler.robot.edit import with_drive_gains
+from modeler.robot.library import builtin_text
+from modeler.robot.read import robot_from_text
 from tests.drive_gains.runs import Runs, runs_of
 
 TRUE = np.array([1.2, 0.9, 25.0])  # N m per unit

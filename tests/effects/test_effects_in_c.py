@@ -5,8 +5,9 @@ import pytest
 
 from modeler.api import compile_model, derive, generate, load
 from modeler.core.expression import Expression
-from modeler.effects import CATALOGUE, Acts, Effect
-from modeler.robot import robot_from_text
+from modeler.effects.catalogue import CATALOGUE
+from modeler.effects.effect import Acts, Effect
+from modeler.robot.read import robot_from_text
 
 SAMPLES = 40
 FUNCTIONS = {

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, generate, load, own_effect
-from modeler.compiled import CompiledModel
 from modeler.core.errors import EmitError
-from modeler.robot import Robot, robot_from_text
 from modeler.robot.edit import with_effect, with_reference
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import Robot
+from modeler.runtime.model import CompiledModel
 
 SAMPLES = 50
 JOINT = 1  # joint "2"

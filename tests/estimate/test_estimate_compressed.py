@@ -4,8 +4,8 @@ from functools import reduce
 
 import numpy as np
 
-from modeler.estimate.compressed import Compressed, compress, merged
-from modeler.estimate.least_squares import least_squares
+from modeler.estimation.least_squares import least_squares
+from modeler.numerics.least_squares import Compressed, compress, merged
 
 NAMES = tuple(f"p{k}" for k in range(7))
 

@@ -4,14 +4,10 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.estimate.consistent import (
-    KNOWN_WEIGHT,
-    consistent,
-    parameters_of,
-    pseudo_inertia_of,
-)
-from modeler.estimate.possible import machine_of
-from modeler.robot import INERTIAL, read_robot
+from modeler.estimation.consistent import KNOWN_WEIGHT, consistent, parameters_of, pseudo_inertia_of
+from modeler.estimation.nearest_body import machine_of
+from modeler.robot.read import read_robot
+from modeler.robot.robot import INERTIAL
 from tests.modules import compiled
 
 SERIAL = ("two-link", "ur10e", "panda")
@@ -103,7 +99,7 @@ def test_pinocchio_gives_the_same_torques(name):
 def test_mujoco_takes_the_bodies_and_gives_the_same_torques():
     mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo is not installed")
     from modeler.api import compile_model, derive, generate
-    from modeler.robot import robot_from_text
+    from modeler.robot.read import robot_from_text
     from tests.diagnose.mujoco_arm import Arm, Body, mjcf, random_arm, robot_text
 
     arm = random_arm(3)

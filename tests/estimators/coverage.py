@@ -13,13 +13,13 @@ from functools import lru_cache
 import numpy as np
 
 from modeler import api
-from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
-from modeler.fit import identify
-from modeler.observation import Log
-from modeler.robot import robot_from_text
-from modeler.robot.builtin import builtin_text
-from modeler.simulate import SimulationSettings, simulate
+from modeler.estimation.identify import identify
+from modeler.observation.log import Log
+from modeler.robot.library import builtin_text
+from modeler.robot.read import robot_from_text
+from modeler.runtime.model import CompiledModel
+from modeler.simulation import SimulationSettings, simulate
 
 ROBOT = "two-link"
 SCATTER = 0.1  # of the machine's parameters about those of the file

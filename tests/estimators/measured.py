@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler import api
-from modeler.fit.side_by_side import Tried, side_by_side
-from modeler.robot import robot_from_text
+from modeler.estimation.side_by_side import Tried, side_by_side
+from modeler.robot.read import robot_from_text
 from tests.measured_sets.sets import SETS
 
 

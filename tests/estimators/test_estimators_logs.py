@@ -9,11 +9,12 @@ from scipy.integrate import solve_ivp
 from modeler import api
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.estimate.direct import DirectModel
-from modeler.estimate.methods import METHODS
-from modeler.fit import Payload, identify, identify_with_payloads
-from modeler.observation import Log
-from modeler.robot import robot_from_text
+from modeler.estimation.direct_model import DirectModel
+from modeler.estimation.identify import identify
+from modeler.estimation.methods import METHODS
+from modeler.estimation.payload import Payload, identify_with_payloads
+from modeler.observation.log import Log
+from modeler.robot.read import robot_from_text
 from tests.estimators.__main__ import main as suite
 from tests.estimators.coverage import CASES, compiled, covered, measured, table
 from tests.estimators.measured import tried

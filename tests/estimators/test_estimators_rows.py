@@ -8,15 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
-from modeler.estimate.compressed import compress
-from modeler.estimate.instruments import with_instruments
-from modeler.estimate.least_squares import least_squares
-from modeler.estimate.ordinary import ordinary
-from modeler.estimate.problem import Problem
-from modeler.estimate.ridge import ridge
-from modeler.estimate.robust import robust
+from modeler.core.manifest import JointSpec
+from modeler.estimation.instrumental import with_instruments
+from modeler.estimation.least_squares import least_squares, ordinary
+from modeler.estimation.problem import Problem
+from modeler.estimation.ridge import ridge
+from modeler.estimation.robust import robust
+from modeler.numerics.least_squares import compress
 
 BETA = np.array([1.0, -2.0, 0.3, 5.0])
 NOISE = np.array([0.5, 0.05])

@@ -7,13 +7,14 @@ import numpy as np
 
 from modeler.api import compile_model, derive, generate
 from modeler.cli.excite import bounds_of
-from modeler.compiled import CompiledModel
-from modeler.excite.bounds import Bounds
-from modeler.excite.search import Wish, task_of
-from modeler.excite.task import Task
-from modeler.robot import Robot, read_robot, robot_from_text
+from modeler.derivation.derive import with_home
+from modeler.excitation.motion import Bounds
+from modeler.excitation.search import Wish, task_of
+from modeler.excitation.task import Task
 from modeler.robot.edit import with_effects
-from modeler.symbolic import with_home
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.robot import Robot
+from modeler.runtime.model import CompiledModel
 
 
 @cache

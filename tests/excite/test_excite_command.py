@@ -8,10 +8,10 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler.cli import main
-from modeler.excite.result import csv_text
-from modeler.excite.search import Wish, random_motion, task_of
-from modeler.excite.series import series
-from modeler.simulate import at_rate, read_motion
+from modeler.excitation.motion import series
+from modeler.excitation.result import csv_text
+from modeler.excitation.search import Wish, random_motion, task_of
+from modeler.simulation import at_rate, read_motion
 from tests.excite.robots_to_excite import limits_of
 
 

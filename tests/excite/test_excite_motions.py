@@ -5,17 +5,14 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.api.exciting import bounds_of, subject_of
+from modeler.api.motion import bounds_of, subject_of
 from modeler.core.errors import DataError
-from modeler.excite.bounds import Bounds
-from modeler.excite.columns import Columns
-from modeler.excite.criterion import condition
-from modeler.excite.result import Exciting
-from modeler.excite.search import Wish, excite, random_motion, task_of
-from modeler.excite.series import series
-from modeler.robot import robot_from_text
-from modeler.simulate.closing import distances, followed, rates
-from modeler.simulate.constraints import constraints_of
+from modeler.excitation.criterion import Columns, condition
+from modeler.excitation.motion import Bounds, series
+from modeler.excitation.result import Exciting
+from modeler.excitation.search import Wish, excite, random_motion, task_of
+from modeler.robot.read import robot_from_text
+from modeler.simulation.closing import constraints_of, distances, followed, rates
 from tests.excite.robots_to_excite import limits_of, plausible, robot
 
 
@@ -227,7 +224,7 @@ def test_every_loop_asks_for_the_time(monkeypatch, steps):
             return whole(self, *args)
 
         monkeypatch.setattr(Columns, name, counted)
-    monkeypatch.setattr("modeler.excite.search.time.monotonic", lambda: clock[0])
+    monkeypatch.setattr("modeler.excitation.search.time.monotonic", lambda: clock[0])
     before = clock[0]
     motion = subject.search(bounds, Wish(6.0, 4, seed=1, time_limit=before + steps))
     assert motion.ended_early and clock[0] < before + steps + 700

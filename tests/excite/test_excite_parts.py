@@ -7,19 +7,19 @@ import pytest
 from scipy.optimize import minimize, rosen, rosen_der
 
 from modeler.core.errors import DataError
-from modeler.excite import choose as choosing
-from modeler.excite.choose import choose
-from modeler.excite.criterion import (
+from modeler.excitation import separate as choosing
+from modeler.excitation.criterion import (
     CRITERIA,
     condition,
     log_condition,
     log_det,
     lost_information,
 )
-from modeler.excite.descent import Landscape, descend, evolve
-from modeler.excite.search import random_motion
-from modeler.excite.series import series
-from modeler.excite.task import Walled
+from modeler.excitation.motion import series
+from modeler.excitation.search import random_motion
+from modeler.excitation.separate import choose
+from modeler.excitation.task import Walled
+from modeler.numerics.optimize import Landscape, descend, evolve
 from tests.excite.robots_to_excite import limits_of, small_task
 
 

@@ -5,10 +5,9 @@ from typing import get_args
 
 import pytest
 
-from modeler.core.choices import Method
-from modeler.core.errors import DataError
-from modeler.core.estimators import ABOUT, titled
-from modeler.estimate.methods import METHODS, method_of
+from modeler.core.errors import DataError, Method
+from modeler.estimation.least_squares import ABOUT, titled
+from modeler.estimation.methods import METHODS, method_of
 
 
 def test_choices_words_and_functions_are_the_same_list():

@@ -8,10 +8,10 @@ from scipy.signal import lfilter
 from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
-from modeler.compare.band import DEVIATIONS, sigma_of
-from modeler.fit import identify
-from modeler.observation import Processing, observe
-from modeler.observation.masks import MASKS, WHY, masks_of
+from modeler.estimation.identify import identify
+from modeler.observation.observation import MASKS, WHY, masks_of, observe
+from modeler.observation.processing import Processing
+from modeler.validation.prediction import DEVIATIONS, sigma_of
 
 RUNS, LONG = 60, 30.0
 

@@ -11,10 +11,10 @@ import pytest
 
 from modeler.api import compile_model, derive, generate, load, observe
 from modeler.cli import main
-from modeler.fit import identify
-from modeler.observation import read_log
+from modeler.estimation.identify import identify
 from modeler.observation.findings import findings_of_fit, findings_of_prediction
-from modeler.simulate import SimulationSettings, simulate, write_log
+from modeler.observation.read import read_log
+from modeler.simulation import SimulationSettings, simulate, write_log
 
 ROBOTS = ("demo-arm", "ur10e", "puma560", "scara")
 

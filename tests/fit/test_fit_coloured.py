@@ -8,9 +8,10 @@ from scipy.signal import lfilter
 from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
-from modeler.estimate.coloured import autocorrelation
-from modeler.fit import identify
-from modeler.observation import Processing, observe
+from modeler.estimation.covariance import autocorrelation
+from modeler.estimation.identify import identify
+from modeler.observation.observation import observe
+from modeler.observation.processing import Processing
 
 RUNS = 40
 

@@ -3,13 +3,14 @@
 import numpy as np
 from test_observation_rows import exact_log, some_beta
 
-from modeler.base import base_parameters
-from modeler.codegen import emit
-from modeler.compiled import load
-from modeler.fit import IdentifiedModel, identify, load_model, provenance, save_model
-from modeler.observation import observe
-from modeler.robot import read_robot
-from modeler.symbolic import derive_model
+from modeler.codegen.emit import emit
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.estimation.identify import identify
+from modeler.estimation.model_file import IdentifiedModel, load_model, provenance, save_model
+from modeler.observation.observation import observe
+from modeler.robot.read import read_robot
+from modeler.runtime.model import load
 
 
 def test_a_saved_model_compiles_and_predicts_the_same(tmp_path):

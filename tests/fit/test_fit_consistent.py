@@ -8,10 +8,11 @@ import pytest
 from pyarrow import parquet
 
 from modeler.cli import main
-from modeler.fit import load_model
-from modeler.robot import INERTIAL, read_robot
+from modeler.estimation.model_file import load_model
 from modeler.robot.edit import with_parameters
-from modeler.simulate.body import pseudo_inertia
+from modeler.robot.read import read_robot
+from modeler.robot.robot import INERTIAL
+from modeler.simulation.rigid import pseudo_inertia
 from tests.modules import compiled
 
 

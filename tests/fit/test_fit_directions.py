@@ -6,11 +6,15 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, generate
-from modeler.fit import identify, with_verdict
-from modeler.fit.result import fit_from_json
-from modeler.observation import Log, Processing, observe
-from modeler.robot import builtin_text, robot_from_text
+from modeler.estimation.identify import identify
+from modeler.estimation.result import fit_from_json
+from modeler.estimation.verdict import with_verdict
+from modeler.observation.log import Log
+from modeler.observation.observation import observe
+from modeler.observation.processing import Processing
 from modeler.robot.edit import with_effects
+from modeler.robot.library import builtin_text
+from modeler.robot.read import robot_from_text
 
 EVERY = ("viscous", "coulomb", "asymmetric_viscous", "offset")
 

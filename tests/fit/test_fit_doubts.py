@@ -10,11 +10,13 @@ import pytest
 from modeler.api import compile_model, derive, generate, identified, load, observe
 from modeler.cli import main
 from modeler.core.errors import ManifestError
-from modeler.fit import identify, load_model, save_model, with_verdict
-from modeler.fit.result import fit_from_json
-from modeler.observation import read_log
-from modeler.robot import robot_from_text
-from modeler.simulate import SimulationSettings, simulate, write_log
+from modeler.estimation.identify import identify
+from modeler.estimation.model_file import load_model, save_model
+from modeler.estimation.result import fit_from_json
+from modeler.estimation.verdict import with_verdict
+from modeler.observation.read import read_log
+from modeler.robot.read import robot_from_text
+from modeler.simulation import SimulationSettings, simulate, write_log
 
 
 @dataclasses.dataclass(frozen=True)

@@ -9,13 +9,11 @@ from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
-from modeler.estimate.unequal import unequal_least_squares
-from modeler.fit import identify, identify_energy
-from modeler.fit.crossed import crossed
-from modeler.fit.identify import base_equations
-from modeler.fit.result import fit_from_json
-from modeler.observation import observe
+from modeler.estimation.energy import identify_energy, unequal_least_squares
+from modeler.estimation.identify import base_equations, crossed, identify
+from modeler.estimation.result import fit_from_json
 from modeler.observation.energy import energy_rows
+from modeler.observation.observation import observe
 
 NOISE = np.array([0.2, 0.5])
 SEEDS = 60

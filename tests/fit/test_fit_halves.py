@@ -7,8 +7,9 @@ import pytest
 
 from modeler.api import compile_model, derive, generate, load, observe
 from modeler.cli import main
-from modeler.fit import identify, with_verdict
-from modeler.simulate import SimulationSettings, hidden_from_text, simulate
+from modeler.estimation.identify import identify
+from modeler.estimation.verdict import with_verdict
+from modeler.simulation import SimulationSettings, hidden_from_text, simulate
 
 TOLD = "tell different"
 

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from modeler.estimate.compressed import compress
-from modeler.estimate.least_squares import least_squares
-from modeler.estimate.rank import independent_columns
-from modeler.fit.essential import essential_parameters, relative_error
+from modeler.estimation.essential import essential_parameters, relative_error
+from modeler.estimation.least_squares import least_squares
+from modeler.numerics.least_squares import compress, independent_columns
 
 NAMES = ("A", "B", "C", "D")
 

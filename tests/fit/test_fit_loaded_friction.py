@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.api.chain import recompile
-from modeler.compare import compare
-from modeler.compare.predict import predict
-from modeler.fit import Payload
-from modeler.fit.model_file import load_model, save_model
-from modeler.observation import Log
-from modeler.simulate import SimulationSettings, hidden_from_text, simulate
+from modeler.api.model import recompile
+from modeler.estimation.model_file import load_model, save_model
+from modeler.estimation.payload import Payload
+from modeler.observation.log import Log
+from modeler.simulation import SimulationSettings, hidden_from_text, simulate
+from modeler.validation.comparison import compare
+from modeler.validation.predict import predict
 
 MASS = 2.0
 

@@ -14,16 +14,18 @@ from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
-from modeler.fit import identify, streamed, with_verdict
-from modeler.fit.crossed import Crossed
-from modeler.fit.doubts import unshown
-from modeler.fit.streamed import identify_long, merge_all, reduce_chunk, stream
-from modeler.observation import Processing, observe
+from modeler.estimation import long_logs as streamed
+from modeler.estimation.doubts import unshown
+from modeler.estimation.identify import Crossed, identify
+from modeler.estimation.long_logs import identify_long, merge_all, reduce_chunk, stream
+from modeler.estimation.verdict import with_verdict
+from modeler.numerics.filters import spacing
 from modeler.observation.chunk import chunks, margin
 from modeler.observation.motion import low_pass
-from modeler.observation.row_filter import spacing
+from modeler.observation.observation import observe
+from modeler.observation.processing import Processing
+from modeler.observation.read import MemorySource, cut
 from modeler.observation.segments import split
-from modeler.observation.source import MemorySource, cut
 from modeler.observation.survey import Known, WholeNeeded, survey
 
 ROWS = 1024  # of a chunk
@@ -208,7 +210,7 @@ def test_steps_of_a_coarse_clock_are_those_of_a_fine_one():
 def any_machine(monkeypatch):
     """A stand-in has no reach to judge the unit of the time by, and values of no real machine."""
     for name in ("time_doubts", "_impossible"):
-        monkeypatch.setattr(f"modeler.fit.verdict.{name}", lambda *given: [])
+        monkeypatch.setattr(f"modeler.estimation.verdict.{name}", lambda *given: [])
 
 
 def verdict_of(log):
@@ -340,7 +342,7 @@ def test_another_zero_of_an_encoder_needs_the_whole_log():
 def test_threads_change_nothing_and_chunks_can_be_sent_away(monkeypatch):
     log = noisy_log()
     one = stream(ARM, [MemorySource(log)], rows=ROWS)
-    monkeypatch.setattr("modeler.fit.streamed.cpu_count", lambda: 5)
+    monkeypatch.setattr("modeler.estimation.long_logs.cpu_count", lambda: 5)
     many = stream(ARM, [MemorySource(log)], rows=ROWS)
     np.testing.assert_array_equal(one.data.triangles, many.data.triangles)
     source = MemorySource(log)
@@ -362,7 +364,7 @@ def test_an_error_or_an_interrupt_ends_the_threads(monkeypatch):
         return reduce_chunk(model, chunk, chosen)
 
     monkeypatch.setattr(streamed, "reduce_chunk", broken)
-    monkeypatch.setattr("modeler.fit.streamed.cpu_count", lambda: 1)
+    monkeypatch.setattr("modeler.estimation.long_logs.cpu_count", lambda: 1)
     with pytest.raises(KeyboardInterrupt):
         stream(ARM, [MemorySource(log)], rows=512)
     assert len(begun) < 6 < log.rows / 512

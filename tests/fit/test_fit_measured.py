@@ -21,8 +21,9 @@ from modeler.api import (
     load,
     observe,
 )
-from modeler.observation import Processing
-from modeler.robot import Robot, robot_from_text
+from modeler.observation.processing import Processing
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import Robot
 
 DATA = next(
     (p / "shared" / "data" for p in Path(__file__).resolve().parents

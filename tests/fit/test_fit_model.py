@@ -10,17 +10,16 @@ from stand_in import Row, StandIn, planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError, ManifestError
-from modeler.fit import (
+from modeler.estimation.identify import identify
+from modeler.estimation.model_file import (
     IdentifiedModel,
-    Payload,
-    identify,
-    identify_with_payloads,
+    checksums,
     load_model,
     provenance,
     save_model,
 )
-from modeler.fit.model_file import checksums
-from modeler.observation import observe
+from modeler.estimation.payload import Payload, identify_with_payloads
+from modeler.observation.observation import observe
 
 
 def noisy(log, size, seed=0):

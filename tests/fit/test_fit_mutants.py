@@ -10,15 +10,21 @@ import pytest
 from test_observation_rows import exact_log, some_beta
 
 from modeler.api import recompile
-from modeler.base import base_parameters
-from modeler.codegen import emit
-from modeler.compiled import load
+from modeler.codegen.emit import emit
 from modeler.core.errors import ModelerError
-from modeler.fit import IdentifiedModel, identify, load_model, provenance, save_model
-from modeler.fit.model_file import checksums
-from modeler.observation import observe
-from modeler.robot import read_robot
-from modeler.symbolic import derive_model
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.estimation.identify import identify
+from modeler.estimation.model_file import (
+    IdentifiedModel,
+    checksums,
+    load_model,
+    provenance,
+    save_model,
+)
+from modeler.observation.observation import observe
+from modeler.robot.read import read_robot
+from modeler.runtime.model import load
 
 MANY_DIGITS = "a whole number of 10 000 digits"
 STRANGE = [

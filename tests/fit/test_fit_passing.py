@@ -7,12 +7,16 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from modeler.compiled import CompiledModel
-from modeler.fit import FitResult, identify, with_verdict
-from modeler.observation import Observation, Processing, observe, passing, stretch
-from modeler.observation.evaluated import Evaluated
+from modeler.estimation.identify import identify
+from modeler.estimation.result import FitResult
+from modeler.estimation.verdict import with_verdict
+from modeler.observation import reduce as passing
+from modeler.observation import stretch
 from modeler.observation.log import Log
+from modeler.observation.observation import Evaluated, Observation, observe
+from modeler.observation.processing import Processing
 from modeler.observation.thinned import thinned
+from modeler.runtime.model import CompiledModel
 from tests.modules import compiled
 
 RATE = 200.0

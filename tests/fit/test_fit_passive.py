@@ -7,15 +7,17 @@ import pytest
 from stand_in import Row, StandIn
 from test_observation_rows import exact_log, some_beta
 
-from modeler.base import base_parameters, grouping_matrix
-from modeler.codegen import emit
-from modeler.compiled import load
+from modeler.codegen.emit import emit
 from modeler.core.errors import DataError
-from modeler.fit import identify
-from modeler.observation import observe, read_log
-from modeler.robot import read_robot
-from modeler.simulate import SimulationSettings, simulate, write_log
-from modeler.symbolic import derive_model
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.numeric_rank import grouping_matrix
+from modeler.estimation.identify import identify
+from modeler.observation.observation import observe
+from modeler.observation.read import read_log
+from modeler.robot.read import read_robot
+from modeler.runtime.model import load
+from modeler.simulation import SimulationSettings, simulate, write_log
 
 
 @pytest.mark.parametrize("name", ["orthoglide-leg-tree", "sr400-tree"])

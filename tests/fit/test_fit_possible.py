@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, generate, load
-from modeler.estimate.possible import carried_by, machine_of, nearest_possible
-from modeler.robot import INERTIAL
+from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
+from modeler.robot.robot import INERTIAL
 
 _TREES_AND_LOOPS = ("two-link", "ur10e", "kinova_gen3", "dvrk-psm", "sr400", "orthoglide-2003")
 

@@ -10,15 +10,20 @@ from test_observation_rows import exact_log, some_beta
 
 from modeler.api import compile_model, derive, generate
 from modeler.core.errors import DataError
-from modeler.estimate.compressed import compress
-from modeler.estimate.least_squares import least_squares
-from modeler.fit import identify
-from modeler.fit.essential import essential_parameters
-from modeler.fit.model_file import IdentifiedModel, load_model, provenance, save_model
-from modeler.fit.reduced import with_essential_only
-from modeler.fit.result import fit_from_json
-from modeler.observation import observe
-from modeler.robot import read_robot
+from modeler.estimation.essential import essential_parameters
+from modeler.estimation.identify import identify
+from modeler.estimation.least_squares import least_squares
+from modeler.estimation.model_file import (
+    IdentifiedModel,
+    load_model,
+    provenance,
+    save_model,
+    with_essential_only,
+)
+from modeler.estimation.result import fit_from_json
+from modeler.numerics.least_squares import compress
+from modeler.observation.observation import observe
+from modeler.robot.read import read_robot
 
 NOISE = 0.3
 

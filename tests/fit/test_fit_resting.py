@@ -8,8 +8,8 @@ import pytest
 
 from modeler.api import compile_model, derive, generate, load
 from modeler.cli import main
-from modeler.core.choices import TWO_STEPS
-from modeler.core.estimators import ABOUT
+from modeler.core.errors import TWO_STEPS
+from modeler.estimation.least_squares import ABOUT
 
 ROBOT, JOINTS, MASS = "demo-arm", 3, 2.0
 RESTING = [(0,), (1,), (2,), (0, 1, 2)]

@@ -7,20 +7,21 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.compiled import CompiledModel
-from modeler.core.contract import SignalSpec
 from modeler.core.errors import DataError
-from modeler.estimate.alone import Directions, moves_alone
-from modeler.estimate.along import Alone, along
-from modeler.estimate.excited import inertia_rows
-from modeler.estimate.two_step import two_steps
-from modeler.fit import identify
-from modeler.fit.two_step import identify_in_two_steps
-from modeler.observation import Log, Processing, observe
-from modeler.robot import Limits, read_robot
+from modeler.core.manifest import SignalSpec
+from modeler.estimation.along import Alone, along
+from modeler.estimation.identify import identify
+from modeler.estimation.two_step import Directions, moves_alone, two_steps
+from modeler.estimation.two_step_result import identify_in_two_steps, inertia_rows
+from modeler.observation.log import Log
+from modeler.observation.observation import observe
+from modeler.observation.processing import Processing
 from modeler.robot.motors import joint_directions
-from modeler.simulate import SimulationSettings, simulate
-from modeler.simulate.trajectory import one_joint_reference, point_to_point_reference
+from modeler.robot.read import read_robot
+from modeler.robot.robot import Limits
+from modeler.runtime.model import CompiledModel
+from modeler.simulation import SimulationSettings, simulate
+from modeler.simulation.trajectory import one_joint_reference, point_to_point_reference
 from tests.modules import compiled, module
 
 _AS_THEY_ARE = Processing(

@@ -5,9 +5,10 @@ from pathlib import Path
 import pytest
 
 from modeler.api import compile_model, derive, generate, load, observe
-from modeler.fit import identify, with_verdict
-from modeler.observation.dry_friction import shafts
-from modeler.simulate import SimulationSettings, simulate, write_log
+from modeler.estimation.identify import identify
+from modeler.estimation.verdict import with_verdict
+from modeler.observation.low_speed import shafts
+from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.robots import ROBOTS
 
 DATA = next(

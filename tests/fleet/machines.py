@@ -6,12 +6,13 @@ from functools import cache
 import numpy as np
 from scipy.signal import lfilter
 
-from modeler.compiled import CompiledModel
-from modeler.core.contract import Emitted
-from modeler.derivation import derive, generate, load
-from modeler.fleet import LogSummary, Named
-from modeler.fleet.summary import summary
-from modeler.observation import Log, Processing
+from modeler.codegen.derivation import derive, generate, load
+from modeler.core.manifest import Emitted
+from modeler.fleet.naming import Named
+from modeler.fleet.summary import LogSummary, summary
+from modeler.observation.log import Log
+from modeler.observation.processing import Processing
+from modeler.runtime.model import CompiledModel
 
 RATE = 100.0  # Hz
 

@@ -11,8 +11,8 @@ import pytest
 from modeler.api import fleet, load, simulate, write_report
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.robot import robot_from_text
 from modeler.robot.edit import with_parameters
+from modeler.robot.read import robot_from_text
 
 MOTION = {"duration": 6.0, "rate": 250.0, "parameter_seed": 4}
 

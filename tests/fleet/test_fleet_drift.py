@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.fleet import Fleet, Left, Named, fleet_of
-from modeler.fleet.result import Finding
-from modeler.fleet.text import fleet_lines, sentence
+from modeler.fleet.fleet import fleet_of
+from modeler.fleet.naming import Named
+from modeler.fleet.result import Finding, Fleet, fleet_lines, sentence
+from modeler.fleet.summary import Left
 from tests.fleet.machines import Planted, Scene, compiled, summaries
 
 

@@ -5,12 +5,14 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.compiled import CompiledModel
 from modeler.core.errors import DataError
-from modeler.fleet import Fleet, Left, LogSummary, Named, fleet_of
-from modeler.fleet.summary import summary
-from modeler.fleet.text import fleet_lines, sentence
-from modeler.observation import Log, Processing
+from modeler.fleet.fleet import fleet_of
+from modeler.fleet.naming import Named
+from modeler.fleet.result import Fleet, fleet_lines, sentence
+from modeler.fleet.summary import Left, LogSummary, summary
+from modeler.observation.log import Log
+from modeler.observation.processing import Processing
+from modeler.runtime.model import CompiledModel
 from tests.fleet.machines import Planted, Scene, compiled, logs, motion, parameters, summaries
 
 GIVEN = Processing(position_cutoff=20.0, parallel_cutoff=8.0)

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.fleet import named_logs
-from modeler.fleet.naming import listed_logs, natural
-from modeler.fleet.times import date_of, in_time
+from modeler.fleet.drift import date_of, in_time
+from modeler.fleet.naming import listed_logs, named_logs, natural
 from tests.fleet.machines import Scene, summaries
 
 

@@ -4,12 +4,18 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from modeler.estimate.least_squares import least_squares
-from modeler.fleet.joint_fit import joint_fit
-from modeler.fleet.layout import GAIN, LOAD, layout_of
-from modeler.fleet.odd import critical_deviate, odd_ones
-from modeler.fleet.series import Series, least_told, move_of, quantile, scatters
-from modeler.observation import observe
+from modeler.estimation.least_squares import least_squares
+from modeler.fleet.drift import (
+    Series,
+    critical_deviate,
+    least_told,
+    move_of,
+    odd_ones,
+    quantile,
+    scatters,
+)
+from modeler.fleet.joint_fit import GAIN, LOAD, joint_fit, layout_of
+from modeler.observation.observation import observe
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs, parameters, summaries
 
 ROSNER = """

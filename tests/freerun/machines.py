@@ -6,11 +6,13 @@ from pathlib import Path
 import numpy as np
 
 from modeler.api import compile_model, derive, fit, generate, observe
-from modeler.compiled import CompiledModel
-from modeler.fit import IdentifiedModel
-from modeler.observation import Log, Processing
-from modeler.robot import Robot, robot_from_text
-from modeler.simulate import SimulationSettings, simulate
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.observation.log import Log
+from modeler.observation.processing import Processing
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import Robot
+from modeler.runtime.model import CompiledModel
+from modeler.simulation import SimulationSettings, simulate
 
 PENDULUM = """\
 name = "pendulum"

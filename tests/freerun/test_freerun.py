@@ -8,13 +8,12 @@ from scipy.integrate import solve_ivp
 
 from modeler.api import load, recompile
 from modeler.core.errors import DataError
-from modeler.freerun import Asked, free_run
-from modeler.freerun.measure import fit_percentage, horizons
-from modeler.freerun.pictures import free_run_pictures
-from modeler.freerun.plant import Plant
-from modeler.freerun.walk import Lanes, walk
-from modeler.robot import robot_from_text
 from modeler.robot.edit import with_effects
+from modeler.robot.read import robot_from_text
+from modeler.validation.forward_dynamics import Plant
+from modeler.validation.free_run import Asked, Lanes, free_run, walk
+from modeler.validation.free_run_result import free_run_pictures
+from modeler.validation.stability import fit_percentage, horizons
 from tests.freerun.machines import (
     INERTIA,
     MOMENT,

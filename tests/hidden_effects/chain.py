@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from modeler import api
-from modeler.effects import Effect, effect_named
+from modeler.effects.catalogue import effect_named
+from modeler.effects.effect import Effect
 
 
 def diagnosed(folder: Path, withheld: Sequence[str] = ()) -> dict[str, Any]:

@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.compiled import load as load_compiled
 from modeler.core.errors import DataError, RobotError
-from modeler.diagnose import diagnose
-from modeler.fit import load_model, save_model
-from modeler.improve import Logs, add_effect, add_findings, undone
-from modeler.observation import Log
-from modeler.robot import robot_from_text
+from modeler.diagnosis.add import add_effect, add_findings, undone
+from modeler.diagnosis.added_model import Logs
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.estimation.model_file import load_model, save_model
+from modeler.observation.log import Log
+from modeler.robot.read import robot_from_text
+from modeler.runtime.model import load as load_compiled
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.conftest import case as case  # the fixture
 

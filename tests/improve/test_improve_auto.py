@@ -5,11 +5,13 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.diagnose import Diagnosis, diagnose
-from modeler.fit import IdentifiedModel
-from modeler.improve import Logs, add_effect, add_findings, notes
-from modeler.improve import add as module
-from modeler.observation import Log
+from modeler.diagnosis import add as module
+from modeler.diagnosis.add import add_effect, add_findings
+from modeler.diagnosis.added_model import Logs, notes
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.result import Diagnosis
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.observation.log import Log
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.conftest import case as case  # the fixture
 

@@ -9,12 +9,13 @@ import pytest
 
 from modeler import api
 from modeler.cli import main
-from modeler.compiled import load as load_compiled
 from modeler.core.errors import DataError
-from modeler.fit import load_model, save_model
-from modeler.improve import Logs, add_effect, undone
-from modeler.observation import Log
-from modeler.robot import robot_from_text
+from modeler.diagnosis.add import add_effect, undone
+from modeler.diagnosis.added_model import Logs
+from modeler.estimation.model_file import load_model, save_model
+from modeler.observation.log import Log
+from modeler.robot.read import robot_from_text
+from modeler.runtime.model import load as load_compiled
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.conftest import case as case  # the fixture
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from modeler.cli import main
-from modeler.fit import load_model
+from modeler.estimation.model_file import load_model
 
 Run = Callable[..., tuple[int, str, str]]
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from modeler.compiled import load
-from modeler.improve import Logs, add_effect
-from modeler.improve.rows import rows_of
-from modeler.observation import Log
-from modeler.observation.torque import model_torque
+from modeler.diagnosis.add import add_effect
+from modeler.diagnosis.added_model import Logs, rows_of
+from modeler.observation.log import Log
+from modeler.observation.observation import model_torque
+from modeler.runtime.model import load
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.conftest import case as case  # the fixture
 

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from modeler.scoring.score import Score, Unseen, printed, scored, told
+from modeler.diagnosis.score import Score, Unseen, printed, scored, told
 
 RATE, SPAN = 20.0, 30.0
 

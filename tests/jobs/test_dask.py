@@ -12,16 +12,16 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler import __version__
-from modeler.api.spread import by_workers, merged_in_time
+from modeler.api.long_logs import by_workers, merged_in_time
 from modeler.cli import main
-from modeler.compiled import CompiledModel
+from modeler.core import jobs as cluster
 from modeler.core.errors import DataError
-from modeler.fit.streamed import by_threads, identify_long, merge_all, stream
-from modeler.jobs import cluster, open_workers
-from modeler.jobs.run import Here
-from modeler.observation import Log
-from modeler.observation.source import source_of
+from modeler.core.jobs import Here, open_workers
+from modeler.estimation.long_logs import by_threads, identify_long, merge_all, stream
+from modeler.observation.log import Log
+from modeler.observation.read import source_of
 from modeler.observation.survey import Known, survey
+from modeler.runtime.model import CompiledModel
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs
 from tests.jobs.work import added, ends_always, ends_once, refused, third
 

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.jobs import open_workers
-from modeler.jobs.run import Here, in_pairs, pairs
+from modeler.core.jobs import Here, in_pairs, open_workers, pairs
 from tests.jobs.work import added, ends_always, refused, third
 
 
@@ -60,7 +59,7 @@ def test_an_interrupt_or_a_kill_while_they_start_leaves_no_word(
 ) -> None:
     """Ctrl-C goes to all processes of a terminal; a kill to the first alone."""
     program = (
-        "from modeler.jobs import open_workers\n"
+        "from modeler.core.jobs import open_workers\n"
         "from tests.jobs.work import third\n"
         "if __name__ == '__main__':\n"
         "    with open_workers(processes=3) as workers:\n"

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, generate, load, observe
-from modeler.compiled import CompiledModel
-from modeler.fit import identify
-from modeler.simulate import SimulationSettings, simulate
-from modeler.simulate.log import log_columns
+from modeler.estimation.identify import identify
+from modeler.runtime.model import CompiledModel
+from modeler.simulation import SimulationSettings, simulate
+from modeler.simulation.log import log_columns
 from tests.logs.writers import Run, parquet
 
 

@@ -10,11 +10,10 @@ import pyarrow.parquet
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.logs import map_from_table
 from modeler.logs.blocks import blocks_of
+from modeler.logs.mapping import map_from_table
 from modeler.observation.log import finger, fingerprint, fingerprint_of
-from modeler.observation.read import read_log
-from modeler.observation.source import joined, source_of
+from modeler.observation.read import joined, read_log, source_of
 from modeler.observation.window import read_part, window
 
 SIZE = 150

@@ -13,7 +13,7 @@ import scipy.io
 
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.logs import Table
+from modeler.logs.table import Table
 from tests.logs import writers
 from tests.logs.writers import Run
 

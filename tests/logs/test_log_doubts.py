@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.logs import LogMap, Table, map_from_table
-from modeler.logs.look import look
+from modeler.logs.inspect import look
+from modeler.logs.mapping import LogMap, map_from_table
+from modeler.logs.table import Table
 from tests.logs.writers import parquet
 
 

@@ -5,7 +5,8 @@ import pytest
 
 from modeler.api import read_logs
 from modeler.core.errors import DataError
-from modeler.logs import Table, map_from_table
+from modeler.logs.mapping import map_from_table
+from modeler.logs.table import Table
 from tests.logs import writers
 from tests.logs.writers import MAPPING, ROS, under
 

@@ -8,10 +8,11 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.logs import LogMap, Table, map_from_table
-from modeler.logs.look import look
-from modeler.pages.log import log_pictures
-from modeler.simulate import SimulationSettings
+from modeler.logs.inspect import look
+from modeler.logs.mapping import LogMap, map_from_table
+from modeler.logs.table import Table
+from modeler.report.log import log_pictures
+from modeler.simulation import SimulationSettings
 from tests.logs import writers
 from tests.logs.writers import parquet
 

@@ -5,11 +5,11 @@ import pytest
 import scipy.constants as known
 
 from modeler.api import read_currents, read_logs
-from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
-from modeler.logs import Table, map_from_table, map_from_words
-from modeler.logs.units import find_unit, unit_named
-from modeler.observation import read_log
+from modeler.core.manifest import JointSpec
+from modeler.logs.mapping import find_unit, map_from_table, map_from_words, unit_named
+from modeler.logs.table import Table
+from modeler.observation.read import read_log
 from tests.logs import writers
 
 TURN = JointSpec("1", "revolute", "rad", "N m", True, 2.0)

@@ -14,7 +14,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from modeler.cli import main
-from modeler.robot import Robot, read_robot
+from modeler.robot.read import read_robot
+from modeler.robot.robot import Robot
 from tests.further_robots import FurtherRobots
 from tests.robots import TIED
 

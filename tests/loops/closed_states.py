@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from modeler.base.numeric import random_states, regressor_values
+from modeler.derivation.numeric_rank import random_states, regressor_values
 from tests.modules import module
 
 

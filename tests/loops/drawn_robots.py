@@ -6,7 +6,7 @@ the frame that it meets, moved as far as the joint between them allows.
 
 import numpy as np
 
-from modeler.robot import robot_from_text
+from modeler.robot.read import robot_from_text
 from tests.loops.table_kinematics import Table, turned
 
 ATTEMPTS = 200

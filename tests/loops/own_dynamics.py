@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from modeler.robot import INERTIAL, Robot
+from modeler.robot.robot import INERTIAL, Robot
 from tests.loops.table_kinematics import Table, turned
 
 ROUNDS = 4  # of Newton's method, with slopes by differences

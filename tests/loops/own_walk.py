@@ -7,7 +7,7 @@ Nothing is shared with the package but the robot file and its expressions: poses
 import numpy as np
 
 from modeler.core.expression import FUNCTIONS
-from modeler.robot import JointKind
+from modeler.robot.robot import JointKind
 
 _NUMPY = {name: getattr(np, name) for name in FUNCTIONS}
 _MEETING = {

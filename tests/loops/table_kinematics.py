@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.robot import Joint, Robot
+from modeler.robot.robot import Joint, Robot
 
 CLOSED = 1e-8  # sizes of the robot, or 1
 NEWTON = 6  # corrections of a step

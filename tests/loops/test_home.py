@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import LoopError
-from modeler.robot import Robot, builtin_text, robot_from_text
-from modeler.symbolic import HomeModes, derive_model, modes_near, with_home
-from modeler.symbolic.closing import SINGULAR
-from modeler.symbolic.linkage import linkage_of
+from modeler.derivation.closing import SINGULAR
+from modeler.derivation.derive import derive_model, modes_near, with_home
+from modeler.derivation.home import HomeModes
+from modeler.derivation.walks import linkage_of
+from modeler.robot.library import builtin_text
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import Robot
 from tests.loops.test_loops_mistakes import CRANK
 
 BUILT_IN = (

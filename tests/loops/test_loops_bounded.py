@@ -9,12 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.base import base_parameters
-from modeler.codegen import emit, write_emitted
-from modeler.core.contract import Emitted
-from modeler.core.resources import resource_dir
-from modeler.robot import read_robot
-from modeler.symbolic import derive_model
+from modeler.codegen.emit import emit
+from modeler.codegen.package import write_emitted
+from modeler.core.files import resource_dir
+from modeler.core.manifest import Emitted
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.robot.read import read_robot
 from tests.codegen.fitted_library import Functions, motion, with_values
 from tests.modules import compiler, module
 

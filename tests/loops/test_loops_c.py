@@ -5,7 +5,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from modeler.codegen import write_emitted
+from modeler.codegen.package import write_emitted
 from tests.loops.closed_states import closed
 from tests.modules import STRICT, compiled, compiler, module
 

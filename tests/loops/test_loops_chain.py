@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.robot import read_robot
-from modeler.simulate import HiddenEffect, SimulationSettings, simulate
+from modeler.robot.read import read_robot
+from modeler.simulation import HiddenEffect, SimulationSettings, simulate
 from tests.further_robots import FurtherRobots
 from tests.loops.chain import Chain, chain
 from tests.robots import TIED

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import LoopError, ShapeError
-from modeler.robot import read_robot
+from modeler.robot.read import read_robot
 from tests.loops.closed_states import closed
 from tests.modules import compiled, module
 from tests.robots import TIED

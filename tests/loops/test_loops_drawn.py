@@ -5,9 +5,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from modeler.base.agreement import grouping_matrix
-from modeler.derivation import Derivation, derive
-from modeler.robot import robot_from_text
+from modeler.codegen.derivation import Derivation, derive
+from modeler.derivation.numeric_rank import grouping_matrix
+from modeler.robot.read import robot_from_text
 from tests.loops.drawn_robots import DRAWN, drawn
 from tests.loops.own_dynamics import Dynamics, rank, reached
 

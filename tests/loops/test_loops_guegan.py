@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.robot import builtin_text, robot_from_text
-from modeler.simulate import SimulationSettings, simulate, write_log
+from modeler.robot.library import builtin_text
+from modeler.robot.read import robot_from_text
+from modeler.simulation import SimulationSettings, simulate, write_log
 
 NAME = "orthoglide-2003-similar-legs"
 RUNS, SECONDS, RATE = 10, 4.0, 400.0

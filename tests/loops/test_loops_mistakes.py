@@ -4,9 +4,13 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError, LoopError, ModelerError
-from modeler.robot import builtin_text, robot_from_text
-from modeler.simulate import SimulationSettings, simulate
-from modeler.symbolic import Graph, SymbolicModel, derive_model, exact_geometry
+from modeler.derivation.derive import derive_model
+from modeler.derivation.geometry import exact_geometry
+from modeler.derivation.graph import Graph
+from modeler.derivation.model import SymbolicModel
+from modeler.robot.library import builtin_text
+from modeler.robot.read import robot_from_text
+from modeler.simulation import SimulationSettings, simulate
 
 CRANK = """\
 name = "crank"

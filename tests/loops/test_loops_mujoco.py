@@ -8,11 +8,11 @@ projection nor our closing. Its constraints are springs, as stiff here as its st
 import numpy as np
 import pytest
 
-from modeler.robot import INERTIAL, read_robot
-from modeler.simulate import motion_limits, plant_parameters
-from modeler.simulate.body import body_from_standard
-from modeler.simulate.closing import followed
-from modeler.simulate.constraints import constraints_of
+from modeler.robot.read import read_robot
+from modeler.robot.robot import INERTIAL
+from modeler.simulation import motion_limits, plant_parameters
+from modeler.simulation.closing import constraints_of, followed
+from modeler.simulation.rigid import body_from_standard
 from tests.modules import compiled, module
 
 mujoco = pytest.importorskip("mujoco", reason="MuJoCo (PyPI: mujoco-core) is not installed")

@@ -7,10 +7,11 @@ under given motor torques are solved for together with the constraint forces.
 import numpy as np
 import pytest
 
-from modeler.robot import INERTIAL, read_robot
-from modeler.simulate import SimulationSettings, simulate
-from modeler.simulate.body import Body, standard_from_body
-from modeler.symbolic import LinkColumn
+from modeler.derivation.columns import LinkColumn
+from modeler.robot.read import read_robot
+from modeler.robot.robot import INERTIAL
+from modeler.simulation import SimulationSettings, simulate
+from modeler.simulation.rigid import Body, standard_from_body
 from tests.loops.closed_states import closed
 from tests.modules import compiled, module
 from tests.robots import TIED

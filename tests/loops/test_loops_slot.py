@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model
-from modeler.derivation import derive, generate
-from modeler.robot import robot_from_text
+from modeler.codegen.derivation import derive, generate
+from modeler.robot.read import robot_from_text
 
 PAGE = Path(__file__).resolve().parents[2] / "docs/parallel-examples.md"
 G, H, R, L, C, HR = 9.81, 0.30, 0.10, 0.60, 0.20, 0.65

@@ -5,9 +5,9 @@ import re
 import numpy as np
 import pytest
 
-from modeler.codegen.closure_functions import solving_of
-from modeler.compiled import load
-from modeler.symbolic.closed_states import closing_of
+from modeler.codegen.closed import solving_of
+from modeler.derivation.closed_states import closing_of
+from modeler.runtime.model import load
 from tests.modules import compiled, module
 
 NAME = "orthoglide-2003"

@@ -9,17 +9,20 @@ from pathlib import Path
 from typing import Any
 
 from modeler import api
-from modeler.compiled import CompiledModel
-from modeler.compiled import load as load_compiled
-from modeler.core.contract import Emitted
-from modeler.diagnose import Diagnosis, Known, diagnose
-from modeler.fit import IdentifiedModel
-from modeler.improve import Logs, add_findings
-from modeler.improve.rows import left_of, rows_of
-from modeler.observation import Log, Processing
+from modeler.core.manifest import Emitted
+from modeler.diagnosis.add import add_findings
+from modeler.diagnosis.added_model import Logs, left_of, rows_of
+from modeler.diagnosis.candidates import Known
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.result import Diagnosis
+from modeler.diagnosis.score import Score, Unseen, scored
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.observation.log import Log
 from modeler.observation.motion import HIGHEST
-from modeler.robot import robot_from_text
-from modeler.scoring.score import Score, Unseen, scored
+from modeler.observation.processing import Processing
+from modeler.robot.read import robot_from_text
+from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import load as load_compiled
 from tests.measured_sets.answer import Answer
 from tests.measured_sets.sanity import faults
 from tests.measured_sets.sets import SETS, Case

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from modeler.diagnose import Diagnosis, Finding
-from modeler.effects import Needs
-from modeler.scoring.state import State
+from modeler.diagnosis.result import Diagnosis, Finding
+from modeler.diagnosis.state import State
+from modeler.effects.effect import Needs
 
 SLACK = 0.05
 """Of the whole friction of a joint: less is rounding."""

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from modeler.diagnose.sentences import percent
+from modeler.diagnosis.sentences import percent
 from tests.measured_sets.answer import Answer, Key, key, named
 
 

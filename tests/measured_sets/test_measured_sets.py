@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.robot import robot_from_text
+from modeler.robot.read import robot_from_text
 from tests.measured_sets.__main__ import cases_of, main, parser
 from tests.measured_sets.answer import Answer, answer_from_json
 from tests.measured_sets.sanity import driving_fault, gain_faults, level_fault, value_faults

@@ -7,9 +7,9 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.errors import RobotError
-from modeler.methods import METHODS, MethodTable, Outcome, Row
-from modeler.methods.report import figures, quoted, recovered
 from modeler.papers import paper_names, read_paper
+from modeler.papers.method_report import MethodTable, Outcome, Row, figures, quoted, recovered
+from modeler.papers.run import METHODS
 
 TITLES = {
     "guegan-2003": ["Table 2", "The direction", "Table 3", "Condition numbers"],

@@ -8,12 +8,12 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
-import modeler.core.presented as presented_module
-import modeler.notebook as notebook
+import modeler.core.result as presented_module
+import modeler.report.notebook as notebook
 from modeler.api import derive, load
 from modeler.core.errors import DataError
-from modeler.core.presented import Presented, presented
-from modeler.robot import robot_from_text
+from modeler.core.result import Presented, presented
+from modeler.robot.read import robot_from_text
 from tests.notebook.session import HIDDEN, reached, session
 
 NAMES = [

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import modeler.api.entries as entries
-from modeler.core.presented import presented
+from modeler.core.result import presented
 from tests.notebook.session import session
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "python.md").read_text(encoding="utf-8")

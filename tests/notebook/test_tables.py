@@ -6,15 +6,15 @@ import sys
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.core.table import Formula, Table
+from modeler.core.table import MathCell, Table
 
 TABLE = Table(
     "masses_of <two> links",
     (("name", ""), ("mass", "kg"), ("good", ""), ("is", "")),
     (
-        ("a|b_1", 1.25, True, Formula("M1 + M2", "M_{1} + M_{2}")),
-        ("<b>", None, False, Formula("M2", "M_{2}")),
-        ("c", float("nan"), True, Formula("x < y", "x < y")),
+        ("a|b_1", 1.25, True, MathCell("M1 + M2", "M_{1} + M_{2}")),
+        ("<b>", None, False, MathCell("M2", "M_{2}")),
+        ("c", float("nan"), True, MathCell("x < y", "x < y")),
     ),
     "50 % & more",
 )

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from modeler.observation import Log
+from modeler.observation.log import Log
 
 STEP = 1e-4  # s
 KINDS = ("stop", "creep", "steps", "triangle", "blow")

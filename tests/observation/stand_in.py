@@ -4,9 +4,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.compiled.bind_fused import Samples
-from modeler.compiled.fused import Pattern, of_dense
-from modeler.core.contract import FORMAT, BaseSpec, JointSpec, ModuleSpec, ParameterSpec
+from modeler.core.manifest import FORMAT, BaseSpec, JointSpec, ModuleSpec, ParameterSpec
+from modeler.runtime.bind import Samples
+from modeler.runtime.fused import Pattern, of_dense
 
 INERTIAL = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 

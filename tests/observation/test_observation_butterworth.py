@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
 
-from modeler.observation.butterworth import forwards_and_backwards
+from modeler.numerics.filters import forwards_and_backwards
 from modeler.observation.motion import low_pass
 
 # samples, cut-off in Hz, rate in Hz, padding, largest difference relative to the values

@@ -8,8 +8,11 @@ import pytest
 from stand_in import Row, StandIn, planar_arm
 
 from modeler.core.errors import DataError
-from modeler.observation import Log, Processing, observe, processing_from_json, read_log
 from modeler.observation.consistency import consistency
+from modeler.observation.log import Log
+from modeler.observation.observation import observe
+from modeler.observation.processing import Processing, processing_from_json
+from modeler.observation.read import read_log
 from modeler.observation.segments import split
 
 DATA = next(

@@ -11,9 +11,12 @@ from physical import KINDS, rough_log
 from stand_in import Row, StandIn, planar_arm, rotor, slider
 from test_observation_rows import exact_log, some_beta
 
-from modeler.core.contract import JointSpec
-from modeler.observation import Log, Processing, observe, processing_from_json, read_log
-from modeler.observation.damage import defects, repaired
+from modeler.core.manifest import JointSpec
+from modeler.observation.log import Log
+from modeler.observation.observation import observe
+from modeler.observation.outliers import defects, repaired
+from modeler.observation.processing import Processing, processing_from_json
+from modeler.observation.read import read_log
 
 ARMS = {
     "slider": slider(),

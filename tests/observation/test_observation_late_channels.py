@@ -5,9 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.observation import observe, read_log
 from modeler.observation.findings import late_channels
-from modeler.simulate import SimulationSettings, hidden_from_text, simulate, write_log
+from modeler.observation.observation import observe
+from modeler.observation.read import read_log
+from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
 from tests.modules import compiled, module
 
 RATE = 200.0

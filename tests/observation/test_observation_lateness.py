@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 from stand_in import planar_arm
 
-from modeler.observation import Log, Processing, observe, read_log
 from modeler.observation.consistency import consistency
+from modeler.observation.log import Log
+from modeler.observation.observation import observe
+from modeler.observation.processing import Processing
+from modeler.observation.read import read_log
 from modeler.observation.segments import split
 
 ARM = planar_arm()

@@ -8,9 +8,10 @@ from test_observation_rows import some_beta
 
 from modeler.cli import main
 from modeler.core.errors import LoopError
-from modeler.observation import Log, Processing, observe
-from modeler.observation.closable import nearest_closed
-from modeler.observation.masks import MASKS, masks_of
+from modeler.observation.log import Log
+from modeler.observation.observation import MASKS, masks_of, observe
+from modeler.observation.prepare import nearest_closed
+from modeler.observation.processing import Processing
 from tests.modules import compiled
 
 OUTWARD = np.array(

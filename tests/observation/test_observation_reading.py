@@ -9,8 +9,8 @@ import pytest
 from stand_in import planar_arm, slider
 
 from modeler.core.errors import DataError
-from modeler.observation import read_log
 from modeler.observation.log import shared_rows
+from modeler.observation.read import read_log
 from modeler.observation.window import window
 
 

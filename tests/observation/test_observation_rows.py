@@ -7,10 +7,13 @@ import pytest
 from stand_in import Row, StandIn, planar_arm, rotor, slider
 
 from modeler.core.errors import DataError
-from modeler.observation import Log, Processing, excitation, observe
+from modeler.numerics.filters import row_filter
 from modeler.observation import stretch as stretch_module
-from modeler.observation.dry_friction import shafts
-from modeler.observation.row_filter import row_filter
+from modeler.observation.excitation import excitation
+from modeler.observation.log import Log
+from modeler.observation.low_speed import shafts
+from modeler.observation.observation import observe
+from modeler.observation.processing import Processing
 
 
 def motion(joints, seconds=20.0, rate=200, seed=0, harmonics=3):

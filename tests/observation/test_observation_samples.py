@@ -5,9 +5,9 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.core.contract import JointSpec
 from modeler.core.errors import DataError
-from modeler.observation import Log, Processing, processing_from_json
+from modeler.core.manifest import JointSpec
+from modeler.observation.log import Log
 from modeler.observation.motion import segment_of
 from modeler.observation.prepare import (
     choose_cutoffs,
@@ -16,6 +16,7 @@ from modeler.observation.prepare import (
     what_rings,
     what_trembles,
 )
+from modeler.observation.processing import Processing, processing_from_json
 from modeler.observation.segments import saturated, split
 
 W0 = 2 * np.pi * 0.7  # rad/s

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 import sympy
 
-from modeler.base.relation_formula import expression_formula
 from modeler.cli import main
 from modeler.core.formula import Formula
+from modeler.derivation.relations import expression_formula
 
 _ENDS = {"\u03b1": "alpha", "\u03b2": "beta", "\u03b3": "gamma", "\u03b8": "theta", "\u03c0": "pi"}
 
@@ -43,10 +43,9 @@ def read(node: ET.Element) -> str:
 
 def shown(formula: Formula) -> str:
     """As the template sets it."""
-    from modeler.pages.render import render
-    from modeler.pages.sheet import Formulas, Section, Sheet
+    from modeler.report.page import Formulas, Page, Section, render
 
-    sheet = Sheet("t", ("1", "x"), [Section("s", [Formulas([((formula,), "m")])])])
+    sheet = Page("t", ("1", "x"), [Section("s", [Formulas([((formula,), "m")])])])
     return str(re.findall(r"<math[^>]*>.*?</math>", render("sheet", sheet=sheet), re.S)[0])
 
 

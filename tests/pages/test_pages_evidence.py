@@ -9,17 +9,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.diagnose import Diagnosis, diagnose
-from modeler.effects import CATALOGUE, VARIABLES
-from modeler.observation import Log
-from modeler.observation.bristle import bristle
-from modeler.pages.bins import bins_of, calm_rows
-from modeler.pages.event_pictures import play_picture
-from modeler.pages.evidence import EFFECT, MEANS, RIVAL, ROWS, evidence_picture
-from modeler.pages.report import write_diagnosis
-from modeler.pages.shown import figures, shown
-from modeler.pictures.picture import COLOR_NAMES, Curve, Means, Panel, Picture
-from modeler.robot import robot_from_text
+from modeler.core.figure import COLOR_NAMES, Curve, Means, Panel, Picture
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.result import Diagnosis
+from modeler.effects.catalogue import CATALOGUE
+from modeler.effects.effect import VARIABLES
+from modeler.observation.log import Log
+from modeler.observation.low_speed import bristle
+from modeler.report.diagnosis import write_diagnosis
+from modeler.report.evidence import EFFECT, MEANS, RIVAL, ROWS, evidence_picture
+from modeler.report.evidence_axes import bins_of, calm_rows
+from modeler.report.shown import figures, shown
+from modeler.report.torque_picture import play_picture
+from modeler.robot.read import robot_from_text
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.test_diagnose_effects import drift, motor_ripple, spring, stribeck

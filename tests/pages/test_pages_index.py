@@ -6,14 +6,13 @@ from pathlib import Path
 import pytest
 
 from modeler.core.errors import ModelerError
-from modeler.pages.index import entries, write_index
-from modeler.pages.sheet import Lead, Origin, Section, Sheet, write_page
+from modeler.report.page import Origin, Page, Paragraph, Section, entries, write_index, write_page
 
 
-def sheet(command: str, figure: str = "3 %", held_out: bool | None = None) -> Sheet:
-    body = [Section("s", [Lead("text")])]
+def sheet(command: str, figure: str = "3 %", held_out: bool | None = None) -> Page:
+    body = [Section("s", [Paragraph("text")])]
     origin = Origin("a <b>.json", ["x & y.csv"], held_out)
-    return Sheet(f"page of {command}", (figure, "left </script>"), body, origin, command=command)
+    return Page(f"page of {command}", (figure, "left </script>"), body, origin, command=command)
 
 
 def test_a_folder_gets_an_index_and_a_file_does_not(tmp_path: Path) -> None:

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.fit import IdentifiedModel, load_model
-from modeler.pages.additions import joints_picture, waterfall_picture, write_additions
-from modeler.pages.fitted import tangled
-from modeler.pages.values import relation
+from modeler.estimation.model_file import IdentifiedModel, load_model
+from modeler.report.fit import tangled
+from modeler.report.history import joints_picture, waterfall_picture, write_additions
+from modeler.report.values import relation
 from tests.captions import assert_all_named
 
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from modeler.pages.evidence import evidence_picture, rivals_of, rivals_table
-from modeler.pages.shown import Shown, covariance_of, shown
-from modeler.pages.torque_picture import torque_picture, worst_stretch
-from modeler.pictures.picture import Band, Curve
-from modeler.scoring.gram import base_of
+from modeler.core.figure import Band, Curve
+from modeler.diagnosis.gram import base_of
+from modeler.report.evidence import evidence_picture, rivals_of, rivals_table
+from modeler.report.shown import Shown, covariance_of, shown
+from modeler.report.torque_picture import torque_picture, worst_stretch
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case
 from tests.diagnose.test_diagnose_effects import spring, stribeck

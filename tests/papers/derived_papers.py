@@ -3,7 +3,7 @@
 from functools import cache
 
 from modeler.papers import Derived, derived_robot, read_paper
-from modeler.robot import read_robot
+from modeler.robot.read import read_robot
 from tests.modules import module
 
 

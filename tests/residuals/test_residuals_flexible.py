@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-import modeler.residuals.flexible as rival
-from modeler.residuals.features import Measured, functions
-from modeler.residuals.flexible import flexible, stretches
+import modeler.numerics.splines as rival
+from modeler.numerics.splines import Measured, flexible, functions, stretches
 
 STEP, ROWS, JOINTS = 1.0 / 80.0, 1600, 7
 

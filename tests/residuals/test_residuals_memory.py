@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.residuals.memory import forgotten, outbursts, returning
+from modeler.numerics.noise import forgotten, outbursts, returning
 
 STEP = 0.0125
 TIME = np.arange(3200) * STEP  # 40 s in two logs

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import welch as theirs
 
-from modeler.residuals.spectrum import welch
+from modeler.numerics.spectra import welch
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from modeler.robot import Robot
+from modeler.robot.robot import Robot
 
 INERTIA = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 _HEAD = """\

@@ -5,8 +5,8 @@ import tomllib
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot import robot_from_text
-from modeler.robot.home_text import with_home_text
+from modeler.robot.edit import with_home_text
+from modeler.robot.read import robot_from_text
 
 BEFORE = """\
 name = "pair"                         # two sliders

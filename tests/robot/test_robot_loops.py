@@ -5,7 +5,7 @@ import re
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot import read_robot, robot_from_text
+from modeler.robot.read import read_robot, robot_from_text
 
 GOOD = """\
 name = "planar"

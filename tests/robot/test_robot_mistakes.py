@@ -6,7 +6,8 @@ import re
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot import builtin_names, builtin_text, read_robot, robot_from_text
+from modeler.robot.library import builtin_names, builtin_text
+from modeler.robot.read import read_robot, robot_from_text
 
 GOOD = """\
 name = "arm"

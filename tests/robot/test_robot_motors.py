@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from modeler.base import base_parameters
 from modeler.core.errors import RobotError
-from modeler.robot import builtin_text, read_robot, robot_from_text
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
 from modeler.robot.edit import with_effect
+from modeler.robot.library import builtin_text
 from modeler.robot.motors import joint_directions
-from modeler.symbolic import derive_model
+from modeler.robot.read import read_robot, robot_from_text
 from tests.modules import compiled, module
 
 _G = np.array([[1.0, 0.0, 0.0], [-0.4, 1.0, 0.0], [0.2, -0.5, 1.0]])

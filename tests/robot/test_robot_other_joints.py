@@ -4,11 +4,12 @@ import re
 
 import pytest
 
-from modeler.base.render import as_json
+from modeler.codegen.derivation import derive
 from modeler.core.errors import RobotError
-from modeler.derivation import derive
-from modeler.robot import LOOP_KINDS, robot_from_text
-from modeler.robot.other_joints import _INSTEAD, _OTHER_NAME
+from modeler.derivation.relations import as_json
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import LOOP_KINDS
+from modeler.robot.sections import _INSTEAD, _OTHER_NAME
 
 CRANK = """
 name = "crank"

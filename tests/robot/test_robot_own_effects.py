@@ -6,11 +6,12 @@ import re
 import pytest
 
 from modeler.api import load, own_effect
+from modeler.codegen.derivation import derive
 from modeler.core.errors import DerivationError, RobotError
-from modeler.derivation import derive
-from modeler.effects import CATALOGUE, Acts, effect_named
-from modeler.robot import robot_from_text
+from modeler.effects.catalogue import CATALOGUE, effect_named
+from modeler.effects.effect import Acts
 from modeler.robot.edit import with_effect, with_effects
+from modeler.robot.read import robot_from_text
 
 GOOD = """\
 name = "arm"

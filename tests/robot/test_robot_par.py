@@ -8,12 +8,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from modeler.base.render import as_json
+from modeler.codegen.derivation import derive
 from modeler.core.errors import RobotError
-from modeler.derivation import derive
-from modeler.robot import read_robot, robot_from_text
-from modeler.robot.par import par_to_toml
-from modeler.robot.par.angles import exact_angle
+from modeler.derivation.relations import as_json
+from modeler.robot.par_convert import par_to_toml
+from modeler.robot.par_text import exact_angle
+from modeler.robot.read import read_robot, robot_from_text
 from tests.robot.par_files import INERTIA, par_of, par_text
 
 

@@ -3,9 +3,9 @@
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.effects import PASSIVE_FRICTION_IS
-from modeler.robot import read_robot, robot_from_text
+from modeler.effects.catalogue import PASSIVE_FRICTION_IS
 from modeler.robot.edit import with_effect, with_effects
+from modeler.robot.read import read_robot, robot_from_text
 
 BARE = with_effects(read_robot("five-bar").text, {})
 

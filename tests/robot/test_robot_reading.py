@@ -7,16 +7,10 @@ from pathlib import Path
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.effects import CATALOGUE
-from modeler.robot import (
-    EffectUse,
-    JointKind,
-    Limits,
-    builtin_names,
-    builtin_text,
-    read_robot,
-    robot_from_text,
-)
+from modeler.effects.catalogue import CATALOGUE
+from modeler.robot.library import builtin_names, builtin_text
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.robot import EffectUse, JointKind, Limits
 
 HEAD = 'name = "arm"\ngravity = [0, 0, -9.81]\n'
 TWO = '[mdh]\ncolumns = ["j", "theta", "d"]\nrows = [[1, "q1", 0], [2, "q2", 0.3]]\n'

@@ -3,8 +3,8 @@
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot import robot_from_text
-from modeler.simulate import SimulationSettings, simulate
+from modeler.robot.read import robot_from_text
+from modeler.simulation import SimulationSettings, simulate
 
 
 def arm(d: str = "0.3", symbols: str = "", further: str = "", alpha: str = "0") -> str:

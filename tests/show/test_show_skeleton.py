@@ -4,13 +4,13 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from modeler.robot import builtin_text, read_robot, robot_from_text
-from modeler.show import gaps_of, home_posture, poses, skeleton_of
-from modeler.show.closing import closed_from, jacobian, residuals
-from modeler.show.view import good_view, joint_points
-from modeler.simulate.closing import followed
-from modeler.simulate.constraints import constraints_of
-from modeler.simulate.geometry import world_frames
+from modeler.report.robot_closing import closed_from, gaps_of, home_posture, jacobian, residuals
+from modeler.report.robot_labels import good_view, joint_points
+from modeler.report.robot_skeleton import poses, skeleton_of
+from modeler.robot.library import builtin_text
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.simulation.closing import constraints_of, followed
+from modeler.simulation.rigid import world_frames
 from tests.further_robots import FurtherRobots
 from tests.robots import ROBOTS, TIED
 

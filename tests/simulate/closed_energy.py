@@ -4,10 +4,10 @@ import dataclasses
 
 import casadi as ca
 
-from modeler.robot import INERTIAL, read_robot
-from modeler.simulate.body import body_from_standard
-from modeler.simulate.constraints import sampled
-from modeler.simulate.geometry import gravity_vector, world_frames
+from modeler.robot.read import read_robot
+from modeler.robot.robot import INERTIAL
+from modeler.simulation.closing import sampled
+from modeler.simulation.rigid import body_from_standard, gravity_vector, world_frames
 
 
 def without_effects(name):

@@ -3,8 +3,9 @@
 import numpy as np
 import pinocchio as pin
 
-from modeler.robot import Robot, robot_from_text
-from modeler.simulate import PlantParameters
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import Robot
+from modeler.simulation import PlantParameters
 
 PENDULUM = """
 name = "pendulum"

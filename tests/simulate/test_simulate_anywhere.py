@@ -10,7 +10,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from modeler.simulate.elementary import (
+from modeler.simulation.portable_math import (
     exponential,
     hyperbolic_tangent,
     portable,
@@ -21,8 +21,8 @@ from modeler.simulate.elementary import (
 _WRITE = """
 import sys
 import numpy as np
-from modeler.derivation import load
-from modeler.simulate import SimulationSettings, hidden_from_text, simulate
+from modeler.codegen.derivation import load
+from modeler.simulation import SimulationSettings, hidden_from_text, simulate
 name, hidden, out = sys.argv[1:]
 hidden = tuple(hidden_from_text(text) for text in hidden.split())
 log = simulate(load(name), SimulationSettings(duration=4.0, rate=500.0, seed=9, hidden=hidden))

@@ -10,12 +10,20 @@ from closed_energy import energies, without_effects
 from simulated_robots import robot
 
 from modeler.core.errors import DataError, RobotError
-from modeler.robot import INERTIAL, Limits, builtin_text, read_robot, robot_from_text
-from modeler.simulate import SimulationSettings, motion_limits, plant_parameters, simulate
-from modeler.simulate.closing import _same_mode, followed, motor_torques, rates
-from modeler.simulate.constraints import constraints_of, sampled
-from modeler.simulate.plant import build_plant, of_free
-from modeler.simulate.ties import tree_from_free
+from modeler.robot.library import builtin_text
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.robot import INERTIAL, Limits
+from modeler.simulation import SimulationSettings, motion_limits, plant_parameters, simulate
+from modeler.simulation.closing import (
+    _same_mode,
+    constraints_of,
+    followed,
+    motor_torques,
+    rates,
+    sampled,
+    tree_from_free,
+)
+from modeler.simulation.plant import build_plant, of_free
 from tests.modules import compiled, module
 from tests.robots import TIED
 

@@ -8,8 +8,9 @@ from closed_energy import energies, without_effects
 
 from modeler.api import compile_model, derive, fit, generate, observe
 from modeler.core.errors import DataError
-from modeler.robot import Robot, read_robot
-from modeler.simulate import (
+from modeler.robot.read import read_robot
+from modeler.robot.robot import Robot
+from modeler.simulation import (
     HiddenEffect,
     SimulationSettings,
     motion_limits,
@@ -17,10 +18,9 @@ from modeler.simulate import (
     simulate,
     write_log,
 )
-from modeler.simulate.closed_plant import build_closed_plant, inner_states
-from modeler.simulate.closing import followed, rates
-from modeler.simulate.constraints import constraints_of, sampled
-from modeler.simulate.integrate import tick_function
+from modeler.simulation.closed import build_closed_plant, inner_states
+from modeler.simulation.closing import constraints_of, followed, rates, sampled
+from modeler.simulation.plant import tick_function
 from tests.robots import TIED
 
 QUICK = ("five-bar", "sr400", "orthoglide-2003")

@@ -8,9 +8,9 @@ import pytest
 from simulated_robots import ARM, BACKWARDS, PENDULUM, SIX, TREE, TWO_LINK, pinocchio_model, robot
 
 from modeler.core.errors import RobotError
-from modeler.robot import EffectUse, Robot
-from modeler.simulate import PlantParameters, motion_limits, plant_parameters
-from modeler.simulate.plant import Plant, build_plant
+from modeler.robot.robot import EffectUse, Robot
+from modeler.simulation import PlantParameters, motion_limits, plant_parameters
+from modeler.simulation.plant import Plant, build_plant
 
 FRICTION = "Fv1 = 0.5\nFs1 = 0.7\nOff1 = -0.2\n"
 

@@ -10,8 +10,8 @@ from simulated_robots import robot
 
 from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError, RobotError
-from modeler.robot import read_robot
-from modeler.simulate import (
+from modeler.robot.read import read_robot
+from modeler.simulation import (
     HIDDEN,
     HiddenEffect,
     SimulationSettings,
@@ -21,14 +21,12 @@ from modeler.simulate import (
     simulate,
     write_truth,
 )
-from modeler.simulate.closing import followed, rates
-from modeler.simulate.constraints import constraints_of
-from modeler.simulate.geometry import gravity_vector, world_frames
-from modeler.simulate.hidden_bodies import machine
-from modeler.simulate.hidden_draw import complete_effects
-from modeler.simulate.integrate import steps_per_tick
-from modeler.simulate.plant import build_plant
-from modeler.simulate.transmission import settled
+from modeler.simulation.closing import constraints_of, followed, rates
+from modeler.simulation.hidden_bodies import machine
+from modeler.simulation.hidden_draw import complete_effects
+from modeler.simulation.plant import build_plant, steps_per_tick
+from modeler.simulation.rigid import gravity_vector, world_frames
+from modeler.simulation.shafts import settled
 
 SHORT = SimulationSettings(
     duration=3.0, encoder_counts=0, linear_resolution=0.0, torque_noise=0.0, rate=500.0

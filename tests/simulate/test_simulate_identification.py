@@ -5,7 +5,7 @@ import pinocchio as pin
 from scipy.signal import butter, decimate, filtfilt
 from simulated_robots import ARM, pinocchio_model, robot
 
-from modeler.simulate import SimulationSettings, motion_limits, plant_parameters, simulate
+from modeler.simulation import SimulationSettings, motion_limits, plant_parameters, simulate
 
 RATE, FACTOR = 1000.0, 12
 

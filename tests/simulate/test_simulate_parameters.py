@@ -7,9 +7,12 @@ import pytest
 from simulated_robots import ARM, PENDULUM, SIX, TREE, robot
 
 from modeler.core.errors import RobotError
-from modeler.robot import INERTIAL, Limits, builtin_names, read_robot
-from modeler.simulate import links, motion_limits, plant_parameters
-from modeler.simulate.body import (
+from modeler.robot.library import builtin_names
+from modeler.robot.read import read_robot
+from modeler.robot.robot import INERTIAL, Limits
+from modeler.simulation import links, motion_limits, plant_parameters
+from modeler.simulation.completion import Completion, completed
+from modeler.simulation.rigid import (
     Body,
     body_from_standard,
     is_physical,
@@ -17,7 +20,6 @@ from modeler.simulate.body import (
     standard_from_body,
     standard_from_pseudo_inertia,
 )
-from modeler.simulate.completion import Completion, completed
 
 
 def cloud(seed: int) -> tuple[np.ndarray, np.ndarray]:

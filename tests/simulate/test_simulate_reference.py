@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.robot import Limits
-from modeler.simulate.trajectory import exciting_reference, one_joint_reference
+from modeler.robot.robot import Limits
+from modeler.simulation.trajectory import exciting_reference, one_joint_reference
 
 LIMITS = (Limits(-1.5, 1.5, 2.0, 8.0), Limits(0.1, 0.3, 0.5, 3.0), Limits(-3.0, -1.0, 1.0, 20.0))
 

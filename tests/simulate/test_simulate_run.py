@@ -12,22 +12,22 @@ import pyarrow.parquet as pq
 import pytest
 from simulated_robots import ARM, PENDULUM, SIX, TREE, TWO_LINK, robot
 
-import modeler.simulate
+import modeler.simulation
 from modeler.core.errors import DataError, ModelerError
-from modeler.robot import Limits
-from modeler.simulate import (
+from modeler.robot.robot import Limits
+from modeler.simulation import (
     SimulatedLog,
     SimulationSettings,
     motion_limits,
-    native,
     plant_parameters,
     simulate,
     write_log,
     write_truth,
 )
-from modeler.simulate import controller as controlling
-from modeler.simulate.plant import build_plant
-from modeler.simulate.run import quantised
+from modeler.simulation import control as controlling
+from modeler.simulation import plant as native
+from modeler.simulation.plant import build_plant
+from modeler.simulation.run import quantised
 
 SHORT = SimulationSettings(duration=4.0)
 
@@ -170,7 +170,7 @@ def test_a_joint_without_motor_swings_freely():
     assert list(log.driven) == [True, False]
     assert np.all(log.truth.tau[:, 1] == 0) and np.ptp(log.truth.q[:, 1]) > 0.5
     assert np.abs(log.truth.q - log.qc)[:, 0].max() < 0.02
-    assert list(modeler.simulate.log.log_columns(log)) == ["time", "q1", "q2", "qc1", "tau1"]
+    assert list(modeler.simulation.log.log_columns(log)) == ["time", "q1", "q2", "qc1", "tau1"]
 
 
 def test_seeds_reproduce_every_bit(arm_log):
@@ -279,7 +279,7 @@ def test_stiff_friction_is_still_integrated():
 
 def test_simulation_shares_no_code_with_the_model():
     allowed = {"core", "robot", "simulate"}
-    files = list(Path(modeler.simulate.__file__).parent.rglob("*.py"))
+    files = list(Path(modeler.simulation.__file__).parent.rglob("*.py"))
     assert len(files) > 10
     for file in files:
         for node in ast.walk(ast.parse(file.read_text())):

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.robot import Robot, read_robot, robot_from_text
-from modeler.simulate import SimulationSettings, simulate
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.robot import Robot
+from modeler.simulation import SimulationSettings, simulate
 from tests.further_robots import FurtherRobots
 from tests.loops.table_kinematics import Table
 from tests.robots import TIED

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.robot import Robot
+from modeler.robot.robot import Robot
 
 pin = pytest.importorskip("pinocchio", reason="Pinocchio (PyPI: pin) is not installed")
 

@@ -6,10 +6,16 @@ import mpmath
 import numpy as np
 import pytest
 
-from modeler.robot import robot_from_text
-from modeler.symbolic.balls import BallFunction, exact_ball, flint, proven_regular, symbol_balls
-from modeler.symbolic.graph import Graph
-from modeler.symbolic.precise import precise_values
+from modeler.derivation.graph import Graph
+from modeler.derivation.precise import (
+    BallFunction,
+    exact_ball,
+    flint,
+    precise_values,
+    proven_regular,
+    symbol_balls,
+)
+from modeler.robot.read import robot_from_text
 from tests.modules import module
 
 arb = flint().arb

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 
-from modeler.symbolic import Graph
+from modeler.derivation.graph import Graph
 
 
 def test_every_operation_with_every_sign() -> None:

@@ -4,15 +4,14 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.base import base_parameters
-from modeler.base import field as field_module
+from modeler.codegen.derivation import field as field_module
 from modeler.core.errors import DerivationError
 from modeler.core.expression import parse
-from modeler.robot import robot_from_text
-from modeler.symbolic import derive_model
-from modeler.symbolic.angles import cos_sin
-from modeler.symbolic.folding import folded
-from modeler.symbolic.graph import Graph
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.geometry import cos_sin, folded
+from modeler.derivation.graph import Graph
+from modeler.robot.read import robot_from_text
 
 
 def chain(rows: int) -> str:

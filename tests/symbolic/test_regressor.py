@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from modeler.base.numeric import random_states, regressor_values
-from modeler.robot import read_robot
-from modeler.symbolic import LinkColumn, derive_model
-from modeler.symbolic.second_opinion import lagrange_torque
+from modeler.derivation.columns import LinkColumn
+from modeler.derivation.derive import derive_model
+from modeler.derivation.lagrange import lagrange_torque
+from modeler.derivation.numeric_rank import random_states, regressor_values
+from modeler.robot.read import read_robot
 from tests.robots import ROBOTS, TREES
 
 TEXTBOOK = (
@@ -50,7 +51,7 @@ def test_regressor_agrees_with_pinocchio(name):
 
 @pytest.mark.parametrize("name", TEXTBOOK)
 def test_rank_agrees_with_pinocchio(name):
-    from modeler.base import base_parameters
+    from modeler.derivation.base_parameters import base_parameters
     from tests.symbolic.oracles import pinocchio_regressor
 
     robot = read_robot(name)

@@ -2,10 +2,12 @@
 
 from functools import cache
 
-from modeler.base import base_parameters
-from modeler.robot import builtin_text, read_robot, robot_from_text
-from modeler.symbolic import SymbolicModel, derive_model
-from modeler.terms import CoefficientTable, coefficient_table
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.model import SymbolicModel
+from modeler.formulas.coefficients import CoefficientTable, coefficient_table
+from modeler.robot.library import builtin_text
+from modeler.robot.read import read_robot, robot_from_text
 
 HEAD = 'name = "{name}"\ntitle = "{name}"\ngravity = {gravity}\n[symbols]\n{symbols}\n[mdh]\n'
 COLUMNS = 'columns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]\nrows = [\n'

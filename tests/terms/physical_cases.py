@@ -4,10 +4,10 @@ from functools import cache
 
 import numpy as np
 
-from modeler.base import base_parameters
-from modeler.terms.physical_system import PhysicalSystem, physical_system
-from modeler.terms.printed import read_print
-from modeler.terms.solved_values import Numbers
+from modeler.derivation.base_parameters import base_parameters
+from modeler.formulas.physical_system import PhysicalSystem, physical_system
+from modeler.formulas.printed import read_print
+from modeler.formulas.values import Numbers
 from tests.terms.cases import model_of
 
 SEVEN = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33")

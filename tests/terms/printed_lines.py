@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from modeler.api import compile_model, derive, generate, load
-from modeler.compiled import CompiledModel
-from modeler.derivation import Derivation
-from modeler.robot import robot_from_text
-from modeler.terms.closed_form import function_name
+from modeler.codegen.derivation import Derivation
+from modeler.formulas.closed_form import function_name
+from modeler.robot.read import robot_from_text
+from modeler.runtime.model import CompiledModel
 from tests.terms.cases import TEXTS, TIED
 
 SAMPLES = 5

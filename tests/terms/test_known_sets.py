@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import ModelerError
-from modeler.terms.known_sets import EASE, easiest_set, known_sets, smallest_number
-from modeler.terms.set_sensitivity import rated
-from modeler.terms.solved_values import Numbers
+from modeler.formulas.set_sensitivity import rated
+from modeler.formulas.sufficient_sets import EASE, easiest_set, known_sets, smallest_number
+from modeler.formulas.values import Numbers
 from tests.terms.physical_cases import data_of, example, random_letters, system_of
 
 # Counted by another program: exact ranks modulo 2147483647 and 2147483629 at two points.

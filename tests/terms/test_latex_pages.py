@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from modeler.api import load
-from modeler.base.render import as_latex
 from modeler.cli import main
-from modeler.terms import regressor_form, sheet_latex, sheet_lines, short_form
-from modeler.terms.sheet_text import SheetStyle
-from modeler.terms.text import LATEX
+from modeler.derivation.relations import as_latex
+from modeler.formulas.function_sheet import SheetStyle, sheet_latex, sheet_lines
+from modeler.formulas.regressor_form import regressor_form, short_form
+from modeler.formulas.text import LATEX
 from tests.base.formulas import written_value
 from tests.effects.test_effects_in_c import REFERENCE, SHAPES, written
 from tests.terms.printed_lines import derived, known, run_lines

@@ -6,10 +6,9 @@ import random
 import numpy as np
 import pytest
 
-from modeler.terms.known_sets import smallest_number
-from modeler.terms.solution_text import solution_lines
-from modeler.terms.solved_values import derive_values
-from modeler.terms.solving import determined, solve
+from modeler.formulas.solve import determined, solution_lines, solve
+from modeler.formulas.sufficient_sets import smallest_number
+from modeler.formulas.values import derive_values
 from tests.robots import ROBOTS
 from tests.terms.cases import model_of
 from tests.terms.physical_cases import SEVEN, data_of, random_letters, system_of

@@ -7,16 +7,15 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.base import base_parameters
-from modeler.base.numeric import random_states, regressor_values
 from modeler.core.errors import RobotError
-from modeler.robot import robot_from_text
-from modeler.symbolic import derive_model
-from modeler.terms.physical_system import physical_system
-from modeler.terms.printed import read_print
-from modeler.terms.solution_text import formula, missing_lines, solution_lines
-from modeler.terms.solved_values import Numbers, verify
-from modeler.terms.solving import determined, solve
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.numeric_rank import random_states, regressor_values
+from modeler.formulas.physical_system import physical_system
+from modeler.formulas.printed import read_print
+from modeler.formulas.solve import determined, formula, missing_lines, solution_lines, solve
+from modeler.formulas.values import Numbers, verify
+from modeler.robot.read import robot_from_text
 from tests.terms.cases import TEXTS, edited_wrist, model_of
 from tests.terms.physical_cases import SEVEN, data_of, random_letters, system_of
 

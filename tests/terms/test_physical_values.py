@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError, RobotError
-from modeler.terms.against_fit import chi_squared_limit, compare_cad, limit, test_known
-from modeler.terms.given_values import cad_from_file, cad_from_robot, given_from_text
-from modeler.terms.solved_values import derive_values
-from modeler.terms.solving import solve
+from modeler.formulas.cad import chi_squared_limit, compare_cad, limit, test_known
+from modeler.formulas.solve import solve
+from modeler.formulas.values import cad_from_file, cad_from_robot, derive_values, given_from_text
 from tests.terms.cases import model_of
 from tests.terms.physical_cases import SEVEN, data_of, example, random_letters, system_of
 

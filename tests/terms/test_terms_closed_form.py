@@ -6,14 +6,17 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.base import base_parameters
 from modeler.core.errors import DerivationError, RobotError
-from modeler.effects import EnergyBlock
-from modeler.robot import robot_from_text
-from modeler.symbolic import LinkColumn, SymbolicModel, derive_model
-from modeler.symbolic.geometry import geometric_symbol
-from modeler.terms import ClosedForm, closed_form, evaluate
-from modeler.terms.ring import TrigRing
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.columns import LinkColumn
+from modeler.derivation.derive import derive_model
+from modeler.derivation.geometry import geometric_symbol
+from modeler.derivation.model import SymbolicModel
+from modeler.effects.effect import EnergyBlock
+from modeler.formulas.closed_form import ClosedForm, closed_form
+from modeler.formulas.evaluation import evaluate
+from modeler.formulas.ring import TrigRing
+from modeler.robot.read import robot_from_text
 from tests.terms.cases import SMALL, edited_wrist, general, model_of, robot_text
 
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from modeler.api import load
-from modeler.symbolic import derive_model
-from modeler.terms import regressor_form, sheet_lines, short_form
+from modeler.derivation.derive import derive_model
+from modeler.formulas.function_sheet import sheet_lines
+from modeler.formulas.regressor_form import regressor_form, short_form
 from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines
 from tests.terms.test_terms_regressor_form import printed_columns
 from tests.terms.test_terms_whole_torque import check

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.terms import backward_lines
-from modeler.terms.map_render import forward_lines
+from modeler.formulas.render import backward_lines, forward_lines
 from tests.base.formulas import text_value
 from tests.terms.cases import table_of
 

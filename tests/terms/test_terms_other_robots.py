@@ -5,13 +5,13 @@ import random
 import pytest
 import sympy
 
-from modeler.base import base_parameters
 from modeler.core.errors import RobotError
-from modeler.robot import robot_from_text
-from modeler.symbolic import derive_model
-from modeler.terms import coefficient_table
-from modeler.terms.identifiability import random_point, value_modulo
-from modeler.terms.relations import independent_modulo, inverse_map, relations
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.formulas.coefficients import coefficient_table
+from modeler.formulas.identifiability import random_point, value_modulo
+from modeler.formulas.relations import independent_modulo, inverse_map, relations
+from modeler.robot.read import robot_from_text
 from tests.terms.cases import TEXTS, edited_wrist, robot_text, table_of
 
 ROBOTS = ["two-link", "scara", "general3", "odd", "weightless", "emps", "demo-arm"]

@@ -5,10 +5,11 @@ from fractions import Fraction
 
 import pytest
 
-from modeler.base import base_parameters
 from modeler.core.errors import RobotError
-from modeler.terms import coefficient_table, terms_report
-from modeler.terms.checks import (
+from modeler.derivation.base_parameters import base_parameters
+from modeler.formulas.coefficients import coefficient_table
+from modeler.formulas.power import exact_state, power_balance
+from modeler.formulas.print_checks import (
     check_independent,
     check_solutions,
     check_twin,
@@ -16,9 +17,8 @@ from modeler.terms.checks import (
     wrong_definitions,
     wrong_functions,
 )
-from modeler.terms.friction import check_friction
-from modeler.terms.power import exact_state, power_balance
-from modeler.terms.printed import Coupling
+from modeler.formulas.print_report import check_friction, terms_report
+from modeler.formulas.printed import Coupling
 from tests.terms.cases import edited_wrist, model_of, table_of
 
 CORRECTED = [

@@ -5,7 +5,8 @@ import re
 import numpy as np
 import pytest
 
-from modeler.terms import regressor_form, sheet_latex, sheet_lines, sheet_markdown
+from modeler.formulas.function_sheet import sheet_latex, sheet_lines, sheet_markdown
+from modeler.formulas.regressor_form import regressor_form
 from tests.terms.printed_lines import SAMPLES, compiled, derived, known, run_lines
 
 ROBOTS = ["two-link", "puma560", "odd", "geared", "orthoglide-leg", "sr400"]

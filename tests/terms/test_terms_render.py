@@ -8,8 +8,9 @@ from math import cos, sin
 import pytest
 import sympy
 
-from modeler.terms import (
-    closed_form,
+from modeler.formulas.closed_form import closed_form
+from modeler.formulas.evaluation import evaluate
+from modeler.formulas.render import (
     closed_form_json,
     closed_form_latex,
     closed_form_markdown,
@@ -18,9 +19,8 @@ from modeler.terms import (
     coefficients_latex,
     coefficients_markdown,
     coefficients_text,
-    evaluate,
 )
-from modeler.terms.text import LATEX, latex_letter, signed_sum
+from modeler.formulas.text import LATEX, latex_letter, signed_sum
 from tests.base.formulas import written_value
 from tests.terms.cases import model_of, table_of
 

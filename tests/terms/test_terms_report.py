@@ -3,9 +3,9 @@
 import difflib
 from pathlib import Path
 
-from modeler.base import base_parameters
 from modeler.core.files import write_atomically
-from modeler.terms import terms_report
+from modeler.derivation.base_parameters import base_parameters
+from modeler.formulas.print_report import terms_report
 from tests.terms.cases import model_of
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "wrist.md"

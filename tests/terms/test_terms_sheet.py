@@ -4,9 +4,14 @@ from fractions import Fraction
 
 import pytest
 
-from modeler.symbolic import Graph
-from modeler.terms.sheet import SheetWriter
-from modeler.terms.sheet_render import sheet_json, sheet_latex, sheet_lines, sheet_markdown
+from modeler.derivation.graph import Graph
+from modeler.formulas.function_sheet import (
+    SheetWriter,
+    sheet_json,
+    sheet_latex,
+    sheet_lines,
+    sheet_markdown,
+)
 
 LETTERS = {"q[0]": "q1", "q[1]": "q2", "qd[0]": "qd1", "a": "a", "b": "b", "k1": "k1"}
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.terms import nonzero_base, sheet_lines, short_form
+from modeler.formulas.function_sheet import sheet_lines
+from modeler.formulas.regressor_form import nonzero_base, short_form
 from tests.terms.printed_lines import derived, known, run_lines
 
 LINES = {"puma560": 300, "rx90": 280, "ur10e": 260, "sr400": 340, "orthoglide-leg": 40}

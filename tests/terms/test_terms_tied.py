@@ -10,10 +10,12 @@ from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
-from modeler.terms import closed_form, evaluate, independent_coefficients
-from modeler.terms.identifiability import value_modulo
-from modeler.terms.motions import motions_of
-from modeler.terms.relations import base_map
+from modeler.formulas.closed_form import closed_form
+from modeler.formulas.coefficients import independent_coefficients
+from modeler.formulas.evaluation import evaluate
+from modeler.formulas.identifiability import value_modulo
+from modeler.formulas.relations import base_map
+from modeler.formulas.ring import motions_of
 from tests.terms.cases import model_of, table_of
 from tests.terms.printed_lines import compiled, derived
 

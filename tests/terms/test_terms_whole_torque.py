@@ -9,8 +9,8 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from modeler.terms import sheet_lines
-from modeler.terms.equations import equation_of
+from modeler.formulas.function_sheet import sheet_lines
+from modeler.formulas.regressor_form import equation_of
 from tests.robots import ROBOTS
 from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines, torque
 

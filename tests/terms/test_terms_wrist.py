@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 import sympy
 
-from modeler.terms.relations import classes, inverse_map
-from modeler.terms.text import form_text, physical_text
+from modeler.formulas.relations import classes, inverse_map
+from modeler.formulas.text import form_text, physical_text
 from tests.terms.cases import table_of
 
 REFERENCE = Path(__file__).resolve().parents[1] / "reference"

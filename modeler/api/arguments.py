@@ -1,0 +1,178 @@
+"""The door of the API: what a function is given is of the kind that it declares.
+
+Without it, a wrong kind shows as an error of Python's deep inside.
+"""
+
+import functools
+import inspect
+import types
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from numbers import Integral, Real
+from pathlib import Path
+from typing import Any, Literal, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
+
+from modeler.core.errors import DataError
+from modeler.core.json import shown
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+_KINDS = {
+    "Robot": "a robot (load gives one)",
+    "IdentifiedModel": "a model (open_model and fit give one)",
+    "Derivation": "a derivation (derive gives one)",
+    "Emitted": "the C of a robot (generate gives it)",
+    "CompiledModel": "a compiled robot (compile_model gives one)",
+    "Observation": "an observation (observe gives one)",
+    "HomeModes": "assembly modes (home gives them)",
+    "Log": "a log",
+    "SimulatedLog": "a simulated log",
+    "str": "a text",
+    "Path": "a path",
+    "float": "a number",
+    "int": "a whole number",
+    "bool": "True or False",
+    "NoneType": "None",
+}
+"""What classes are called in messages; others by their own names."""
+
+_NUMBERS: dict[type, tuple[type, ...]] = {float: (Real,), int: (Integral,), bool: (Integral,)}
+
+
+class _WrongKind(Exception):
+    """A value is of none of the kinds that are expected."""
+
+
+def guard(names: dict[str, Any]) -> None:
+    """Puts the check before every function among the names of a module."""
+    for name, value in list(names.items()):
+        if inspect.isfunction(value):
+            names[name] = checked(value)
+
+
+@functools.cache
+def checked(function: Callable[P, R]) -> Callable[P, R]:
+    """The function, which refuses arguments of a kind that it does not declare.
+
+    Where it takes a list, one thing alone stands for a list of it; a text is never a list of
+    letters.
+
+    Raises:
+        DataError: by the function returned: which argument, what was got, what was expected.
+    """
+    signature = inspect.signature(function)
+
+    @functools.wraps(function)
+    def at_door(*args: P.args, **kwargs: P.kwargs) -> R:
+        given = signature.bind(*args, **kwargs)  # a wrong number of arguments is Python's to tell
+        hints = _hints(function)
+        for name, value in given.arguments.items():
+            if signature.parameters[name].kind is not inspect.Parameter.VAR_KEYWORD:
+                given.arguments[name] = fitting(function.__name__, name, hints[name], value)
+        return function(*given.args, **given.kwargs)
+
+    return at_door
+
+
+@functools.cache
+def _hints(function: Callable[..., Any]) -> dict[str, Any]:
+    return get_type_hints(function)
+
+
+def fitting(where: str, name: str, hint: Any, value: Any) -> Any:
+    """The value as the kind that is expected: itself, or a list of it alone.
+
+    Args:
+        where: begins the message.
+        name: of the argument.
+        hint: the kind, as it is declared.
+        value: as it was given.
+
+    Raises:
+        DataError: it is of another kind.
+    """
+    try:
+        return _taken(hint, value)
+    except _WrongKind as error:
+        raise DataError(f"{where}: got {error} as {name}; expected {_told(hint)}") from None
+
+
+def _taken(hint: Any, value: Any) -> Any:
+    origin, of = get_origin(hint), get_args(hint)
+    if hint is Any:
+        return value
+    if origin in (Union, types.UnionType):
+        return _one_of(of, value)
+    if origin is Literal:
+        return _one_of([type(choice) for choice in of], value)  # which one: its function tells
+    if origin is Sequence:
+        return _listed(of[0], value)
+    if origin is Mapping:
+        return _mapped(of[1], value)
+    if origin is Callable:
+        return _sure(callable(value), value)
+    if isinstance(hint, type):
+        return _sure(isinstance(value, _NUMBERS.get(hint, hint)), value)
+    return value
+
+
+def _sure(fits: bool, value: Any) -> Any:
+    if not fits:
+        raise _WrongKind(_got(value))
+    return value
+
+
+def _one_of(hints: Sequence[Any], value: Any) -> Any:
+    """As it is for the first kind that it fits; what is said is of the last list, if any."""
+    wrong = _WrongKind(_got(value))
+    for hint in hints:
+        try:
+            return _taken(hint, value)
+        except _WrongKind as error:
+            wrong = error if get_origin(hint) in (Sequence, Mapping) else wrong
+    raise wrong
+
+
+def _listed(hint: Any, value: Any) -> Any:
+    if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
+        return [_taken(hint, value)]
+    kept = value if isinstance(value, Sequence) else list(value)
+    for each in kept:
+        _taken(hint, each)
+    return kept
+
+
+def _mapped(hint: Any, value: Any) -> Any:
+    _sure(isinstance(value, Mapping), value)
+    for each in value.values():
+        _taken(hint, each)
+    return value
+
+
+def _got(value: Any) -> str:
+    """What a value is, in words."""
+    if isinstance(value, str):
+        return f"the text {shown(value)}"
+    if value is None or isinstance(value, Real):
+        return str(value)
+    if isinstance(value, Path):
+        return f"the path {value}"
+    name = type(value).__name__
+    known = _KINDS.get(name)
+    return known.partition(" (")[0] if known else f"a {name}"
+
+
+def _told(hint: Any) -> str:
+    """What is expected, in words."""
+    origin, of = get_origin(hint), get_args(hint)
+    if origin in (Union, types.UnionType):
+        return " or ".join(_told(each) for each in of)
+    if origin is Literal:
+        return "one of " + ", ".join(map(str, of))
+    if origin is Sequence:
+        return f"a list, each {_told(of[0])}"
+    if origin is Mapping:
+        return "a mapping" if of[1] is Any else f"a mapping of names, each to {_told(of[1])}"
+    if origin is Callable:
+        return "a function"
+    return _KINDS.get(hint.__name__, hint.__name__)

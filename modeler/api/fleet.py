@@ -1,0 +1,121 @@
+"""One robot kind, many machines and days."""
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from modeler.api.model import AnyLog, Mapped, compile_model, file_and_span, log_map, read_logs
+from modeler.codegen.derivation import derive, generate
+from modeler.core.errors import DataError, LoopError, file_and_window
+from modeler.core.jobs import Workers, open_workers
+from modeler.core.manifest import Emitted
+from modeler.fleet.fleet import fleet_of
+from modeler.fleet.naming import Named, in_order, named_logs
+from modeler.fleet.result import Fleet
+from modeler.fleet.summary import Left, LogJob, LogSummary, reduce_log, summary
+from modeler.observation.processing import Processing
+from modeler.robot.robot import Robot
+from modeler.runtime.model import CompiledModel
+
+Progress = Callable[[float], None]
+
+
+def fleet(
+    robot: Robot,
+    logs: Sequence[str | Path] | Mapping[str, Mapping[str, AnyLog]],
+    name: str | None = None,
+    *,
+    processing: Processing | None = None,
+    mapping: Mapped = (),
+    processes: int = 1,
+    dask: str | None = None,
+    progress: Progress | None = None,
+) -> Fleet:
+    """What drifts where: friction, offsets and gains of many machines of one kind over their days.
+
+        fleet(load("arm.toml"), {"r1": {"monday": "a.csv", "tuesday": "b.csv"}})
+
+    All machines share their inertial parameters; see docs/fleet.md.
+
+    Args:
+        robot: of all machines; with the effects that are to be followed.
+        logs: files, machine and period by their names; or logs by machine and period.
+        name: pattern of files, as "{machine}-{period}.csv"; None: folder and file.
+        processing: None: chosen from the first log, for all.
+        mapping: as of `read_logs`.
+        processes: that read logs at once; only files are read by others than this one.
+        dask: address of a scheduler, or "local".
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        DataError: no usable logs, two of one machine and period, too few to compare.
+    """
+    emitted = generate(derive(robot))
+    compiled = compile_model(emitted)
+    if isinstance(logs, Mapping):
+        pairs = {Named(machine, period, f"{machine}, {period}"): log
+                 for machine, own in logs.items() for period, log in own.items()}  # fmt: skip
+        return fleet_of(emitted.spec, _reduced(compiled, pairs, processing, mapping, progress))
+    named = named_logs([file_and_at(str(place)) for place in logs], name)
+    with open_workers(dask, processes) as workers:
+        given = reduce_logs(compiled, emitted, named, workers, processing, mapping, progress)
+    return fleet_of(emitted.spec, given)
+
+
+def file_and_at(place: str) -> tuple[str, str]:
+    """A file and the window after it, "" without."""
+    path, at = file_and_window(place)
+    return path, at or ""
+
+
+def reduce_logs(
+    compiled: CompiledModel,
+    emitted: Emitted,
+    named: Sequence[Named],
+    workers: Workers,
+    processing: Processing | None = None,
+    mapping: Mapped = (),
+    progress: Progress | None = None,
+) -> list[LogSummary | Left]:
+    """The summaries of all logs; all filtered as is chosen from the first that can be used."""
+    names = log_map(compiled, mapping)
+    jobs = []
+    for each in named:
+        path, span = file_and_span(each.place)
+        jobs.append(LogJob(each, str(Path(path).absolute()), span, processing, names))
+    found: list[LogSummary | Left] = []
+    while len(found) < len(jobs) and not (found and isinstance(found[-1], LogSummary)):
+        found.append(reduce_log(emitted, jobs[len(found)]))
+    if found and isinstance(found[-1], LogSummary):
+        chosen, done = found[-1].processing, len(found)
+        rest = [dataclasses.replace(job, processing=chosen) for job in jobs[done:]]
+
+        def tell(share: float) -> None:
+            if progress is not None:
+                progress((done + share * len(rest)) / len(jobs))
+
+        code = dataclasses.replace(emitted, files=emitted.code)
+        found += workers.each(reduce_log, code, rest, tell)
+    return found
+
+
+def _reduced(
+    compiled: CompiledModel,
+    logs: Mapping[Named, AnyLog],
+    processing: Processing | None,
+    mapping: Mapped,
+    progress: Progress | None,
+) -> list[LogSummary | Left]:
+    """The same of logs at hand, in this process."""
+    found: list[LogSummary | Left] = []
+    for named in in_order(logs):
+        try:
+            [log] = read_logs(compiled, [logs[named]], mapping)
+            own = summary(compiled, log, named, processing)
+            found.append(own)
+            processing = own.processing
+        except (DataError, LoopError) as error:
+            found.append(Left(named, str(error)))
+        if progress is not None:
+            progress(len(found) / len(logs))
+    return found

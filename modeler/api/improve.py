@@ -1,0 +1,104 @@
+"""Effects into a model: one by its name, all that a diagnosis names; the last one out again."""
+
+from collections.abc import Callable, Sequence
+
+from modeler.api.checks import Steps, silent
+from modeler.api.model import AnyLog, Mapped, read_logs, recompile
+from modeler.core.errors import DataError
+from modeler.diagnosis.add import add_effect, add_findings, undone
+from modeler.diagnosis.added_model import Logs
+from modeler.diagnosis.candidates import Known
+from modeler.diagnosis.diagnosis import diagnose as find_missing
+from modeler.diagnosis.result import Diagnosis
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.observation.log import check_apart
+from modeler.robot.read import robot_from_text
+from modeler.runtime.model import CompiledModel
+
+
+def add(
+    model: IdentifiedModel,
+    effect: str,
+    logs: Sequence[AnyLog],
+    holdout: Sequence[AnyLog] = (),
+    joint: str | None = None,
+    mapping: Mapped = (),
+) -> IdentifiedModel:
+    """The model with one effect more, fitted to the logs; `table("waterfall")` says what it gained.
+
+    Args:
+        model: as it is.
+        effect: id, see `effects()`.
+        logs: to fit to.
+        holdout: logs of other motion to judge on.
+        joint: None: where it explains most.
+        mapping: as of `read_logs`.
+
+    Raises:
+        DataError: no such effect, one that is there already, cannot be told from the logs, or
+            cannot be added.
+    """
+    compiled, given = _given(model, logs, holdout, mapping)
+    return add_effect(model, compiled, effect, joint, given)
+
+
+def auto(
+    model: IdentifiedModel,
+    logs: Sequence[AnyLog],
+    holdout: Sequence[AnyLog] = (),
+    progress: Callable[[float], None] | None = None,
+    mapping: Mapped = (),
+) -> IdentifiedModel:
+    """The model with all that a diagnosis on these logs names and that lowers the error.
+
+    Raises:
+        DataError: nothing that can be added is missing.
+    """
+    compiled, given = _given(model, logs, holdout, mapping)
+    return auto_added(model, compiled, given, progress)[0]
+
+
+def undo(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> IdentifiedModel:
+    """The model without the effect that was added last, fitted again to the logs.
+
+    Raises:
+        DataError: none was added.
+    """
+    return undone(model, _given(model, logs, (), mapping)[1])
+
+
+def auto_added(
+    model: IdentifiedModel,
+    compiled: CompiledModel,
+    logs: Logs,
+    progress: Callable[[float], None] | None = None,
+    working: Steps = silent,
+) -> tuple[IdentifiedModel, tuple[str, ...], Diagnosis]:
+    """The model with what a diagnosis names, why some of it is left out, and the diagnosis.
+
+    Raises:
+        DataError: nothing that can be added is missing.
+    """
+    robot = robot_from_text(model.robot_text, f"model of {model.spec.robot}, robot")
+    known = Known(robot.catalogue, robot.coupling)
+    found = find_missing(
+        model, compiled, logs.fitted, logs.held_out, progress=progress, known=known
+    )
+    findings = [*found.effects, *found.refinements]
+    with working("adding what is missing"):
+        better, left_out = add_findings(model, compiled, findings, logs)
+    if better is model and not left_out:
+        raise DataError(
+            "auto: nothing is added, because nothing that can be added is missing in this model "
+            f"({found.sentences[0]})"
+        )
+    return better, left_out, found
+
+
+def _given(
+    model: IdentifiedModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog], mapping: Mapped
+) -> tuple[CompiledModel, Logs]:
+    compiled = recompile(model)
+    given = Logs(*(read_logs(compiled, some, mapping) for some in (logs, holdout)))
+    check_apart(given.fitted, given.held_out)
+    return compiled, given

@@ -1,0 +1,370 @@
+"""The chain: from a robot to its C, from logs to a model."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, Literal
+
+from modeler.api.ways import Asked, estimated, judged
+from modeler.codegen.derivation import Derivation as Derivation
+from modeler.codegen.derivation import derive as derive
+from modeler.codegen.derivation import generate as generate_robot
+from modeler.codegen.derivation import load as load
+from modeler.core.errors import DataError, ManifestError, Method, Precision, file_and_window
+from modeler.core.files import write_atomically
+from modeler.core.manifest import Emitted, ModuleSpec
+from modeler.core.table import Table
+from modeler.effects.catalogue import CATALOGUE
+from modeler.estimation.drive_gains import check_currents, in_drive_units
+from modeler.estimation.least_squares import ABOUT
+from modeler.estimation.model_file import (
+    IdentifiedModel,
+    fitted_spec,
+    load_model,
+    provenance,
+    save_model,
+    with_essential_only,
+)
+from modeler.estimation.payload import Payload
+from modeler.estimation.result import FitResult
+from modeler.logs.mapping import LogMap, map_from_table, map_from_words
+from modeler.observation.log import LONG, Log, check_apart
+from modeler.observation.observation import Observation
+from modeler.observation.observation import observe as observe_logs
+from modeler.observation.processing import Processing
+from modeler.observation.read import read_log, source_of
+from modeler.observation.window import read_part, window
+from modeler.robot.edit import with_own_effect
+from modeler.robot.library import builtin_names
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.robot import Robot
+from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import load as load_compiled
+from modeler.simulation.log import SimulatedLog, write_log
+
+AnyLog = str | Path | Log | SimulatedLog
+"""A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated."""
+
+Mapped = Mapping[str, Any] | Sequence[str]
+"""Whose column is which: a table as [log] of a robot file, or texts as `--map` takes them."""
+
+
+def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:
+    """The robot with the definition of an effect that the catalogue lacks.
+
+    >>> robot = own_effect(load("emps"), "fan", columns={"Kf": "v*abs(v)"}, nonnegative=True)
+    >>> robot.own_effects[0].id
+    'fan'
+
+    `diagnose` then tries it, and `modeler add` can add it: the definition stands in the robot
+    file that the model keeps.
+
+    Args:
+        robot: as it is.
+        name: id of the effect.
+        definition: title, columns, shapes, unit, nonnegative, acts; see docs/robot-file.md.
+
+    Raises:
+        RobotError: a mistake in the definition, or an id that the robot has already.
+    """
+    return robot_from_text(with_own_effect(robot.text, name, definition), robot.name)
+
+
+def generate(
+    source: Derivation | IdentifiedModel,
+    folder: str | Path | None = None,
+    force: bool = False,
+    precision: Precision = "double",
+    cuda: bool = False,
+) -> Emitted:
+    """The C module of a robot; of a model, with functions that have its fitted values.
+
+    Args:
+        source: what was derived, or a fitted model.
+        folder: the module is written there if it is given.
+        force: write also over files that no earlier run wrote, or that were edited since.
+        precision: `double`, or `single`: then all numbers of the C are `float`.
+        cuda: add the base regressor in CUDA, of a robot without loops.
+
+    Raises:
+        ManifestError: this version derives another manifest than the one that the values of the
+            model belong to.
+        ModelerError: the folder holds such files and `force` is not given; or it cannot be written.
+    """
+    if isinstance(source, Derivation):
+        return generate_robot(source, folder, force, precision=precision, cuda=cuda)
+    derivation, _ = _emitted_anew(source)
+    return generate_robot(derivation, folder, force, fitted_spec(source), precision, cuda)
+
+
+def compile_model(emitted: Emitted) -> CompiledModel:
+    """The C module made callable; compiled once for the same content."""
+    return load_compiled(emitted.spec, emitted.code, emitted.log)
+
+
+def read_logs(compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> list[Log]:
+    """Logs by path, `path@start:end` for a piece of it in seconds, or as they are.
+
+    Args:
+        compiled: the robot; its file's [log] says which columns are which.
+        logs: of any format of `modeler.logs`.
+        mapping: over [log]: a table like it, or texts as `--map` takes them.
+    """
+    names = log_map(compiled, mapping)
+    return [_log(log, compiled.spec, names) for log in logs]
+
+
+def read_currents(
+    compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()
+) -> list[Log]:
+    """Logs of currents; where the robot file states no drive gain, torques are in drive units.
+
+    Raises:
+        DataError: a log gives a torque instead.
+    """
+    spec, names = in_drive_units(compiled.spec), log_map(compiled, mapping)
+    read = [_log(log, spec, names) for log in logs]
+    check_currents(read, spec.joints)
+    return read
+
+
+def log_map(compiled: CompiledModel, mapping: Mapped = ()) -> LogMap:
+    """Which columns of logs are ours: [log] of the robot file, and `mapping` over it."""
+    stated = map_from_table(compiled.log, f"{compiled.spec.robot}: [log]")
+    return given_map(mapping).over(stated)
+
+
+def given_map(mapping: Mapped) -> LogMap:
+    """A mapping as it was given, by itself."""
+    if isinstance(mapping, Mapping):
+        return map_from_table(mapping, "mapping", strict=True)
+    return map_from_words(mapping)
+
+
+def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> Log:
+    if isinstance(log, Log):
+        return log
+    if not isinstance(log, SimulatedLog):
+        return read_mapped(log, spec, names)
+    with TemporaryDirectory() as folder:  # read as whoever gets the file will read it
+        place = Path(folder) / f"{log.robot}-seed{log.settings.seed}.parquet"
+        write_log(place, log)
+        return read_log(place, spec)
+
+
+def read_mapped(place: str | Path, spec: ModuleSpec, names: LogMap) -> Log:
+    """A log, or a piece of it, with the columns of a map."""
+    path, span = file_and_span(place)
+    if span is None:
+        return read_log(path, spec, names)
+    source = source_of(Path(path), spec, names)
+    if source is not None and source.rows > (LONG if source.exact else 2 * LONG):
+        return read_part(source, spec, *span)
+    return window(read_log(path, spec, names), *span)
+
+
+def file_and_span(
+    place: str | Path,
+) -> tuple[str | Path, tuple[float | None, float | None] | None]:
+    """The file of a log, and the seconds that `@start:end` after it means; None for all of it.
+
+    Raises:
+        DataError: something else stands after the @.
+    """
+    path, times = file_and_window(str(place))
+    if times is None:
+        return place, None
+    start, colon, end = times.partition(":")
+    try:
+        span = tuple(float(side) if side else None for side in (start, end))
+    except ValueError:
+        span = ()
+    if not (colon and span):
+        raise DataError(
+            f"{place}: got @{times} after the file; expected @START:END in seconds, as in "
+            f"{path}@0:10, {path}@5: or {path}@:5"
+        )
+    return path, (span[0], span[1])
+
+
+def observe(
+    compiled: CompiledModel,
+    logs: Sequence[AnyLog],
+    processing: Processing | None = None,
+    mapping: Mapped = (),
+) -> Observation:
+    """The rows y = W beta of logs."""
+    given = read_logs(compiled, logs, mapping)
+    check_apart(given)
+    return observe_logs(compiled, given, processing)
+
+
+def fit(
+    derivation: Derivation,
+    emitted: Emitted,
+    observation: Observation,
+    method: Method | Literal["two-step"] = "weighted",
+    *,
+    energy: bool = False,
+    window: float | None = None,
+    payloads: Sequence[Payload] = (),
+    essential_below: float | None = None,
+) -> IdentifiedModel:
+    """The base parameters from an observation, with all that a model file holds.
+
+    Args:
+        derivation: of the robot.
+        emitted: its C.
+        observation: of its logs.
+        method: one of `estimators()`, or "two-step"; for "tls" see `fit_gains`.
+        energy: True for the energy model, whose rows are windows (docs/energy-model.md).
+        window: their length, s; None: the spacing of the torque model's rows.
+        payloads: loads, each with the names of the logs that carry it.
+        essential_below: percent; parameters whose sigma, in percent of the value, cannot be kept
+            below are left out of the reduced model; None: those that an F-test does not miss.
+
+    Raises:
+        DataError: the derivation, the C and the observation are not of one robot; or see
+            `identify`.
+    """
+    _check_of_one_robot(derivation, emitted, observation)
+    compiled = compile_model(emitted)
+    asked = Asked(method, energy, window, tuple(payloads), essential_below)
+    way = estimated(asked, derivation.robot, compiled, observation)
+    return identified(derivation, emitted, observation, judged(compiled, observation, way))
+
+
+def _check_of_one_robot(derivation: Derivation, emitted: Emitted, observation: Observation) -> None:
+    names = tuple(base.name for base in emitted.spec.base)
+    for what, other in (("derivation", derivation.robot.name), ("observation", observation.robot)):
+        if other != emitted.spec.robot:
+            raise DataError(
+                f"fit: the {what} is of {other} and the C of {emitted.spec.robot}; expected one "
+                "robot; derive, generate and observe it again"
+            )
+    if observation.names != names:
+        raise DataError(
+            f"fit: the observation has the base parameters {', '.join(observation.names)}, the C "
+            f"{', '.join(names)}; expected the same; observe with this C"
+        )
+
+
+def identified(
+    derivation: Derivation, emitted: Emitted, observation: Observation, result: FitResult
+) -> IdentifiedModel:
+    """A fit with all that a model file holds."""
+    return IdentifiedModel(
+        robot_text=derivation.robot.text,
+        spec=emitted.spec,
+        sources=emitted.code,
+        fit=result,
+        logs=provenance(observation.report),
+    )
+
+
+def recompile(model: IdentifiedModel) -> CompiledModel:
+    """The compiled robot of a model, its C emitted anew from the robot text in the model.
+
+    A model file may come from anybody; `model.compile()` would run the C that stands in it.
+
+    Raises:
+        ManifestError: this version derives another manifest than the one that the values belong to.
+    """
+    otherwise = ", or use --run-embedded-c to run the C in the file if you trust its source"
+    return compile_model(_emitted_anew(model, otherwise)[1])
+
+
+def _emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
+    """What the robot text of a model gives, if that is what its values belong to."""
+    robot = robot_from_text(model.robot_text, f"robot {model.spec.robot} in the model file")
+    derivation = derive(robot)
+    emitted = generate_robot(derivation)
+    if emitted.spec.signature() != model.spec.signature():
+        what = "manifest" if _uncoded(emitted.spec) != _uncoded(model.spec) else "C"
+        raise ManifestError(
+            f"model of {model.spec.robot}: its robot text gives another {what} than its values "
+            "belong to: made by another version of modeler, or changed since; fit it again"
+            f"{otherwise}"
+        )
+    return derivation, emitted
+
+
+def _uncoded(spec: ModuleSpec) -> ModuleSpec:
+    return dataclasses.replace(spec, code="")
+
+
+def reduced(model: IdentifiedModel) -> IdentifiedModel:
+    """The model with its essential parameters only, estimated anew; all others are 0.
+
+    Raises:
+        DataError: the model was saved by a version that kept none.
+    """
+    return with_essential_only(model, f"model of {model.spec.robot}")
+
+
+def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
+    """Write a model file, or the file of a robot; an interrupted write leaves the old file.
+
+    Raises:
+        ModelerError: the folder cannot be written.
+    """
+    if isinstance(thing, Robot):
+        write_atomically(Path(path), thing.text)
+    else:
+        save_model(path, thing)
+    return Path(path)
+
+
+def open_model(path: str | Path) -> IdentifiedModel:
+    """Read a model file. Robot files are read by `load`.
+
+    Raises:
+        ManifestError: missing, not a model file, of another format, damaged, or changed since it
+            was saved.
+    """
+    return load_model(path)
+
+
+# What is built in: robots, effects, estimators; each as a table.
+
+
+def robots() -> Table:
+    """The built-in robots; `load(name)` gives one.
+
+    >>> "ur10e" in robots().column("name")
+    True
+    """
+    every = [read_robot(name) for name in builtin_names()]
+    rows = tuple(
+        (robot.name, robot.title, len(robot.coordinates), len(robot.moving), len(robot.loops),
+         ", ".join(use.effect for use in robot.effects))
+        for robot in every
+    )  # fmt: skip
+    names = ("name", "title", "coordinates", "joints", "loops", "effects")
+    return Table("built-in robots", tuple((name, "") for name in names), rows)
+
+
+def effects(robot: Robot | None = None) -> Table:
+    """The catalogue of physical effects; with a robot, its own ones too.
+
+    `modeler effects ID` says more of each.
+
+    >>> dict(zip(effects().column("effect"), effects().column("parameters")))["coulomb"]
+    'Fs'
+    """
+    known = CATALOGUE if robot is None else robot.catalogue
+    rows = tuple(
+        (effect.id, effect.title, effect.equation,
+         ", ".join(column.prefix for column in effect.columns), ", ".join(effect.aliases))
+        for effect in known
+    )  # fmt: skip
+    names = ("effect", "title", "equation", "parameters", "also called")
+    return Table("physical effects", tuple((name, "") for name in names), rows)
+
+
+def estimators() -> Table:
+    """The estimators that `fit` takes as `method`."""
+    rows = tuple((a.id, a.title, a.law, a.source, a.avoid) for a in ABOUT.values())
+    names = ("method", "title", "law", "source", "when not to use it")
+    return Table("estimators", tuple((name, "") for name in names), rows)

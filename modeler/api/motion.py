@@ -1,0 +1,383 @@
+"""Motions that tell parameters, or two effects, apart."""
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from modeler.api.model import compile_model, derive, generate, recompile
+from modeler.core.errors import DataError
+from modeler.derivation.derive import modes_near
+from modeler.derivation.home import HomeModes, written
+from modeler.effects.catalogue import effect_named
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.excitation.motion import Bounds, Box
+from modeler.excitation.result import Exciting
+from modeler.excitation.search import Wish, usual_harmonics
+from modeler.excitation.search import excite as excited
+from modeler.excitation.separate import Apart, Question
+from modeler.excitation.separate import tell_apart as told_apart
+from modeler.robot.edit import with_home_text
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import Limits, Robot, near
+from modeler.runtime.model import CompiledModel
+from modeler.simulation import (
+    HiddenEffect,
+    SimulatedLog,
+    SimulationSettings,
+    at_rate,
+    check_suffix,
+    hidden_from_text,
+    motion_limits,
+    read_motion,
+    write_log,
+)
+from modeler.simulation import simulate as simulated
+
+Progress = Callable[[float], None]
+
+
+def _untold(share: float) -> None:
+    """Nobody looks."""
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """What is to be excited, and what is known of it.
+
+    Attributes:
+        robot, compiled: it.
+        sigma: (J,) standard deviation of the torque of each joint; None where unknown.
+        kept: (k,) columns that matter; None: all.
+        beta: (c,) base parameters; None where unknown.
+    """
+
+    robot: Robot
+    compiled: CompiledModel
+    sigma: np.ndarray | None = None
+    kept: np.ndarray | None = None
+    beta: np.ndarray | None = None
+
+    def search(self, bounds: Bounds, wish: Wish, progress: Progress = _untold) -> Exciting:
+        """The motion that tells its parameters apart."""
+        return excited(self.compiled, bounds, wish, self.sigma, self.kept, self.beta, progress)
+
+
+def subject_of(thing: Robot | IdentifiedModel) -> Subject:
+    """A robot with the values that its file states, or a model with those that were fitted."""
+    if isinstance(thing, Robot):
+        compiled = compile_model(generate(derive(thing)))
+        return Subject(thing, compiled, beta=_nominal(compiled))
+    robot = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot")
+    sigma = np.array([joint.sigma for joint in thing.fit.joints])
+    known = bool(np.all(np.isfinite(sigma)) and np.all(sigma > 0.0))
+    kept = np.flatnonzero([parameter.essential for parameter in thing.fit.parameters])
+    return Subject(robot, recompile(thing), sigma if known else None, kept, thing.beta)
+
+
+def _nominal(compiled: CompiledModel) -> np.ndarray | None:
+    """The base parameters that the robot file states; None where it leaves some open."""
+    values = [parameter.nominal for parameter in compiled.spec.standard]
+    if any(value is None for value in values):
+        return None
+    return compiled.base_parameters(values)
+
+
+def excite(
+    thing: Robot | IdentifiedModel,
+    *,
+    limits: Mapping[str, Sequence[float]] | None = None,
+    boxes: Mapping[str, Sequence[float]] | None = None,
+    progress: Progress = _untold,
+    **wish: Any,
+) -> Exciting:
+    """A motion within limits along which the parameters are well told apart (docs/excitation.md).
+
+    Args:
+        thing: a robot, or a model: then weighted as its fit, essential parameters only.
+        limits: joint -> lower, upper, speed, acceleration and, if wanted, torque, SI; in place of
+            those of the robot file.
+        boxes: frame -> x0, x1, y0, y1, z0, z1 in frame 0, m, that its origin stays in.
+        progress: called with the share done, 0 to 1.
+        wish: of `excite.search.Wish`: duration [s], harmonics, criterion, starts, seed ...
+
+    Raises:
+        DataError: limits or a wish that cannot be.
+        RobotError: an empty range.
+    """
+    subject = subject_of(thing)
+    bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {})
+    return subject.search(bounds, _wish(bounds, wish), progress)
+
+
+def tell_apart(
+    model: IdentifiedModel,
+    first: str,
+    second: str,
+    *,
+    limits: Mapping[str, Sequence[float]] | None = None,
+    boxes: Mapping[str, Sequence[float]] | None = None,
+    progress: Progress = _untold,
+    **wish: Any,
+) -> tuple[Exciting, Apart]:
+    """The motion along which two effects that the model lacks are least alike.
+
+    Args:
+        model: fitted.
+        first: one of them, as "stribeck@2".
+        second: the other.
+        limits: as of `excite`.
+        boxes: as of `excite`.
+        progress: called with the share done, 0 to 1.
+        wish: as of `excite`.
+
+    Raises:
+        DataError: an effect or joint that is not there, or that the model has.
+    """
+    subject = subject_of(model)
+    bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {})
+    question = question_of(subject, f"{first},{second}", "tell_apart:")
+    return told_apart(subject.compiled, bounds, _wish(bounds, wish), question, progress)
+
+
+def _wish(bounds: Bounds, given: Mapping[str, Any]) -> Wish:
+    known = [field.name for field in dataclasses.fields(Wish)]
+    for name in given:
+        if name not in known:
+            raise DataError(f"excite: got {name}; expected some of {', '.join(known)}")
+    duration = given.get("duration", Wish().duration)
+    return Wish(**{"harmonics": usual_harmonics(bounds, duration), **given})
+
+
+def question_of(subject: Subject, texts: str, where: str = "--between") -> Question:
+    """Which two effects are to be told apart.
+
+    Args:
+        subject: with values.
+        texts: "stribeck@2,spring@2".
+        where: begins the message.
+
+    Raises:
+        DataError: not two, or one that is not there or that the model has.
+    """
+    joints = [joint.name for joint in subject.compiled.spec.joints]
+    catalogue = subject.robot.catalogue
+    ids = [effect.id for effect in catalogue]
+    found = []
+    for text in texts.split(","):
+        name, _, joint = text.strip().partition("@")
+        effect = effect_named(name, catalogue)
+        if effect is None:
+            raise DataError(
+                f"{where} {text}: no such effect{near(name, ids)}; expected some of "
+                f"{', '.join(ids)}"
+            )
+        if joint not in joints:
+            raise DataError(
+                f"{where} {text}: got joint {joint or '(none)'}; expected EFFECT@J with one of "
+                f"{', '.join(joints)}"
+            )
+        if subject.robot.has_effect(effect.id, joint):
+            raise DataError(
+                f"{where} {text}: the model has {effect.id} on joint {joint} already; expected "
+                "effects that it lacks"
+            )
+        found.append((effect, joint))
+    if len(found) != 2 or found[0] == found[1]:
+        raise DataError(f"{where} {texts}: expected two effects, as stribeck@2,spring@2")
+    assert subject.beta is not None
+    return Question((found[0], found[1]), subject.beta, subject.sigma)
+
+
+def bounds_of(
+    robot: Robot,
+    compiled: CompiledModel,
+    limits: Mapping[str, Sequence[float]],
+    boxes: Mapping[str, Sequence[float]],
+) -> Bounds:
+    """The limits of the robot file, with those that are given in their place.
+
+    Args:
+        robot: as loaded.
+        compiled: the same.
+        limits: as of `excite`.
+        boxes: as of `excite`.
+
+    Raises:
+        DataError: another number of values, or no number; a joint or frame that is not there.
+        RobotError: an empty range.
+    """
+    coordinates = [joint.name for joint in compiled.spec.joints]
+    moving = [joint.name for joint in robot.moving]
+    form = "lower, upper, speed, acceleration"
+    changes, torques = {}, {}
+    for name, given in limits.items():
+        values = _checked("limits", name, given, moving, (4, 5), form)
+        changes[name] = Limits(*values[:4])
+        if len(values) == 5:
+            torques[name] = values[4]
+    every = motion_limits(robot, changes)
+    of = {name: every[moving.index(name)] for name in moving}
+    lower, upper, speed, acceleration = np.array(
+        [dataclasses.astuple(of[name])[:4] for name in coordinates]
+    ).T
+    closure = compiled.spec.closure
+    home = None if closure is None else np.array(closure.home)[list(closure.given)]
+    return Bounds(
+        tuple(coordinates), lower, upper, speed, acceleration,
+        torque=np.array([torques.get(name, np.inf) for name in coordinates]),
+        boxes=tuple(_box(name, given, moving) for name, given in boxes.items()),
+        passive=_following(compiled, {**robot.limits, **changes}), home=home,
+    )  # fmt: skip
+
+
+def _following(
+    compiled: CompiledModel, stated: Mapping[str, Limits]
+) -> tuple[tuple[int, float, float], ...]:
+    """Ranges of the joints that follow, as stated."""
+    closure = compiled.spec.closure
+    if closure is None:
+        return ()
+    return tuple(
+        (place, stated[name].lower, stated[name].upper)
+        for place, name in enumerate(closure.variables)
+        if place not in closure.given and name in stated
+    )
+
+
+def _box(name: str, given: Sequence[float], moving: list[str]) -> Box:
+    values = _checked("boxes", name, given, moving, (6,), "x0, x1, y0, y1, z0, z1")
+    return Box(
+        name, moving.index(name),
+        (values[0], values[2], values[4]), (values[1], values[3], values[5]),
+    )  # fmt: skip
+
+
+def _checked(
+    what: str, name: str, given: Sequence[float], names: list[str], counts: tuple[int, ...],
+    form: str,
+) -> list[float]:  # fmt: skip
+    """The numbers, if they are as many as expected and the row is there."""
+    if name not in names:
+        raise DataError(
+            f"{what}: no moving joint {name}{near(name, names)}; expected one of {', '.join(names)}"
+        )
+    values = [float(value) for value in given]
+    if len(values) not in counts or any(math.isnan(value) for value in values):
+        raise DataError(f"{what} of {name}: got {given}; expected {form}, numbers in SI units")
+    return values
+
+
+# Measurements by simulation.
+
+
+def simulate(
+    robot: Robot,
+    path: str | Path | None = None,
+    *,
+    hide: Sequence[str | HiddenEffect] = (),
+    motion: str | Path = "exciting",
+    progress: Callable[[float], None] | None = None,
+    **settings: Any,
+) -> SimulatedLog:
+    """A measurement of a robot under its controller; `observe` and the others take it as a log.
+
+        simulate(load("demo-arm"), "run.parquet", hide=["load_friction@2"], duration=20, seed=1)
+
+    Args:
+        robot: parameters that its file leaves open are drawn from `parameter_seed`.
+        path: .parquet or .csv file to write; None: none.
+        hide: physics that the machine has and the robot file lacks, as "stribeck@2:extra=3".
+        motion: "exciting", "point-to-point", "one-joint", or a file of a motion or log.
+        progress: called with the share done, 0 to 1.
+        settings: of `SimulationSettings`: duration [s], rate [Hz], seed, parameter_seed,
+            torque_noise [share of rms], encoder_counts, process_noise, controller, drive_gains ...
+
+    Raises:
+        DataError: a setting that is none, or that cannot be; what the simulation refuses.
+    """
+    if path is not None:
+        check_suffix(Path(path))
+    asked = _settings(robot, hide, motion, settings)
+    log = simulated(robot, asked, progress)
+    if path is not None:
+        write_log(Path(path), log)
+    return log
+
+
+def _settings(
+    robot: Robot, hide: Sequence[str | HiddenEffect], motion: str | Path, given: dict[str, Any]
+) -> SimulationSettings:
+    known = {field.name for field in dataclasses.fields(SimulationSettings)}
+    for name in given:
+        if name not in known:
+            raise DataError(f"simulate: got {name}; expected some of {', '.join(sorted(known))}")
+    hidden = tuple(hidden_from_text(each) if isinstance(each, str) else each for each in hide)
+    if not str(motion).endswith((".csv", ".parquet")):
+        return SimulationSettings(hidden=hidden, motion=str(motion), **given)
+    rate = given.get("rate", SimulationSettings().rate)
+    joints = [joint.name for joint in robot.coordinates]
+    commanded = at_rate(read_motion(motion, joints), rate)
+    return SimulationSettings(hidden=hidden, commanded=commanded, **given)
+
+
+# Closed postures of a robot with loops.
+
+
+def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = False) -> HomeModes:
+    """The assembly modes of a robot, the best first; its `table()` lists them.
+
+    >>> home(load("five-bar")).table().column("mode")
+    ['A', 'B']
+
+    Args:
+        robot: with loops.
+        near: values that are meant, by row, rad or m; None: [home] of the robot.
+        anew: True to search as if the robot stated no [home].
+
+    Raises:
+        LoopError: no loops, or none that can be closed.
+        DataError: a row that is not there.
+    """
+    stated = {} if anew else dict(robot.home)
+    if near is not None:
+        moving = [joint.name for joint in robot.moving]
+        for name in near:
+            if name not in moving:
+                raise DataError(
+                    f"home: near names joint {name}; expected some of {', '.join(moving)}"
+                )
+        names = {joint.name for joint in robot.coordinates}
+        stated = {name: value for name, value in stated.items() if name in names} | dict(near)
+    return modes_near(dataclasses.replace(robot, home={}) if anew else robot, stated)
+
+
+def chosen_mode(found: HomeModes, letter: str | None, best: bool = False) -> int:
+    """The place of the mode with that letter; without one, the robot's own, unless `best`.
+
+    Raises:
+        DataError: no such mode.
+    """
+    if letter is None:
+        return 0 if found.own is None or best else found.own
+    letters = [mode.letter for mode in found.modes]
+    if letter.upper() not in letters:
+        raise DataError(
+            f"--mode {letter}: there is no such mode; expected one of {', '.join(letters)}"
+        )
+    return letters.index(letter.upper())
+
+
+def at_home(robot: Robot, found: HomeModes, letter: str | None = None) -> Robot:
+    """The robot with an assembly mode as its [home], in its file's text too.
+
+    Raises:
+        DataError: no such mode.
+    """
+    posture = found.modes[chosen_mode(found, letter)].posture
+    text = with_home_text(robot.text, robot.home, written(found.linkage, posture))
+    return robot_from_text(text, f"{robot.name} with its [home]")

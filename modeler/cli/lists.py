@@ -1,0 +1,189 @@
+"""Reading ROBOT as every command does, and `modeler robots`, `modeler effects`."""
+
+import argparse
+import math
+from collections.abc import Callable, Sequence
+
+from modeler.cli.console import Json, note, say, working
+from modeler.core.errors import RobotError
+from modeler.effects.catalogue import CATALOGUE, effect_named
+from modeler.effects.effect import Acts, Effect, Form
+from modeler.robot.edit import with_effects, with_home_text
+from modeler.robot.library import builtin_names, conversion_notes
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.robot import Robot, near
+
+# The signature of an effect, drawn in characters: torque against what it depends on.
+
+
+_WIDTH, _HEIGHT = 61, 13
+_FUNCTIONS: dict[str, Callable[[float], float]] = {
+    "sin": math.sin, "cos": math.cos, "tan": math.tan, "sqrt": math.sqrt, "exp": math.exp,
+    "abs": abs, "sign": lambda x: (x > 0) - (x < 0), "tanh": math.tanh,
+}  # fmt: skip
+_AXES = {
+    "v": "speed, in top speeds", "q": "position, half a turn each way", "a": "acceleration",
+    "load": "load times direction of motion", "t": "time", "T": "temperature above its mean",
+    "torque": "predicted torque", "z": "position, back and forth",
+}  # fmt: skip
+
+
+def signature_lines(effect: Effect) -> list[str]:
+    """A picture of the first column, units left out; empty for effects that have none."""
+    form = effect.forms[0]
+    if effect.acts not in (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE):
+        return []
+    order = ("T", "t", "load", "z", "q", "torque", "a", "v")
+    axis = next((name for name in order if name in form.names), "v")
+    points = 6 * _WIDTH
+    x = [2.0 * k / (points - 1) - 1.0 for k in range(points)]
+    y = [_torque(form, axis, at) for at in x]
+    top = max(map(abs, y)) or 1.0
+    grid = [[" "] * _WIDTH for _ in range(_HEIGHT)]
+    grid[_HEIGHT // 2] = ["-"] * _WIDTH
+    for row in grid:
+        row[_WIDTH // 2] = "|"
+    for a, b in zip(x, y, strict=True):
+        column = round((a + 1.0) / 2.0 * (_WIDTH - 1))
+        line = round((1.0 - b / top) / 2.0 * (_HEIGHT - 1))
+        grid[line][column] = "*"
+    return ["", *("  " + "".join(row).rstrip() for row in grid), f"  torque against {_AXES[axis]}"]
+
+
+def _torque(form: Form, axis: str, x: float) -> float:
+    """The column that is drawn, at one point of the axis, other variables at 1; 0 where it ends."""
+    values: dict[str, float] = {}
+    for shape in form.shapes:
+        values[shape.name] = shape.grid[-1] if shape.grid else 6.0
+    values |= dict.fromkeys(("v", "a", "q", "load", "static", "torque", "t", "T", "z"), 1.0)
+    if axis == "load":  # both directions, the load growing outwards
+        values |= {"load": abs(x), "static": abs(x), "v": _FUNCTIONS["sign"](x)}
+    elif axis == "z":
+        back = x < 0.0
+        values["z"] = 1 - 2 * math.exp(-4 * (x + 1)) if back else 2 * math.exp(-4 * x) - 1
+        values["v"] = 1.0 if back else -1.0
+    elif axis == "q":
+        values["q"] = math.pi * x
+    else:
+        values[axis] = x
+    column = form.columns[-1] if axis == "q" else form.columns[0]
+    try:
+        result = column.equation.fold(values, _FUNCTIONS, math.pi, float)
+    except (ValueError, OverflowError, ZeroDivisionError):
+        return 0.0
+    return result if isinstance(result, int | float) and math.isfinite(result) else 0.0
+
+
+def robot_of(args: argparse.Namespace) -> Robot:
+    """The robot that the arguments mean; a [home] that is missing or poor is found, and told."""
+    robot = robot_with_effects(args)
+    if not robot.loops:
+        return robot
+    from modeler.derivation.derive import with_home  # not needed by commands that answer at once
+
+    with working(f"closing the loops of {robot.name}"):
+        home = with_home(robot)
+    if not home.told:
+        return robot
+    say(home.told)
+    # The text goes into model files: it says which assembly mode was meant.
+    try:
+        text = with_home_text(robot.text, robot.home, home.robot.home)
+    except RobotError:  # it is found again, the same
+        return home.robot
+    return robot_from_text(text, f"{args.robot} with its [home]")
+
+
+def robot_with_effects(args: argparse.Namespace) -> Robot:
+    """The robot that the arguments name, with the effects that they give it."""
+    robot = read_told(args.robot)
+    if args.effects is None:
+        return robot
+    wanted = [name.strip() for name in args.effects.split(",") if name.strip()]
+    names = [effect.id for effect in robot.catalogue]
+    unknown = [name for name in wanted if effect_named(name, robot.catalogue) is None]
+    if unknown:
+        raise RobotError(
+            f"--effects: got {unknown[0]}{near(unknown[0], names)}; expected some of "
+            f"{', '.join(names)}, with commas between"
+        )
+    text = with_effects(robot.text, dict.fromkeys(wanted, "all"))
+    return robot_from_text(text, f"{args.robot} with --effects")
+
+
+def read_told(name: str) -> Robot:
+    """The robot of that name or file; what a conversion decided or left out, on stderr."""
+    robot = read_robot(name)
+    for line in conversion_notes(name):
+        note(f"{name}: {line}")
+    return robot
+
+
+def run_robots(args: argparse.Namespace) -> Json:
+    """Prints the table of built-in robots, or one robot's file."""
+    if args.show is not None:
+        text = read_told(args.show).text
+        say(text.rstrip())
+        return {"name": args.show, "text": text}
+    robots = [read_robot(name) for name in builtin_names()]
+    width = max(len(robot.name) for robot in robots)
+    for robot in robots:
+        effects = ", ".join(use.effect for use in robot.effects) or "rigid links only"
+        count = len(robot.coordinates)
+        tree = len(robot.moving)
+        joints = f"{count} joints" + (f" of {tree}" if tree > count else "")
+        say(f"{robot.name:<{width}}  {joints:<12}  {robot.title} ({effects})")
+    return [
+        {
+            "name": robot.name,
+            "title": robot.title,
+            "joints": [joint.name for joint in robot.coordinates],
+            "effects": [use.effect for use in robot.effects],
+        }
+        for robot in robots
+    ]
+
+
+def run_effects(args: argparse.Namespace) -> Json:
+    """Prints the catalogue, or one page of it."""
+    known = CATALOGUE if args.robot is None else read_robot(args.robot).catalogue
+    chosen = known if args.effect is None else (_effect(args.effect, known),)
+    facts = [_facts(effect) for effect in chosen]
+    for fact in facts:
+        say(f"{fact['id']:<22} {fact['equation']}")
+        say(f"  {fact['title']}")
+        if args.effect is not None:
+            for name, value in fact.items():
+                if name not in ("id", "equation", "title") and value:
+                    say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")
+            for line in signature_lines(chosen[0]):
+                say(line)
+    return facts
+
+
+def _effect(name: str, known: Sequence[Effect]) -> Effect:
+    effect = effect_named(name, known)
+    if effect is None:
+        names = [each.id for each in known]
+        raise RobotError(
+            f"effects: got {name}{near(name, names)}; expected one of {', '.join(names)}, or one "
+            "that the file of --robot defines"
+        )
+    return effect
+
+
+def _facts(effect: Effect) -> dict[str, str | list[str]]:
+    return {
+        "id": effect.id,
+        "aliases": list(effect.aliases),
+        "title": effect.title,
+        "equation": effect.equation,
+        "parameters": [column.prefix for column in effect.columns],
+        "unit": [column.unit_revolute for column in effect.columns],
+        "shapes": [f"{s.name}: {s.meaning}" for f in effect.forms for s in f.free],
+        "same_as": list(effect.same_as),
+        "signature": effect.signature,
+        "look_alikes": effect.look_alikes,
+        "range": effect.range,
+        "source": effect.source,
+    }

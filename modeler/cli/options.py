@@ -1,0 +1,306 @@
+"""What the parsers of several commands share."""
+
+import argparse
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+from modeler.cli.places import JsonFile, MapWord, Output, RobotFile, Word
+
+Form = Literal["text", "latex", "markdown"]
+"""How relations are printed."""
+
+FEW_JOINTS = 3
+"""Robots of as many joints get their coefficients printed unasked."""
+
+
+if TYPE_CHECKING:
+    Commands = argparse._SubParsersAction[argparse.ArgumentParser]
+else:
+    Commands = Any
+
+Run = Callable[[argparse.Namespace], Any]
+"""A command: from its arguments to what `--json` writes."""
+
+
+def add_number(
+    parser: argparse._ActionsContainer,
+    option: str,
+    metavar: str,
+    kind: type[float] | type[int],
+    text: str,
+    default: float | None = None,
+) -> None:
+    """An option that takes a number; its help tells the default if there is one."""
+    told = text if default is None else f"{text} (default %(default)s)"
+    parser.add_argument(option, metavar=metavar, type=kind, default=default, help=told)
+
+
+def add_several(
+    parser: argparse._ActionsContainer,
+    option: str,
+    metavar: str,
+    kind: type[str],
+    text: str,
+    dest: str | None = None,
+) -> None:
+    """An option that takes several words, and may be repeated; see `words` on where it ends."""
+    parser.add_argument(
+        option, metavar=metavar, nargs="+", action="extend", default=[], type=kind,
+        dest=dest or option.lstrip("-").replace("-", "_"),
+        help=f"{text}; all words up to the next option or --; may be repeated",
+    )  # fmt: skip
+
+
+def add_robot(parser: argparse.ArgumentParser) -> None:
+    """The ROBOT argument and what changes it."""
+    parser.add_argument(
+        "robot", metavar="ROBOT", type=RobotFile,
+        help="a robot file, or the name of a built-in robot",
+    )  # fmt: skip
+    add_effects(parser)
+
+
+def add_effects(parser: argparse.ArgumentParser) -> None:
+    """`--effects LIST`, which changes ROBOT."""
+    parser.add_argument(
+        "--effects",
+        metavar="LIST",
+        type=Word,
+        help='effects instead of those of the file, for all joints: "viscous,coulomb"; "" for none',
+    )
+
+
+def add_json(parser: argparse.ArgumentParser, text: str) -> None:
+    """`--json FILE`, which every command has."""
+    parser.add_argument("--json", metavar="FILE", type=JsonFile, help=f"{text}; - for stdout")
+
+
+def add_map(parser: argparse._ActionsContainer) -> None:
+    """`--map`, which every command has that takes logs."""
+    parser.add_argument(
+        "--map", metavar="NAME=COLUMN[:UNIT]", action="append", default=[], type=MapWord,
+        help="which column of the logs is ours, as 'q<j>=position_{j}:deg', or FILE.toml with such "
+        "lines; may be given several times; over [log] of the robot file",
+    )  # fmt: skip
+
+
+def add_page(parser: argparse.ArgumentParser, kind: type[Output] = Output) -> None:
+    """`--report PAGE.html`, which may be called `--page` as `derive` and `log` call it."""
+    parser.add_argument(
+        "--report", "--page", metavar="PAGE.html", type=kind, help="write one self-contained page"
+    )
+
+
+def add_dask(parser: argparse._ActionsContainer) -> None:
+    """`--dask`, of commands that read much."""
+    parser.add_argument(
+        "--dask", metavar="ADDRESS", type=Word,
+        help="a Dask scheduler whose workers read the logs, as tcp://host:8786; local: a cluster "
+        "of this machine's processors",
+    )  # fmt: skip
+
+
+def add_force(parser: argparse.ArgumentParser) -> None:
+    """`--force`, for commands that write folders of code."""
+    parser.add_argument(
+        "--force", action="store_true",
+        help="write also over files of DIR that no earlier run wrote, or that were edited since",
+    )  # fmt: skip
+
+
+# Words in any order: options before or after what they stand beside.
+#
+# By itself, argparse lets `--holdout LOG...` take every word up to the next option, and then misses
+# the arguments that these words were. Here such an option takes them too, but the last words go
+# back to arguments that would have none: `diagnose m.json --holdout b a` is `diagnose m.json a
+# --holdout b`. `--` ends every option.
+
+
+_NUMBER = re.compile(r"-\d+$|-\d*\.\d+$")  # what argparse takes for a negative number
+
+
+@dataclass
+class _Taken:
+    """An option as typed, and the places of the words that are its values."""
+
+    word: int
+    action: argparse.Action | None
+    values: list[int] = field(default_factory=list)
+    attached: bool = False
+
+    @property
+    def spare(self) -> int:
+        """Values that it can do without."""
+        if self.action is None or self.attached or self.action.nargs not in ("+", "?"):
+            return 0
+        return len(self.values) - (self.action.nargs == "+")
+
+
+@dataclass(frozen=True)
+class Sorted:
+    """Words as argparse understands them in one way only.
+
+    Attributes:
+        words: options with their values, `--`, then the arguments in order.
+        arguments: those.
+        told: how a doubtful line was read; "" where nothing was given back.
+        open: the option whose value the next word would be; None: it is an argument or an option.
+    """
+
+    words: list[str]
+    arguments: list[str]
+    told: str
+    open: argparse.Action | None
+
+
+def sorted_words(parser: argparse.ArgumentParser, words: Sequence[str]) -> Sorted:
+    """Options first, then what is no option; see above for options with several values.
+
+    Args:
+        parser: of one command.
+        words: as typed after the command.
+    """
+    taken, free, ended = _split(parser, words)
+    back = _given_back(parser, taken, len(free)) if not ended else []
+    free = sorted([*free, *back])
+    options = [i for each in taken for i in (each.word, *each.values)]
+    arguments = [words[i] for i in free]
+    last = taken[-1] if taken else None
+    opened = last if last is not None and _may_take(last, words) and not ended else None
+    return Sorted(
+        words=[*(words[i] for i in options), *(["--", *arguments] if arguments or ended else [])],
+        arguments=arguments,
+        told=_told(parser, taken, words, arguments) if back else "",
+        open=None if opened is None else opened.action,
+    )
+
+
+def options_of(parser: argparse.ArgumentParser) -> dict[str, argparse.Action]:
+    """Every option by each of its names."""
+    return {name: action for action in parser._actions for name in action.option_strings}
+
+
+def arguments_of(parser: argparse.ArgumentParser) -> list[argparse.Action]:
+    """What a command takes beside options, in order."""
+    return [action for action in parser._actions if not action.option_strings]
+
+
+def _split(
+    parser: argparse.ArgumentParser, words: Sequence[str]
+) -> tuple[list[_Taken], list[int], bool]:
+    """Options with their values, places of all else, and whether `--` was among them."""
+    taken: list[_Taken] = []
+    free: list[int] = []
+    for i, word in enumerate(words):
+        if word == "--":
+            return taken, [*free, *range(i + 1, len(words))], True
+        if _is_option(word):
+            name, equals, _ = word.partition("=")
+            taken.append(_Taken(i, _action(parser, name), attached=bool(equals)))
+        elif taken and _may_take(taken[-1], words[:i]):
+            taken[-1].values.append(i)
+        else:
+            free.append(i)
+    return taken, free, False
+
+
+def _is_option(word: str) -> bool:
+    return len(word) > 1 and word[0] == "-" and not _NUMBER.match(word) and " " not in word
+
+
+def _action(parser: argparse.ArgumentParser, name: str) -> argparse.Action | None:
+    """The option of that name, or of names that begin so, if it is one option."""
+    known = options_of(parser)
+    if name in known:
+        return known[name]
+    meant = [known[full] for full in known if name.startswith("--") and full.startswith(name)]
+    return meant[0] if meant and all(action is meant[0] for action in meant) else None
+
+
+def _may_take(option: _Taken, words: Sequence[str]) -> bool:
+    """Whether the word after `words` is a value of this, the last option in them."""
+    if option.action is None or option.attached:
+        return False
+    if option.word + len(option.values) + 1 != len(words):
+        return False
+    nargs = option.action.nargs
+    most = nargs if isinstance(nargs, int) else {None: 1, "?": 1, "+": len(words)}.get(nargs, 0)
+    return len(option.values) < most
+
+
+def _given_back(parser: argparse.ArgumentParser, taken: Sequence[_Taken], free: int) -> list[int]:
+    """Takes from options what arguments would lack; one word is enough for each argument."""
+    missing = len(arguments_of(parser)) - free
+    back: list[int] = []
+    for option in reversed(taken):
+        for _ in range(min(option.spare, missing - len(back))):
+            back.append(option.values.pop())
+    return back
+
+
+def _told(
+    parser: argparse.ArgumentParser,
+    taken: Sequence[_Taken],
+    words: Sequence[str],
+    arguments: Sequence[str],
+) -> str:
+    several = [
+        " ".join([words[each.word], *(words[i] for i in each.values)])
+        for each in taken
+        if each.action is not None and each.action.nargs in ("+", "?")
+    ]
+    names = " ".join(str(action.metavar) for action in arguments_of(parser))
+    return (
+        f"read as {names} = {' '.join(arguments)} and {', '.join(several)}; for another reading "
+        f"put {names} first, or -- before it"
+    )
+
+
+# The usage line of a command: arguments first, which works with every option after them.
+
+
+_WIDTH = 96
+_REPEATED = (argparse._AppendAction, argparse._ExtendAction)
+
+
+def usage_of(parser: argparse.ArgumentParser) -> str:
+    """`modeler COMMAND ARGUMENT... --required VALUE [--option VALUE]`, wrapped."""
+    options = [
+        action
+        for action in parser._actions
+        if action.option_strings and action.help != argparse.SUPPRESS
+    ]
+    parts = [
+        *(_values(action) for action in arguments_of(parser)),
+        *(_option(action) for action in options if action.required),
+        *(f"[{_option(action)}]" for action in options if not action.required),
+    ]
+    return _wrapped(parser.prog, parts).replace("%", "%%")
+
+
+def _option(action: argparse.Action) -> str:
+    if isinstance(action, argparse.BooleanOptionalAction):
+        return " | ".join(action.option_strings)
+    name = action.option_strings[0]
+    return name if action.nargs == 0 else f"{name} {_values(action)}"
+
+
+def _values(action: argparse.Action) -> str:
+    choices = "{" + ",".join(map(str, action.choices or ())) + "}"
+    name = str(action.metavar or (choices if action.choices else action.dest.upper()))
+    forms = {"?": f"[{name}]", "*": f"[{name} ...]", "+": f"{name} [{name} ...]"}
+    return forms.get(str(action.nargs), name)
+
+
+def _wrapped(prog: str, parts: Sequence[str]) -> str:
+    """Lines of `_WIDTH` at most, broken between parts."""
+    indent = " " * len("usage: modeler ")
+    lines = [prog]
+    for part in parts:
+        if len(lines[-1]) + len(part) + 1 > _WIDTH - len("usage: ") * (len(lines) == 1):
+            lines.append(indent + part)
+        else:
+            lines[-1] += f" {part}"
+    return "\n".join(lines)

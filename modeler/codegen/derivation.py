@@ -1,0 +1,108 @@
+"""The deriving half of the chain: a robot, its model, its base parameters, its C."""
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+
+from modeler.core.errors import Precision
+from modeler.core.formula import Formulas
+from modeler.core.manifest import Emitted, FittedSpec
+from modeler.core.result import Presented
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.relations import as_latex, as_markdown, as_text
+from modeler.derivation.result import BaseParameters
+from modeler.robot.read import read_robot
+from modeler.robot.robot import Robot
+
+
+@dataclass(frozen=True)
+class Derivation(Presented):
+    """A robot, its symbolic model and its base parameters."""
+
+    robot: Robot
+    model: SymbolicModel
+    base: BaseParameters
+
+    @property
+    def relations(self) -> Formulas:
+        """The base parameters as sums of standard ones; a notebook typesets them."""
+        title = f"base parameters of {self.robot.name}"
+        return Formulas(title, as_text(self.base), as_latex(self.base), as_markdown(self.base))
+
+    def closed_form(self, nonzero: bool = False) -> Formulas:
+        """J(q), S(q), g(q) and e of tau = J qdd + S [qd qd] + g + e, e all effects but rotors.
+
+        Args:
+            nonzero: True to leave out parameters that the robot file states as 0.
+        """
+        from modeler.formulas.regressor_form import nonzero_base, short_form
+
+        base = nonzero_base(self.model, self.base) if nonzero else self.base
+        return short_form(self.model, base).formulas()
+
+    def regressor(self, nonzero: bool = False) -> Formulas:
+        """The columns phi of tau = phi beta.
+
+        Args:
+            nonzero: as of `closed_form`.
+        """
+        from modeler.formulas.regressor_form import nonzero_base, regressor_form
+
+        base = nonzero_base(self.model, self.base) if nonzero else self.base
+        return regressor_form(self.model, base).formulas()
+
+
+def load(robot: str | Path) -> Robot:
+    """The robot of that file, or the built-in robot of that name.
+
+    >>> load("two-link").table().column("theta")
+    ['q1', 'q2', '0']
+    """
+    return read_robot(robot)
+
+
+def derive(robot: Robot) -> Derivation:
+    r"""The symbolic model and the base parameters with their proof.
+
+    >>> found = derive(load("two-link"))
+    >>> found.base.rank, found.base.proof.kind
+    (10, 'exact')
+    >>> print(found.table("base").markdown().splitlines()[2])
+    | $\mathit{ZZ}_{1R}$ | $\mathit{ZZ}_{1} + L_{1}^{2} M_{2}$ | kg m2 | inertial |
+    """
+    model = derive_model(robot)
+    return Derivation(robot, model, base_parameters(model))
+
+
+def generate(
+    derivation: Derivation,
+    folder: str | Path | None = None,
+    force: bool = False,
+    fitted: FittedSpec | None = None,
+    precision: Precision = "double",
+    cuda: bool = False,
+) -> Emitted:
+    """The C module; written to `folder` if one is given.
+
+    Args:
+        derivation: of the robot.
+        folder: made if it is not there.
+        force: write also over files that no earlier run wrote, or that were edited since.
+        fitted: values of its base parameters; functions that have them are added.
+        precision: `double`, or `single`: then all numbers of the C are `float`.
+        cuda: add the base regressor in CUDA, of a robot without loops.
+
+    Raises:
+        ModelerError: the folder holds files of these names that no earlier `generate` wrote, or
+            that were edited since, and `force` is not given; or it cannot be written.
+    """
+    from modeler.codegen.emit import emit  # who derives need not wait for it
+    from modeler.codegen.package import write_emitted
+
+    emitted = emit(derivation.model, derivation.base, fitted, precision, cuda)
+    emitted = dataclasses.replace(emitted, log=derivation.robot.log)
+    if folder is not None:
+        write_emitted(emitted, Path(folder), force)
+    return emitted

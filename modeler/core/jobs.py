@@ -1,0 +1,405 @@
+"""Jobs on a Dask cluster: other machines, or the processors of this one."""
+
+import logging
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from functools import partial
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+from modeler import __version__
+from modeler.core.errors import DataError, installing
+from modeler.core.files import undisturbed
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+
+# Like jobs, one after the other or many at once; results do not depend on which.
+
+
+S = TypeVar("S")
+J = TypeVar("J")
+R = TypeVar("R")
+
+Done = Callable[[float], None]
+"""Called with the share of the jobs that are done, 0 to 1."""
+
+LOCAL = "local"
+"""In place of the address of a scheduler: a cluster of this machine's processors."""
+
+
+class Workers(Protocol):
+    """Whoever carries out jobs.
+
+    Functions, what they share and jobs must be such that they can be sent to another process:
+    functions of a module, dataclasses of arrays. A job may be carried out more than once.
+    """
+
+    def each(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
+    ) -> list[R]:
+        """What `work` makes of each job, in the order of the jobs.
+
+        Args:
+            work: of what all share, and a job.
+            shared: sent once to each worker, at most.
+            jobs: in order.
+            done: is told the share.
+
+        Raises:
+            ModelerError: the first that a job raised, or no worker could do one.
+        """
+
+    def begun(
+        self,
+        work: Callable[[S, J], R],
+        shared: S,
+        jobs: Sequence[J],
+        merge: Callable[[R, R], R],
+    ) -> Callable[[], R]:
+        """All results merged in pairs of neighbours, pairs of pairs, and so on: begun.
+
+        The pairs are the same whoever works, and so is the result, to the last bit, on machines
+        that compute alike.
+
+        Args:
+            work: of what all share, and a job.
+            shared: as above.
+            jobs: one at least.
+            merge: of two results, the earlier first.
+
+        Returns:
+            what waits for the result; raises as `each` does.
+        """
+
+
+@contextmanager
+def open_workers(dask: str | None = None, processes: int = 1) -> Iterator[Workers]:
+    """Workers: a Dask cluster, processes of this machine, or this process itself.
+
+    Args:
+        dask: address of a scheduler, as tcp://host:8786, or "local"; None: no Dask.
+        processes: how many, without Dask; 1: this process.
+
+    Raises:
+        DataError: Dask is not installed or does not answer, or its workers lack this package.
+    """
+    if dask is not None:
+        with open_cluster(dask) as workers:
+            yield workers
+    elif processes > 1:
+        with open_processes(processes) as workers:
+            yield workers
+    else:
+        yield Here()
+
+
+class Here:
+    """This process."""
+
+    def each(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
+    ) -> list[R]:
+        """See `Workers`."""
+        found = []
+        for k, job in enumerate(jobs, start=1):
+            found.append(work(shared, job))
+            tell(done, k, len(jobs))
+        return found
+
+    def begun(
+        self,
+        work: Callable[[S, J], R],
+        shared: S,
+        jobs: Sequence[J],
+        merge: Callable[[R, R], R],
+    ) -> Callable[[], R]:
+        """See `Workers`; nothing is done before its result is asked for."""
+        return lambda: in_pairs([work(shared, job) for job in jobs], merge)
+
+
+def tell(done: Done | None, count: int, all_: int) -> None:
+    """The share, to who wants it."""
+    if done is not None:
+        done(count / all_)
+
+
+def in_pairs(results: Sequence[R], merge: Callable[[R, R], R]) -> R:
+    """Results merged as `pairs` says."""
+    own = list(results)
+    for left, right in pairs(len(own)):
+        own[left] = merge(own[left], own[right])
+    return own[0]
+
+
+def pairs(count: int) -> Iterator[tuple[int, int]]:
+    """(left, right) of neighbours to merge, in order; each result stands at left, the last at 0.
+
+    Two subtrees of one height as soon as both are there; the rest at the end, the last first.
+
+    Raises:
+        DataError: nothing to merge.
+    """
+    if count < 1:
+        raise DataError("no jobs; expected one at least")
+    waiting: list[tuple[int, int]] = []
+    for place in range(count):
+        waiting.append((0, place))
+        while len(waiting) > 1 and waiting[-1][0] == waiting[-2][0]:
+            (height, left), (_, right) = waiting[-2:]
+            yield left, right
+            waiting[-2:] = [(height + 1, left)]
+    while len(waiting) > 1:
+        _, right = waiting.pop()
+        yield waiting[-1][1], right
+
+
+_ANSWER = 10.0  # s, in which a scheduler must answer and have a worker
+
+
+class Cluster:
+    """The workers of a scheduler.
+
+    A job whose worker is lost is done again by another; one that has cost several workers is told.
+    """
+
+    def __init__(self, client: "Client") -> None:
+        self._client = client
+
+    def each(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
+    ) -> list[R]:
+        """See `Workers`."""
+        futures = self._sent(work, shared, jobs)
+        with _lost_told():
+            self._watched(futures, done)
+            found: list[R] = self._client.gather(futures)
+        return found
+
+    def begun(
+        self,
+        work: Callable[[S, J], R],
+        shared: S,
+        jobs: Sequence[J],
+        merge: Callable[[R, R], R],
+    ) -> Callable[[], R]:
+        """See `Workers`; merged where the results are, only the last one travels here."""
+        own = self._sent(work, shared, jobs)
+        for left, right in pairs(len(jobs)):
+            own[left] = self._client.submit(merge, own[left], own[right], pure=False)
+        return partial(_result, own[0])
+
+    def _sent(self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J]) -> list[Any]:
+        """Futures; what is shared is one of them, so that it is made again if it is lost."""
+        common = self._client.submit(same, shared, pure=False)
+        return [self._client.submit(work, common, job, pure=False) for job in jobs]
+
+    def _watched(self, futures: Sequence[Any], done: Done | None) -> None:
+        from distributed import as_completed
+
+        for k, future in enumerate(as_completed(futures), start=1):
+            if future.status == "error":
+                future.result()
+            tell(done, k, len(futures))
+
+
+@contextmanager
+def open_cluster(address: str) -> Iterator[Cluster]:
+    """The cluster behind a scheduler, or one of this machine that ends with the work.
+
+    Args:
+        address: "local", or as tcp://host:8786.
+
+    Raises:
+        DataError: Dask is not installed, nobody answers there, or the workers lack this package.
+    """
+    try:
+        from distributed import Client, LocalCluster
+    except ImportError:
+        raise DataError(
+            f"--dask {address}: Dask is not installed; {installing('dask')}, or leave --dask out"
+        ) from None
+    for name in ("distributed", "distributed.worker", "distributed.nanny", "distributed.scheduler"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    if address == LOCAL:
+        count = os.process_cpu_count() if hasattr(os, "process_cpu_count") else os.cpu_count()
+        with (
+            LocalCluster(
+                n_workers=count or 1, threads_per_worker=1, dashboard_address=":0",
+                memory_limit=0, silence_logs=logging.CRITICAL,
+            ) as cluster,
+            Client(cluster) as client,
+        ):  # fmt: skip
+            yield _checked(client, address)
+        return
+    try:
+        client = Client(address, timeout=_ANSWER)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise DataError(
+            f"--dask {address}: no scheduler answers there ({error or 'time is up'}); expected an "
+            "address such as tcp://host:8786, as `dask scheduler` prints it, or local"
+        ) from None
+    with client:
+        yield _checked(client, address)
+
+
+def _checked(client: "Client", address: str) -> Cluster:
+    """The cluster, if it has workers and they have this version of this package."""
+    try:
+        client.wait_for_workers(1, timeout=_ANSWER)
+    except TimeoutError:
+        raise DataError(
+            f"--dask {address}: the scheduler has no workers; start some, as `dask worker ADDRESS`"
+        ) from None
+    try:
+        versions = client.run(version)
+    except ImportError as error:
+        raise DataError(
+            f"--dask {address}: a worker lacks a package ({error}); install version "
+            f"{__version__} from its checkout where the workers run"
+        ) from None
+    for worker, found in versions.items():
+        if found != __version__:
+            raise DataError(
+                f"--dask {address}: worker {worker} has modeler {found}; expected {__version__}; "
+                "install the same where the workers run"
+            )
+    return Cluster(client)
+
+
+def _result(future: Any) -> Any:
+    with _lost_told():
+        return future.result()
+
+
+def same(thing: S) -> S:
+    """That thing, where it is called."""
+    return thing
+
+
+def version() -> str:
+    """That of this package, where it is called."""
+    return __version__
+
+
+@contextmanager
+def _lost_told() -> Iterator[None]:
+    from distributed import KilledWorker
+
+    try:
+        yield
+    except KilledWorker as error:
+        raise DataError(
+            f"Dask: a job ended {error.allowed_failures + 1} workers one after the other, as when "
+            "memory runs out; give the workers more memory"
+        ) from None
+
+
+# Jobs in processes of this machine.
+
+
+_WARNINGS = "PYTHONWARNINGS"
+_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+class Processes:
+    """A pool; each process has one thread for linear algebra."""
+
+    def __init__(self, pool: ProcessPoolExecutor) -> None:
+        self._pool = pool
+
+    def each(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
+    ) -> list[R]:
+        """See `Workers`."""
+        return _gathered(self._sent(work, shared, jobs), done)
+
+    def begun(
+        self,
+        work: Callable[[S, J], R],
+        shared: S,
+        jobs: Sequence[J],
+        merge: Callable[[R, R], R],
+    ) -> Callable[[], R]:
+        """See `Workers`; merged in this process."""
+        futures = self._sent(work, shared, jobs)
+        return lambda: in_pairs(_gathered(futures, None), merge)
+
+    def _sent(self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J]) -> "list[Future[R]]":
+        with undisturbed(), _deaf_to_interrupts():  # here they are started
+            return [self._pool.submit(work, shared, job) for job in jobs]
+
+
+def _gathered(futures: "Sequence[Future[R]]", done: Done | None) -> list[R]:
+    try:
+        for k, future in enumerate(as_completed(futures), start=1):
+            future.result()
+            tell(done, k, len(futures))
+        return [future.result() for future in futures]
+    except BrokenProcessPool:
+        raise DataError(
+            "a process ended in the middle of its work, as when memory runs out; use fewer "
+            "--workers"
+        ) from None
+    except Exception:
+        for future in futures:
+            future.cancel()
+        raise
+
+
+def _attend() -> None:
+    """A process ends, without a word, when the one that started it has: even if that was killed."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+
+    def attend() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=attend, daemon=True).start()
+
+
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """What is started meanwhile leaves Ctrl-C, which a terminal sends to all, to this process."""
+    mask = getattr(signal, "pthread_sigmask", None)
+    before = mask(signal.SIG_BLOCK, {signal.SIGINT}) if mask else ()
+    try:
+        yield
+    finally:
+        if mask:
+            mask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def open_processes(count: int) -> Iterator[Processes]:
+    """A pool of so many fresh processes; what they inherit is one thread each."""
+    before = {name: os.environ.get(name) for name in (*_THREADS, _WARNINGS)}
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
+    # Where this process is killed, a helper of Python's counts what it could not give back.
+    os.environ[_WARNINGS] = f"{before[_WARNINGS] or 'default'},ignore:resource_tracker"
+    try:
+        context = multiprocessing.get_context("spawn")
+        with ProcessPoolExecutor(count, mp_context=context, initializer=_attend) as pool:
+            try:
+                yield Processes(pool)
+            except KeyboardInterrupt:
+                for process in multiprocessing.active_children():
+                    process.terminate()
+                pool._call_queue.cancel_join_thread()  # type: ignore[attr-defined]  # nobody reads what waits
+                raise
+    finally:
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value
+
+
+# One door for work that comes in many like pieces: here, in processes, or on other machines.

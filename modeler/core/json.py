@@ -1,0 +1,253 @@
+"""Dataclasses from plain data, every entry checked against the type that the class declares."""
+
+import dataclasses
+import json
+import math
+import reprlib
+import sys
+import tomllib
+import types
+from collections.abc import Mapping
+from functools import cache
+from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+
+# JSON and TOML that others wrote, read strictly; JSON that we write, without false numbers.
+
+
+_LARGEST = 2**63
+_BYTE_ORDER = (b"\xff\xfe", b"\xfe\xff")
+
+
+class JsonError(ValueError):
+    """What is wrong with the text, without its place; readers add the file and what to do."""
+
+
+class TomlError(ValueError):
+    """What is wrong with a TOML text, without its place."""
+
+
+def parse_json(data: bytes | str) -> Any:
+    """The value of a JSON text in UTF-8.
+
+    Stricter than `json.loads`: what is no number (NaN, Infinity), what no double or 64-bit integer
+    holds, an entry given twice, and half a character are refused.
+
+    Raises:
+        JsonError: not such a text; says why, where if that is known.
+    """
+    text = data if isinstance(data, str) else _decoded(data)
+    if not text.strip():
+        raise JsonError("is empty" if not text else "is blank")
+    try:
+        value = json.loads(
+            text, parse_int=_integer, parse_float=_float, parse_constant=_constant,
+            object_pairs_hook=_object,
+        )  # fmt: skip
+        json.dumps(value, ensure_ascii=False).encode()
+    except json.JSONDecodeError as error:
+        raise JsonError(
+            f"is not JSON, or cut off: {error.msg}, line {error.lineno}, column {error.colno}"
+        ) from None
+    except RecursionError:
+        raise JsonError("is nested too deep") from None
+    except UnicodeEncodeError:
+        raise JsonError("has an escape \\ud800 to \\udfff that is half a character") from None
+    return value
+
+
+def nulled(content: Any) -> Any:
+    """Plain data with null for every number that is not finite; arrays become lists."""
+    if hasattr(content, "tolist"):
+        content = content.tolist()
+    if isinstance(content, Mapping):
+        return {key: nulled(value) for key, value in content.items()}
+    if isinstance(content, list | tuple):
+        return [nulled(value) for value in content]
+    unknown = isinstance(content, float) and not math.isfinite(content)
+    return None if unknown else content
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """The table of a TOML text.
+
+    Raises:
+        TomlError: not such a text; says why, where if that is known.
+    """
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise TomlError(str(error)) from None
+    except RecursionError:
+        raise TomlError("lists or tables are nested hundreds deep; write them flat") from None
+    except ValueError:  # the one that is left: Python's limit against endless conversions
+        most = sys.get_int_max_str_digits()
+        raise TomlError(f"an integer has more than {most} digits; write a shorter one") from None
+
+
+def shown(value: Any) -> str:
+    """The value for a message: short, however long it is."""
+    return reprlib.repr(value)
+
+
+def _decoded(data: bytes) -> str:
+    if data.startswith(_BYTE_ORDER) or b"\x00" in data[:4]:
+        raise JsonError("is UTF-16, UTF-32 or binary; expected text in UTF-8")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise JsonError(f"is no text in UTF-8 from byte {error.start + 1} on") from None
+
+
+def _integer(text: str) -> int:
+    if len(text) > len(str(_LARGEST)) + 1 or abs(int(text)) >= _LARGEST:
+        raise JsonError(f"has a whole number of {len(text.lstrip('-'))} digits: {shown(text)}")
+    return int(text)
+
+
+def _float(text: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        raise JsonError(f"has the number {shown(text)}, too large for double precision")
+    return value
+
+
+def _constant(text: str) -> float:
+    raise JsonError(f"has {text}, which is no number of JSON")
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        twice = next(name for name in found if names.count(name) > 1)
+        raise JsonError(f"has the entry {shown(twice)} twice")
+    return found
+
+
+T = TypeVar("T")
+
+
+class PlainError(ValueError):
+    """The entry that is not as declared: its place, what was got, what was expected."""
+
+
+def built(cls: type[T], raw: Any, place: str = "") -> T:
+    """An instance of a dataclass from a mapping, as JSON has it; lists become tuples.
+
+    Args:
+        cls: with fields of plain types: text, numbers, truth values, None, tuples, mappings,
+            literals and other such dataclasses.
+        raw: {field: value}.
+        place: of it, for the message.
+
+    Raises:
+        PlainError: an entry is missing, unknown or of another type.
+    """
+    if not isinstance(raw, Mapping):
+        raise _unlike(place or "it", raw, "an object")
+    hints, head = _hints(cls), f"{place}." if place else ""
+    for field in dataclasses.fields(cls):  # type: ignore[arg-type]
+        required = field.default is field.default_factory is dataclasses.MISSING
+        if required and field.name not in raw:
+            raise PlainError(f"{head}{field.name} is missing")
+    values = {}
+    for name, value in raw.items():
+        if name not in hints:
+            raise PlainError(f"{head}{shown(name)} is unknown")
+        values[name] = plain(hints[name], value, head + name)
+    return cls(**values)
+
+
+def check_fields(instance: Any, place: str = "") -> None:
+    """Refuse an instance of a dataclass whose fields are not of the types that it declares.
+
+    Raises:
+        PlainError: names the first.
+    """
+    head = f"{place}." if place else ""
+    for name, hint in _hints(type(instance)).items():
+        plain(hint, getattr(instance, name), head + name)
+
+
+def plain(hint: Any, value: Any, place: str) -> Any:
+    """`value` as the type `hint`; other types than those of `built` are not looked into.
+
+    Raises:
+        PlainError: it is none.
+    """
+    if hint in _SIMPLE:
+        kinds, expected = _SIMPLE[hint]
+        if not isinstance(value, kinds) or (isinstance(value, bool) and hint is not bool):
+            raise _unlike(place, value, expected)
+        return value
+    origin, arguments = get_origin(hint), get_args(hint)
+    if origin in (Union, types.UnionType):
+        return _either(arguments, value, place)
+    if origin is Literal:
+        if not isinstance(value, str) or value not in arguments:
+            raise _unlike(place, value, " or ".join(map(str, arguments)))
+        return value
+    if origin is tuple:
+        return _tuple(arguments, value, place)
+    if isinstance(origin, type) and issubclass(origin, Mapping):
+        if not isinstance(value, Mapping):
+            raise _unlike(place, value, "an object")
+        return {
+            plain(arguments[0], key, place): plain(arguments[1], item, f"{place}.{shown(key)}")
+            for key, item in value.items()
+        }
+    if dataclasses.is_dataclass(hint) and isinstance(hint, type):
+        if isinstance(value, hint):
+            check_fields(value, place)
+            return value
+        return built(hint, value, place)
+    return value
+
+
+_SIMPLE: Mapping[Any, tuple[Any, str]] = {
+    str: (str, "text"),
+    int: (int, "a whole number"),
+    float: ((int, float), "a number"),
+    bool: (bool, "true or false"),
+    type(None): (type(None), "null"),
+}
+
+
+def _tuple(arguments: tuple[Any, ...], value: Any, place: str) -> tuple[Any, ...]:
+    """Of any length, all of one type; or of one type each."""
+    if not isinstance(value, list | tuple):
+        raise _unlike(place, value, "a list")
+    if arguments[1:] == (Ellipsis,):
+        arguments = (arguments[0],) * len(value)
+    if len(value) != len(arguments):
+        raise _unlike(place, value, f"{len(arguments)} values")
+    pairs = zip(arguments, value, strict=True)
+    return tuple(plain(part, item, f"{place}[{i}]") for i, (part, item) in enumerate(pairs))
+
+
+def _either(options: tuple[Any, ...], value: Any, place: str) -> Any:
+    if value is None and type(None) in options:
+        return None
+    others = [option for option in options if option is not type(None)]
+    if len(others) == 1:
+        return plain(others[0], value, place)
+    for option in others:
+        try:
+            return plain(option, value, place)
+        except PlainError:
+            continue
+    raise _unlike(place, value, " or ".join(str(option) for option in others))
+
+
+def _unlike(place: str, value: Any, expected: str) -> PlainError:
+    return PlainError(f"{place} is {shown(value)}, expected {expected}")
+
+
+def _hints(cls: Any) -> Mapping[str, Any]:
+    return _field_types(cls)
+
+
+@cache
+def _field_types(cls: Any) -> Mapping[str, Any]:
+    names = {field.name for field in dataclasses.fields(cls)}
+    return {name: hint for name, hint in get_type_hints(cls).items() if name in names}

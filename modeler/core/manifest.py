@@ -1,0 +1,317 @@
+"""What an emitted module looks like: the manifest as dataclasses.
+
+`codegen` fills it, templates lay it out, `manifest.json` stores it, `compiled` reads it back and
+refuses a library that answers differently. Everything the numeric stages know of a robot is here.
+"""
+
+import dataclasses
+import hashlib
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from modeler.core.brief import Brief
+from modeler.core.errors import ManifestError, Precision
+from modeler.core.json import JsonError, PlainError, built, parse_json, shown
+from modeler.core.result import Presented
+
+FORMAT = 2
+
+RUNTIME = ("modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
+"""Hand-written C files that stand beside every emitted module."""
+
+CLOSURE_RUNTIME = ("modeler_closure.h", "modeler_closure.c")
+"""Those that stand beside a robot with loops."""
+
+CUDA_THREADS = 128
+"""Threads of a block of the emitted kernels."""
+
+TILE_RUNTIME = (
+    "modeler_tile.h", "modeler_lanes.h", "modeler_versions.h", "modeler_tile.c",
+)  # fmt: skip
+"""Those that stand beside a robot without loops, of double precision."""
+
+MANIFEST = "manifest.json"
+"""Name of the manifest's file."""
+
+
+@dataclass(frozen=True)
+class ArgumentSpec:
+    """One array argument of an emitted function; row-major."""
+
+    name: str  # "qd"
+    shape: tuple[int, ...]  # (joints,)
+    unit: str  # "rad/s, m/s"
+    meaning: str  # "joint velocities"
+
+    @property
+    def size(self) -> int:
+        """How many numbers it holds."""
+        return math.prod(self.shape)
+
+
+@dataclass(frozen=True)
+class FunctionSpec(Brief):
+    """One emitted C function: all arguments are `const double *` inputs, then outputs."""
+
+    name: str  # "wrist_base_regressor"
+    equation: str  # "tau = phi beta"
+    inputs: tuple[ArgumentSpec, ...]
+    outputs: tuple[ArgumentSpec, ...]
+    additions: int  # of all that it calls, once each: loops are closed in some turns
+    multiplications: int
+    status: bool = False  # returns 0 if it could do its work: loops may not close
+
+
+@dataclass(frozen=True)
+class ClosureSpec:
+    """The loops of a robot: its opened tree has more variables u than coordinates q."""
+
+    variables: tuple[str, ...]  # rows whose variables are u, in order
+    units: tuple[str, ...]  # "rad" | "m"
+    given: tuple[int, ...]  # places in u of q
+    platform: tuple[int, ...]  # places in u of x, the platform's coordinates; empty without one
+    home: tuple[float, ...]  # the closed posture u from which loops are closed
+    carrier: str = ""  # row of the platform's link
+
+
+@dataclass(frozen=True)
+class JointSpec:
+    """One joint variable; the order of the list is the order of q, qd, qdd, tau."""
+
+    name: str  # "1"
+    kind: str  # "revolute" | "prismatic"
+    unit: str  # "rad" | "m"
+    effort_unit: str  # "N m" | "N"
+    actuated: bool
+    drive_gain: float | None  # joint torque per unit of logged current
+
+
+@dataclass(frozen=True)
+class ParameterSpec:
+    """One standard parameter.
+
+    `effect` is "rigid_body" for the ten inertial parameters, else the id of the effect;
+    `kind` is inertial | rotor_inertia | friction | offset | other.
+    """
+
+    name: str  # "XX2"
+    unit: str
+    kind: str
+    effect: str
+    joint: str  # row of the table it belongs to
+    nominal: float | None
+    nonnegative: bool = False  # physics allows no negative value
+
+
+@dataclass(frozen=True)
+class TermSpec:
+    """`coefficient * parameter`; `value` is the coefficient at the nominal geometry."""
+
+    coefficient: str
+    value: float
+    parameter: str
+
+
+@dataclass(frozen=True)
+class BaseSpec(Brief):
+    """One base parameter: `name = sum of terms`, its column is that of `column_of`."""
+
+    name: str  # "ZZ1R"
+    column_of: str  # "ZZ1"
+    unit: str
+    kind: str
+    rows: tuple[int, ...]  # joints whose torque the column can enter (structural nonzeros)
+    terms: tuple[TermSpec, ...]
+
+
+@dataclass(frozen=True)
+class SymbolSpec:
+    """One geometric symbol and the value compiled into the C."""
+
+    name: str
+    value: float
+
+
+@dataclass(frozen=True)
+class SignalSpec:
+    """One entry of the input `s`: what effects read besides the motion."""
+
+    kind: str  # "time" | "temperature" | "slip"
+    joint: str  # whose temperature or bristle; "" for the time
+    unit: str
+    value: float  # travel over which the bristle turns, rad or m; 0 for the others
+
+
+@dataclass(frozen=True)
+class FittedParameter:
+    """One value of a fit."""
+
+    name: str  # "ZZ1R"
+    unit: str
+    value: float
+    sigma: float | None  # standard deviation; None: set aside, the value is 0
+    essential: bool = True
+
+
+@dataclass(frozen=True)
+class FittedSpec(Brief):
+    """The values that stand in the C of a fitted model, and the functions that have them."""
+
+    method: str  # id of the estimator
+    usable: bool | None  # None: nobody has judged the fit
+    verdict: str
+    doubts: tuple[str, ...]
+    remarks: tuple[str, ...]  # what a reader of the values must know besides
+    parameters: tuple[FittedParameter, ...]  # in the order of `base`
+    gains: tuple[float, ...] = ()  # joint torque per drive unit; empty unless all are known
+    widths: tuple[str, ...] = ()  # macros, one per joint whose friction leaps
+    functions: tuple[FunctionSpec, ...] = ()
+    code: str = ""  # digest of the fitted unit, its signature left out
+    signature: str = ""  # of all that, and of the robot: what <prefix>_fitted_signature() answers
+
+
+@dataclass(frozen=True)
+class ModuleSpec(Brief):
+    """The manifest of one robot."""
+
+    robot: str
+    title: str
+    prefix: str  # of C names
+    format: int
+    symbols: tuple[SymbolSpec, ...]
+    joints: tuple[JointSpec, ...]
+    standard: tuple[ParameterSpec, ...]  # columns of the standard regressor, in order
+    base: tuple[BaseSpec, ...]  # columns of the base regressor, in order
+    unidentifiable: tuple[str, ...]
+    functions: tuple[FunctionSpec, ...]
+    closure: ClosureSpec | None = None
+    signals: tuple[SignalSpec, ...] = ()
+    code: str = ""  # digest of the sources, their signature left out: see `code_digest`
+    fitted: FittedSpec | None = None  # where it was generated from a model
+    precision: Precision = "double"  # of all numbers of the C
+
+    @property
+    def nonzeros(self) -> tuple[tuple[int, int], ...]:
+        """(joint, base column) of the structural nonzeros of the base regressor, row after row.
+
+        The order of the values of `<prefix>_base_regressor_nonzeros`.
+        """
+        return tuple(
+            (joint, column)
+            for joint in range(len(self.joints))
+            for column, base in enumerate(self.base)
+            if joint in base.rows
+        )
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """Names of the C files that the library is compiled from, headers included."""
+        units = [".h", ".c", "_regressor.c", "_base_regressor.c"]
+        units += ["_fitted.h", "_fitted.c"] if self.fitted is not None else []
+        runtime = list(RUNTIME)
+        if self.closure is not None:
+            units += ["_tree.h", "_loops.c"]
+            runtime += CLOSURE_RUNTIME
+        return (*(self.prefix + unit for unit in units), *runtime)
+
+    @property
+    def tile_sources(self) -> tuple[str, ...]:
+        """Names of the C files of the tiles, which can be a library of their own; () if none."""
+        if self.closure is not None or self.precision != "double":
+            return ()
+        units = (f"{self.prefix}_tile.h", f"{self.prefix}_tile.c")
+        return (*units, *TILE_RUNTIME, *(name for name in RUNTIME if name.endswith(".h")))
+
+    def to_json(self) -> str:
+        """Stable text: sorted as declared, no date, no version."""
+        return self._text
+
+    @cached_property
+    def _text(self) -> str:
+        entries = dataclasses.asdict(self)
+        if self.fitted is None:
+            del entries["fitted"]
+        if self.precision == "double":
+            del entries["precision"]
+        return json.dumps(entries, indent=1) + "\n"
+
+    def signature(self) -> str:
+        """Hash that the emitted library repeats, so that a stale library is noticed.
+
+        Of the whole manifest but the fitted values, which have a signature of their own, and with
+        it of the whole C text: two robots of the same signature have the same C. It is the same on
+        every machine.
+        """
+        robot = self if self.fitted is None else dataclasses.replace(self, fitted=None)
+        return text_digest(robot.to_json())
+
+
+def text_digest(text: str) -> str:
+    """The sixteen digits that a signature is."""
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def code_digest(sources: Mapping[str, str]) -> str:
+    """Digest of the C files of a module, tiles included, with an empty text for the signature.
+
+    The signature stands in the C itself, so it is put there last: it covers all the rest.
+    """
+    parts = [part for name in sorted(sources) for part in (name, sources[name])]
+    # Lengths first: no two lists of parts give the same bytes.
+    return hashlib.sha256("".join(f"{len(part)}:{part}" for part in parts).encode()).hexdigest()
+
+
+@dataclass(frozen=True)
+class Emitted(Presented):
+    """An emitted module, on no disk yet.
+
+    Attributes:
+        spec: its manifest.
+        files: {file name: text}; `code`, the manifest, build files, programs, tables. What is not
+            `code` is made when it is first asked for.
+        log: what the robot file says of the columns of logs; no part of the C.
+    """
+
+    spec: ModuleSpec
+    files: Mapping[str, str]
+    log: Mapping[str, object] = field(default_factory=dict)
+
+    @property
+    def code(self) -> dict[str, str]:
+        """The files that the library and its tiles are compiled from."""
+        names = (*self.spec.sources, *self.spec.tile_sources)
+        return {name: self.files[name] for name in names if name in self.files}
+
+
+def module_from_json(text: bytes | str, where: str) -> ModuleSpec:
+    """Read a manifest back.
+
+    Raises:
+        ManifestError: not a manifest, or of another format; `where` names the file.
+    """
+    try:
+        return module_from_plain(parse_json(text), where)
+    except JsonError as error:
+        raise ManifestError(f"{where}: {error}; generate it again") from None
+
+
+def module_from_plain(raw: Any, where: str) -> ModuleSpec:
+    """A manifest from its JSON value.
+
+    Raises:
+        ManifestError: as `module_from_json`.
+    """
+    if not isinstance(raw, dict) or "format" not in raw:
+        raise ManifestError(f"{where}: not a manifest; expected the output of `modeler generate`")
+    if raw["format"] != FORMAT:
+        raise ManifestError(
+            f"{where}: manifest format {shown(raw['format'])}, expected {FORMAT}; generate it again"
+        )
+    try:
+        return built(ModuleSpec, raw)
+    except PlainError as error:
+        raise ManifestError(f"{where}: damaged manifest ({error}); generate it again") from None

@@ -1,0 +1,132 @@
+"""What every result says of itself: a line, a summary, tables, frames, figures, HTML.
+
+A result states what it holds; how it is shown stands in one room, `modeler.report.notebook`, which
+is told by `modeler.api`, and says it by a `Presentation` for each class when one is first shown.
+"""
+
+import html
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from modeler.core.brief import Brief
+from modeler.core.errors import DataError
+from modeler.core.table import Table
+
+Tables = Mapping[str, Callable[[], Table]]
+"""Tables by name, the main one first."""
+
+Figures = Mapping[str, Callable[[], Any]]
+"""Drawers of matplotlib Figures by name, the main one first."""
+
+
+def none(thing: Any) -> Mapping[str, Any]:
+    """No tables, no figures."""
+    return {}
+
+
+@dataclass(frozen=True)
+class Presentation:
+    """How the objects of a class are shown.
+
+    Attributes:
+        noun: what they are, as in "a model".
+        summary: text of some lines; the first is a headline.
+        tables: of an object.
+        figures: of an object.
+        page: names of the tables that a notebook shows; None: the first alone.
+    """
+
+    noun: str
+    summary: Callable[[Any], str]
+    tables: Callable[[Any], Tables] = none
+    figures: Callable[[Any], Figures] = none
+    page: tuple[str, ...] | None = None
+
+
+_PRESENTATIONS: dict[type, Presentation] = {}
+_LATER: dict[str, Callable[[], None]] = {}
+
+
+def present(kind: type, presentation: Presentation) -> None:
+    """Says how the objects of a class are shown."""
+    _PRESENTATIONS[kind] = presentation
+
+
+def present_later(names: Iterable[str], load: Callable[[], None]) -> None:
+    """Says what calls `present` for classes of these names; it runs when one is first shown."""
+    _LATER.update(dict.fromkeys(names, load))
+
+
+def presented(kind: type) -> Presentation | None:
+    """How the objects of a class, or of one that it derives from, are shown."""
+    for name in (k.__name__ for k in kind.__mro__):
+        if name in _LATER:
+            _LATER.pop(name)()
+    return next((_PRESENTATIONS[k] for k in kind.__mro__ if k in _PRESENTATIONS), None)
+
+
+class Presented(Brief):
+    """A base class of results."""
+
+    def summary(self) -> str:
+        """What it is and what it found, in some lines of text."""
+        return _of(self).summary(self)
+
+    def table(self, name: str = "") -> Table:
+        """One of its tables.
+
+        Args:
+            name: which; the main one if left out. `docs/python.md` lists them.
+
+        Raises:
+            DataError: it has no such table; says which it has.
+        """
+        return _asked(self, "table", name, _of(self).tables(self))
+
+    def to_frame(self, name: str = "") -> Any:
+        """That table as a pandas DataFrame.
+
+        Raises:
+            DataError: no such table, or pandas is not installed.
+        """
+        return self.table(name).to_frame()
+
+    def plot(self, name: str = "") -> Any:
+        """One of its figures, a matplotlib Figure; a notebook draws it, `savefig` writes it.
+
+        Args:
+            name: which; the main one if left out. `docs/python.md` lists them.
+
+        Raises:
+            DataError: it has no such figure; says which it has.
+        """
+        return _asked(self, "plot", name, _of(self).figures(self))
+
+    def _repr_html_(self) -> str | None:
+        found = presented(type(self))
+        tables = {} if found is None else found.tables(self)
+        if found is None or not tables:
+            return None
+        first = found.summary(self).splitlines()[0]
+        names = [next(iter(tables))] if found.page is None else found.page
+        drawn = [tables[name]().to_html() for name in names if name in tables]
+        return "\n".join([f"<p><b>{html.escape(first)}</b></p>", *drawn])
+
+
+def _of(thing: Presented) -> Presentation:
+    found = presented(type(thing))
+    if found is None:
+        raise DataError(
+            f"{type(thing).__name__}: nobody has said how it is shown; import modeler.api"
+        )
+    return found
+
+
+def _asked(thing: Presented, what: str, name: str, offered: Mapping[str, Callable[[], Any]]) -> Any:
+    noun, names = _of(thing).noun, ", ".join(offered)
+    if not offered:
+        raise DataError(f"{what}: {noun} has none")
+    if name and name not in offered:
+        raise DataError(f"{what}: {noun} has no {name}; expected one of {names}")
+    return offered[name or next(iter(offered))]()

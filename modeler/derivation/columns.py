@@ -1,0 +1,319 @@
+"""The standard parameters of a robot: which columns the regressor has, and in which order."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
+from typing import Any, Protocol, Self, TypeAlias, TypeGuard
+
+from modeler.core.brief import Brief
+from modeler.core.errors import DerivationError
+from modeler.core.expression import Expression
+from modeler.derivation.geometry import Geometry
+from modeler.derivation.graph import Expr, Graph, derivatives
+from modeler.effects.catalogue import ENCODERS
+from modeler.effects.effect import Acts, EnergyBlock, Memory
+from modeler.robot.robot import Joint, Robot
+
+_INERTIAL_UNITS = dict.fromkeys(("XX", "XY", "XZ", "YY", "YZ", "ZZ"), "kg m2") | dict.fromkeys(
+    ("MX", "MY", "MZ"), "kg m"
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Column(Brief):
+    """What all standard parameters have.
+
+    Attributes:
+        name: "XX2", "Fv1".
+        row: index of its row in the table.
+        prefix: "XX", "Fv".
+        unit: of the parameter.
+        others: columns of the same parameter on other rows, which similar legs share; the
+            parameter's column is the sum of its `parts`.
+    """
+
+    name: str
+    row: int
+    prefix: str
+    unit: str
+    others: tuple[Self, ...] = ()
+
+    @property
+    def parts(self) -> tuple[Self, ...]:
+        """The column on every row that has the parameter, each for itself."""
+        return (replace(self, others=()), *self.others)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinkColumn(_Column):
+    """One of the ten inertial parameters of a link."""
+
+    kind: str = "inertial"
+    effect: str = "rigid_body"
+
+    @property
+    def nonnegative(self) -> bool:
+        """True if physics allows no negative value."""
+        return self.prefix in ("XX", "YY", "ZZ", "M")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftColumn(_Column):
+    """One parameter of an effect, which acts along a shaft: a joint's, or a motor's.
+
+    Attributes:
+        kind: rotor_inertia | friction | offset | other.
+        effect: its id.
+        equation: torque on the shaft, or its change of position, per unit of the parameter.
+        block: its energy function, for grouping.
+        nonnegative: physics allows no negative value.
+        shaft: {k: coefficient}; the speed of the shaft is v = sum of coefficient * ud[k] over the
+            free variables, and it turns them back with the same coefficients.
+        acts: on what the effect acts.
+        shapes: values of the effect's shape parameters.
+        memory: of its inner state, if there is one.
+    """
+
+    kind: str
+    effect: str
+    equation: Expression
+    block: EnergyBlock
+    nonnegative: bool
+    shaft: Mapping[int, Fraction]
+    acts: Acts
+    shapes: Mapping[str, float]
+    memory: Memory | None
+
+
+StandardColumn: TypeAlias = LinkColumn | ShaftColumn
+
+
+def in_block(column: StandardColumn, block: EnergyBlock) -> TypeGuard[ShaftColumn]:
+    """True for an effect's parameter with that energy function."""
+    return isinstance(column, ShaftColumn) and column.block is block
+
+
+def standard_columns(geometry: Geometry) -> tuple[StandardColumn, ...]:
+    """All standard parameters: row after row, the link's, then those of the joint's effects.
+
+    A shared parameter stands where its first member would.
+    """
+    robot = geometry.robot
+    columns: list[StandardColumn] = []
+    for row, joint in enumerate(robot.joints):
+        if joint.moves:
+            columns += [link_column(prefix, row, joint) for prefix in robot.inertial(joint.name)]
+            columns += _effect_columns(geometry, row, joint)
+    return _shared(robot, columns)
+
+
+def _shared(robot: Robot, columns: list[StandardColumn]) -> tuple[StandardColumn, ...]:
+    by_name: dict[str, Any] = {column.name: column for column in columns}
+    for shared in robot.shared:
+        first, *others = (by_name[name] for name in shared.members)
+        by_name[shared.members[0]] = replace(first, name=shared.name, others=tuple(others))
+        for other in others:
+            del by_name[other.name]
+    return tuple(by_name.values())
+
+
+def link_column(prefix: str, row: int, joint: Joint) -> LinkColumn:
+    """An inertial parameter of the link behind a joint, on its own."""
+    unit = _INERTIAL_UNITS.get(prefix, "kg")
+    return LinkColumn(name=prefix + joint.name, row=row, prefix=prefix, unit=unit)
+
+
+def _effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[ShaftColumn]:
+    found = []
+    for effect, form, instance in geometry.robot.effects_on(joint.name):
+        for column in form.columns:
+            found.append(
+                ShaftColumn(
+                    name=column.prefix + joint.name + instance.label,
+                    row=row,
+                    prefix=column.prefix,
+                    unit=column.unit_revolute if joint.angular else column.unit_prismatic,
+                    kind=column.kind,
+                    effect=effect.id,
+                    equation=column.equation,
+                    block=column.block,
+                    nonnegative=column.nonnegative,
+                    shaft=_shaft(geometry, joint, effect.coupled),
+                    acts=effect.acts,
+                    shapes=instance.shapes,
+                    memory=form.memory,
+                )
+            )
+    return found
+
+
+def _shaft(geometry: Geometry, joint: Joint, coupled: bool) -> dict[int, Fraction]:
+    """The shaft's speed in the speeds of the free variables."""
+    order = {moving.name: index for index, moving in enumerate(geometry.robot.moving)}
+    coupling = geometry.robot.coupling[joint.name] if coupled else {joint.name: 1.0}
+    total: dict[int, Fraction] = {}
+    for name, factor in coupling.items():
+        for k, coefficient in geometry.forms[order[name]].items():
+            total[k] = total.get(k, Fraction(0)) + exact(factor) * coefficient
+    return {k: coefficient for k, coefficient in total.items() if coefficient}
+
+
+def exact(value: float) -> Fraction:
+    """A coefficient of the robot file as the decimal fraction that was written."""
+    return Fraction(repr(value))
+
+
+# What effects read besides the motion: time, temperatures, inner states. Inputs `s` of the C.
+
+
+@dataclass(frozen=True)
+class Signal:
+    """One entry of the input `s`.
+
+    Attributes:
+        kind: "time" [s], "temperature" [K or degC], or "slip", the bristle of a joint [1].
+        row: of the joint whose temperature or bristle it is; -1 for the time.
+        value: travel over which the bristle turns, rad or m; 0 for the others.
+    """
+
+    kind: str
+    row: int
+    value: float = 0.0
+
+
+def signals_of(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
+    """The signals that any column reads, each once, in the order of the columns."""
+    found: dict[Signal, None] = {}
+    for column in columns:
+        if isinstance(column, ShaftColumn):
+            for part in column.parts:
+                found |= dict.fromkeys(signals_read(part))
+    return tuple(found)
+
+
+def signals_read(column: ShaftColumn) -> list[Signal]:
+    """Those that one column reads."""
+    names = column.equation.names
+    found = []
+    if "t" in names:
+        found.append(Signal("time", -1))
+    if "T" in names:
+        found.append(Signal("temperature", column.row))
+    if "z" in names:
+        if column.memory is None or column.memory.kind != "slip":
+            raise DerivationError(f"{column.name}: its inner state has no form in C")
+        found.append(Signal("slip", column.row, column.shapes[column.memory.shape]))
+    return found
+
+
+# Columns of effects as expressions of the graph, from the equations that define them.
+
+
+class Dynamics(Protocol):
+    """What columns of effects read of a model."""
+
+    @property
+    def graph(self) -> Graph:
+        """Of its expressions."""
+
+    @property
+    def geometry(self) -> Geometry:
+        """Of its robot."""
+
+    @property
+    def signals(self) -> tuple[Signal, ...]:
+        """What effects read besides the motion."""
+
+    def inputs(self, kind: str) -> list[Expr]:
+        """The symbols of "q", "qd" or "qdd"."""
+
+    def reference_torque(self, kind: str) -> list[Expr]:
+        """Torques at the parameters of `[reference]`."""
+
+
+def effect_entries(model: Dynamics, column: ShaftColumn) -> dict[int, Expr]:
+    """{free variable: torque along it per unit of the column's parameter}."""
+    if column.acts is Acts.POSITION:
+        return _moved(model, column)
+    torque = _equation(model, column)
+    return {k: torque * coefficient for k, coefficient in column.shaft.items()}
+
+
+def _equation(model: Dynamics, column: ShaftColumn) -> Expr:
+    """The equation of the column on its shaft."""
+    graph = model.graph
+    values: dict[str, Expr] = {
+        name: graph.constant(Fraction(repr(float(value)))) for name, value in column.shapes.items()
+    }
+    for name, kind in (("q", "q"), ("v", "qd"), ("a", "qdd")):
+        values[name] = along(model, column.shaft, kind)
+    names = column.equation.names
+    for name in ("load", "static", "torque"):
+        if name in names:
+            values[name] = _on_shaft(graph, column.shaft, model.reference_torque(name))
+    zero = graph.constant(0)
+    for signal in signals_read(column):
+        read = graph.symbol(f"s[{model.signals.index(signal)}]")
+        if signal.kind == "time":
+            values["t"] = read - values.get("t0", zero)
+        elif signal.kind == "temperature":
+            values["T"] = read - values.get("T0", zero)
+        else:
+            values["z"] = read
+    pi = graph.constant(Fraction(repr(math.pi)))
+    return graph.lift(column.equation.fold(values, functions_of(graph), pi, graph.constant))
+
+
+def functions_of(graph: Graph) -> Mapping[str, Callable[[Expr], Expr]]:
+    """The functions of the expression language on the graph."""
+    names = ("sin", "cos", "tan", "sqrt", "exp", "abs", "sign", "tanh")
+    return {name: partial(graph.call, name) for name in names}
+
+
+def along(model: Dynamics, shaft: Mapping[int, Fraction], kind: str) -> Expr:
+    """Position, speed or acceleration of a shaft."""
+    total = model.graph.constant(0)
+    for k, coefficient in shaft.items():
+        total = total + model.inputs(kind)[k] * coefficient
+    return total
+
+
+def _on_shaft(graph: Graph, shaft: Mapping[int, Fraction], torques: list[Expr]) -> Expr:
+    """Torque of the joint that the shaft is; effects on motors of several joints read no load."""
+    total = graph.constant(0)
+    for k, coefficient in shaft.items():
+        total = total + torques[k] / coefficient
+    return total
+
+
+def _moved(model: Dynamics, column: ShaftColumn) -> dict[int, Expr]:
+    """Torque of the links at the reference, differentiated along a small change of position.
+
+    The change is the column's equation, dq(q); speeds and accelerations change by its time
+    derivatives. An encoder's error moves the rotor too.
+
+    Raises:
+        DerivationError: the equation has a part without derivative.
+    """
+    n = model.geometry.coordinates
+    speeds = {f"q[{k}]": model.inputs("qd")[k] for k in range(n)}
+    rates = speeds | {f"qd[{k}]": model.inputs("qdd")[k] for k in range(n)}
+    dq = _equation(model, column)
+    try:
+        (dv,) = derivatives([dq], speeds)
+        (da,) = derivatives([dv], rates)
+    except DerivationError as error:
+        raise DerivationError(
+            f'{column.name}: "{column.equation.text}" moves the position and is '
+            f"differentiated twice, but {error}; expected sums, products, whole powers, sqrt, exp, "
+            "sin, cos, tan, tanh"
+        ) from None
+    direction: dict[str, Expr] = {}
+    for k, coefficient in column.shaft.items():
+        for kind, change in (("q", dq), ("qd", dv), ("qdd", da)):
+            direction[f"{kind}[{k}]"] = change * coefficient
+    kind = "axis" if column.effect in ENCODERS else "load"
+    moved = derivatives(model.reference_torque(kind), direction)
+    return {k: value for k, value in enumerate(moved) if not value.is_zero}

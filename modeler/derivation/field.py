@@ -1,0 +1,342 @@
+"""The exact field of the grouping: rational functions of the geometric symbols over Q.
+
+cos and sin of a general angle a are (1 - t**2)/(1 + t**2) and 2t/(1 + t**2) with t = tan(a/2), so
+that the field stays rational; results are turned back into cos(a) and sin(a). Any other irrational
+constant (a square root, say) is a letter of its own.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache, lru_cache
+from itertools import product
+from typing import Any
+
+import sympy
+from sympy import QQ
+from sympy.polys.fields import FracElement
+from sympy.polys.fields import field as rational_functions
+from sympy.polys.rings import PolyElement, PolyRing, ring
+
+from modeler.derivation.geometry import Geometry, cos_sin
+
+# Turning rational functions of t = tan(a/2) back into what people write: cos(a) and sin(a).
+
+
+Terms = Sequence[tuple[tuple[int, ...], Any]]
+"""(exponents, coefficient) of a polynomial."""
+
+Letters = Mapping[sympy.Expr, str]
+"""What each generator stands for -> "symbol", "angle" or "opaque"."""
+
+
+def in_cosines(numerator: PolyElement, denominator: PolyElement, letters: Letters) -> sympy.Expr:
+    """numerator / denominator, polynomials in the letters (t for an angle), as an expression.
+
+    Both are divided by (1 + t**2)**K, after which they are polynomials in cos and sin:
+    t**2/(1 + t**2) = (1 - c)/2, 1/(1 + t**2) = (1 + c)/2, t/(1 + t**2) = s/2. Sums are written
+    expanded, with s**2 or c**2 eliminated, whichever leaves fewer terms.
+    """
+    degrees = [
+        max((m[i] for part in (numerator, denominator) for m in part), default=0)
+        for i in range(len(letters))
+    ]
+    used = [i for i, degree in enumerate(degrees) if degree]
+    names = list(letters)
+    target = _Target({names[i]: letters[names[i]] for i in used})
+    pairs = [(degrees[i] + 1) // 2 for i in used]
+    parts = [
+        [(tuple(m[i] for i in used), c) for m, c in part.terms()]
+        for part in (numerator, denominator)
+    ]
+    top, bottom = (target.converted(part, pairs) for part in parts)
+    top, bottom = top.cancel(bottom)
+    return target.shortest(top) / target.shortest(bottom)
+
+
+_ALL_CHOICES = 4
+
+
+class _Target:
+    """The ring Q[letters, cosines, sines]: each angle has two generators there."""
+
+    def __init__(self, letters: Letters) -> None:
+        self.names: list[sympy.Expr] = []
+        self.slots: list[int] = []
+        self.angles: list[int] = []
+        for letter, kind in letters.items():
+            self.slots.append(len(self.names))
+            if kind == "angle":
+                self.angles.append(len(self.names))
+                self.names += [letter.doit(), sympy.sin(letter.args[0])]
+            else:
+                self.names.append(letter)
+        self.ring, *self.generators = ring([f"x{i}" for i in range(len(self.names))], QQ)
+
+    def converted(self, terms: Terms, pairs: Sequence[int]) -> PolyElement:
+        """The polynomial divided by (1 + t**2)**pairs for each angle."""
+        total = self.ring.zero
+        for monomial, coefficient in terms:
+            term = self.ring.one * coefficient
+            for slot, exponent, K in zip(self.slots, monomial, pairs, strict=True):
+                term = term * self._factor(slot, exponent, K)
+            total = total + term
+        return self.reduced(total, (True,) * len(self.angles))
+
+    def _factor(self, slot: int, exponent: int, K: int) -> Any:
+        if slot not in self.angles:
+            return self.generators[slot] ** exponent
+        c, s = self.generators[slot], self.generators[slot + 1]
+        squares, single = divmod(exponent, 2)
+        half = QQ(1, 2)
+        factor = ((1 - c) * half) ** squares * ((1 + c) * half) ** (K - squares - single)
+        return factor * (s * half) if single else factor
+
+    def reduced(self, poly: PolyElement, keep_cosines: Sequence[bool]) -> PolyElement:
+        """With s**2 = 1 - c**2 (keep cosines) or c**2 = 1 - s**2, per angle."""
+        for slot, keep in zip(self.angles, keep_cosines, strict=True):
+            gone, stays = (slot + 1, slot) if keep else (slot, slot + 1)
+            square = 1 - self.generators[stays] ** 2
+            total = self.ring.zero
+            for monomial, coefficient in poly.terms():
+                pairs, rest = divmod(monomial[gone], 2)
+                left = list(monomial)
+                left[gone] = rest
+                total = total + self.ring({tuple(left): coefficient}) * square**pairs
+            poly = total
+        return poly
+
+    def shortest(self, poly: PolyElement) -> sympy.Expr:
+        """The expanded form of fewest terms; with many angles the choices are made in turn."""
+        count = len(self.angles)
+        if count <= _ALL_CHOICES:
+            choices = product((True, False), repeat=count)
+            best = min((self.reduced(poly, keep) for keep in choices), key=len)
+        else:
+            keep = [True] * count
+            best = self.reduced(poly, keep)
+            for i in range(count):
+                other = [k != (i == j) for j, k in enumerate(keep)]
+                form = self.reduced(poly, other)
+                if len(form) < len(best):
+                    best, keep = form, other
+        return sympy.Add(*(self._term(m, c) for m, c in best.terms()))
+
+    def _term(self, monomial: tuple[int, ...], coefficient: Any) -> sympy.Expr:
+        number = sympy.Rational(int(coefficient.numerator), int(coefficient.denominator))
+        return sympy.Mul(
+            number, *(name**e for name, e in zip(self.names, monomial, strict=True) if e)
+        )
+
+
+# Fractions of polynomials in few of many letters.
+#
+# sympy's divisors (Liao and Fateman 1995, heuristic gcd) go through every letter of the ring, one
+# inside the other. Of the letters of a parallel robot two occur in a fraction; its derivation spent
+# 40 % of its time on the others.
+
+
+class Fraction(FracElement):
+    """numer / denom without common divisors, which are looked for among the letters in them."""
+
+    def new(self, numer: PolyElement, denom: PolyElement) -> "Fraction":
+        """numer / denom, cancelled."""
+        # sympy is quick where one of them has one term.
+        found = numer.cancel(denom) if min(len(numer), len(denom)) < 2 else cancelled(numer, denom)
+        return self.raw_new(*found)
+
+
+@lru_cache(maxsize=4096)
+def cancelled(numer: PolyElement, denom: PolyElement) -> tuple[PolyElement, PolyElement]:
+    """Both without their common divisors, as `numer.cancel(denom)`; most ask again."""
+    ring = numer.ring
+    degrees = [max(exponents) for exponents in zip(*numer, *denom, strict=True)]
+    used = tuple(i for i, degree in enumerate(degrees) if degree)
+    if len(used) == ring.ngens or not used:
+        return numer.cancel(denom)
+    small = _of(ring, used)
+    top, bottom = (_carried(part, small, used) for part in (numer, denom))
+    top, bottom = top.cancel(bottom)
+    return _returned(top, ring, used), _returned(bottom, ring, used)
+
+
+@cache
+def _of(ring: PolyRing, used: tuple[int, ...]) -> PolyRing:
+    """The ring of these letters alone, in the same order."""
+    return ring.clone(symbols=[ring.symbols[i] for i in used])
+
+
+def _carried(part: PolyElement, small: PolyRing, used: tuple[int, ...]) -> PolyElement:
+    return small.from_dict({tuple(m[i] for i in used): c for m, c in part.items()})
+
+
+def _returned(part: PolyElement, ring: PolyRing, used: tuple[int, ...]) -> PolyElement:
+    found: dict[tuple[int, ...], Any] = {}
+    for monomial, coefficient in part.items():
+        whole = [0] * ring.ngens
+        for place, exponent in zip(used, monomial, strict=True):
+            whole[place] = exponent
+        found[tuple(whole)] = coefficient
+    return ring.from_dict(found)
+
+
+Element = Any
+"""An element of the field: a sympy `FracElement`, or a rational number."""
+
+
+def times(a: Element, b: Element) -> Element:
+    """a b. Most factors are 1, and the product of two fractions cancels common divisors."""
+    if a == 1:
+        return b
+    if b == 1:
+        return a
+    # Polynomials have nothing to cancel, and looking for it is most of the work of a long chain.
+    if _is_polynomial(a) and _is_polynomial(b):
+        return a.raw_new(a.numer * b.numer, a.denom)
+    return a * b
+
+
+def minus(a: Element, b: Element) -> Element:
+    """a - b."""
+    if _is_polynomial(a) and _is_polynomial(b):
+        return a.raw_new(a.numer - b.numer, a.denom)
+    return a - b
+
+
+def _is_polynomial(a: Element) -> bool:
+    """True for a fraction over 1: its coefficients are whole then."""
+    return isinstance(a, FracElement) and a.denom == 1
+
+
+class ExactField:
+    """Q(letters): conversion from and to sympy expressions.
+
+    Attributes:
+        letters: what each generator stands for: a "symbol", the cosine of an "angle" (the
+            generator is then the tangent of half the angle), or an "opaque" constant.
+    """
+
+    def __init__(self, constants: Iterable[sympy.Expr]) -> None:
+        letters: dict[sympy.Expr, str] = {}
+        for constant in constants:
+            _collect(sympy.sympify(constant), letters)
+        self.letters = dict(sorted(letters.items(), key=lambda item: (item[1], str(item[0]))))
+        names = [f"u{i}" for i in range(len(self.letters))]
+        if names:
+            self._field, *generators = rational_functions(names, sympy.QQ)
+            generators = [Fraction(self._field, letter.numer) for letter in generators]
+            self._one = Fraction(self._field, self._field.ring.one)
+        else:
+            self._field, generators, self._one = None, [], sympy.QQ(1)
+        self._zero = self._one - self._one
+        self._generator = dict(zip(self.letters, generators, strict=True))
+        self._found: dict[sympy.Expr, Element] = {}
+        self._told: dict[Element, sympy.Expr] = {}
+
+    @property
+    def one(self) -> Element:
+        """1."""
+        return self._one
+
+    @property
+    def zero(self) -> Element:
+        """0."""
+        return self._zero
+
+    def element(self, value: sympy.Expr) -> Element:
+        """The field element of a constant expression."""
+        found = self._found.get(value)
+        if found is None:
+            found = self._convert(value)
+            self._found[value] = found
+        return found
+
+    def generator(self, place: int) -> Element:
+        """The generator of the letter at that place of `letters`."""
+        return self._generator[list(self.letters)[place]]
+
+    def cos_sin(self, angle: sympy.Expr) -> tuple[Element, Element]:
+        """Cosine and sine of a constant angle."""
+        c, s = cos_sin(angle)
+        return self.element(c), self.element(s)
+
+    def _convert(self, value: sympy.Expr) -> Element:
+        if value.is_Rational:
+            return self._one * sympy.QQ(int(value.p), int(value.q))
+        if self.letters.get(value) in ("symbol", "opaque"):
+            return self._generator[value]
+        if value.is_Add or value.is_Mul:
+            total = self.element(value.args[0])
+            for arg in value.args[1:]:
+                other = self.element(arg)
+                total = total + other if value.is_Add else total * other
+            return total
+        if value.is_Pow:
+            base, n = self.element(value.base), int(value.exp)
+            return base**n if n >= 0 else self._one / base**-n
+        assert value.func in (sympy.cos, sympy.sin)
+        t = self._generator[cosine_letter(value)]
+        return (1 - t**2 if value.func is sympy.cos else 2 * t) / (1 + t**2)
+
+    def expression(self, element: Element) -> sympy.Expr:
+        """The element as a sympy expression in the symbols, cosines and sines."""
+        if not self._generator:
+            return sympy.Rational(int(element.numerator), int(element.denominator))
+        # Most coefficients of a long chain are the same few.
+        found = self._told.get(element)
+        if found is None:
+            found = in_cosines(element.numer, element.denom, self.letters)
+            self._told[element] = found
+        return found
+
+    def residue(self, element: Element, values: Mapping[sympy.Expr, int], prime: int) -> int:
+        """The element modulo a prime, with residues for the letters (tan(a/2) for cos(a))."""
+        if not self._generator:
+            return int(element.numerator) * pow(int(element.denominator), -1, prime) % prime
+        point = [values[letter] for letter in self.letters]
+        top, bottom = (_residue(part, point, prime) for part in (element.numer, element.denom))
+        return top * pow(bottom, -1, prime) % prime
+
+
+def geometry_field(geometry: Geometry) -> ExactField:
+    """The field that the table of a robot needs."""
+    constants: list[sympy.Expr] = list(geometry.gravity)
+    for row in geometry.rows:
+        constants += [row.b, row.d]
+        angles = [row.gamma, row.alpha]
+        # The constant part of a free joint's variable only shifts it.
+        if row.index is None or not row.joint.angular or geometry.tied:
+            angles.append(row.theta)
+        if row.index is None or row.joint.angular or geometry.tied:
+            constants.append(row.r)
+        for angle in angles:
+            constants += cos_sin(angle)
+    return ExactField(constants)
+
+
+def _collect(value: sympy.Expr, letters: dict[sympy.Expr, str]) -> None:
+    if value.is_Rational:
+        return
+    if value.is_Symbol:
+        letters[value] = "symbol"
+    elif value.is_Add or value.is_Mul or (value.is_Pow and value.exp.is_Integer):
+        for arg in value.args:
+            _collect(arg, letters)
+    elif value.func in (sympy.cos, sympy.sin):
+        letters[cosine_letter(value)] = "angle"
+    else:
+        letters[value] = "opaque"
+
+
+def cosine_letter(value: sympy.Expr) -> sympy.Expr:
+    """cos(a) of a cos(a) or sin(a): the key of an angle among the letters."""
+    return sympy.cos(value.args[0], evaluate=False)
+
+
+def _residue(part: Any, point: list[int], prime: int) -> int:
+    total = 0
+    for monomial, coefficient in part.terms():
+        term = int(coefficient.numerator) * pow(int(coefficient.denominator), -1, prime)
+        for value, exponent in zip(point, monomial, strict=True):
+            if exponent:
+                term = term * pow(value, exponent, prime) % prime
+        total += term
+    return total % prime

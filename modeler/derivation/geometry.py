@@ -1,0 +1,395 @@
+"""The table with exact entries: every cell a sympy expression, every right angle exact."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import sympy
+
+from modeler.core.brief import Brief
+from modeler.core.errors import DerivationError
+from modeler.core.expression import Expression
+from modeler.derivation.writing_out import TooLong, check_length, power
+from modeler.robot.robot import Joint, Robot
+
+# Cosine and sine of constant angles, exactly, with as few different ones as possible.
+#
+# Sums and whole multiples are expanded, so that al, 2*al and al + pi/4 are made of the same two
+# angles, and relations between them are seen.
+
+
+_FINEST = 12
+"""Fractions p/q of pi up to this q are multiples of pi/q; finer ones stand for themselves."""
+
+_MOST_TURNS = 4
+"""Angles in a sum, counted with their multiples; a longer sum stands for itself. Written out, its
+cosine has 2**(turns - 1) terms. Relations that this hides are found at the given values."""
+
+Pair = tuple[sympy.Expr, sympy.Expr]
+"""(cosine, sine)."""
+
+
+def cos_sin(angle: sympy.Expr) -> Pair:
+    """Cosine and sine: exact 0 and +-1 at right angles; other constants are left standing.
+
+    They are not turned into radicals: cos(pi/3) and sin(pi/3) stay a point of the unit circle,
+    which is what grouping has to know of them.
+    """
+    constant, rest = angle.as_independent(*angle.free_symbols, as_Add=True)
+    if rest == 0 or not angle.free_symbols:
+        return _of_number(angle)
+    if not is_short(rest):
+        return _standing(angle)
+    pair = tuple(sympy.expand_trig(f(rest)) for f in (sympy.cos, sympy.sin))
+    return _sum((pair[0], pair[1]), _of_number(constant))
+
+
+def is_short(angle: sympy.Expr) -> bool:
+    """True if sums and whole multiples in the angle are few enough to be written out."""
+    turns = 0
+    for term in sympy.Add.make_args(angle):
+        factor = term.as_coeff_Mul()[0]
+        turns += abs(int(factor)) if factor.is_Integer else 1
+    return turns <= _MOST_TURNS
+
+
+def _of_number(angle: sympy.Expr) -> Pair:
+    quarters = angle / (sympy.pi / 2)
+    if quarters.is_Integer:
+        return sympy.cos(angle), sympy.sin(angle)
+    if angle.is_negative:
+        c, s = _of_number(-angle)
+        return c, -s
+    number, turned = angle.as_coeff_Add()
+    if number and turned:  # 0.4 + pi/2 is made of the same angle as 0.4
+        return _sum(_of_number(number), _of_number(turned))
+    turns = angle / sympy.pi
+    if turns.is_Rational and turns.q <= _FINEST:
+        return _multiple(_standing(sympy.pi / turns.q), int(turns.p))
+    return _standing(angle)
+
+
+def _standing(angle: sympy.Expr) -> Pair:
+    return sympy.cos(angle, evaluate=False), sympy.sin(angle, evaluate=False)
+
+
+def _multiple(pair: Pair, n: int) -> Pair:
+    total = pair
+    for _ in range(n - 1):
+        total = _sum(total, pair)
+    return total
+
+
+def _sum(a: Pair, b: Pair) -> Pair:
+    # Products and sums only: sympy's own simplifications would evaluate what is left standing.
+    return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
+
+
+# Expressions of the robot file as exact sympy expressions.
+
+
+_LONGEST = 60  # letters of the user's text that are quoted
+
+_FUNCTIONS = {
+    "sin": sympy.sin, "cos": sympy.cos, "sqrt": sympy.sqrt,
+    "tan": lambda x: sympy.sin(x) / sympy.cos(x),
+    "exp": sympy.exp, "abs": sympy.Abs, "sign": sympy.sign, "tanh": sympy.tanh,
+}  # fmt: skip
+
+
+def folded(expression: Expression, values: Mapping[str, sympy.Expr]) -> sympy.Expr:
+    """The expression with `values` for its names, decimals as the fractions that were written.
+
+    Raises:
+        DerivationError: it is not finite, or too long to be written out.
+    """
+    try:
+        value = sympy.sympify(expression.fold(values, _FUNCTIONS, sympy.pi, _rational, power))
+        check_length(value)
+    except TooLong as error:
+        raise DerivationError(
+            f'"{_shortened(expression.text)}" {error}; give its value as a number'
+        ) from None
+    if value.has(sympy.zoo, sympy.oo, sympy.nan):
+        raise DerivationError(
+            f'"{_shortened(expression.text)}" is not finite; expected a finite number'
+        )
+    turned = value.atoms(sympy.cos, sympy.sin)
+    if not turned or not all(is_short(function.args[0]) for function in turned):
+        return value
+    return sympy.expand_trig(value)
+
+
+def _rational(value: Fraction) -> sympy.Rational:
+    return sympy.Rational(value.numerator, value.denominator)
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
+
+
+# Linear relations between joint variables: every row's variable in the free ones, exactly.
+
+
+Form = Mapping[int, Fraction]
+"""Sum of coefficient * u[k] over the free variables u."""
+
+
+def resolved_relations(
+    robot: Robot, symbols: Mapping[str, sympy.Expr]
+) -> tuple[tuple[Form, ...], dict[str, sympy.Expr]]:
+    """Forms of the moving rows, in table order, and the constants of the relations, by row.
+
+    q_row = sum of form[k] u[k] + constant. A symbol in a coefficient counts with its value: the
+    coefficients are rational numbers.
+
+    Raises:
+        DerivationError: a relation is not linear.
+    """
+    numbers = {name: sympy.Rational(repr(x)) for name, x in robot.symbol_values().items()}
+    order = {joint.name: k for k, joint in enumerate(robot.free)}
+    variables = {joint.variable: _joint_symbol(joint) for joint in robot.moving}
+    values = {_joint_symbol(joint): _joint_symbol(joint) for joint in robot.free}
+    waiting = {joint for joint in robot.moving if joint.name in robot.relations}
+    while waiting:
+        for joint in sorted(waiting, key=lambda joint: joint.name):
+            expression = robot.relations[joint.name]
+            if all(variables[n] in values for n in expression.names if n in variables):
+                value = folded(expression, {**symbols, **variables})
+                values[_joint_symbol(joint)] = sympy.expand(value.subs(values))
+                waiting.discard(joint)
+    forms, constants = [], {}
+    for joint in robot.moving:
+        value = values[_joint_symbol(joint)]
+        coefficients = {k: value.coeff(_joint_symbol(robot.free[k]), 1) for k in order.values()}
+        constant = value - sum(c * _joint_symbol(robot.free[k]) for k, c in coefficients.items())
+        constant = sympy.expand(constant)
+        if constant.free_symbols & set(variables.values()):
+            raise DerivationError(
+                f"the relation of joint {joint.name} is not linear; expected a sum such as q1 - q2"
+            )
+        constants[joint.name] = constant
+        forms.append({k: _fraction(c, numbers) for k, c in coefficients.items() if c != 0})
+    return tuple(forms), constants
+
+
+def _joint_symbol(joint: Joint) -> sympy.Symbol:
+    return sympy.Symbol(joint.variable, real=True)
+
+
+def _fraction(value: sympy.Expr, numbers: Mapping[str, sympy.Rational]) -> Fraction:
+    at = sympy.nsimplify(value.subs({s: numbers[s.name] for s in value.free_symbols}))
+    if not at.is_Rational:
+        raise DerivationError(f"the coefficient {value} of a relation is no rational number")
+    return Fraction(int(at.p), int(at.q))
+
+
+_RIGHT_ANGLE_TOLERANCE = 1e-9
+_QUARTER = math.pi / 2
+
+
+def geometric_symbol(name: str) -> sympy.Symbol:
+    """The symbol of that name; the only place where geometric symbols are made."""
+    return sympy.Symbol(name, real=True)
+
+
+@dataclass(frozen=True)
+class Row(Brief):
+    """One row of the table, exact.
+
+    T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r), where theta = rate q + offset for a
+    revolute joint, r = rate q + offset for a prismatic one.
+
+    Attributes:
+        parent: index of the antecedent row, None for the base.
+        index: number of the row among those that move; None for a fixed frame.
+        theta: constant part of theta.
+        r: constant part of r.
+        rate: +1 or -1.
+    """
+
+    joint: Joint
+    parent: int | None
+    index: int | None
+    gamma: sympy.Expr
+    b: sympy.Expr
+    alpha: sympy.Expr
+    d: sympy.Expr
+    theta: sympy.Expr
+    r: sympy.Expr
+    rate: int
+
+
+@dataclass(frozen=True)
+class Geometry(Brief):
+    """The exact table of a robot.
+
+    Attributes:
+        rows: in table order.
+        gravity: acceleration of gravity in frame 0.
+        values: number of every symbol that is left in the entries.
+        forms: by `Row.index`: the row's variable as a sum of coefficient * u[k], where u are the
+            variables of `robot.free`. Constants of relations stand in the row's theta or r.
+    """
+
+    robot: Robot
+    rows: tuple[Row, ...]
+    gravity: tuple[sympy.Expr, sympy.Expr, sympy.Expr]
+    values: Mapping[str, float]
+    forms: tuple[Mapping[int, Fraction], ...]
+
+    @property
+    def joints(self) -> int:
+        """Number of rows that move."""
+        return len(self.forms)
+
+    @property
+    def coordinates(self) -> int:
+        """Number of free variables u."""
+        return len(self.robot.free)
+
+    @property
+    def tied(self) -> bool:
+        """True if rows follow others, so that u has fewer entries than rows move."""
+        return bool(self.robot.relations)
+
+    def ancestors(self, k: int) -> list[int]:
+        """Rows from `k` down to the base, `k` first."""
+        chain: list[int] = []
+        at: int | None = k
+        while at is not None:
+            chain.append(at)
+            at = self.rows[at].parent
+        return chain
+
+
+def exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
+    """The table of `robot` with exact entries.
+
+    Args:
+        robot: as read.
+        at_nominal: True to put the value of every symbol, as the decimal fraction that was written,
+            in its place.
+
+    A symbol keeps its letter unless its value decides the structure: a symbol worth 0 is 0, one
+    within 1e-9 of a multiple of pi/2 is that multiple, one given by an expression is that
+    expression.
+
+    Raises:
+        DerivationError: an entry is not finite, or a joint variable does not stand alone.
+    """
+    numbers = robot.symbol_values()
+    symbols = _symbols(robot, numbers, at_nominal)
+    forms, constants = resolved_relations(robot, symbols)
+    cells = _Cells(symbols, numbers)
+    rows = tuple(_moved(row, constants, cells) for row in _rows(robot, cells))
+    try:
+        gravity = tuple(folded(entry, symbols) for entry in robot.gravity)
+    except DerivationError as error:
+        raise DerivationError(f"gravity: {error}") from None
+    used = {name for name, value in symbols.items() if value == geometric_symbol(name)}
+    return Geometry(
+        robot, rows, (gravity[0], gravity[1], gravity[2]),
+        {name: numbers[name] for name in numbers if name in used}, forms,
+    )  # fmt: skip
+
+
+def _moved(row: Row, constants: Mapping[str, sympy.Expr], cells: "_Cells") -> Row:
+    """The row with the constant of its variable's relation in theta or r."""
+    constant = constants.get(row.joint.name, sympy.Integer(0))
+    if constant == 0:
+        return row
+    if row.joint.angular:
+        return replace(row, theta=cells.snapped(row.theta + row.rate * constant))
+    return replace(row, r=sympy.expand(row.r + row.rate * constant))
+
+
+def _rows(robot: Robot, cells: "_Cells") -> list[Row]:
+    rows: list[Row] = []
+    places = {"0": None} | {joint.name: i for i, joint in enumerate(robot.joints)}
+    index = 0
+    for joint in robot.joints:
+        theta, rate_theta = cells.affine(joint, "theta")
+        r, rate_r = cells.affine(joint, "r")
+        rows.append(
+            Row(
+                joint=joint,
+                parent=places[joint.antecedent],
+                index=index if joint.moves else None,
+                gamma=cells.angle(joint, "gamma"),
+                b=cells.length(joint, "b"),
+                alpha=cells.angle(joint, "alpha"),
+                d=cells.length(joint, "d"),
+                theta=theta,
+                r=r,
+                rate=(rate_theta if joint.angular else rate_r) if joint.moves else 1,
+            )
+        )
+        index += joint.moves
+    return rows
+
+
+def _symbols(robot: Robot, numbers: Mapping[str, float], at_nominal: bool) -> dict[str, sympy.Expr]:
+    found: dict[str, sympy.Expr] = {}
+    for name, expression in robot.symbols.items():
+        quarters = round(numbers[name] / _QUARTER)
+        if numbers[name] == 0.0:
+            found[name] = sympy.Integer(0)
+        elif quarters and abs(numbers[name] - quarters * _QUARTER) < _RIGHT_ANGLE_TOLERANCE:
+            found[name] = quarters * sympy.pi / 2
+        elif expression.names or "pi" in expression.text or at_nominal:
+            found[name] = _constant_symbol(name, expression, found)
+        else:
+            found[name] = geometric_symbol(name)
+    return found
+
+
+def _constant_symbol(
+    name: str, expression: Expression, found: Mapping[str, sympy.Expr]
+) -> sympy.Expr:
+    try:
+        return folded(expression, found)
+    except DerivationError as error:
+        raise DerivationError(f"[symbols], {name}: {error}") from None
+
+
+@dataclass(frozen=True)
+class _Cells:
+    symbols: Mapping[str, sympy.Expr]
+    numbers: Mapping[str, float]
+
+    def length(self, joint: Joint, column: str) -> sympy.Expr:
+        return self._folded(joint, column, self.symbols)
+
+    def angle(self, joint: Joint, column: str) -> sympy.Expr:
+        return self.snapped(self._folded(joint, column, self.symbols))
+
+    def affine(self, joint: Joint, column: str) -> tuple[sympy.Expr, int]:
+        """(constant part, coefficient of the joint variable) of theta or r."""
+        q = sympy.Symbol(joint.variable, real=True)
+        value = sympy.expand(self._folded(joint, column, {**self.symbols, joint.variable: q}))
+        rate = value.coeff(q, 1)
+        constant = value - rate * q
+        if constant.has(q) or rate not in (0, 1, -1):
+            raise DerivationError(
+                f"joint {joint.name}: got {getattr(joint, column).text}; expected {q} or -{q} plus "
+                "a constant"
+            )
+        return (self.snapped(constant) if column == "theta" else constant), int(rate)
+
+    def _folded(self, joint: Joint, column: str, symbols: Mapping[str, sympy.Expr]) -> sympy.Expr:
+        try:
+            return folded(getattr(joint, column), symbols)
+        except DerivationError as error:
+            raise DerivationError(f'row "{joint.name}", column {column}: {error}') from None
+
+    def snapped(self, value: sympy.Expr) -> sympy.Expr:
+        """The angle, exact where its value is a right angle."""
+        if not value.free_symbols:
+            return value
+        values = {symbol: self.numbers[symbol.name] for symbol in value.free_symbols}
+        turns = float(value.subs(values)) / float(sympy.pi / 2)
+        if abs(turns - round(turns)) < _RIGHT_ANGLE_TOLERANCE:
+            return round(turns) * sympy.pi / 2
+        return value

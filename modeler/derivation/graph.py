@@ -1,0 +1,595 @@
+"""Expression graph: hash-consed, with exact constants and folding while it is built.
+
+A value is a *reference*: an integer whose sign is the sign of the value and whose magnitude is a
+node; 0 is the constant zero, 1 the constant one. So negation costs nothing, `x - x` and `0*x`
+vanish where they arise, and equal expressions are one node. A node is *static* if it holds only
+numbers and geometric symbols; products and sums collect their static factors, as a compiler would
+fold numbers, so that symbolic lengths cost no more operations than numeric ones.
+
+Two expressions are equal when they are equal as functions, however they are written: every node
+carries its value modulo the prime 2**61 - 1 at a fixed random point, with cos and sin on the unit
+circle (those of a sum are composed of those of its terms), and a new node whose value is known is
+the known node. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
+rational functions of degree d share a value with a probability of about d * 2**-61; emitted code is
+compared with other derivations anyway.)
+"""
+
+import hashlib
+import operator
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Protocol, Union
+
+import numpy as np
+import sympy
+
+from modeler.core.errors import DerivationError
+from modeler.core.expression import FUNCTIONS
+from modeler.derivation.geometry import Geometry, Row, cos_sin
+
+if TYPE_CHECKING:
+    pass
+
+
+# Values of expressions by steps that are listed once: closing loops asks hundreds of times.
+
+
+_FUNCTIONS: dict[str, Callable[..., Any]] = {
+    "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
+    "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh, "pow": np.power,
+    "add": operator.add, "mul": operator.mul, "div": operator.truediv,
+}  # fmt: skip
+
+_ALONE = -1
+"""In place of the second argument of a function of one."""
+
+
+class Plan:
+    """Outputs as a function of numbers, or arrays of samples, for the symbols."""
+
+    def __init__(self, nodes: Sequence["Node"], needed: Sequence[int], refs: Sequence[int]) -> None:
+        """Steps for the references `refs` of a graph.
+
+        Args:
+            nodes: of the graph.
+            needed: those that the references need, arguments first.
+            refs: what is asked for.
+        """
+        place = {0: 0} | {index: k for k, index in enumerate(needed, start=1)}
+        self._start: list[Any] = [0.0] * len(place)
+        self._inputs: list[tuple[int, str]] = []
+        self._steps: list[tuple[int, Callable[..., Any], int, int]] = []
+        for index in needed:
+            node, at = nodes[index], place[index]
+            if node.op == "num":
+                self._start[at] = float(node.args[0])
+            elif node.op == "pi":
+                self._start[at] = np.pi
+            elif node.op == "sym":
+                self._inputs.append((at, node.args[0]))
+            else:
+                a, b = (*node.args, None)[:2]
+                second = _ALONE if b is None else place[abs(b)]
+                self._steps.append((at, _signed(node.op, a, b), place[abs(a)], second))
+        self._outputs = [(place[abs(ref)], ref < 0) for ref in refs]
+
+    def __call__(self, values: Mapping[str, Any]) -> list[Any]:
+        """The outputs; `values` by name."""
+        found = self._start.copy()
+        for at, name in self._inputs:
+            found[at] = values[name]
+        for at, step, a, b in self._steps:
+            found[at] = step(found[a]) if b == _ALONE else step(found[a], found[b])
+        return [-found[at] if negative else found[at] for at, negative in self._outputs]
+
+
+def _signed(op: str, a: int, b: int | None) -> Callable[..., Any]:
+    """The operation on the values of the nodes of a and b, with the signs that these have."""
+    call = _FUNCTIONS[op]
+    if b is None:
+        return call if a >= 0 else lambda x: call(-x)
+    if a >= 0 and b >= 0:
+        return call
+    if op == "add" and a >= 0:
+        return operator.sub
+    if op == "add" and b >= 0:
+        return lambda x, y: y - x
+    return lambda x, y: call(x if a >= 0 else -x, y if b >= 0 else -y)
+
+
+PRIME = 2**61 - 1
+_LARGEST_MULTIPLE = 64
+_PLANS = 16  # of evaluation that are kept
+_MULTIPLIED = range(101)  # exponents of which powers are multiplied out
+
+Number = int | Fraction
+Operand = Union["Expr", int, Fraction]
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """One operation.
+
+    Attributes:
+        op: "num" (args: a positive Fraction), "pi" (no args), "sym" (args: name), "add", "mul",
+            "div" (args: two references), or a function name (args: one reference).
+        static: True if it depends on numbers and geometric symbols only.
+    """
+
+    op: str
+    args: tuple[Any, ...]
+    static: bool
+
+
+class Graph:
+    """Nodes in order of creation: arguments always stand before their users."""
+
+    def __init__(self) -> None:
+        one = Node("num", (Fraction(1),), True)
+        self.nodes: list[Node] = [Node("num", (Fraction(0),), True), one]
+        self._index: dict[tuple[str, tuple[Any, ...]], int] = {("num", one.args): 1}
+        self._residue = [0, 1]
+        self._by_residue = {0: 0, 1: 1}
+        self._plans: dict[tuple[int, ...], Plan] = {}
+
+    def symbol(self, name: str, static: bool = False) -> "Expr":
+        """The input of that name; `static` for geometric symbols."""
+        return Expr(self, self._node("sym", (name,), static))
+
+    def constant(self, value: Number) -> "Expr":
+        """An exact number."""
+        return Expr(self, self._number(Fraction(value)))
+
+    def lift(self, value: Operand) -> "Expr":
+        """`value` as an expression of this graph."""
+        return value if isinstance(value, Expr) else self.constant(value)
+
+    def pi(self) -> "Expr":
+        """The constant pi: a node of its own, not a rational number."""
+        return Expr(self, self._node("pi", (), True))
+
+    def call(self, name: str, argument: "Expr") -> "Expr":
+        """A function of one argument; odd and even functions take the sign out."""
+        ref = argument.ref
+        sign = 1
+        if ref < 0 and name in ("sin", "tan", "sign", "tanh"):
+            sign, ref = -1, -ref
+        elif ref < 0 and name in ("cos", "abs"):
+            ref = -ref
+        if ref == 0:
+            return self.constant(1 if name in ("cos", "exp") else 0)
+        return Expr(self, sign * self._node(name, (ref,), self.nodes[abs(ref)].static))
+
+    def power(self, base: "Expr", exponent: "Expr") -> "Expr":
+        """base**exponent for any constant exponent; the base is not negative."""
+        node = self.nodes[abs(exponent.ref)]
+        if exponent.ref > 0 and node.op == "num" and node.args[0] in _MULTIPLIED:
+            return base ** int(node.args[0])
+        static = self.nodes[abs(base.ref)].static and node.static
+        return Expr(self, self._node("pow", (base.ref, exponent.ref), static))
+
+    def _node(self, op: str, args: tuple[Any, ...], static: bool) -> int:
+        """Reference of the operation: a known one of the same value, or a new node."""
+        key = (op, args)
+        ref = self._index.get(key)
+        if ref is None:
+            residue = self._modular(op, args)
+            # Numbers are compared as numbers: two of them may well agree modulo the prime.
+            ref = None if op == "num" else self._known(residue)
+            if ref is None:
+                ref = len(self.nodes)
+                self.nodes.append(Node(op, args, static))
+                self._residue.append(residue)
+                self._by_residue.setdefault(residue, ref)
+            self._index[key] = ref
+        return ref
+
+    def _known(self, residue: int) -> int | None:
+        if residue in self._by_residue:
+            return self._by_residue[residue]
+        opposite = self._by_residue.get(PRIME - residue)
+        return None if opposite is None else -opposite
+
+    def _modular(self, op: str, args: tuple[Any, ...]) -> int:
+        """Value of an operation modulo the prime, at the graph's random point."""
+        if op == "num":
+            number = args[0]
+            if number.numerator % PRIME == 0 or number.denominator % PRIME == 0:
+                return _random_residue(f"num {number}")
+            return number.numerator * pow(number.denominator, -1, PRIME) % PRIME
+        if op in ("sym", "pi"):
+            return _random_residue(f"{op} {args}")
+        values = [self._residue[arg] if arg > 0 else -self._residue[-arg] for arg in args]
+        if op == "add":
+            return (values[0] + values[1]) % PRIME
+        if op == "mul":
+            return values[0] * values[1] % PRIME
+        if op == "div":
+            return values[0] * pow(values[1], -1, PRIME) % PRIME
+        if op in ("sin", "cos"):
+            c, s = self._unit(args[0])
+            return s if op == "sin" else c
+        return _random_residue(f"{op} {[value % PRIME for value in values]}")
+
+    def _unit(self, ref: int) -> tuple[int, int]:
+        """(cos, sin) of an angle modulo the prime; those of sums and multiples are composed."""
+        if ref <= 0:
+            c, s = (1, 0) if ref == 0 else self._unit(-ref)
+            return c, -s % PRIME
+        node = self.nodes[ref]
+        if node.op == "add":
+            return _composed(self._unit(node.args[0]), self._unit(node.args[1]))
+        if node.op == "mul" and self._is_whole(node.args[0]):
+            turn, total = self._unit(node.args[1]), (1, 0)
+            for _ in range(int(self._value(node.args[0]))):
+                total = _composed(total, turn)
+            return total
+        # tan of half the angle is drawn for each angle; 1 + t*t is never 0 modulo this prime.
+        t = _random_residue(f"angle {self._residue[ref]}")
+        scale = pow(1 + t * t, -1, PRIME)
+        return (1 - t * t) * scale % PRIME, 2 * t * scale % PRIME
+
+    def _is_whole(self, ref: int) -> bool:
+        """True for a small whole number."""
+        return self._is_number(ref) and self._value(ref) in range(1, _LARGEST_MULTIPLE)
+
+    def _number(self, value: Fraction) -> int:
+        if value == 0:
+            return 0
+        index = self._node("num", (abs(value),), True)
+        return index if value > 0 else -index
+
+    def _value(self, ref: int) -> Fraction:
+        value = self.nodes[abs(ref)].args[0]
+        return value if ref > 0 else -value
+
+    def _is_number(self, ref: int) -> bool:
+        return ref == 0 or self.nodes[abs(ref)].op == "num"
+
+    def mul(self, a: int, b: int) -> int:
+        """Reference of a * b."""
+        if a == 0 or b == 0:
+            return 0
+        sign = 1 if (a > 0) == (b > 0) else -1
+        a, b = abs(a), abs(b)
+        if a == 1 or b == 1:
+            return sign * a * b
+        first, second = self.nodes[a], self.nodes[b]
+        if first.op == "num" and second.op == "num":
+            return sign * self._number(first.args[0] * second.args[0])
+        if second.static and not first.static:
+            a, b, first, second = b, a, second, first
+        if first.static and not second.static:
+            factor, rest = self._static_factor(b)
+            if factor != 1:
+                return sign * self.mul(self.mul(a, factor), rest)
+        elif a > b:
+            a, b = b, a
+        return sign * self._node("mul", (a, b), first.static and second.static)
+
+    def _static_factor(self, ref: int) -> tuple[int, int]:
+        """(static factor, dynamic rest) of a positive reference."""
+        node = self.nodes[ref]
+        if node.op == "mul" and self.nodes[abs(node.args[0])].static and not node.static:
+            return node.args
+        return 1, ref
+
+    def add(self, a: int, b: int) -> int:
+        """Reference of a + b."""
+        if a == 0 or b == 0:
+            return a + b
+        if a == -b:
+            return 0
+        if self._is_number(a) and self._is_number(b):
+            return self._number(self._value(a) + self._value(b))
+        merged = self._merge(a, b)
+        if merged is not None:
+            return merged
+        if abs(a) > abs(b):
+            a, b = b, a
+        sign = 1 if a > 0 else -1
+        static = self.nodes[abs(a)].static and self.nodes[abs(b)].static
+        return sign * self._node("add", (sign * a, sign * b), static)
+
+    def _merge(self, a: int, b: int) -> int | None:
+        """k x + l x = (k + l) x, and (x + y) - y = x."""
+        if a == b:
+            return self.mul(self._number(Fraction(2)), a)
+        if not (self.nodes[abs(a)].static or self.nodes[abs(b)].static):
+            (k, x), (l, y) = self._static_factor(abs(a)), self._static_factor(abs(b))
+            if x == y:
+                return self.mul(self.add(k if a > 0 else -k, l if b > 0 else -l), x)
+        for total, part in ((a, b), (b, a)):
+            node = self.nodes[abs(total)]
+            if node.op == "add":
+                sign = 1 if total > 0 else -1
+                x, y = sign * node.args[0], sign * node.args[1]
+                if x == -part:
+                    return y
+                if y == -part:
+                    return x
+        return None
+
+    def div(self, a: int, b: int) -> int:
+        """Reference of a / b."""
+        if b == 0:
+            raise ZeroDivisionError("division by an expression that is exactly zero")
+        if a == 0:
+            return 0
+        if self._is_number(b):
+            return self.mul(a, self._number(1 / self._value(b)))
+        if abs(a) == abs(b):
+            return 1 if a == b else -1
+        sign = 1 if (a > 0) == (b > 0) else -1
+        a, b = abs(a), abs(b)
+        if self.nodes[b].static and a != 1:
+            return sign * self.mul(self.div(1, b), a)
+        static = self.nodes[a].static and self.nodes[b].static
+        return sign * self._node("div", (a, b), static)
+
+    def reachable(self, outputs: Iterable["Expr"]) -> list[int]:
+        """Nodes that the outputs need, arguments first; node 0 left out."""
+        needed: set[int] = set()
+        stack = [abs(output.ref) for output in outputs]
+        while stack:
+            index = stack.pop()
+            if index in needed or index == 0:
+                continue
+            needed.add(index)
+            node = self.nodes[index]
+            if node.op not in ("num", "pi", "sym"):
+                stack.extend(abs(arg) for arg in node.args)
+        return sorted(needed)
+
+    def operations(self, outputs: Sequence["Expr"]) -> tuple[int, int]:
+        """(additions, multiplications) per call; static parts and functions are not counted."""
+        dynamic = [self.nodes[i].op for i in self.reachable(outputs) if not self.nodes[i].static]
+        return dynamic.count("add"), dynamic.count("mul") + dynamic.count("div")
+
+    def evaluate(self, outputs: Sequence["Expr"], values: Mapping[str, Any]) -> list[Any]:
+        """Values of the outputs; `values` gives a number or an array of samples per symbol."""
+        refs = tuple(output.ref for output in outputs)
+        plan = self._plans.pop(refs, None) or Plan(self.nodes, self.reachable(outputs), refs)
+        self._plans[refs] = plan  # the last that was asked for is the last to go
+        if len(self._plans) > _PLANS:
+            del self._plans[next(iter(self._plans))]
+        return plan(values)
+
+
+def _composed(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
+    """(cos, sin) of the sum of two angles."""
+    return (a[0] * b[0] - a[1] * b[1]) % PRIME, (a[1] * b[0] + a[0] * b[1]) % PRIME
+
+
+def _random_residue(name: str) -> int:
+    return int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], "big") % PRIME
+
+
+def combined(
+    node: Node, found: Mapping[int, Any], functions: Mapping[str, Callable[..., Any]]
+) -> Any:
+    """Value of an operation from those of its arguments, in any arithmetic.
+
+    Args:
+        node: an operation or a function.
+        found: values by node.
+        functions: "sin", "cos", ... and "pow", of two arguments.
+    """
+    args = [found[arg] if arg >= 0 else -found[-arg] for arg in node.args]
+    if node.op == "add":
+        return args[0] + args[1]
+    if node.op == "mul":
+        return args[0] * args[1]
+    if node.op == "div":
+        return args[0] / args[1]
+    return functions[node.op](*args)
+
+
+class Expr:
+    """A value of a graph, with Python operators."""
+
+    __slots__ = ("graph", "ref")
+
+    def __init__(self, graph: Graph, ref: int) -> None:
+        self.graph = graph
+        self.ref = ref
+
+    @property
+    def is_zero(self) -> bool:
+        """True for the structural zero."""
+        return self.ref == 0
+
+    def __add__(self, other: Operand) -> "Expr":
+        return Expr(self.graph, self.graph.add(self.ref, self.graph.lift(other).ref))
+
+    def __sub__(self, other: Operand) -> "Expr":
+        return Expr(self.graph, self.graph.add(self.ref, -self.graph.lift(other).ref))
+
+    def __mul__(self, other: Operand) -> "Expr":
+        return Expr(self.graph, self.graph.mul(self.ref, self.graph.lift(other).ref))
+
+    def __truediv__(self, other: Operand) -> "Expr":
+        return Expr(self.graph, self.graph.div(self.ref, self.graph.lift(other).ref))
+
+    def __neg__(self) -> "Expr":
+        return Expr(self.graph, -self.ref)
+
+    __radd__ = __add__
+    __rmul__ = __mul__
+
+    def __rsub__(self, other: Operand) -> "Expr":
+        return self.graph.lift(other) - self
+
+    def __rtruediv__(self, other: Operand) -> "Expr":
+        return self.graph.lift(other) / self
+
+    def __pow__(self, exponent: "int | Expr") -> "Expr":
+        if isinstance(exponent, Expr):
+            return self.graph.power(self, exponent)
+        if not isinstance(exponent, int):
+            raise TypeError(f"only integer powers, got exponent {exponent!r}")
+        result = self.graph.constant(1)
+        for _ in range(abs(exponent)):
+            result = result * self
+        return result if exponent >= 0 else 1 / result
+
+
+# What the kinematics needs of the numbers it computes with.
+#
+# The recursions are written once with Python operators; an algebra says what a constant, a joint
+# variable and its sine and cosine are: graph expressions, trigonometric polynomials, floats.
+
+
+Scalar = Any
+Vector = list[Scalar]
+"""Three scalars."""
+
+
+class Algebra(Protocol):
+    """Abstract: holds no data."""
+
+    def static(self, value: sympy.Expr) -> Scalar:
+        """A geometric constant."""
+        ...
+
+    def variable(self, row: Row) -> Scalar:
+        """rate * q + offset of a prismatic joint."""
+        ...
+
+    def cos_sin(self, row: Row) -> tuple[Scalar, Scalar]:
+        """Cosine and sine of theta = rate * q + offset."""
+        ...
+
+
+class GraphAlgebra:
+    """Expressions of a graph; its symbols `q[0]`, `qd[0]`, ... are those of the free variables."""
+
+    def __init__(self, graph: Graph, geometry: Geometry) -> None:
+        self.graph = graph
+        self.geometry = geometry
+
+    def static(self, value: sympy.Expr) -> Expr:
+        """A geometric constant as a static expression."""
+        if value.is_Rational:
+            return self.graph.constant(_fraction(value))
+        if value.is_Float:
+            return self.graph.constant(Fraction(repr(float(value))))
+        if value.is_Symbol:
+            return self.graph.symbol(value.name, static=True)
+        if value is sympy.pi:
+            return self.graph.pi()
+        if value is sympy.E:
+            return self.graph.call("exp", self.graph.constant(1))
+        args = [self.static(arg) for arg in value.args]
+        if value.is_Add or value.is_Mul:
+            total = args[0]
+            for arg in args[1:]:
+                total = total + arg if value.is_Add else total * arg
+            return total
+        if value.is_Pow:
+            return self._power(value, args[0])
+        name = value.func.__name__.lower()
+        if name not in FUNCTIONS:
+            raise DerivationError(f"{value}: {name} has no C form; expected {', '.join(FUNCTIONS)}")
+        return self.graph.call(name, args[0])
+
+    def _power(self, value: sympy.Expr, base: Expr) -> Expr:
+        halves = 2 * value.exp
+        if not halves.is_Integer:
+            raise DerivationError(
+                f"{value}: only whole powers and square roots have a C form; give the number"
+            )
+        whole, half = divmod(int(halves), 2)
+        power = base**whole
+        return power * self.graph.call("sqrt", base) if half else power
+
+    def variable(self, row: Row) -> Expr:
+        """rate * q + offset of a prismatic joint."""
+        q = self.combined("q", row)
+        return (q if row.rate > 0 else -q) + self.static(row.r)
+
+    def combined(self, kind: str, row: Row) -> Expr:
+        """The variable of a moving row ("q"), or its derivative ("qd", "qdd")."""
+        assert row.index is not None
+        total = self.graph.constant(0)
+        for k, coefficient in self.geometry.forms[row.index].items():
+            total = total + self.graph.symbol(f"{kind}[{k}]") * coefficient
+        return total
+
+    def cos_sin(self, row: Row) -> tuple[Expr, Expr]:
+        """Cosine and sine of theta; right angles are taken out exactly."""
+        if row.index is None or not row.joint.angular:
+            c, s = cos_sin(row.theta)
+            return self.static(c), self.static(s)
+        q = self.combined("q", row)
+        angle = q if row.rate > 0 else -q
+        quarters = row.theta / (sympy.pi / 2)
+        if not quarters.is_Integer:
+            angle = angle + self.static(row.theta)
+            quarters = sympy.Integer(0)
+        c, s = self.graph.call("cos", angle), self.graph.call("sin", angle)
+        for _ in range(int(quarters) % 4):
+            c, s = -s, c
+        return c, s
+
+
+def _fraction(value: sympy.Rational) -> Fraction:
+    return Fraction(int(value.p), int(value.q))
+
+
+# Derivatives of graph expressions along a direction, by the rules of differentiation.
+
+
+_EVERYWHERE = {"add", "mul", "div", "sin", "cos", "sqrt", "exp", "tan", "tanh"}
+"""Operations that have a derivative wherever they have a value, for our purposes."""
+
+
+def derivatives(values: Sequence[Expr], direction: Mapping[str, Expr]) -> list[Expr]:
+    """d values / ds where each symbol of `direction` moves with that speed; others stand still.
+
+    With speeds 1 and 0 these are partial derivatives; with dq/dt they are time derivatives.
+
+    Raises:
+        DerivationError: a function that has no derivative everywhere (sign, abs).
+    """
+    if not values:
+        return []
+    graph = values[0].graph
+    zero = graph.constant(0)
+    found: dict[int, Expr] = {0: zero}
+    for index in graph.reachable(values):
+        node = graph.nodes[index]
+        if node.op == "sym":
+            found[index] = direction.get(node.args[0], zero)
+        elif node.static:
+            found[index] = zero
+        elif node.op in _EVERYWHERE and not any(found[abs(ref)].ref for ref in node.args):
+            found[index] = zero  # most nodes depend on few symbols
+        else:
+            found[index] = _derivative(index, node, values[0], found)
+    return [found[abs(v.ref)] if v.ref >= 0 else -found[-v.ref] for v in values]
+
+
+def _derivative(index: int, node: Node, like: Expr, found: Mapping[int, Expr]) -> Expr:
+    graph = like.graph
+    args = [Expr(graph, ref) for ref in node.args]
+    slopes = [found[abs(a.ref)] if a.ref >= 0 else -found[-a.ref] for a in args]
+    if node.op == "add":
+        return slopes[0] + slopes[1]
+    if node.op == "mul":
+        return slopes[0] * args[1] + args[0] * slopes[1]
+    value = Expr(graph, index)
+    if node.op == "div":
+        return (slopes[0] - value * slopes[1]) / args[1]
+    rules = {
+        "sin": lambda x: graph.call("cos", x),
+        "cos": lambda x: -graph.call("sin", x),
+        "sqrt": lambda x: 1 / (2 * value),
+        "exp": lambda x: value,
+        "tan": lambda x: 1 + value * value,
+        "tanh": lambda x: 1 - value * value,
+    }
+    if node.op not in _EVERYWHERE:
+        raise DerivationError(f"{node.op} has no derivative everywhere")
+    return rules[node.op](args[0]) * slopes[0]

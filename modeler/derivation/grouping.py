@@ -1,0 +1,316 @@
+"""All relations among the columns, and from them the base parameters."""
+
+import fnmatch
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+import sympy
+
+from modeler.core.errors import DerivationError
+from modeler.derivation.columns import LinkColumn, StandardColumn, in_block, link_column
+from modeler.derivation.elimination import sparse_row_reduce
+from modeler.derivation.field import Element, ExactField
+from modeler.derivation.geometry import Geometry
+from modeler.derivation.loop_relations import closure_relations, loop_relations, on_link
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.result import BaseParameter, Term
+from modeler.derivation.tied import has_energy, tied_relations
+from modeler.derivation.tree import INERTIA, OFFSET, group_tree
+from modeler.effects.effect import EnergyBlock
+from modeler.robot.robot import INERTIAL
+
+# The units of grouping: every inertial parameter of every link, whether the robot has it or not.
+#
+# Relations pass through links that the robot states as massless, and hold for each link of similar
+# legs on its own. So they are found among units, one per row and parameter, and then restricted to
+# the robot's columns: what it does not have is eliminated, and what legs share must occur alike.
+
+
+_OWN = {"rotor_inertia": INERTIA, "offset": OFFSET}
+
+
+@dataclass(frozen=True)
+class Units:
+    """All units of a robot.
+
+    Attributes:
+        columns: one single-row column per unit.
+        owner: by unit, the robot's column that it is a part of; None if the robot has none.
+        places: unit of (row, place among the ten, rotor inertia, offset).
+        standard: number of the robot's columns.
+    """
+
+    columns: tuple[StandardColumn, ...]
+    owner: tuple[int | None, ...]
+    places: Mapping[tuple[int, int], int]
+    standard: int
+
+    def merged(
+        self, rows: Sequence[Mapping[int, Element]]
+    ) -> tuple[list[dict[int, Element]], list[int]]:
+        """Rows over units as rows over columns, with auxiliary ones that have to vanish.
+
+        Returns:
+            Rows over the robot's columns and auxiliary columns; the numbers of these, all above
+            the robot's: coefficients of absent units, and differences within shared parameters.
+        """
+        first: dict[int, int] = {}
+        for unit, column in enumerate(self.owner):
+            if column is not None:
+                first.setdefault(column, unit)
+        found = []
+        for row in rows:
+            new: dict[int, Element] = {}
+            for unit, value in row.items():
+                column = self.owner[unit]
+                if column is not None and first[column] == unit:
+                    new[column] = value
+                    for other in self._others(column, unit):
+                        _add(new, self.standard + other, -value)
+                else:
+                    _add(new, self.standard + unit, value)
+            found.append({place: value for place, value in new.items() if value})
+        used = sorted({place for row in found for place in row if place >= self.standard})
+        return found, used
+
+    def order(self, columns: Sequence[int]) -> list[int]:
+        """Units in the order of the columns that own them, those without owner last."""
+        places = {column: i for i, column in enumerate(columns)}
+        last = len(places)
+        return sorted(
+            range(len(self.owner)),
+            key=lambda unit: last if (own := self.owner[unit]) is None else places[own],
+        )
+
+    def _others(self, column: int, unit: int) -> list[int]:
+        return [u for u in self._parts[column] if u != unit]
+
+    @cached_property
+    def _parts(self) -> dict[int, list[int]]:
+        """The units of each column."""
+        found: dict[int, list[int]] = {}
+        for unit, column in enumerate(self.owner):
+            if column is not None:
+                found.setdefault(column, []).append(unit)
+        return found
+
+
+def _add(row: dict[int, Element], place: int, value: Element) -> None:
+    row[place] = row[place] + value if place in row else value
+
+
+def grouping_units(geometry: Geometry, columns: Sequence[StandardColumn]) -> Units:
+    """The units of a robot with these columns."""
+    found: list[StandardColumn] = []
+    owner: list[int | None] = []
+    places: dict[tuple[int, int], int] = {}
+    for column, standard in enumerate(columns):
+        for part in standard.parts:
+            if isinstance(part, LinkColumn):
+                places[part.row, INERTIAL.index(part.prefix)] = len(found)
+            elif part.effect in _OWN:
+                places[part.row, _OWN[part.effect]] = len(found)
+            found.append(part)
+            owner.append(column)
+    for k, row in enumerate(geometry.rows):
+        if row.index is not None:
+            for i, prefix in enumerate(INERTIAL):
+                if (k, i) not in places:
+                    places[k, i] = len(found)
+                    found.append(link_column(prefix, k, row.joint))
+                    owner.append(None)
+    return Units(tuple(found), tuple(owner), places, len(columns))
+
+
+# Grouping of friction columns: exact, from the speeds of their shafts alone.
+#
+# Viscous columns are dependent iff their Rayleigh functions, sums of v**2, are, which is linear
+# algebra on the products of independent speeds. Coulomb columns are sums of weight * |direction|,
+# where a direction is a speed up to a factor; the functions |v| of different directions are
+# independent, since each has its kink where the others have none. So they are dependent iff their
+# weights are; no sampling of sign() is needed.
+
+
+Relation = dict[int, Fraction]
+"""sum of coefficient * column = 0, by column."""
+
+Shaft = Mapping[int, Fraction]
+"""Speed of a shaft: sum of coefficient * speed of a free variable."""
+
+
+def friction_relations(columns: Sequence[StandardColumn]) -> list[Relation]:
+    """All relations among the viscous and among the Coulomb columns, speeds being independent."""
+    return _dependent(columns, EnergyBlock.RAYLEIGH, squares) + _dependent(
+        columns, EnergyBlock.COULOMB, _direction
+    )
+
+
+def squares(shaft: Shaft) -> dict[Hashable, Fraction]:
+    """v**2 as a polynomial in the speeds: {(i, j): coefficient}, i <= j."""
+    found: dict[Hashable, Fraction] = {}
+    for i, ci in shaft.items():
+        for j, cj in shaft.items():
+            key = (min(i, j), max(i, j))
+            found[key] = found.get(key, Fraction(0)) + ci * cj
+    return found
+
+
+def _direction(shaft: Shaft) -> dict[Hashable, Fraction]:
+    """|v| as {direction: weight}; the direction has the coefficient 1 at its first speed."""
+    first = shaft[min(shaft)]
+    direction = tuple(sorted((k, c / first) for k, c in shaft.items()))
+    return {direction: abs(first)}
+
+
+def _dependent(
+    columns: Sequence[StandardColumn],
+    block: EnergyBlock,
+    function: Callable[[Shaft], dict[Hashable, Fraction]],
+) -> list[Relation]:
+    relations: list[Relation] = []
+    basis: list[tuple[dict[Hashable, Fraction], Relation]] = []
+    for place, column in enumerate(columns):
+        if not in_block(column, block):
+            continue
+        rest: dict[Hashable, Fraction] = {}
+        for part in column.parts:
+            rest = _minus(rest, function(part.shaft), Fraction(-1)) if part.shaft else rest
+        used = {place: Fraction(1)}
+        for known, combination in basis:
+            pivot = next(iter(known))
+            factor = rest.get(pivot, Fraction(0)) / known[pivot]
+            rest = _minus(rest, known, factor)
+            used = _minus(used, combination, factor)
+        if rest:
+            basis.append((rest, used))
+        else:
+            relations.append(used)
+    return relations
+
+
+def _minus(a: Mapping, b: Mapping, factor: Fraction) -> dict:
+    keys = list(a) + [key for key in b if key not in a]
+    found = {key: a.get(key, Fraction(0)) - factor * b.get(key, Fraction(0)) for key in keys}
+    return {key: value for key, value in found.items() if value}
+
+
+# Which parameters are kept first when they group: the user's order, else the table's.
+
+
+def priority_order(names: Sequence[str], patterns: Sequence[str]) -> list[int]:
+    """Columns in the order in which they are kept: those of the patterns first, then the others.
+
+    Raises:
+        DerivationError: a pattern matches no parameter.
+    """
+    order: list[int] = []
+    for pattern in patterns:
+        matching = [i for i, name in enumerate(names) if fnmatch.fnmatchcase(name, pattern)]
+        if not matching:
+            raise DerivationError(
+                f'priority: "{pattern}" matches no parameter; expected names or patterns such as '
+                f'"{names[0]}" or "{names[0][:2]}*"'
+            )
+        order += [i for i in matching if i not in order]
+    return order + [i for i in range(len(names)) if i not in order]
+
+
+@dataclass(frozen=True)
+class Relations:
+    """Every linear relation among the columns, reduced: one row for each column that is not kept.
+
+    Attributes:
+        rows: sum of coefficient * column = 0; the coefficient of the dropped column is 1.
+        dropped: that column of each row.
+        kept: the others, in column order.
+    """
+
+    rows: tuple[dict[int, Element], ...]
+    dropped: tuple[int, ...]
+    kept: tuple[int, ...]
+
+
+def column_relations(
+    model: SymbolicModel, geometry: Geometry, K: ExactField, seed: int
+) -> Relations:
+    """The reduced relations of a robot, first-come by the priority order."""
+    units = grouping_units(geometry, model.columns)
+    order = priority_order(model.names, model.robot.kept_first)
+    if geometry.tied:
+        rows = tied_relations(geometry, units.columns, K, units.order(order), seed)
+    else:
+        rows = _link_relations(geometry, K, units)
+    rows += loop_relations(geometry, K, units.places)
+    rows, auxiliary = units.merged(rows)
+    rows += [
+        {place: K.one * sympy.QQ(c.numerator, c.denominator) for place, c in relation.items()}
+        for relation in friction_relations(model.columns)
+    ]
+    felt = {place for _, place in model.regressor}
+    rows += [
+        {place: K.one}
+        for place, column in enumerate(model.columns)
+        if in_block(column, EnergyBlock.OWN) and place not in felt
+    ]
+    reduced, pivots = sparse_row_reduce(rows, [*auxiliary, *order[::-1]])
+    first = sum(pivot >= len(model.columns) for pivot in pivots)
+    reduced, dropped = reduced[first:], pivots[first:]
+    gone = set(dropped)
+    kept = [place for place in range(len(model.columns)) if place not in gone]
+    return Relations(tuple(reduced), tuple(dropped), tuple(kept))
+
+
+def with_closure_relations(
+    model: SymbolicModel, geometry: Geometry, K: ExactField, relations: Relations, seed: int
+) -> Relations:
+    """The relations, and those among the kept columns that go around whole loops."""
+    order = priority_order(model.names, model.robot.kept_first)
+    kept = [i for i in order if i in relations.kept and has_energy(model.columns[i])]
+    more = closure_relations(geometry, model.columns, K, kept, seed)
+    reduced, dropped = sparse_row_reduce([*relations.rows, *more], order[::-1])
+    left = [i for i in range(len(model.columns)) if i not in set(dropped)]
+    return Relations(tuple(reduced), tuple(dropped), tuple(left))
+
+
+def _link_relations(geometry: Geometry, K: ExactField, units: Units) -> list[dict[int, Element]]:
+    """Relations of a tree whose rows all move freely."""
+    relations = []
+    places = units.places
+    for k, grouping in enumerate(group_tree(geometry, K, places.keys())):
+        if geometry.rows[k].index is None:
+            continue
+        for hidden, moved in zip(grouping.hidden, grouping.moved, strict=True):
+            relation = {places[k, i]: x for i, x in enumerate(hidden) if x}
+            parent, moved = on_link(geometry, K, geometry.rows[k].parent, moved)
+            if parent is not None:
+                for i, x in enumerate(moved):
+                    if x:
+                        relation[places[parent, i]] = -x
+            relations.append(relation)
+    return relations
+
+
+def base_from_relations(
+    columns: Sequence[StandardColumn], relations: Relations, K: ExactField
+) -> tuple[tuple[BaseParameter, ...], tuple[str, ...]]:
+    """Base parameters with their terms, and the parameters without effect.
+
+    A relation col_d + sum r_b col_b = 0 gives beta_b = chi_b - r_b chi_d.
+    """
+    terms: dict[int, list[Term]] = {
+        b: [Term(sympy.Integer(1), columns[b].name)] for b in relations.kept
+    }
+    unidentifiable = []
+    for place, row in sorted(zip(relations.dropped, relations.rows, strict=True)):
+        if len(row) == 1:
+            unidentifiable.append(columns[place].name)
+        for b, coefficient in row.items():
+            if b != place:
+                terms[b].append(Term(K.expression(-coefficient), columns[place].name))
+    parameters = [
+        BaseParameter(columns[b].name + ("R" if len(found) > 1 else ""), b, tuple(found))
+        for b, found in terms.items()
+    ]
+    return tuple(parameters), tuple(unidentifiable)

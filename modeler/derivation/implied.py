@@ -1,0 +1,425 @@
+"""The constant of a linear relation between joints, as a combination of the robot's symbols.
+
+u_p = sum c_k u_k + constant. How the constant depends on a symbol is seen by closing the loops anew
+with a slightly different value of it: the derivative is a rational number, of a length also a
+rational multiple of the cosine or sine of an angle. What is left is a multiple of pi/12, a short
+decimal number of the table, or both. This only proposes; `modeler.derivation.implied` proves.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from modeler.core.expression import FUNCTIONS, Expression, parse
+from modeler.core.rounded import precise
+from modeler.derivation.closed_states import closed_motion, closed_walk, closing_of
+from modeler.derivation.closing import Closing
+from modeler.derivation.closure import Closure
+from modeler.derivation.graph import Graph
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.precise import Number, decimal, precise_values
+from modeler.robot.robot import Robot
+
+Term = tuple[Fraction, str]
+"""factor * text."""
+
+_SAME_CONSTANT = 1e-9
+_STEP = 1e-4
+_NEAR = 0.1
+_ITERATIONS = 5
+_SLOPE = 1e-6
+_LARGEST_CONSTANT_DENOMINATOR = 4
+_SHARES = [Fraction(sign * n, d) for n, d in ((1, 1), (2, 1), (1, 2)) for sign in (1, -1)]
+_DECIMALS = 10
+_EXACT = 1e-13
+"""Home is polished to the digits of a double."""
+_TWELFTHS = 24
+
+
+class Constants:
+    """Constants of relations of one robot at its home."""
+
+    def __init__(self, closing: Closing, home: np.ndarray, derived: Mapping[str, float]) -> None:
+        """Constants at a closed posture.
+
+        Args:
+            closing: the independent equations of the robot's loops, which say its symbols.
+            home: the posture.
+            derived: values of symbols that are given by expressions of others.
+        """
+        self.closing, self.home, self.derived = closing, home, derived
+        self._moved: dict[str, np.ndarray] | None = None
+
+    def terms(self, coefficients: np.ndarray, angular: bool) -> list[Term] | None:
+        """The constant coefficients . home as a sum of terms; None where none is found.
+
+        Args:
+            coefficients: by variable: 1 for the one that follows, -c_k for the others.
+            angular: True for an angle, False for a travel.
+        """
+        value = float(coefficients @ self.home)
+        terms = list(self._slopes(coefficients, angular))
+        left = value - sum(float(c) * self._value(text) for c, text in terms)
+        rest = _turns(left, angular)
+        if rest is not None:
+            return [*terms, *rest]
+        derived = self._of_derived(value, angular)
+        if derived is not None:
+            return derived
+        rest = _with_decimal(left, angular)
+        return None if rest is None else [*terms, *rest]
+
+    def _of_derived(self, value: float, angular: bool) -> list[Term] | None:
+        """The constant by one symbol that is no combination of the others: w = sqrt(v)."""
+        for name, size in self.derived.items():
+            for share in _SHARES:
+                rest = _turns(value - float(share) * size, angular)
+                if rest is not None:
+                    return [(share, name), *rest]
+        return None
+
+    def _slopes(self, coefficients: np.ndarray, angular: bool) -> Iterator[Term]:
+        """The symbols on which the constant depends."""
+        for name, moved in self._perturbed().items():
+            change = float(coefficients @ (moved - self.home)) / _STEP
+            for factor, size in self._factors(name, angular):
+                if abs(size) > _STEP:
+                    share = Fraction(change / size).limit_denominator(_LARGEST_CONSTANT_DENOMINATOR)
+                    if abs(float(share) * size - change) < _SLOPE:
+                        if share:
+                            yield share, f"{name}{factor}"
+                        break
+
+    def _factors(self, name: str, angular: bool) -> Iterator[tuple[str, float]]:
+        """What a symbol may be multiplied by: text and value."""
+        yield "", 1.0
+        if not angular:
+            for other, value in self.closing.values.items():
+                if other not in (name, "g"):
+                    yield f"*cos({other})", math.cos(value)
+                    yield f"*sin({other})", math.sin(value)
+
+    def _value(self, text: str) -> float:
+        name, _, factor = text.partition("*")
+        value = float(self.closing.values[name])
+        if not factor:
+            return value
+        function, other = factor[:3], factor[4:-1]
+        return value * getattr(math, function)(self.closing.values[other])
+
+    def _perturbed(self) -> Mapping[str, np.ndarray]:
+        """By symbol, home closed anew with another value of it; where it does not, left out."""
+        if self._moved is None:
+            names, closing = list(self.closing.values), self.closing
+            with np.errstate(all="ignore"):  # the root of a length that became negative
+                moved = self._closed_anew(names)
+            far = np.abs(moved - self.home) / closing.scale
+            near = np.max(far, axis=1, initial=0.0) < _NEAR
+            self._moved = {
+                name: u for name, u, good in zip(names, moved, near, strict=True) if good
+            }
+        return self._moved
+
+    def _closed_anew(self, names: Sequence[str]) -> np.ndarray:
+        """(names, unknowns): Newton from home, one sample for each symbol."""
+        closing, count = self.closing, len(names)
+        values: dict[str, Any] = {n: np.full(count, self.closing.values[n]) for n in names}
+        for i, name in enumerate(names):
+            values[name][i] += _STEP
+        moved = replace(closing, values=values)
+        u = np.tile(self.home, (count, 1))
+        solved = list(closing.solved)
+        for _ in range(_ITERATIONS):
+            inner, open_by = moved.jacobians(u)[:, :, solved], moved.residuals(u)
+            u[:, solved] -= np.linalg.solve(inner, open_by[:, :, None])[:, :, 0]
+        return u
+
+
+def _turns(value: float, angular: bool) -> list[Term] | None:
+    """A multiple of pi/12 for an angle, nothing for a travel."""
+    twelfths = round(value / (math.pi / 12)) if angular else 0
+    if abs(value - twelfths * math.pi / 12) > _SAME_CONSTANT:
+        return None
+    return [(Fraction(twelfths, 12), "pi")]
+
+
+def _with_decimal(value: float, angular: bool) -> list[Term] | None:
+    """A short decimal number, with a multiple of pi/12 for an angle."""
+    most = _TWELFTHS if angular else 0
+    for size in sorted(range(-most, most + 1), key=abs):
+        rest = value - size * math.pi / 12
+        short = round(rest, _DECIMALS)
+        if abs(rest - short) < _EXACT:
+            return [(Fraction(size, 12), "pi"), (Fraction(repr(short)), "")]
+    return None
+
+
+# Whether loops imply linear relations: a proof, in letters or at the given values.
+#
+# Let f(u) = 0 be r independent closure equations with a regular home u0, so that the closed
+# postures near u0 are a manifold V of dimension n - r. Let L be the postures that fulfil k linear
+# relations, u0 among them. If the functions f restricted to L span a space of dimension r - k only,
+# then r - k of them cut out of L (dimension n - k) a set of dimension n - r or more through u0, on
+# which the others vanish too: it lies in V and has the dimension of V, so the two coincide near u0,
+# and, both being analytic, on the whole branch of closed postures that is connected with u0. So
+# every relation holds there. (A parallelogram: both equations vanish identically, r - k = 0.)
+#
+# The dimension of the span is a rank of exact functions: values with 40 digits at random postures
+# of L, and at random lengths and angles where the relations are to hold in letters. What is of
+# lower rank there to 25 digits is so identically.
+
+
+_PROOF_SEED = 47
+_SPARE = 3
+_DIGITS = 25
+_MOST_TRIES = 64
+_CHANGE = 0.1
+"""Relative, of lengths and angles where a relation is to hold in letters."""
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A relation to be proven: the variable `pivot` of u equals `expression` of the others."""
+
+    pivot: int
+    expression: Expression
+
+
+class Prover:
+    """Tells which relations the loops of a robot imply on the branch of home."""
+
+    def __init__(
+        self, closure: Closure, graph: Graph, robot: Robot, values: Mapping[str, float]
+    ) -> None:
+        """A prover for the loops of a robot.
+
+        Args:
+            closure: the loops.
+            graph: of their equations.
+            robot: whose symbols and variables the relations name.
+            values: of the geometric symbols of the equations.
+        """
+        self.closure, self.graph, self.robot, self.values = closure, graph, robot, values
+
+    def proves(self, relations: Sequence[Proposal], letters: bool) -> bool:
+        """True if the loops imply all these relations together.
+
+        Args:
+            relations: that home fulfils.
+            letters: True for all lengths and angles, False for the given ones only.
+        """
+        rng = np.random.default_rng(_PROOF_SEED)
+        geometry = self._symbols(rng, letters)
+        left = len(self.closure.equations) - len(relations)
+        rows = []
+        for _ in range(left + _SPARE):
+            at = {**geometry, **self._posture(relations, rng, geometry)}
+            rows.append(precise_values(self.graph, self.closure.equations, at))
+        return _rank(rows) <= left
+
+    def _symbols(self, rng: np.random.Generator, letters: bool) -> dict[str, Number]:
+        """Numbers for all symbols: as given, or random near that."""
+        known: dict[str, Number] = {}
+        for name, expression in self.robot.symbols.items():
+            if name in self.values:
+                change = float(rng.uniform(-_CHANGE, _CHANGE)) if letters else 0.0
+                known[name] = decimal(self.values[name]) * (1 + decimal(change))
+            else:
+                known[name] = _folded(expression, known)
+        return known
+
+    def _posture(
+        self,
+        relations: Sequence[Proposal],
+        rng: np.random.Generator,
+        geometry: Mapping[str, Number],
+    ) -> dict[str, Number]:
+        """Random values of `q[k]` that fulfil the relations."""
+        u = [
+            decimal(float(at + rng.uniform(-1.0, 1.0) * (self.closure.size if length else 1.0)))
+            for at, length in zip(self.closure.home, self.closure.lengths, strict=True)
+        ]
+        names = [joint.variable for joint in self.robot.free]
+        known = {**geometry, **dict(zip(names, u, strict=True))}
+        for relation in relations:
+            u[relation.pivot] = _folded(relation.expression, known)
+        return {f"q[{k}]": value for k, value in enumerate(u)}
+
+
+def _folded(expression: Expression, known: Mapping[str, Number]) -> Number:
+    mp = precise()
+    functions = {name: getattr(mp, name) for name in FUNCTIONS if name != "abs"} | {"abs": abs}
+    return expression.fold(known, functions, +mp.pi, _number, mp.power)
+
+
+def _number(value: Fraction) -> Number:
+    return precise().mpf(value.numerator) / value.denominator
+
+
+def _rank(rows: Sequence[Sequence[Number]]) -> int:
+    """Rank of a matrix of numbers of 40 digits, each column counted relative to its largest."""
+    mp = precise()
+    matrix = [list(row) for row in rows]
+    nothing = mp.mpf(10) ** -_DIGITS
+    rank = 0
+    for column in range(len(matrix[0])):
+        below = matrix[rank:]
+        if not below:
+            break
+        best = max(range(len(below)), key=lambda i: abs(below[i][column]))
+        if abs(below[best][column]) < nothing:
+            continue
+        matrix[rank], matrix[rank + best] = matrix[rank + best], matrix[rank]
+        pivot = matrix[rank]
+        for i in range(rank + 1, len(matrix)):
+            factor = matrix[i][column] / pivot[column]
+            matrix[i] = [x - factor * y for x, y in zip(matrix[i], pivot, strict=True)]
+        rank += 1
+    return rank
+
+
+def largest_proven(
+    prover: Prover, relations: Sequence[Proposal], letters: bool
+) -> tuple[Proposal, ...]:
+    """The largest set of the relations that is proven; sets are tried from the largest down."""
+    tries = 0
+    for size in range(len(relations), 0, -1):
+        for chosen in combinations(relations, size):
+            if prover.proves(chosen, letters):
+                return chosen
+            tries += 1
+            if tries == _MOST_TRIES:
+                return ()
+    return ()
+
+
+# Linear relations between joints that loops imply, as a parallelogram does.
+#
+# A variable that the loops tie to others by constant rational coefficients (q7 = q3, q5 = -q2 -
+# pi/2) is better stated than solved for: the model gets simpler, its C faster and its grouping
+# exact. Found as combinations of speeds that vanish at many closed postures over the reachable
+# range; their constants as combinations of the robot's symbols; used only where they are proven
+# (`modeler.derivation.implied`): in letters, or at the given values where only these make the
+# loops close (two bars of the same length by two symbols).
+
+
+_POSTURES = 16
+_SEED = 31
+_TOLERANCE = 1e-9
+_LARGEST_DENOMINATOR = 24
+_SAME = 1e-7
+
+
+@dataclass(frozen=True)
+class Implied:
+    """Relations that the loops of a robot imply.
+
+    Attributes:
+        relations: joint -> its variable, proven.
+        special: joints among them whose relations hold at the given lengths and angles only.
+        unproven: joints that seemed to follow others by a relation that was not proven; not used.
+    """
+
+    relations: Mapping[str, Expression] = field(default_factory=dict)
+    special: tuple[str, ...] = ()
+    unproven: tuple[str, ...] = ()
+
+
+def implied_relations(model: SymbolicModel) -> Implied:
+    """The relations that the loops of a robot imply."""
+    closure, robot = model.closure, model.robot
+    assert closure is not None
+    names = [joint.name for joint in robot.free]
+    seen, proposals = [], []
+    values = model.geometry.values
+    derived = {n: x for n, x in robot.symbol_values().items() if n not in values}
+    constants = Constants(closing_of(model), np.array(closure.home), derived)
+    for row, pivot in _vanishing_rows(model):
+        seen.append(names[pivot])
+        terms = _terms(robot, row, pivot, constants)
+        if terms is not None:
+            proposals.append(Proposal(pivot, parse(_sum_text(terms))))
+    if not seen:
+        return Implied()
+    prover = Prover(closure, model.graph, robot, values)
+    proven = general = largest_proven(prover, proposals, letters=True)
+    if len(general) < len(proposals):
+        at_values = largest_proven(prover, proposals, letters=False)
+        proven = at_values if len(at_values) > len(general) else general
+    found = {names[relation.pivot]: relation.expression for relation in proven}
+    special = tuple(names[r.pivot] for r in proven if r not in general)
+    return Implied(found, special, tuple(name for name in seen if name not in found))
+
+
+def _vanishing_rows(model: SymbolicModel) -> list[tuple[np.ndarray, int]]:
+    """Combinations of speeds that vanish, each with the variable that it is solved for."""
+    closure = model.closure
+    assert closure is not None
+    u = closed_walk(model, _POSTURES, np.random.default_rng(_SEED)).postures
+    G = closed_motion(model, u, np.zeros((len(u), len(closure.given)))).coupling
+    speeds = np.concatenate(list(G), axis=1)  # (len(u), postures * len(q))
+    rows = _reduced(_left_null_space(speeds), closure.solved)
+    home = np.array(closure.home)
+    return [(row, pivot) for row, pivot in rows if np.max(np.abs((u - home) @ row)) < _SAME]
+
+
+def _left_null_space(matrix: np.ndarray) -> np.ndarray:
+    left, singular, _ = np.linalg.svd(matrix, full_matrices=True)
+    rank = int(np.sum(singular > _TOLERANCE * singular[0]))
+    return left[:, rank:].T
+
+
+def _reduced(rows: np.ndarray, solved: Sequence[int]) -> list[tuple[np.ndarray, int]]:
+    """Reduced rows with their pivots: late variables follow early ones, never the actuated."""
+    rows = rows.copy()
+    pivots: list[int] = []
+    for column in sorted(solved, reverse=True):
+        done = len(pivots)
+        if done == len(rows):
+            break
+        best = done + int(np.argmax(np.abs(rows[done:, column])))
+        if abs(rows[best, column]) < 1e-6:
+            continue
+        rows[[done, best]] = rows[[best, done]]
+        rows[done] /= rows[done, column]
+        for other in range(len(rows)):
+            if other != done:
+                rows[other] -= rows[other, column] * rows[done]
+        pivots.append(column)
+    return [(rows[i], pivot) for i, pivot in enumerate(pivots)]
+
+
+def _terms(robot: Robot, row: np.ndarray, pivot: int, constants: Constants) -> list[Term] | None:
+    """The right side of the relation, None where it is not one of simple numbers."""
+    free = robot.free
+    terms: list[Term] = []
+    exact = np.zeros(len(row))
+    exact[pivot] = 1.0
+    for k, value in enumerate(row):
+        if k == pivot or abs(value) < _TOLERANCE:
+            continue
+        factor = Fraction(-value).limit_denominator(_LARGEST_DENOMINATOR)
+        if abs(float(factor) + value) > _TOLERANCE or free[k].angular != free[pivot].angular:
+            return None
+        terms.append((factor, free[k].variable))
+        exact[k] = -float(factor)
+    constant = constants.terms(exact, free[pivot].angular)
+    return None if constant is None else [*terms, *constant]
+
+
+def _sum_text(terms: Sequence[Term]) -> str:
+    """`-q2 + q7 + pi/2`; a term without name is a number."""
+    text = ""
+    for factor, name in terms:
+        size = abs(factor)
+        if size:
+            over = f"/{size.denominator}" if size.denominator > 1 else ""
+            times = f"{size.numerator}*" if size.numerator > 1 and name else ""
+            sign = ("-" if factor < 0 else "") if not text else (" - " if factor < 0 else " + ")
+            text += f"{sign}{times}{name}{over}" if name else f"{sign}{size.numerator}{over}"
+    return text or "0"

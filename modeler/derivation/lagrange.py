@@ -1,0 +1,155 @@
+"""The second opinion: torques from energies, by automatic differentiation.
+
+Own kinematics (homogeneous transformations in the base frame), own equations (Lagrange), own
+expression system (CasADi): nothing here is shared with the Newton-Euler recursion but the table.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import casadi
+import numpy as np
+import sympy
+
+from modeler.derivation.closed_states import closed_motion
+from modeler.derivation.columns import LinkColumn
+from modeler.derivation.geometry import Geometry
+from modeler.derivation.model import SymbolicModel
+from modeler.robot.robot import INERTIAL
+
+
+@dataclass(frozen=True)
+class LagrangeModel:
+    """Torques of the rigid links from kinetic and potential energy.
+
+    tau = d/dt (dT/dqd) - dT/dq + dU/dq with T = 1/2 qd' M qd, which is M qdd + C qd + dU/dq; the
+    Coriolis and centripetal part is the Jacobian of dT/dqd times qd, minus dT/dq.
+    """
+
+    joints: int
+    parameters: tuple[tuple[int, str], ...]  # (row, prefix) of each entry of chi
+    function: casadi.Function  # (q, qd, qdd, chi) -> tau
+
+    def torque(self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, chi: np.ndarray) -> np.ndarray:
+        """(samples, joints) torques; q, qd, qdd (samples, joints), chi (10 links,)."""
+        many = self.function.map(len(q))
+        repeated = np.repeat(np.asarray(chi)[:, None], len(q), axis=1)
+        return np.array(many(q.T, qd.T, qdd.T, repeated)).T
+
+
+def lagrange_model(geometry: Geometry) -> LagrangeModel:
+    """Build it from the exact table at the nominal geometry."""
+    n = geometry.joints
+    q, qd, qdd = (casadi.SX.sym(name, n) for name in ("q", "qd", "qdd"))
+    parameters = tuple(
+        (k, prefix)
+        for k, row in enumerate(geometry.rows)
+        if row.index is not None
+        for prefix in INERTIAL
+    )
+    chi = casadi.SX.sym("chi", len(parameters))
+    transforms = _base_transforms(geometry, q)
+    T, U = casadi.SX(0), casadi.SX(0)
+    gravity = casadi.SX([_number(entry, geometry.values) for entry in geometry.gravity])
+    for link, k in enumerate(dict.fromkeys(k for k, _ in parameters)):
+        J, MS, M = _inertia(chi[10 * link : 10 * link + 10])
+        R, p = transforms[k][:3, :3], transforms[k][:3, 3]
+        w, v = _velocities(R, p, q, qd)
+        T += 0.5 * (w.T @ J @ w + M * v.T @ v) + casadi.dot(v, casadi.cross(w, MS))
+        U -= casadi.dot(gravity, M * p + R @ MS)
+    momentum = casadi.gradient(T, qd)
+    tau = (
+        casadi.jtimes(momentum, qd, qdd)
+        + casadi.jtimes(momentum, q, qd)
+        - casadi.gradient(T, q)
+        + casadi.gradient(U, q)
+    )
+    return LagrangeModel(n, parameters, casadi.Function("tau", [q, qd, qdd, chi], [tau]))
+
+
+def _number(value: sympy.Expr, values: Mapping[str, float]) -> float:
+    return float(value.subs({symbol: values[symbol.name] for symbol in value.free_symbols}))
+
+
+def _base_transforms(geometry: Geometry, q: casadi.SX) -> list[casadi.SX]:
+    found: list[casadi.SX] = []
+    for row in geometry.rows:
+        entries = {
+            name: casadi.SX(_number(getattr(row, name), geometry.values))
+            for name in ("gamma", "b", "alpha", "d", "theta", "r")
+        }
+        if row.index is not None:
+            moving = "theta" if row.joint.angular else "r"
+            entries[moving] += row.rate * q[row.index]
+        T = casadi.SX.eye(4) if row.parent is None else found[row.parent]
+        T = T @ _turn(2, entries["gamma"]) @ _shift(2, entries["b"])
+        T = T @ _turn(0, entries["alpha"]) @ _shift(0, entries["d"])
+        found.append(T @ _turn(2, entries["theta"]) @ _shift(2, entries["r"]))
+    return found
+
+
+def _turn(axis: int, angle: casadi.SX) -> casadi.SX:
+    T = casadi.SX.eye(4)
+    i, j = ((1, 2), (2, 0), (0, 1))[axis]
+    c, s = casadi.cos(angle), casadi.sin(angle)
+    T[i, i], T[j, j], T[i, j], T[j, i] = c, c, -s, s
+    return T
+
+
+def _shift(axis: int, length: casadi.SX) -> casadi.SX:
+    T = casadi.SX.eye(4)
+    T[axis, 3] = length
+    return T
+
+
+def _inertia(chi: casadi.SX) -> tuple[casadi.SX, casadi.SX, casadi.SX]:
+    XX, XY, XZ, YY, YZ, ZZ = (chi[i] for i in range(6))
+    rows: Sequence[Sequence[casadi.SX]] = ((XX, XY, XZ), (XY, YY, YZ), (XZ, YZ, ZZ))
+    return casadi.vertcat(*(casadi.horzcat(*row) for row in rows)), chi[6:9], chi[9]
+
+
+def _velocities(
+    R: casadi.SX, p: casadi.SX, q: casadi.SX, qd: casadi.SX
+) -> tuple[casadi.SX, casadi.SX]:
+    """Angular and linear velocity of a frame, in the frame: from d/dt of R and p."""
+    Rd = casadi.reshape(casadi.jtimes(casadi.vec(R), q, qd), 3, 3)
+    W = R.T @ Rd
+    w = casadi.vertcat(W[2, 1], W[0, 2], W[1, 0])
+    return w, R.T @ casadi.jtimes(p, q, qd)
+
+
+# Torques of the links by Lagrange, for any robot: tied joints and loops included.
+
+
+def lagrange_torque(
+    model: SymbolicModel, u: np.ndarray, ud: np.ndarray, udd: np.ndarray, chi: np.ndarray
+) -> np.ndarray:
+    """(n, coordinates) torques of the links with the standard parameters chi; effects are left out.
+
+    Equations of Lagrange of the opened tree, whose rows move by q_t = F u; projected by F, and
+    where there are loops by the coupling G.
+
+    Args:
+        model: of any robot.
+        u: (n, free variables) closed postures.
+        ud: speeds that the loops allow.
+        udd: accelerations that the loops allow.
+        chi: (columns,) standard parameters.
+    """
+    geometry = model.geometry
+    tree = lagrange_model(geometry)
+    values: dict[tuple[int, str], float] = {}
+    for column, value in zip(model.columns, chi, strict=True):
+        if isinstance(column, LinkColumn):
+            for part in column.parts:
+                values[part.row, part.prefix] = value
+    links = np.array([values.get(at, 0.0) for at in tree.parameters])
+    F = np.zeros((geometry.joints, geometry.coordinates))
+    for row, form in enumerate(geometry.forms):
+        for k, coefficient in form.items():
+            F[row, k] = float(coefficient)
+    tau = tree.torque(u @ F.T, ud @ F.T, udd @ F.T, links) @ F
+    if model.closure is None:
+        return tau
+    none = np.zeros((len(u), len(model.closure.given)))
+    return np.einsum("nij,ni->nj", closed_motion(model, u, none).coupling, tau)

@@ -1,0 +1,258 @@
+"""Relations whose energies are multiples of the closure equations.
+
+Where a joint closes a loop, components of the difference of two speeds vanish in every motion that
+the loop allows, and with them every product of such a component and a speed of the opened tree. So
+a combination of parameters whose energy rows are, in the opened tree, sums of such products
+
+    2T = sum a_ijk x_i w_jk + sum b_ijk x_i v_jk,   P = sum c_ij x_i g_j
+
+has no effect once the loop is closed. Here x_i are the components that vanish, w_k and v_k belong
+to the bodies k of the loop, and a, b, c are constants; all vectors have the axes of one body. Of
+frames A and B that meet, with angular velocities wA and wB, origins at pA and pB and velocities vA
+and vB of these, vanish
+
+    all of vB - vA, where the joint keeps the origins in one point;
+    else, of vB - vA - wA x (pB - pA), what is across the axis along which the frames slide, or
+    along the axis across which they slide; by axes of A;
+    wB - wA where the frames do not turn, else what of it is across the axis about which they do;
+
+and the same with A and B exchanged. What vanishes altogether has the axes of the body that both
+sides of the loop come from.
+
+An example are the products of inertia of the bars of a planar four-bar that swings as a whole: a
+vector s fixed to each bar, XZ and YZ of each its components, adds 2 W.(e x ds/dt) to 2T, with the
+swing W and the axes' direction e; the vectors of a closed polygon sum to a constant. Another is a
+body on a cylindrical joint of the base: it turns about one axis only. Relations of one joint stand
+below; these go around the loop, and are looked for where the torques tell that some are missing.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from modeler.derivation.certificate import (
+    ModularState,
+    Residues,
+    cross,
+    filled,
+    in_axes,
+    minus,
+    plus,
+)
+from modeler.derivation.columns import StandardColumn
+from modeler.derivation.elimination import TooLarge
+from modeler.derivation.field import Element, ExactField
+from modeler.derivation.geometry import Geometry
+from modeler.derivation.tied import dependent_columns
+from modeler.derivation.transfer import joint_constant, placement, transferred
+from modeler.robot.robot import INERTIAL
+
+_ALL, _ACROSS, _ALONG, _NONE = (0, 1, 2), (0, 1), (2,), ()
+_VANISHING: Mapping[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
+    "position": (_ALL, _NONE),
+    "spherical": (_ALL, _NONE),
+    "universal": (_ALL, _NONE),
+    "revolute": (_ALL, _ACROSS),
+    "cylindrical": (_ACROSS, _ACROSS),
+    "planar": (_ALONG, _ACROSS),
+    "prismatic": (_ACROSS, _ALL),
+    "rigid": (_ALL, _ALL),
+}
+"""By kind of joint: components of the difference of velocities, and of angular velocities, that
+vanish; by axes of the frames that meet."""
+
+_POINTS = 4
+_MOST = 800
+"""Columns of which relations are looked for; with more, elimination takes minutes."""
+
+
+def closure_relations(
+    geometry: Geometry,
+    columns: Sequence[StandardColumn],
+    K: ExactField,
+    order: Sequence[int],
+    seed: int,
+) -> list[dict[int, Element]]:
+    """Relations among the columns of `order` that products of the closure equations make.
+
+    Args:
+        geometry: the table.
+        columns: all of the robot.
+        K: the field of the geometry.
+        order: columns that are independent in the opened tree, in the order of keeping.
+        seed: of the random points.
+
+    Raises:
+        TooLarge: a coefficient is no short quotient of polynomials, or has long numbers.
+    """
+    products = _Products(geometry, columns)
+    first = products.different(K, seed)
+    if len(first) + len(order) > _MOST:
+        raise TooLarge(f"relations around the loops are among more than {_MOST} functions")
+    return dependent_columns(geometry, products, K, [*first, *order], set(order), seed)
+
+
+class _Products:
+    """Energy rows of the columns, followed by those of the products of every loop."""
+
+    def __init__(self, geometry: Geometry, columns: Sequence[StandardColumn]) -> None:
+        self.columns, self.geometry = columns, geometry
+        places = {joint.name: k for k, joint in enumerate(geometry.robot.joints)}
+        self.loops = [
+            _Around(geometry, places.get(loop.frame), places.get(loop.meets), loop.kind)
+            for loop in geometry.robot.loops
+        ]
+
+    def different(self, K: ExactField, seed: int) -> list[int]:
+        """Numbers of the products that are not zero, nor equal to one before."""
+        state = ModularState(self.geometry, K, _POINTS, seed)
+        known = {bytes(2 * 8 * _POINTS)}
+        found = []
+        for number, product in enumerate(self._products(state), len(self.columns)):
+            value = product.tobytes()
+            if value not in known:
+                known.add(value)
+                found.append(number)
+        return found
+
+    def rows(self, state: ModularState, places: Sequence[int]) -> np.ndarray:
+        """(2 points, places): rows of 2T, then of the power of gravity."""
+        count = len(self.columns)
+        own = [place for place in places if place < count]
+        found = dict(zip(own, state.energy_rows([self.columns[i] for i in own]).T, strict=True))
+        if len(own) < len(places):
+            found |= dict(enumerate(self._products(state), count))
+        return np.stack([found[place] for place in places], axis=1)
+
+    def _products(self, state: ModularState) -> list[Residues]:
+        return [product for loop in self.loops for product in loop.products(state)]
+
+
+class _Around:
+    """One loop: the rows where it closes, and the bodies on its way."""
+
+    def __init__(self, geometry: Geometry, one: int | None, other: int | None, kind: str) -> None:
+        """For the numbers of the rows that meet; None is the base."""
+        self.ends, self.vanishing = (one, other), _VANISHING[kind]
+        sides = [[] if end is None else geometry.ancestors(end) for end in self.ends]
+        in_common = [k for k in sides[0] if k in sides[1]]
+        self.root = in_common[0] if in_common else None
+        way = [k for side in sides for k in side if k not in in_common]
+        self.bodies = [
+            k
+            for k in dict.fromkeys([*in_common[:1], *way])
+            if geometry.rows[k].index is not None or k == self.root
+        ]
+
+    def products(self, state: ModularState) -> list[Residues]:
+        """(2 points,) each: what vanishes by w and v of the bodies, and by gravity."""
+        nothing = filled(0, state.points, state.prime)
+        found = []
+        for end, vanishing in self._zeros(state):
+            for k in self.bodies:
+                for vector in state.motion[k][2:]:
+                    for y in _turned(state, end, vector):
+                        product = [x * y % state.prime for x in vanishing]
+                        found += [np.concatenate([value, nothing]) for value in product]
+            for y in _turned(state, end, state.gravity):
+                found += [np.concatenate([nothing, x * y % state.prime]) for x in vanishing]
+        return found
+
+    def _zeros(self, state: ModularState) -> list[tuple[int | None, list[Residues]]]:
+        """Rows in whose axes components vanish, and these: velocities, then angular velocities."""
+        found = []
+        for place, along in enumerate(self.vanishing):
+            if along == _ALL:
+                vector = self._difference(state, self.ends)[place]
+                found.append((self.root, _turned(state, self.root, vector)))
+            elif along:
+                for ends in (self.ends, self.ends[::-1]):
+                    vector = self._difference(state, ends, apart=True)[place]
+                    axes = _turned(state, ends[0], vector)
+                    found.append((ends[0], [axes[i] for i in along]))
+        return found
+
+    def _difference(
+        self, state: ModularState, ends: Sequence[int | None], apart: bool = False
+    ) -> tuple[list[Residues], list[Residues]]:
+        """Of the second end from the first: velocity and angular velocity.
+
+        If they are apart, the first velocity is that of its body where the second origin is.
+        """
+        prime = state.prime
+        nothing = [filled(0, state.points, prime)] * 3
+        (p, w, v), (p_other, w_other, v_other) = (
+            (nothing,) * 3 if end is None else state.motion[end][1:] for end in ends
+        )
+        if apart:
+            v = plus(v, cross(w, minus(p_other, p, prime), prime), prime)
+        return minus(v_other, v, prime), minus(w_other, w, prime)
+
+
+def _turned(state: ModularState, row: int | None, vector: list[Residues]) -> list[Residues]:
+    """A vector in the axes of a row; None is the base."""
+    return vector if row is None else in_axes(state.motion[row][0], vector, state.prime)
+
+
+# Relations that closing a loop creates.
+#
+# Where two frames meet in a joint, whatever body moves with one of them as it does with the other
+# may be counted to either side. Of a rigid joint that is every body; of a spherical one a point
+# mass at its centre; of a revolute one also a point mass anywhere on its axis and a rotor about
+# it, which are M, MZ and XX + YY at the meeting frames. These are exact statements on the
+# parameters of the two links that carry the frames; that there are no others is what the rank of
+# the torques tells.
+
+
+_POINT: tuple[tuple[str, ...], ...] = (("M",),)
+_ROUND = ("XX", "YY")
+_COMMON: Mapping[str, tuple[tuple[str, ...], ...]] = {
+    "position": _POINT,
+    "spherical": _POINT,
+    "universal": _POINT,
+    "revolute": (("M",), ("MZ",), _ROUND),
+    "cylindrical": (_ROUND,),
+    "planar": (_ROUND,),
+    "prismatic": tuple((name,) for name in INERTIAL[:6]),
+    "rigid": tuple((name,) for name in INERTIAL),
+}
+"""Bodies at the meeting frames that move alike with both: parameters that are 1."""
+
+
+def loop_relations(
+    geometry: Geometry, K: ExactField, places: Mapping[tuple[int, int], int]
+) -> list[dict[int, Element]]:
+    """Relations among the units (see `modeler.derivation.grouping`) that the loops create.
+
+    Args:
+        geometry: the table.
+        K: its field.
+        places: unit of (row, place among the ten inertial parameters).
+    """
+    names = {joint.name: k for k, joint in enumerate(geometry.robot.joints)}
+    relations = []
+    for loop in geometry.robot.loops:
+        for body in _COMMON[loop.kind]:
+            vector = [K.one if prefix in body else K.zero for prefix in INERTIAL]
+            relation: dict[int, Element] = {}
+            for frame, sign in ((loop.frame, 1), (loop.meets, -1)):
+                row, moved = on_link(geometry, K, names.get(frame), list(vector))
+                if row is None:
+                    continue
+                for i, value in enumerate(moved):
+                    unit = places[row, i]
+                    relation[unit] = relation.get(unit, K.zero) + sign * value
+            relations.append({unit: value for unit, value in relation.items() if value})
+    return relations
+
+
+def on_link(
+    geometry: Geometry, K: ExactField, row: int | None, parameters: list[Element]
+) -> tuple[int | None, list[Element]]:
+    """The link that carries a body fixed to frame `row` (None: the base), and its parameters."""
+    rows = geometry.rows
+    while row is not None and rows[row].index is None:
+        for step in (joint_constant(rows[row], K), placement(rows[row], K)):
+            parameters = transferred(step, parameters, K)
+        row = rows[row].parent
+    return row, parameters

@@ -1,0 +1,246 @@
+"""The symbolic model: tau = phi chi, column by column, and what else is computed from it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from modeler.core.brief import Brief
+from modeler.derivation.closure import Closure, closure_of
+from modeler.derivation.columns import (
+    LinkColumn,
+    ShaftColumn,
+    Signal,
+    StandardColumn,
+    effect_entries,
+    signals_of,
+)
+from modeler.derivation.geometry import Geometry
+from modeler.derivation.graph import Expr, Graph, GraphAlgebra
+from modeler.derivation.kinematics import Pose, Screw, base_poses, plus, poses, screws, times
+from modeler.derivation.newton_euler import (
+    Motion,
+    State,
+    inertia_matrix,
+    inverse_dynamics,
+    motions,
+    project,
+    wrench_columns,
+)
+from modeler.robot.robot import Robot
+
+_REFERRED = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
+"""Effects whose parameters `[reference]` may state: those that depend on nothing else."""
+
+_SMOOTH = ("rigid_body", "rotor_inertia", "viscous")
+
+Entries = Mapping[tuple[int, int], Expr]
+"""Structural nonzeros of a regressor: (joint, column) -> expression."""
+
+
+@dataclass(frozen=True)
+class SymbolicModel(Brief):
+    """The dynamics of a robot as expressions of one graph.
+
+    Inputs of the graph: `q[0]`, `qd[0]`, `qdd[0]`, ... in the order of `robot.free`, which no
+    geometric symbol can be named like, and the geometric symbols by name. Torques are those along
+    the free variables; where loops tie these to each other, `closure` says how.
+
+    Attributes:
+        special: joints that follow others by relations which the loops imply at the given lengths
+            and angles only.
+        unproven: joints that seemed to follow others by a relation that was not proven.
+    """
+
+    robot: Robot
+    geometry: Geometry
+    graph: Graph
+    columns: tuple[StandardColumn, ...]
+    special: tuple[str, ...] = ()
+    unproven: tuple[str, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the standard parameters, in column order."""
+        return tuple(column.name for column in self.columns)
+
+    @cached_property
+    def algebra(self) -> GraphAlgebra:
+        """The graph as numbers for the recursions."""
+        return GraphAlgebra(self.graph, self.geometry)
+
+    @cached_property
+    def frames(self) -> list[Pose]:
+        """Pose of every row in its antecedent."""
+        return poses(self.geometry, self.algebra)
+
+    def inputs(self, kind: str) -> list[Expr]:
+        """The symbols of `kind` "q", "qd" or "qdd", of the free variables."""
+        return [self.graph.symbol(f"{kind}[{k}]") for k in range(self.geometry.coordinates)]
+
+    @cached_property
+    def closure(self) -> Closure | None:
+        """What ties the free variables to each other; None without loops.
+
+        Raises:
+            LoopError: the loops leave more or less free than is actuated, or cannot close.
+        """
+        return closure_of(self.geometry, self.graph, self.frames, self.algebra)
+
+    def _row_values(self, free: Sequence[Expr]) -> list[Expr]:
+        """Speeds or accelerations of the moving rows from those of the free variables."""
+        found = []
+        for form in self.geometry.forms:
+            total = self.graph.constant(0)
+            for k, coefficient in form.items():
+                total = total + free[k] * coefficient
+            found.append(total)
+        return found
+
+    def _free_efforts(self, rows: Sequence[Expr]) -> list[Expr]:
+        """Torques along the free variables from those of the moving rows: F^T tau."""
+        found = [self.graph.constant(0)] * self.geometry.coordinates
+        for form, torque in zip(self.geometry.forms, rows, strict=True):
+            for k, coefficient in form.items():
+                found[k] = found[k] + torque * coefficient
+        return found
+
+    def _gravity(self) -> list[Expr]:
+        return [self.algebra.static(entry) for entry in self.geometry.gravity]
+
+    def _motions(
+        self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: Sequence[Expr]
+    ) -> list[Motion]:
+        state = State(self._row_values(qd), self._row_values(qdd), list(gravity))
+        return motions(self.geometry, self.frames, state, self.algebra)
+
+    @cached_property
+    def regressor(self) -> Entries:
+        """Structural nonzeros of phi in tau = phi chi, over all standard columns.
+
+        Inertial columns by Newton-Euler in screw form: the wrench of one unit of a parameter,
+        projected on every joint below; effect columns from their definition.
+        """
+        moved = self._motions(self.inputs("qd"), self.inputs("qdd"), self._gravity())
+        carried = self.carried
+        wrenches = [wrench_columns(motion) for motion in moved]
+        entries: dict[tuple[int, int], Expr] = {}
+        for place, column in enumerate(self.columns):
+            for part in column.parts:
+                if isinstance(part, ShaftColumn):
+                    values = effect_entries(self, part)
+                else:
+                    force, moment = wrenches[part.row][part.prefix]
+                    values = {
+                        k: project(screw, force, moment) for k, screw in carried[part.row].items()
+                    }
+                for k, value in values.items():
+                    value = entries.get((k, place), self.graph.constant(0)) + value
+                    entries[k, place] = value
+        return {at: value for at, value in entries.items() if not value.is_zero}
+
+    @cached_property
+    def carried(self) -> list[dict[int, Screw]]:
+        """For every row, the screw of each free variable that moves it."""
+        found = []
+        for screws_of in screws(self.geometry, self.frames, self.algebra):
+            total: dict[int, Screw] = {}
+            for index, screw in screws_of.items():
+                for k, coefficient in self.geometry.forms[index].items():
+                    e, m = times(coefficient, screw.e), times(coefficient, screw.m)
+                    before = total.get(k)
+                    total[k] = (
+                        Screw(plus(before.e, e), plus(before.m, m)) if before else Screw(e, m)
+                    )
+            found.append(total)
+        return found
+
+    @cached_property
+    def signals(self) -> tuple[Signal, ...]:
+        """What effects read besides the motion: the input `s`, in order."""
+        return signals_of(self.columns)
+
+    def reference_torque(self, kind: str) -> list[Expr]:
+        """Torques along the free variables at the parameters of `[reference]`.
+
+        Args:
+            kind: "load", of the links; "static", of gravity; "torque", of the textbook effects too;
+                "axis", of links, rotors and viscous friction: what follows from a motion smoothly.
+        """
+        referred = _SMOOTH if kind == "axis" else _REFERRED
+        known = {
+            place: self.graph.constant(Fraction(repr(float(self.robot.reference[column.name]))))
+            for place, column in enumerate(self.columns)
+            if column.name in self.robot.reference and column.effect in referred
+        }
+        still = kind == "static"
+        return self.torque(
+            known, speeds=not still, accelerations=not still, effects=kind in ("torque", "axis")
+        )
+
+    def torque(
+        self, parameters: Mapping[int, Expr], *, speeds: bool = True,
+        accelerations: bool = True, gravity: bool = True, effects: bool = True, links: bool = True,
+    ) -> list[Expr]:  # fmt: skip
+        """tau by the Newton-Euler recursion for the parameters given by column; the others are 0.
+
+        Args:
+            parameters: {column: value}.
+            speeds: False for standstill.
+            accelerations: False for zero acceleration.
+            gravity: False without gravity.
+            effects: False without the effects' columns.
+            links: False without the links.
+        """
+        zero = self.graph.constant(0)
+        none = [zero] * self.geometry.coordinates
+        qd = self.inputs("qd") if speeds else none
+        qdd = self.inputs("qdd") if accelerations else none
+        tau = list(none)
+        if links:
+            moved = self._motions(qd, qdd, self._gravity() if gravity else [zero] * 3)
+            rows = self.link_parameters(parameters)
+            torques = inverse_dynamics(self.geometry, self.frames, moved, rows, zero)
+            tau = self._free_efforts(torques)
+        for place in parameters if effects else ():
+            for part in self.columns[place].parts:
+                if isinstance(part, ShaftColumn):
+                    for joint, value in effect_entries(self, part).items():
+                        tau[joint] = tau[joint] + value * parameters[place]
+        return tau
+
+    def link_parameters(self, parameters: Mapping[int, Expr]) -> list[dict[str, Expr]]:
+        """Per row, the inertial parameters among `parameters`, by prefix."""
+        rows: list[dict[str, Expr]] = [{} for _ in self.geometry.rows]
+        for place, value in parameters.items():
+            for part in self.columns[place].parts:
+                if isinstance(part, LinkColumn):
+                    rows[part.row][part.prefix] = value
+        return rows
+
+    def inertia_matrix(self, parameters: Mapping[int, Expr]) -> list[list[Expr]]:
+        """M(q) of the free variables: composite links, and the rotor inertias of the effects."""
+        zero = self.graph.constant(0)
+        rows = self.link_parameters(parameters)
+        tree = inertia_matrix(self.geometry, self.frames, rows, zero)
+        half = [self._free_efforts(line) for line in tree]
+        matrix = [self._free_efforts([line[k] for line in half]) for k in range(len(half[0]))]
+        for place, value in parameters.items():
+            for part in self.columns[place].parts:
+                if isinstance(part, ShaftColumn) and part.kind == "rotor_inertia":
+                    for i, ci in part.shaft.items():
+                        for j, cj in part.shaft.items():
+                            matrix[i][j] = matrix[i][j] + value * (ci * cj)
+        return matrix
+
+    def forward_kinematics(self) -> list[list[list[Expr]]]:
+        """[R | p], 3 x 4, of every moving row's frame in frame 0, in table order.
+
+        The columns of R are the frame's axes x, y, z in frame 0; p is its origin, m.
+        """
+        found = base_poses(self.geometry, self.frames, self.algebra)
+        return [
+            [[*(axis[i] for axis in axes), origin[i]] for i in range(3)]
+            for row, (axes, origin) in zip(self.geometry.rows, found, strict=True)
+            if row.index is not None
+        ]

@@ -1,0 +1,307 @@
+"""The same question in floating point: rank of the torque regressor at random states."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import sympy
+
+from modeler.derivation.closed_states import closed_motion, closed_walk, rounded_off
+from modeler.derivation.columns import StandardColumn
+from modeler.derivation.grouping import priority_order
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.result import BaseParameter, BaseParameters, Term
+from modeler.derivation.walks import Walk
+
+TOLERANCE = 1e-9
+"""Relative to the largest singular value of the scaled matrix, of a robot without loops; see
+`NumericRank.gap`."""
+
+ZERO = 1e-13
+"""Columns below this share of the largest one are rounding errors of a zero column: they are left
+out, never scaled up."""
+
+_CERTAIN = 10.0
+"""A singular value counts if it is this many times the rounding: the rounding of one sample of
+closure errors is measured, another may be somewhat larger."""
+
+_REGULAR = 0.3
+"""Share of home's distance to a singularity that states keep where torques are compared: rounding
+is amplified less than by 1 / 0.3**2 of what it is at home."""
+
+States = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Positions, speeds and accelerations of the free variables, each (samples, len(u))."""
+
+
+@dataclass(frozen=True)
+class Sample:
+    """The regressor at random states, ready for its rank.
+
+    Attributes:
+        matrix: (rows, columns); rows of a posture of a robot with loops are weighed by the inverse
+            of their own rounding.
+        rounding: how far the matrix is changed by closing the loops with rounding; None without.
+        walk: the closed postures; None without loops.
+    """
+
+    matrix: np.ndarray
+    rounding: np.ndarray | None = None
+    walk: Walk | None = None
+
+
+@dataclass(frozen=True)
+class NumericRank:
+    """Rank with what it rests on.
+
+    Attributes:
+        rank: number of singular values above tolerance * largest.
+        gap: (last kept, first dropped) singular value of the matrix with columns of unit length.
+        tolerance: relative.
+        scale: how it was scaled.
+    """
+
+    rank: int
+    gap: tuple[float, float]
+    tolerance: float
+    scale: str
+
+
+def random_states(model: SymbolicModel, samples: int, rng: np.random.Generator) -> States:
+    """Positions over a turn (prismatic: +-1 m), speeds and accelerations of order 1.
+
+    With loops: closed postures over the reachable range, not near singularities, and motions that
+    the loops allow.
+    """
+    if model.closure is None:
+        n = model.geometry.coordinates
+        angular = np.array([joint.angular for joint in model.robot.free])
+        q = rng.uniform(-1.0, 1.0, (samples, n)) * np.where(angular, np.pi, 1.0)
+        return q, rng.normal(size=(samples, n)), rng.normal(size=(samples, n))
+    u = closed_walk(model, samples, rng, _REGULAR).postures
+    qd, qdd = rng.normal(size=(2, len(u), len(model.closure.given)))
+    return carried(model, u, qd, qdd)
+
+
+def carried(model: SymbolicModel, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> States:
+    """The motion of all free variables at closed postures from that of the coordinates."""
+    motion = closed_motion(model, u, qd)
+    ud = np.einsum("nij,nj->ni", motion.coupling, qd)
+    return u, ud, np.einsum("nij,nj->ni", motion.coupling, qdd) + motion.drift
+
+
+def sampled(model: SymbolicModel, samples: int, seed: int) -> Sample:
+    """The standard regressor at random states, (samples * coordinates, columns) and its rounding.
+
+    A closed posture is closed up to rounding r in the equations, hence wrong by J_s^-1 r in the
+    passive joints. What such an error changes in the regressor is its rounding; it grows towards
+    singularities, where regressor and rounding are both large. Rows are divided by the rounding of
+    their posture, so that none drowns what the others tell.
+    """
+    rng = np.random.default_rng(seed)
+    if model.closure is None:
+        phi = regressor_values(model, random_states(model, samples, rng))
+        return Sample(phi.reshape(-1, phi.shape[2]))
+    walk = closed_walk(model, samples, rng)
+    qd, qdd = rng.normal(size=(2, len(walk.postures), len(model.closure.given)))
+    phi, other = (
+        regressor_values(model, carried(model, u, qd, qdd))
+        for u in (walk.postures, rounded_off(model, walk.postures, rng))
+    )
+    lengths = np.linalg.norm(phi.reshape(-1, phi.shape[2]), axis=0)
+    scale = np.where(lengths > ZERO * lengths.max(initial=0.0), lengths, np.inf)
+    eps = float(np.finfo(float).eps)
+    error = np.linalg.norm((other - phi) / scale, axis=(1, 2))
+    error = np.maximum(error, eps * np.linalg.norm(phi / scale, axis=(1, 2)))
+    weight = (np.median(error) / error)[:, None, None]
+    both = [(part * weight).reshape(-1, phi.shape[2]) for part in (phi, other - phi)]
+    return Sample(both[0], both[1], walk)
+
+
+def signal_values(model: SymbolicModel, samples: int) -> np.ndarray:
+    """(signals, samples): what effects read besides the motion, positive and of order 1."""
+    shape = (len(model.signals), samples)
+    return np.random.default_rng(samples).uniform(0.1, 1.0, shape)
+
+
+def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
+    """(samples, coordinates, columns): the standard regressor at the nominal geometry."""
+    q, qd, qdd = states
+    values = dict(model.geometry.values)
+    inputs = {
+        f"{kind}[{i}]": array[:, i]
+        for kind, array in (("q", q), ("qd", qd), ("qdd", qdd))
+        for i in range(q.shape[1])
+    }
+    inputs |= {f"s[{k}]": values for k, values in enumerate(signal_values(model, len(q)))}
+    entries = model.regressor
+    phi = np.zeros((*q.shape, len(model.columns)))
+    found = model.graph.evaluate(list(entries.values()), {**values, **inputs})
+    for (joint, column), value in zip(entries, found, strict=True):
+        phi[:, joint, column] = value
+    if model.closure is None:
+        return phi
+    none = np.zeros((len(q), len(model.closure.given)))
+    return np.einsum("nij,nic->njc", closed_motion(model, q, none).coupling, phi)
+
+
+def numeric_rank(sample: Sample, columns: Sequence[int]) -> NumericRank:
+    """Rank of the sampled regressor, of the columns given.
+
+    Without loops singular values above `TOLERANCE` of the largest count. With loops those count
+    that are ten times as large as the rounding of the closure and of the decomposition: a matrix
+    of lower rank is as far away as the last singular value (Weyl).
+    """
+    W = sample.matrix[:, list(columns)]
+    lengths = np.linalg.norm(W, axis=0)
+    having = lengths > ZERO * lengths.max(initial=0.0)
+    W, lengths = W[:, having], lengths[having]
+    if W.shape[1] == 0:
+        return NumericRank(0, (0.0, 0.0), TOLERANCE, "no column has an effect")
+    singular = np.linalg.svd(W / lengths, compute_uv=False)
+    tolerance = TOLERANCE
+    if sample.rounding is not None:
+        error = float(np.linalg.norm(sample.rounding[:, list(columns)][:, having] / lengths))
+        rounding = max(W.shape) * float(np.finfo(float).eps)
+        tolerance = _CERTAIN * max(error / float(singular[0]), rounding)
+    rank = int(np.sum(singular > tolerance * singular[0]))
+    dropped = float(singular[rank]) if rank < len(singular) else 0.0
+    weighed = ", rows weighed by their rounding" if sample.rounding is not None else ""
+    return NumericRank(
+        rank, (float(singular[rank - 1]), dropped), tolerance,
+        f"{W.shape[0]} rows, {W.shape[1]} columns (the others are 0), scaled to length 1{weighed}",
+    )  # fmt: skip
+
+
+# Base parameters in floating point, where exact symbols cannot be had.
+#
+# For robots whose constants obey a relation that the exact field does not know (an angle of pi/3
+# and a gravity with sqrt(3), say), or whose exact coefficients would fill pages. The coefficients
+# are then numbers with an error bound, never symbols that might be wrong.
+
+
+_DIGITS = 10
+_NOTHING = 1e-9
+"""A factor below this is 0, a number this near to a whole one is that."""
+
+
+@dataclass(frozen=True)
+class NumericGrouping:
+    """Base parameters, parameters without effect, and the error bound of the coefficients."""
+
+    parameters: tuple[BaseParameter, ...]
+    unidentifiable: tuple[str, ...]
+    bound: float
+
+
+def numeric_grouping(model: SymbolicModel, sample: Sample, numeric: NumericRank) -> NumericGrouping:
+    """First-come independent columns of the torque regressor at random states, nominal geometry.
+
+    A column is dependent if the columns before it leave less of it than lies in the middle of the
+    gap of the singular values: what is left of an independent one is no less than the last kept
+    value, of a dependent one it is rounding.
+
+    Args:
+        model: of the robot.
+        sample: its regressor.
+        numeric: the rank of that.
+
+    Raises:
+        DerivationError: a priority pattern matches nothing.
+    """
+    W = sample.matrix
+    last, first = numeric.gap
+    tolerance = math.sqrt(last * max(first, float(np.finfo(float).eps)))
+    lengths = np.linalg.norm(W, axis=0)
+    absent = {i for i, length in enumerate(lengths) if length <= ZERO * lengths.max(initial=0.0)}
+    order = [i for i in priority_order(model.names, model.robot.kept_first) if i not in absent]
+    kept, relations, bound = _first_come(W, lengths, order, tolerance)
+    terms = {b: [Term(sympy.Integer(1), model.names[b])] for b in sorted(kept)}
+    for column in sorted(relations):
+        for b, factor in relations[column].items():
+            terms[b].append(Term(factor, model.names[column]))
+    return NumericGrouping(
+        tuple(_parameter(model.columns, b, found) for b, found in terms.items()),
+        tuple(model.names[i] for i in sorted(absent)),
+        bound,
+    )
+
+
+def _parameter(columns: Sequence[StandardColumn], b: int, terms: list[Term]) -> BaseParameter:
+    return BaseParameter(columns[b].name + ("R" if len(terms) > 1 else ""), b, tuple(terms))
+
+
+def _first_come(
+    W: np.ndarray, lengths: np.ndarray, order: Sequence[int], tolerance: float
+) -> tuple[list[int], dict[int, dict[int, sympy.Expr]], float]:
+    """Columns kept, {dropped column: {kept column: factor}}, and the error of the factors."""
+    kept: list[int] = []
+    Q = np.zeros((W.shape[0], 0))
+    relations: dict[int, dict[int, sympy.Expr]] = {}
+    worst = 0.0
+    for column in order:
+        unit = W[:, column] / lengths[column]
+        rest = unit - Q @ (Q.T @ unit)
+        rest -= Q @ (Q.T @ rest)  # twice is enough (Kahan, Parlett)
+        if np.linalg.norm(rest) > tolerance:
+            Q = np.column_stack([Q, rest / np.linalg.norm(rest)])
+            kept.append(column)
+            continue
+        factors, *_ = np.linalg.lstsq(W[:, kept] / lengths[kept], unit, rcond=None)
+        left = unit - (W[:, kept] / lengths[kept]) @ factors
+        worst = max(worst, float(np.linalg.norm(left)))
+        scaled = factors * lengths[column] / lengths[kept]
+        relations[column] = {
+            b: _number(float(s))
+            for b, s, f in zip(kept, scaled, factors, strict=True)
+            if abs(f) > _NOTHING
+        }
+    return kept, relations, worst
+
+
+def _number(value: float) -> sympy.Expr:
+    if abs(value - round(value)) < _NOTHING and round(value):
+        return sympy.Integer(round(value))
+    # Its decimals are its value: what is printed is what is computed with.
+    return sympy.Float(float(f"{value:.{_DIGITS}g}"))
+
+
+# Base torque against standard torque at random states.
+
+
+def torque_agreement(
+    model: SymbolicModel, parameters: tuple[BaseParameter, ...], seed: int
+) -> float:
+    """Largest |tau_base - tau_standard| / max |tau_standard| at random states and parameters."""
+    rng = np.random.default_rng(seed)
+    phi = regressor_values(model, random_states(model, 50, rng))
+    chi = rng.normal(size=len(model.columns))
+    beta = _matrix(model, parameters) @ chi
+    kept = [parameter.column for parameter in parameters]
+    standard = phi @ chi
+    largest = float(np.max(np.abs(standard)))
+    return float(np.max(np.abs(phi[:, :, kept] @ beta - standard))) / largest if largest else 0.0
+
+
+def grouping_matrix(model: SymbolicModel, base: BaseParameters) -> np.ndarray:
+    """(rank, columns): beta = K chi at the nominal geometry."""
+    return _matrix(model, base.parameters)
+
+
+def _matrix(model: SymbolicModel, parameters: tuple[BaseParameter, ...]) -> np.ndarray:
+    place = {name: i for i, name in enumerate(model.names)}
+    K = np.zeros((len(parameters), len(model.columns)))
+    known: dict[sympy.Expr, float] = {}
+    for i, parameter in enumerate(parameters):
+        for term in parameter.terms:
+            value = known.get(term.coefficient)
+            if value is None:
+                value = coefficient_value(term.coefficient, model.geometry.values)
+                known[term.coefficient] = value
+            K[i, place[term.parameter]] = value
+    return K
+
+
+def coefficient_value(coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
+    """A coefficient at the nominal geometry."""
+    return float(coefficient.subs({s: values[s.name] for s in coefficient.free_symbols}))

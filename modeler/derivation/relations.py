@@ -1,0 +1,300 @@
+"""All base parameters as people and programs read them: text, LaTeX, Markdown, JSON."""
+
+import textwrap
+from typing import Any
+
+import sympy
+from sympy.printing.precedence import PRECEDENCE
+from sympy.printing.str import StrPrinter
+
+from modeler.core.formula import Formula, latex_name, name, number, operator, row
+from modeler.core.latex_display import Equation, display
+from modeler.derivation.result import (
+    BallRank,
+    BaseParameter,
+    BaseParameters,
+    Certificate,
+    ExactState,
+    ModularRank,
+    Proof,
+    SampledRank,
+    Sampling,
+    Term,
+)
+
+# A grouping relation as people read it: the one writer of all printed forms.
+#
+# Every term is printed as the product it is, numerator * parameter / denominator, with brackets
+# around whatever binds less than its place in that product.
+
+
+_PRINTER = StrPrinter({"full_prec": False})  # decimal numbers without zeros behind them
+
+
+def coefficient_text(coefficient: sympy.Expr) -> str:
+    """`D8/D3`: a coefficient alone, as programs read it."""
+    return _PRINTER.doprint(coefficient)
+
+
+def relation_text(parameter: BaseParameter) -> str:
+    """`ZZ2R = ZZ2 + YY3 + D4**2*M4`."""
+    return f"{parameter.name} = {_sum_text([_text_term(term) for term in parameter.terms])}"
+
+
+def relation_latex(parameter: BaseParameter) -> str:
+    r"""`\mathit{ZZ}_{2R} = \mathit{ZZ}_{2} + \mathit{YY}_{3} + D_{4}^{2} M_{4}`."""
+    return f"{latex_name(parameter.name)} = {_sum_text([_latex_term(t) for t in parameter.terms])}"
+
+
+def _sum_text(terms: list[str]) -> str:
+    text = terms[0]
+    for term in terms[1:]:
+        text += f" - {term[1:]}" if term.startswith("-") else f" + {term}"
+    return text
+
+
+def _text_term(term: Term) -> str:
+    """Numerator, parameter, denominator; a quotient of numbers alone stands in front."""
+    sign, size = split_sign(term.coefficient)
+    if size == 1:
+        return sign + term.parameter
+    top, bottom = sympy.fraction(size)
+    if not bottom.free_symbols:
+        top, bottom = size, sympy.Integer(1)
+    front = "" if top == 1 else f"{_PRINTER.parenthesize(top, PRECEDENCE['Mul'], strict=True)}*"
+    # Right of a division even a product needs brackets: a/b*c is (a/b)*c.
+    below = _PRINTER.parenthesize(bottom, PRECEDENCE["Pow"], strict=True)
+    back = "" if bottom == 1 else f"/{below}"
+    return f"{sign}{front}{term.parameter}{back}"
+
+
+def _latex_term(term: Term) -> str:
+    sign, size = split_sign(term.coefficient)
+    name = latex_name(term.parameter)
+    if size == 1:
+        return sign + name
+    letters = {symbol: latex_name(symbol.name) for symbol in size.free_symbols}
+    text = sympy.latex(size, symbol_names=letters)
+    return f"{sign}\\left({text}\\right) {name}" if size.is_Add else f"{sign}{text} {name}"
+
+
+def split_sign(coefficient: sympy.Expr) -> tuple[str, sympy.Expr]:
+    """The sign to write in front, and what stays: sums keep theirs unless all terms are minus."""
+    negative = (
+        all(arg.could_extract_minus_sign() for arg in coefficient.args)
+        if coefficient.is_Add
+        else coefficient.could_extract_minus_sign()
+    )
+    return ("-", -coefficient) if negative else ("", coefficient)
+
+
+_WIDTH = 96
+
+
+def as_text(base: BaseParameters) -> str:
+    """All relations, one line each, then the parameters without effect."""
+    lines = [relation_text(parameter) for parameter in base.parameters]
+    return "\n".join([*lines, "", f"no effect: {' '.join(base.unidentifiable) or 'none'}"])
+
+
+def as_markdown(base: BaseParameters) -> str:
+    """A table of the relations, for a page."""
+    lines = ["| base parameter | is | unit |", "| --- | --- | --- |"]
+    for parameter in base.parameters:
+        right = relation_text(parameter).split(" = ", 1)[1]
+        lines.append(f"| {parameter.name} | `{right}` | {base.columns[parameter.column].unit} |")
+    lines += ["", f"Without effect: {', '.join(base.unidentifiable) or 'none'}."]
+    return "\n".join(lines)
+
+
+def as_latex(base: BaseParameters) -> str:
+    """The relations as an align environment, in lines that fit the page."""
+    sides = [relation_latex(p).split(" = ", 1) for p in base.parameters]
+    return display([Equation(left, (right,)) for left, right in sides], numbered=True)
+
+
+def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
+    """What `modeler derive --json` writes (contract section 5)."""
+    return {
+        "robot": robot,
+        "standard": [column.name for column in base.columns],
+        "base": [
+            {
+                "name": parameter.name,
+                "column_of": base.columns[parameter.column].name,
+                "unit": base.columns[parameter.column].unit,
+                "terms": [
+                    {
+                        "coefficient": coefficient_text(term.coefficient),
+                        "parameter": term.parameter,
+                    }
+                    for term in parameter.terms
+                ],
+            }
+            for parameter in base.parameters
+        ],
+        "unidentifiable": list(base.unidentifiable),
+        "rank": base.rank,
+        "counts": dict(base.counts()),
+        "rank_gap": [value or None for value in base.proof.gap],  # 0: there is none
+        "proof": base.proof.kind,
+        "certificate": _certificate(base.proof),
+    }
+
+
+def _certificate(proof: Proof) -> dict[str, Any]:
+    found = proof.certificate
+    modular = found if isinstance(found, ModularRank) else None
+    return {
+        "statement": proof.statement,
+        "prime": modular and modular.prime,
+        "points": modular and modular.points,
+        "seed": proof.seed,
+        "exact_rank": None if isinstance(found, SampledRank) else found.rank,
+        "independence": _independence(found),
+        "numeric_rank": proof.numeric_rank,
+        "tolerance": proof.tolerance,
+        "scale": proof.scale,
+        "base_against_standard_torque": proof.agreement,
+        "sampling": None if proof.sampling is None else _sampling(proof.sampling),
+    }
+
+
+def _independence(found: Certificate) -> dict[str, Any]:
+    told: dict[str, Any] = {"rank": found.rank, "seed": found.seed}
+    if isinstance(found, ModularRank):
+        return {"kind": "modular", **told, "prime": found.prime, "points": found.points}
+    if isinstance(found, SampledRank):
+        return {"kind": "sampled", **told, "why": found.why}
+    states = [_state(state) for state in found.states]
+    rows = [list(row) for row in found.rows]
+    return {"kind": "balls", **told, "bits": found.bits, "states": states, "rows": rows}
+
+
+def _state(state: ExactState) -> dict[str, Any]:
+    return {
+        "positions": dict(state.positions),
+        "speeds": dict(state.speeds),
+        "accelerations": dict(state.accelerations),
+        "signals": list(state.signals),
+    }
+
+
+def _sampling(sampling: Sampling) -> dict[str, Any]:
+    return {
+        "postures": sampling.postures,
+        "ranges": {name: list(ends) for name, ends in sampling.ranges.items()},
+        "distance_to_singularity": sampling.distance,
+    }
+
+
+def proof_text(proof: Proof) -> str:
+    """The proof in a few lines."""
+    return "\n".join(textwrap.fill(text, _WIDTH) for text in proof_paragraphs(proof))
+
+
+def proof_paragraphs(proof: Proof) -> list[str]:
+    """The proof, a paragraph for each of its parts."""
+    return [
+        f"proof: {proof.kind}. {proof.statement}",
+        _independence_text(proof.certificate),
+        f"rank {proof.numeric_rank} in floating point at the nominal geometry: singular values "
+        f"{proof.gap[0]:.3g} (last kept) and {proof.gap[1]:.1e} (first dropped), tolerance "
+        f"{proof.tolerance:g} of the largest; {proof.scale}",
+        *([] if proof.sampling is None else [_sampling_text(proof.sampling, proof.seed)]),
+        f"base torque against standard torque: {proof.agreement:.1e} of the largest",
+    ]
+
+
+def _independence_text(found: Certificate) -> str:
+    if isinstance(found, ModularRank):
+        return (
+            f"rank {found.rank} modulo {found.prime} ({found.points} random points, seed "
+            f"{found.seed})"
+        )
+    if isinstance(found, BallRank):
+        return (
+            f"rank {found.rank} in balls of {found.bits} bits (a minor of {found.rank} rows at "
+            f"{len(found.states)} exact states, seed {found.seed}; --json lists them)"
+        )
+    return f"rank {found.rank} in floating point only (seed {found.seed}): {found.why}"
+
+
+def _sampling_text(sampling: Sampling, seed: int) -> str:
+    ranges = ", ".join(f"q{n} {low:.3g}..{high:.3g}" for n, (low, high) in sampling.ranges.items())
+    return (
+        f"at {sampling.postures} closed postures on walks from [home] (seed {seed}): {ranges}; "
+        f"distance to the nearest singularity {sampling.distance:.2g} (least singular value of the "
+        "loops' Jacobian by the passive joints, rows of usual length 1)"
+    )
+
+
+# A grouping relation as a formula that a page can set.
+
+
+def relation_formula(parameter: BaseParameter) -> tuple[Formula, ...]:
+    """`ZZ2R =`, then one formula a term with its sign in front: a page may break between them."""
+    lines = [row(name(parameter.name), operator("="))]
+    for k, term in enumerate(parameter.terms):
+        sign, size = split_sign(term.coefficient)
+        head = (operator(sign or "+"),) if k or sign else ()
+        lines.append(row(*head, *_product(size, term)))
+    return tuple(lines)
+
+
+def _product(size: sympy.Expr, term: Term) -> tuple[Formula, ...]:
+    own = name(term.parameter)
+    top, bottom = sympy.fraction(size)
+    if bottom.free_symbols:
+        return (Formula("fraction", parts=(row(*_before(top), own), expression_formula(bottom))),)
+    return (*_before(size), own)
+
+
+def _before(size: sympy.Expr) -> tuple[Formula, ...]:
+    """A factor as it stands before a letter; 1 is not written."""
+    if size == 1:
+        return ()
+    front = expression_formula(size)
+    return (Formula("fenced", parts=(front,)) if size.is_Add else front,)
+
+
+def expression_formula(expression: sympy.Expr) -> Formula:
+    """Sums, products, quotients, powers, numbers, symbols and functions of one argument."""
+    if expression.is_Symbol or expression is sympy.pi:
+        return name(str(expression))
+    if expression.is_Add:
+        return _sum_formula(expression)
+    top, bottom = sympy.fraction(expression)
+    if bottom != 1:
+        return Formula("fraction", parts=(expression_formula(top), expression_formula(bottom)))
+    if expression.is_Number:
+        text = str(expression)
+        return row(operator("-"), number(text[1:])) if text.startswith("-") else number(text)
+    if expression.is_Mul:
+        return _factors(expression)
+    if expression.is_Pow:
+        base, exponent = expression.args
+        below = expression_formula(base)
+        if not (base.is_Symbol or (base.is_Number and not base.is_negative)):
+            below = Formula("fenced", parts=(below,))
+        return Formula("sup", parts=(below, expression_formula(exponent)))
+    inner = tuple(expression_formula(argument) for argument in expression.args)
+    return row(name(expression.func.__name__), Formula("fenced", parts=inner))
+
+
+def _sum_formula(expression: sympy.Expr) -> Formula:
+    parts: list[Formula] = []
+    for k, term in enumerate(expression.as_ordered_terms()):
+        sign, size = split_sign(term)
+        parts += [operator(sign or "+")] if k or sign else []
+        parts.append(expression_formula(size))
+    return row(*parts)
+
+
+def _factors(expression: sympy.Expr) -> Formula:
+    sign, size = split_sign(expression)
+    parts = [operator("-")] if sign else []
+    for factor in size.as_ordered_factors() if size.is_Mul else [size]:
+        inner = expression_formula(factor)
+        parts.append(Formula("fenced", parts=(inner,)) if factor.is_Add else inner)
+    return row(*parts)

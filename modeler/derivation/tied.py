@@ -1,0 +1,391 @@
+"""Exact grouping where joints follow others by linear relations.
+
+Link-by-link elimination (`modeler.derivation.tree`) needs joints that move on their own. Here the
+energy rows are sampled modulo a prime at random states: which columns depend on which others
+follows from one random geometry; each coefficient, a rational function of a few letters of the
+geometry, is interpolated from its values at several geometries and checked at fresh ones.
+"""
+
+from collections.abc import Callable, Mapping, Sequence, Set
+from dataclasses import dataclass
+from functools import partial
+from itertools import product
+from typing import Protocol
+
+import numpy as np
+import sympy
+from sympy import QQ
+
+from modeler.derivation.certificate import (
+    LARGE,
+    SMALL,
+    ModularState,
+    Residues,
+    drawn,
+    reconstructed,
+    row_echelon,
+)
+from modeler.derivation.columns import LinkColumn, StandardColumn
+from modeler.derivation.elimination import TooLarge
+from modeler.derivation.field import Element, ExactField
+from modeler.derivation.geometry import Geometry
+
+# Rational functions from their values modulo a prime.
+#
+# The functions are coefficients of relations: quotients of polynomials in the letters of the exact
+# field, with rational numbers that are small against the prime. Most are one monomial, which shows
+# when one letter is changed at a time. For the others the degrees in each letter are found first,
+# then all coefficients from one linear system.
+
+
+Point = tuple[int, ...]
+"""A residue modulo LARGE for each letter of the field."""
+
+Function = Callable[[Sequence[Point]], list[int]]
+"""Its values modulo LARGE at some points."""
+
+_EXPONENTS = (1, -1, 2, -2, 3, -3, 4, -4)
+_LARGEST_DEGREE = 12
+_MOST_TERMS = 160
+_CHECKS = 2
+
+
+class Probes:
+    """Random points, the same for all functions, so that what was sampled serves again.
+
+    Attributes:
+        home: one point.
+        fresh: points that no function is made from, for checks.
+    """
+
+    def __init__(self, letters: int, seed: int) -> None:
+        self._rng = np.random.default_rng(seed)
+        self._letters = letters
+        self.home = self._point()
+        self.fresh = [self._point() for _ in range(_CHECKS)]
+        self._known: dict[tuple[int, ...], list[Point]] = {}
+
+    def moved(self, letters: tuple[int, ...], count: int) -> list[Point]:
+        """The first `count` points that differ from home in these letters only."""
+        known = self._known.setdefault(letters, [])
+        while len(known) < count:
+            other = self._point()
+            known.append(tuple(other[i] if i in letters else x for i, x in enumerate(self.home)))
+        return known[:count]
+
+    def _point(self) -> Point:
+        return tuple(int(x) for x in drawn(self._rng, (self._letters,), LARGE))
+
+
+def coefficient(function: Function, K: ExactField, probes: Probes) -> Element:
+    """The element of K whose values the function has.
+
+    Raises:
+        TooLarge: it has too many terms or too high a degree, or is no such element.
+    """
+    moved = [probes.moved((i,), 1)[0] for i in range(len(K.letters))]
+    value, *others = function([probes.home, *moved])
+    changes = {i: other for i, other in enumerate(others) if other != value}
+    found = _monomial(value, changes, moved, K, probes)
+    if found is None:
+        found = _quotient(function, tuple(changes), K, probes)
+    for point, value in zip(probes.fresh, function(probes.fresh), strict=True):
+        if K.residue(found, dict(zip(K.letters, point, strict=True)), LARGE) != value:
+            raise TooLarge("a coefficient is no quotient of short polynomials")
+    return found
+
+
+def _monomial(
+    value: int, changes: Mapping[int, int], moved: Sequence[Point], K: ExactField, probes: Probes
+) -> Element | None:
+    """number * product of powers, if it is one: changing a letter multiplies by a power."""
+    if value == 0:
+        return None
+    found = K.one
+    for i, other in changes.items():
+        ratio = other * pow(value, -1, LARGE) % LARGE
+        step = moved[i][i] * pow(probes.home[i], -1, LARGE) % LARGE
+        exponent = next((e for e in _EXPONENTS if pow(step, e, LARGE) == ratio), None)
+        if exponent is None:
+            return None
+        found = found * K.generator(i) ** exponent
+    at_home = K.residue(found, dict(zip(K.letters, probes.home, strict=True)), LARGE)
+    number = reconstructed(value * pow(at_home, -1, LARGE) % LARGE, LARGE)
+    return None if number is None else found * QQ(number.numerator, number.denominator)
+
+
+def _quotient(
+    function: Function, letters: tuple[int, ...], K: ExactField, probes: Probes
+) -> Element:
+    """numerator / denominator of the degrees in each letter that the function has alone in it."""
+    degrees = [_degrees(function, i, probes) for i in letters]
+    above, below = (list(product(*(range(d[k] + 1) for d in degrees))) for k in (0, 1))
+    terms = len(above) + len(below)
+    if terms > _MOST_TERMS:
+        raise TooLarge(f"a coefficient has up to {terms} terms")
+    weights = _fitted(function, probes.moved(letters, terms), letters, above, below)
+    if weights is None:
+        raise TooLarge("a coefficient is no quotient of short polynomials")
+    numbers = [reconstructed(weight, LARGE) for weight in weights]
+    top, bottom = K.zero, K.zero
+    for place, (number, monomial) in enumerate(zip(numbers, [*above, *below], strict=True)):
+        if number is None:
+            raise TooLarge("a coefficient has long numbers")
+        if number:
+            term = K.one * QQ(number.numerator, number.denominator)
+            for i, e in zip(letters, monomial, strict=True):
+                term = term * K.generator(i) ** e
+            top, bottom = (top + term, bottom) if place < len(above) else (top, bottom + term)
+    return top / bottom
+
+
+def _degrees(function: Function, letter: int, probes: Probes) -> tuple[int, int]:
+    """Degrees of numerator and denominator in one letter, the others at home.
+
+    Raises:
+        TooLarge: they are above `_LARGEST_DEGREE`.
+    """
+    for degree in range(1, _LARGEST_DEGREE + 1):
+        powers = [(e,) for e in range(degree + 1)]
+        # One point more than there are terms, or some quotient would always fit.
+        points = probes.moved((letter,), 2 * len(powers) + 1)
+        weights = _fitted(function, points, (letter,), powers, powers)
+        if weights is not None:
+            return _degree(weights[: degree + 1]), _degree(weights[degree + 1 :])
+    raise TooLarge(f"a coefficient is of degree above {_LARGEST_DEGREE}")
+
+
+def _degree(weights: Sequence[int]) -> int:
+    return max((i for i, weight in enumerate(weights) if weight), default=0)
+
+
+def _fitted(
+    function: Function,
+    points: Sequence[Point],
+    letters: tuple[int, ...],
+    above: Sequence[Point],
+    below: Sequence[Point],
+) -> list[int] | None:
+    """Coefficients of the monomials `above` and `below` the line; None if nothing fits.
+
+    numerator - value * denominator = 0 at all points.
+    """
+    values = np.array(function(points), dtype=object)[:, None]
+    at = np.array(points, dtype=object)[:, list(letters)]
+    matrix = np.hstack([_powers(at, above), -values * _powers(at, below)]) % LARGE
+    width = matrix.shape[1]
+    pivots = row_echelon(matrix, range(width), LARGE)
+    free = sorted(set(range(width)) - {column for _, column in pivots})
+    if not free:
+        return None
+    found = [0] * width
+    found[free[0]] = 1
+    for row, column in pivots:
+        found[column] = int(-matrix[row, free[0]] % LARGE)
+    return found if any(found[len(above) :]) else None
+
+
+def _powers(at: np.ndarray, monomials: Sequence[Point]) -> np.ndarray:
+    """(points, monomials): values of the monomials at `at` (points, letters)."""
+    values = np.ones((len(at), len(monomials)), dtype=object)
+    for i in range(at.shape[1]):
+        table = [values[:, 0] * 0 + 1]
+        for _ in range(max(monomial[i] for monomial in monomials)):
+            table.append(table[-1] * at[:, i] % LARGE)
+        for place, monomial in enumerate(monomials):
+            values[:, place] = values[:, place] * table[monomial[i]] % LARGE
+    return values
+
+
+_SPARE = 6
+_POINTS = 3
+
+
+def tied_relations(
+    geometry: Geometry,
+    columns: Sequence[StandardColumn],
+    K: ExactField,
+    order: Sequence[int],
+    seed: int,
+) -> list[dict[int, Element]]:
+    """All relations among the energy rows of the columns, loops left open.
+
+    Args:
+        geometry: the table, with relations.
+        columns: inertial, rotor inertia and offset columns; others are not looked at.
+        K: the field of the geometry.
+        order: columns in the order in which they are kept.
+        seed: of the random points.
+
+    Returns:
+        A basis: sum of coefficient * column = 0, the coefficient of one column of each being 1.
+
+    Raises:
+        TooLarge: a coefficient is no short quotient of polynomials, or has long numbers.
+    """
+    energetic = [i for i in order if has_energy(columns[i])]
+    return dependent_columns(geometry, _Energies(columns), K, energetic, set(energetic), seed)
+
+
+class Functions(Protocol):
+    """Functions on the opened tree, numbered, of which relations are looked for."""
+
+    def rows(self, state: ModularState, places: Sequence[int]) -> np.ndarray:
+        """(2 points, places): what those functions add to 2T, then to the power of gravity."""
+        ...
+
+
+@dataclass(frozen=True)
+class _Energies:
+    """The energy rows of columns."""
+
+    columns: Sequence[StandardColumn]
+
+    def rows(self, state: ModularState, places: Sequence[int]) -> np.ndarray:
+        """(2 points, places)."""
+        return state.energy_rows([self.columns[i] for i in places])
+
+
+def dependent_columns(
+    geometry: Geometry,
+    functions: Functions,
+    K: ExactField,
+    order: Sequence[int],
+    wanted: Set[int],
+    seed: int,
+) -> list[dict[int, Element]]:
+    """The relation of every wanted function that is a combination of those before it.
+
+    Args:
+        geometry: the table.
+        functions: on its opened tree.
+        K: the field of the geometry.
+        order: numbers of the functions, in the order in which they are kept.
+        wanted: numbers of those whose coefficients are wanted; others are left out of relations.
+        seed: of the random points.
+
+    Raises:
+        TooLarge: a coefficient is no short quotient of polynomials, or has long numbers.
+    """
+    try:
+        supports = _supports(geometry, functions, K, order, seed)
+        supports = {column: kept for column, kept in supports.items() if column in wanted}
+        return _interpolated(_Sampler(geometry, functions, K, supports, seed), wanted)
+    except ValueError as error:  # a constant whose denominator is a multiple of a prime
+        raise TooLarge(f"a constant has no value modulo a prime ({error})") from None
+
+
+def _interpolated(sampler: "_Sampler", wanted: Set[int]) -> list[dict[int, Element]]:
+    """The relation of each dependent function, from the kept ones that it involves."""
+    relations: list[dict[int, Element]] = []
+    K = sampler.K
+    probes = Probes(len(K.letters), sampler.seed)
+    for column, support in sampler.supports.items():
+        relation = {column: K.one}
+        for kept in support:
+            if kept in wanted:
+                relation[kept] = -coefficient(partial(sampler.values, (column, kept)), K, probes)
+        relations.append(relation)
+    return relations
+
+
+def _supports(
+    geometry: Geometry, functions: Functions, K: ExactField, order: Sequence[int], seed: int
+) -> dict[int, list[int]]:
+    """For each dependent function the kept ones that it is a combination of."""
+    state = ModularState(geometry, K, len(order) + _SPARE, seed, SMALL)
+    rows = functions.rows(state, order)
+    pivots = row_echelon(rows, range(len(order)), SMALL)
+    kept = {column: row for row, column in pivots}
+    return {
+        order[column]: [order[pivot] for pivot, row in kept.items() if rows[row, column] != 0]
+        for column in range(len(order))
+        if column not in kept
+    }
+
+
+def has_energy(column: StandardColumn) -> bool:
+    """True where a column adds to the energies: no friction."""
+    return isinstance(column, LinkColumn) or column.kind in ("rotor_inertia", "offset")
+
+
+class _Sampler:
+    """Values of all coefficients at given geometries, modulo the large prime."""
+
+    def __init__(
+        self,
+        geometry: Geometry,
+        functions: Functions,
+        K: ExactField,
+        supports: Mapping[int, Sequence[int]],
+        seed: int,
+    ) -> None:
+        self.geometry, self.K, self.supports, self.seed = geometry, K, supports, seed
+        self.functions = functions
+        self.blocks = _blocks(supports)
+        self.used = sorted({c for kept, dependent in self.blocks for c in (*kept, *dependent)})
+        self.place = {column: i for i, column in enumerate(self.used)}
+        self.points = max((len(kept) for kept, _ in self.blocks), default=0) + _POINTS
+        self._known: dict[Point, dict[tuple[int, int], int]] = {}
+
+    def values(self, at: tuple[int, int], geometries: Sequence[Point]) -> list[int]:
+        """The coefficient `at` = (dependent column, kept column) at the geometries.
+
+        Raises:
+            TooLarge: there the column is not the combination that it was at one geometry.
+        """
+        missing = [g for g in dict.fromkeys(geometries) if g not in self._known]
+        if missing:
+            self._sample(missing)
+        return [self._known[g][at] for g in geometries]
+
+    def _sample(self, geometries: Sequence[Point]) -> None:
+        n = self.points
+        letters: dict[sympy.Expr, Residues] = {
+            letter: np.array([g[i] for g in geometries for _ in range(n)], dtype=object)
+            for i, letter in enumerate(self.K.letters)
+        }
+        total = n * len(geometries)
+        self.seed += 1
+        state = ModularState(self.geometry, self.K, total, self.seed, LARGE, letters)
+        rows = self.functions.rows(state, self.used).reshape(2, len(geometries), n, -1)
+        for i, geometry in enumerate(geometries):
+            self._known[geometry] = {}
+            for kept, dependent in self.blocks:
+                places = [self.place[column] for column in (*kept, *dependent)]
+                part = rows[:, i, : len(kept) + _POINTS, places].reshape(len(places), -1).T
+                self._known[geometry] |= self._solved(part.copy(), kept, dependent)
+
+    def _solved(
+        self, matrix: np.ndarray, kept: Sequence[int], dependent: Sequence[int]
+    ) -> dict[tuple[int, int], int]:
+        """Coefficients at one geometry, from its energy rows (rows, kept and then dependent)."""
+        size = len(kept)
+        pivots = row_echelon(matrix, range(size), LARGE)
+        found = {}
+        for column, values in zip(dependent, matrix[:, size:].T, strict=True):
+            combination = {c for c, value in zip(kept, values, strict=False) if value}
+            if (
+                len(pivots) < size
+                or np.any(values[size:])
+                or combination != {*self.supports[column]}
+            ):
+                raise TooLarge("what depends on what at one geometry does not at another")
+            for c, value in zip(kept, values, strict=False):
+                found[column, c] = int(value)
+        return found
+
+
+def _blocks(supports: Mapping[int, Sequence[int]]) -> list[tuple[list[int], list[int]]]:
+    """(kept, dependent) columns, apart where no dependent column involves kept ones of both."""
+    blocks: list[tuple[list[int], list[int]]] = []
+    for column, support in supports.items():
+        if not support:
+            continue
+        kept, dependent = list(support), [column]
+        for block in [block for block in blocks if set(block[0]) & set(support)]:
+            blocks.remove(block)
+            kept = [*block[0], *(c for c in kept if c not in block[0])]
+            dependent = [*block[1], *dependent]
+        blocks.append((kept, dependent))
+    return blocks

@@ -1,0 +1,279 @@
+"""Closed postures over the whole range that the actuated joints reach, by walking along the loops.
+
+One step solves the linearised loops for the passive joints, J_s du_s = -f - J_q dq: prediction of
+the motion dq and correction of what the step before left open, in one. A walker whose step leaves
+the loops wide open, whose determinant of J_s changes sign or whose passive joints run away goes
+back and takes another direction: it never passes to another assembly mode. Equations that follow
+from the others near home count as open loops where they no longer do.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.derivation.closing import Closing
+from modeler.derivation.closure import Frame, loop_closing
+from modeler.derivation.geometry import Geometry
+from modeler.derivation.kinematics import base_poses
+from modeler.derivation.model import SymbolicModel
+from modeler.robot.robot import Joint, Robot
+
+_WALKERS = 32
+_STEPS = 40
+_STEP = 0.25
+"""Longest step of a joint, rad or sizes of the robot."""
+_GOING = 0.3
+"""Share of the actuated joints that a walker moves at a time, besides one of them."""
+_OPEN = 0.02
+"""Residual at which a step was too long, relative to the robot's size."""
+_SLOWEST = 1 / 64
+_POLISHING = 4
+_CLOSED = 1e-12
+_NEAREST = 1e-3
+"""Distance to a singularity (see `Walk.distance`) below which a posture is left out: rounding of a
+closed posture is amplified by its inverse, and by the square of that in accelerations."""
+
+
+@dataclass(frozen=True)
+class Walk:
+    """Closed postures, and how far they went.
+
+    Attributes:
+        postures: (samples, unknowns), home first; they come again where few are reached.
+        lowest: (coordinates,) of the postures' actuated joints.
+        highest: likewise.
+        distance: least singular value of J_s over the postures; rows of J scaled to usual length 1,
+            travels counted in sizes of the robot. 0 is a singularity.
+    """
+
+    postures: np.ndarray
+    lowest: np.ndarray
+    highest: np.ndarray
+    distance: float
+
+
+def walked(
+    closing: Closing,
+    home: np.ndarray,
+    ranges: Sequence[tuple[float, float]],
+    samples: int,
+    rng: np.random.Generator,
+    share: float = 0.0,
+) -> Walk:
+    """Closed postures that are reached from home by motions of the actuated joints.
+
+    Args:
+        closing: independent equations, as many as there are solved variables.
+        home: a closed posture.
+        ranges: by free variable, within which the walk stays.
+        samples: number of postures.
+        rng: of the motion.
+        share: of home's distance to a singularity that all postures keep.
+    """
+    walkers = max(_WALKERS, -(-2 * samples // _STEPS))
+    with np.errstate(all="ignore"):  # steps that go astray are taken back
+        path = _Paths(closing, np.tile(home, (walkers, 1)), np.array(ranges), rng)
+        reached = np.concatenate([path.step() for _ in range(_STEPS)])
+        rng.shuffle(reached)
+        found = _closed(closing, np.concatenate([reached[: 3 * samples], home[None]]))
+    distance = closing.sigma(found)
+    far = np.flatnonzero(distance >= min(max(_NEAREST, share * distance[-1]), distance[-1]))
+    kept = np.resize(far[::-1], samples)  # home first; few of them come again
+    found, distance = found[kept], distance[kept]
+    moved = found[:, list(closing.given)]
+    return Walk(found, moved.min(axis=0), moved.max(axis=0), float(distance.min()))
+
+
+def _closed(closing: Closing, u: np.ndarray) -> np.ndarray:
+    """The postures, all but closed, closed to rounding; those that do not settle are left out.
+
+    So are those that go far to close: near a singularity Newton may end in another assembly mode.
+    """
+    solved = list(closing.solved)
+    start, u = u, u.copy()
+    for _ in range(_POLISHING):
+        inner = closing.jacobians(u)[:, :, solved]
+        u[:, solved] -= np.linalg.solve(inner, closing.residuals(u)[:, :, None])[:, :, 0]
+    left = closing.openness(u)
+    far = np.abs(u - start) / closing.scale
+    return u[(left < _CLOSED * closing.size) & (np.max(far, axis=1) < _STEP)]
+
+
+class _Paths:
+    """Walkers on their way, each to its own target."""
+
+    def __init__(
+        self, closing: Closing, u: np.ndarray, ranges: np.ndarray, rng: np.random.Generator
+    ) -> None:
+        self.closing, self.rng, self.ranges = closing, rng, ranges
+        self.scale = closing.scale
+        self.given, self.solved = list(closing.given), list(closing.solved)
+        self.u = self.before = self.home = u
+        self.sign = self._linearised(u)[2]
+        self.pace = np.ones(len(u))
+        self.target = self._targets(len(u))
+
+    def _targets(self, count: int) -> np.ndarray:
+        """Random positions of the actuated joints; about half of them at an end of the range."""
+        low, high = self.ranges[self.given].T
+        wide = self.rng.uniform(-0.5, 1.5, (count, len(self.given)))
+        return np.asarray(low + np.clip(wide, 0.0, 1.0) * (high - low))
+
+    def _linearised(self, u: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Residuals, Jacobian with travels in sizes of the robot, sign of det J_s, openness."""
+        f, openness, J = self.closing.linearised(u)
+        J = J * self.scale
+        return f, J, np.linalg.slogdet(J[:, :, self.solved])[0], openness
+
+    def step(self) -> np.ndarray:
+        """One step of every walker; the postures, all but closed, that are reached by it."""
+        f, J, sign, openness = self._linearised(self.u)
+        lost = openness > _OPEN * self.closing.size
+        lost |= (sign != self.sign) | self._outside(self.u)
+        self.pace = np.where(lost, self.pace / 4, np.minimum(1.0, 2 * self.pace))
+        stuck = self.pace < _SLOWEST
+        if np.any(lost):
+            # From the edge of what is reached steps go astray: who is stuck starts again at home.
+            back = np.where(stuck[:, None], self.home, self.before)
+            self.u = np.where(lost[:, None], back, self.u)
+            f[lost], J[lost], *_ = self._linearised(self.u[lost])
+        self._turn(stuck)
+        self.before = self.u
+        self.u = self.u + self._advance(f, J)
+        return self.before[~lost]
+
+    def _outside(self, u: np.ndarray) -> np.ndarray:
+        low, high = self.ranges.T
+        return np.any((u < low - _STEP * self.scale) | (u > high + _STEP * self.scale), axis=1)
+
+    def _turn(self, stuck: np.ndarray) -> None:
+        """Other targets for walkers that are stuck, and for those that have arrived."""
+        left = np.abs(self.target - self.u[:, self.given]) / self.scale[self.given]
+        done = stuck | np.all(left < 1e-9, axis=1)
+        # Most joints stay: one at its end must not hold up the others.
+        goes = self.rng.random((int(np.sum(done)), len(self.given)))
+        stays = (goes > _GOING) & (goes > goes.min(axis=1, keepdims=True, initial=1.0))
+        here = self.u[done][:, self.given]
+        self.target[done] = np.where(stays, here, self._targets(len(here)))
+        self.pace[done] = 0.25
+
+    def _advance(self, f: np.ndarray, J: np.ndarray) -> np.ndarray:
+        """dq towards the target, and the du_s that keeps the loops closed; in rad and m."""
+        way = (self.target - self.u[:, self.given]) / self.scale[self.given]
+        longest = np.max(np.abs(way), axis=1)
+        dq = way * np.minimum(1.0, _STEP * self.pace / np.maximum(longest, 1e-300))[:, None]
+        along = np.einsum("nij,nj->ni", J[:, :, self.given], dq)
+        both = np.stack([f, along], axis=2)
+        back = -np.linalg.solve(J[:, :, self.solved], both)
+        fastest = np.max(np.abs(back[:, :, 1]), axis=1)
+        share = np.minimum(1.0, _STEP / np.maximum(fastest, 1e-300))[:, None]
+        step = np.zeros_like(self.u)
+        step[:, self.given] = dq * share
+        step[:, self.solved] = np.clip(back[:, :, 0], -_STEP, _STEP) + back[:, :, 1] * share
+        return step * self.scale
+
+
+# The loops of a robot as functions of many postures at once, and what a posture looks like.
+
+
+@dataclass(frozen=True)
+class Linkage(Brief):
+    """A robot with loops, as arrays of postures u of its free joints.
+
+    Attributes:
+        robot: as read.
+        geometry: its exact table.
+        closing: the loop equations.
+        owners: by equation, the loop that it comes from.
+        frames: axes and origin of every row in frame 0, as expressions.
+    """
+
+    robot: Robot
+    geometry: Geometry
+    closing: Closing
+    owners: Sequence[str]
+    frames: Sequence[Frame]
+
+    @property
+    def free(self) -> tuple[Joint, ...]:
+        """Rows whose variables are u."""
+        return self.robot.free
+
+    @cached_property
+    def lengths(self) -> np.ndarray:
+        """By u, True for a travel in m."""
+        return np.array(self.closing.lengths, dtype=bool)
+
+    @cached_property
+    def tied(self) -> np.ndarray:
+        """By u, True for a joint that a loop depends on; the others stand anywhere."""
+        columns = zip(*self.closing.jacobian, strict=True)
+        return np.array([any(not entry.is_zero for entry in column) for column in columns])
+
+    def vector(self, values: Mapping[str, float]) -> np.ndarray:
+        """(u,) values by row name; NaN for rows without."""
+        return np.array([values.get(joint.name, np.nan) for joint in self.free])
+
+    def bounds(self) -> tuple[np.ndarray, np.ndarray]:
+        """(u,) lower and upper [limits]; infinite for joints without."""
+        limits = [self.robot.limits.get(joint.name) for joint in self.free]
+        lower = np.array([-np.inf if one is None else one.lower for one in limits])
+        upper = np.array([np.inf if one is None else one.upper for one in limits])
+        return lower, upper
+
+    @cached_property
+    def middles(self) -> np.ndarray:
+        """(u,) middles of [limits]; NaN for joints without."""
+        lower, upper = self.bounds()
+        with np.errstate(invalid="ignore"):
+            middle = np.where(np.isfinite(lower + upper), 0.5 * (lower + upper), np.nan)
+        return np.array([float(f"{x:.12g}") for x in middle])
+
+    def origins(self, u: np.ndarray) -> np.ndarray:
+        """(n, rows, 3) origins of all frames in frame 0, m."""
+        flat = [x for _, origin in self.frames for x in origin]
+        return self.closing.evaluate(flat, u).reshape(len(u), len(self.frames), 3)
+
+    def shape(self, u: np.ndarray) -> np.ndarray:
+        """(n, numbers) where all frames and joint axes are, an axis being a line without a sense.
+
+        Postures of one shape are symmetric copies: a fork turned over with its universal joint, a
+        cylinder of negative length that points the other way.
+        """
+        z = self.closing.evaluate([x for axes, _ in self.frames for x in axes[2]], u)
+        z = z.reshape(len(u), len(self.frames), 3)
+        lines = np.einsum("nri,nrj->nrij", z, z)[:, :, *np.triu_indices(3)]
+        points = self.origins(u) / self.closing.size
+        return np.concatenate([points, lines], axis=2).reshape(len(u), 9 * len(self.frames))
+
+    def apart(self, u: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """(n, u) distances of joints, rad and sizes, angles the shorter way round; NaN as 0."""
+        way = u - other
+        way = np.where(self.lengths, way / self.closing.size, wrapped(way))
+        return np.abs(np.nan_to_num(way))
+
+    def outside(self, u: np.ndarray) -> np.ndarray:
+        """(n,) by how much [limits] are left, rad and sizes."""
+        lower, upper = self.bounds()
+        beyond = np.maximum(np.maximum(lower - u, u - upper), 0.0)
+        return np.asarray(np.sum(beyond / self.closing.scale, axis=1))
+
+
+def linkage_of(model: SymbolicModel) -> Linkage | None:
+    """The linkage of a model; None if no loop equation is left to be solved."""
+    robot = model.robot
+    if not robot.loops:
+        return None
+    closing, owners = loop_closing(model.geometry, model.graph, model.frames, model.algebra)
+    if not closing.equations or not closing.solved:
+        return None
+    frames = base_poses(model.geometry, model.frames, model.algebra)
+    return Linkage(robot, model.geometry, closing, owners, frames)
+
+
+def wrapped(angle: np.ndarray) -> np.ndarray:
+    """Angles in [-pi, pi)."""
+    return (angle + np.pi) % (2 * np.pi) - np.pi

@@ -1,0 +1,426 @@
+"""One effect more: described, derived, emitted, fitted, and judged on other motion."""
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from modeler.codegen.derivation import derive, generate
+from modeler.core.errors import DataError, RobotError
+from modeler.core.manifest import ModuleSpec
+from modeler.diagnosis.added_model import (
+    Logs,
+    Rows,
+    described,
+    left_of,
+    left_out,
+    rows_of,
+    with_shapes,
+)
+from modeler.diagnosis.analyse import analysed
+from modeler.diagnosis.candidates import Candidate, Known
+from modeler.diagnosis.columns import body_parameters
+from modeler.diagnosis.diagnosis import kept_parameters
+from modeler.diagnosis.drive_gains import gain_visible, is_gain
+from modeler.diagnosis.judge import Judged
+from modeler.diagnosis.result import Pick
+from modeler.diagnosis.score import Score, Unseen, errors_of, printed, rms_error, scored, told
+from modeler.diagnosis.search import extended, survey_of, surveyed
+from modeler.diagnosis.sentences import where
+from modeler.diagnosis.state import Data, State, state_of
+from modeler.diagnosis.timing import instrumental
+from modeler.effects.catalogue import effect_named
+from modeler.effects.effect import Acts, Effect
+from modeler.estimation.identify import identify
+from modeler.estimation.model_file import Addition, IdentifiedModel, provenance
+from modeler.estimation.verdict import with_verdict
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import listed, near
+from modeler.runtime.model import CompiledModel, load
+
+if TYPE_CHECKING:
+    from modeler.diagnosis.result import Finding
+
+
+# Effects on joints without motor: robot files may have them there.
+
+
+def passive_joints(spec: ModuleSpec) -> dict[str, int]:
+    """Joints without motor by name, and their places among the variables of the loops.
+
+    In a robot without loops, their places among the joints.
+    """
+    if spec.closure is None:
+        return {joint.name: j for j, joint in enumerate(spec.joints) if not joint.actuated}
+    driven = {*spec.closure.given, *spec.closure.platform}
+    return {name: i for i, name in enumerate(spec.closure.variables) if i not in driven}
+
+
+def plain(effect: Effect) -> bool:
+    """True for effects of a joint that read its speed and have no shapes."""
+    form = effect.forms[0]
+    return effect.acts is Acts.JOINT and not form.shapes and form.names <= {"v"}
+
+
+def on_passive(spec: ModuleSpec, effect: Effect, joint: str | None) -> Candidate | None:
+    """The effect on a joint without motor; None on others.
+
+    Args:
+        spec: of the robot.
+        effect: `plain`.
+        joint: name.
+    """
+    place = passive_joints(spec).get(joint or "")
+    if place is None or not plain(effect):
+        return None
+    if spec.closure is not None:  # felt by all motors, by the speed that the loops give it
+        effect = dataclasses.replace(effect, acts=Acts.PASSIVE)
+    return Candidate(effect, effect.forms[0], joint, place)
+
+
+# What `add` is asked for, checked before any log is looked at.
+
+
+_JOINTED = (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
+
+
+def asked(
+    model: IdentifiedModel, name: str, joint: str | None, catalogue: Sequence[Effect]
+) -> Effect:
+    """The effect of that name, if it can go into the model on that joint.
+
+    Args:
+        model: as it is.
+        name: id or alias of the effect.
+        joint: name; None: whichever, or the whole robot.
+        catalogue: the effects there are, with those of the robot file.
+
+    Raises:
+        DataError: no such effect or joint, one that cannot be added, that is there already, or
+            that acts on the whole robot while a joint is named.
+    """
+    effect = effect_named(name, catalogue)
+    if effect is None:
+        raise DataError(
+            f"{name}: no such effect{near(name, [known.id for known in catalogue])}; `modeler "
+            "effects` lists them, with --robot FILE those of a robot file too"
+        )
+    if effect.hindrance:
+        raise DataError(f"{effect.id}: cannot be added ({effect.hindrance})")
+    _check_loops(model, effect)
+    if joint is not None:
+        _check_joint(model, effect, joint)
+    _check_absent(model, effect, joint)
+    return effect
+
+
+def _check_joint(model: IdentifiedModel, effect: Effect, joint: str) -> None:
+    if effect.acts not in _JOINTED and (effect.acts is not Acts.LINK or effect.last_link):
+        raise DataError(
+            f"--joint {joint}: {effect.id} acts on the whole robot, not on one joint; leave "
+            "--joint out"
+        )
+    names = _places(model, effect)
+    if joint not in names and joint in passive_joints(model.spec) and effect.acts in _JOINTED:
+        raise DataError(
+            f"--joint {joint}: it has no motor, and there {effect.id} cannot be found from logs; "
+            "write it into the robot file, or add viscous, coulomb or passive_friction"
+        )
+    if joint not in names:
+        raise DataError(f"--joint {joint}: no such joint; expected one of {listed(names)}")
+
+
+def _check_loops(model: IdentifiedModel, effect: Effect) -> None:
+    """The C of a robot with loops reads speeds and accelerations of its joints, nothing else."""
+    if model.spec.closure is None or effect.acts not in _JOINTED:
+        return
+    if effect.acts is Acts.POSITION or not effect.forms[0].names <= {"v", "a"}:
+        raise DataError(
+            f"{effect.id}: cannot be added ({model.spec.robot} has loops, and there effects may "
+            "read speeds and accelerations only; keep it in mind as a finding)"
+        )
+
+
+def _check_absent(model: IdentifiedModel, effect: Effect, joint: str | None) -> None:
+    """An effect stands in a model once, but for ripples: there may be several orders."""
+    if effect.several or effect.acts not in _JOINTED:
+        return
+    present = {p.joint for p in model.spec.standard if p.effect == effect.id}
+    if joint in present:
+        raise DataError(f"{effect.id}: joint {joint} has it in this model already")
+    motors = {joint.name for joint in model.spec.joints if joint.actuated}
+    if joint is None and present and present >= motors:
+        raise DataError(f"{effect.id}: every joint has it in this model already")
+
+
+def _places(model: IdentifiedModel, effect: Effect) -> list[str]:
+    """Where the effect may act: joints with a motor, joints that loops leave over, or links."""
+    if effect.acts is Acts.LINK:
+        return list(dict.fromkeys(p.joint for p in model.spec.standard if p.effect == "rigid_body"))
+    passive = list(passive_joints(model.spec))
+    if effect.acts is Acts.PASSIVE:
+        return passive
+    driven = [joint.name for joint in model.spec.joints if joint.actuated]
+    return driven + passive if plain(effect) else driven
+
+
+_HIDDEN = 0.01  # share of its columns below which the logs do not show an effect
+
+
+@dataclass(frozen=True, eq=False)
+class _Fitted:
+    """A model, and the logs as its robot sees them.
+
+    Attributes:
+        model: as fitted; its last effect has no verdict yet.
+        rows: of the logs.
+        free: (c, k) base parameters that were fitted, by what they are made of; None: all.
+    """
+
+    model: IdentifiedModel
+    rows: Rows
+    free: np.ndarray | None = None
+
+    def unseen(self, refitted: bool) -> Unseen:
+        """What it leaves of held-out logs; where there are none, of its own logs in turn."""
+        if not self.rows.held_out and (refitted or self.free is not None):
+            return left_out(self.model, self.rows.fitted, self.free)
+        return left_of(self.model, self.rows.compiled, self.rows.seen[-1])
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
+def add_effect(
+    model: IdentifiedModel, compiled: CompiledModel, name: str, joint: str | None, logs: Logs
+) -> IdentifiedModel:
+    """The model with one effect more, fitted to the logs.
+
+    Its shapes are those that explain the logs best.
+
+    Args:
+        model: as it is.
+        compiled: its robot.
+        name: id or alias of the effect.
+        joint: None: the joint that it explains most on, or the whole robot.
+        logs: to fit, and to judge on.
+
+    Raises:
+        DataError: no such effect, one that is there already, cannot be told from the logs, or
+            cannot be added.
+    """
+    effect = asked(model, name, joint, robot_from_text(model.robot_text, "robot").catalogue)
+    before = _Fitted(model, rows_of(compiled, logs, model.processing))
+    after, _ = _judged(before, _found(before, effect, joint))
+    return _finished(after)
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")
+def add_findings(
+    model: IdentifiedModel, compiled: CompiledModel, findings: Sequence["Finding"], logs: Logs
+) -> tuple[IdentifiedModel, tuple[str, ...]]:
+    """The model with the effects of a diagnosis that lower the error; why others are left out.
+
+    One after the other; each is judged beside those that were put in before it, by `scored`. Drive
+    gains come first and are judged together where that lowers the error: one of two wrong gains
+    alone may spoil other joints. A reason is one line that names the effect and its joint.
+    """
+    left, best = [], _Fitted(model, rows_of(compiled, logs, model.processing))
+    best, findings = _with_gains(best, findings)
+    for finding in findings:
+        try:
+            catalogue = robot_from_text(best.model.robot_text, "robot").catalogue
+            asked(best.model, finding.effect, finding.joint, catalogue)
+            assert finding.pick is not None  # `asked` refuses what is no column
+            after, score = _judged(best, finding.pick)
+        except (DataError, RobotError) as error:
+            left.append(f"left out: {finding.effect}, {where(finding.joint)} ({error})")
+            continue
+        if score.better:
+            best = after
+        else:
+            left.append(f"left out: {finding.effect}, {where(finding.joint)} ({_refused(score)})")
+    return model if best.model is model else _finished(best), tuple(left)
+
+
+def _with_gains(
+    before: _Fitted, findings: Sequence["Finding"]
+) -> tuple[_Fitted, Sequence["Finding"]]:
+    """The model with all drive gains, if there are several and it is better; what is left."""
+    gains = [f for f in findings if f.pick is not None and is_gain(f.pick.candidate)]
+    if len(gains) < 2:
+        return before, findings
+    after = before
+    try:
+        for finding in gains:
+            assert finding.pick is not None
+            after = _judged(after, finding.pick)[0]
+    except (DataError, RobotError):
+        return before, findings
+    if not scored(before.unseen(True), after.unseen(True)).better:
+        return before, findings
+    steps = after.model.history
+    done = [dataclasses.replace(step, falls=True) for step in steps[-len(gains) :]]
+    model = dataclasses.replace(after.model, history=(*steps[: -len(gains)], *done))
+    return dataclasses.replace(after, model=model), [f for f in findings if f not in gains]
+
+
+def _refused(score: Score) -> str:
+    """Why a change is none for the better."""
+    if score.spoilt:
+        return f"the error rises: {told(score.errors, score.changed)}"
+    total = " -> ".join(printed(score.whole.before, score.whole.after))
+    return (
+        "the error does not fall by more than chance: "
+        f"{total} over all joints; {told(score.errors, score.changed)}"
+    )
+
+
+def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
+    """The model without the effect that was added last, fitted again.
+
+    Raises:
+        DataError: none was added.
+    """
+    if len(model.history) < 2:
+        raise DataError("undo: no effect was added to this model; name one to add")
+    before = model.history[-2]
+    processing = dataclasses.replace(model.processing, delay=before.delay)
+    fitted = _fitted(
+        before.robot_text, lambda compiled: rows_of(compiled, Logs(logs.fitted), processing)
+    )
+    history = dataclasses.replace(fitted.model, history=model.history[:-1])
+    return _finished(dataclasses.replace(fitted, model=history))
+
+
+def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
+    """The effect at its best shapes, about the model with it."""
+    model, rows = before.model, before.rows
+    robot = robot_from_text(model.robot_text, "robot of the model")
+    observation = analysed(
+        rows.compiled, rows.logs.fitted, model.processing, prepared=rows.prepared[0]
+    )
+    kept = kept_parameters(model, rows.compiled, rows.logs.fitted, observation)
+    if effect.acts is Acts.LINK and kept is None:
+        kept = model.beta
+    data = Data(rows.compiled, observation, kept, Known(robot.catalogue, robot.coupling))
+    state = state_of(data, (), model.beta)
+    best = _best(state, effect, joint)
+    if effect.acts is Acts.TORQUE:  # least squares make delays too small
+        values = instrumental(state, best.candidate)[0]
+        return Pick(best.candidate, values, state, best.visible)
+    later = extended(state, best.candidate)  # a wrong gain bends the model whose torques it scales
+    visible = gain_visible(later, 0) if is_gain(best.candidate) else best.visible
+    return Pick(best.candidate, later.values[0], later, visible)
+
+
+def _best(state: State, effect: Effect, joint: str | None) -> Judged:
+    """The effect at its best shapes."""
+    passive = on_passive(state.data.compiled.spec, effect, joint)
+    asked_for = (
+        surveyed(state, only=effect.id, joint=joint) if passive is None
+        else survey_of(state, [passive])
+    )  # fmt: skip
+    found = asked_for.judged().ranked
+    if not found:
+        raise DataError(
+            f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "
+            "motion would"
+        )
+    return found[0]
+
+
+def _check_seen(pick: Pick) -> None:
+    """Refuse what would take its values from the model that is there."""
+    if pick.visible < _HIDDEN:
+        effect = pick.candidate.effect
+        raise DataError(
+            f"{effect.id}: cannot be told from what the model has on these logs "
+            f"({100 * pick.visible:.1g} % of it is left); {effect.look_alikes}"
+        )
+
+
+def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:
+    """The model with the effect, and whether it is the better one."""
+    _check_seen(pick)
+    after = _with(before, pick)
+    refitted = pick.candidate.effect.acts is not Acts.LINK
+    score = scored(before.unseen(refitted), after.unseen(refitted))
+    if not score.joints:
+        raise DataError("no joint has a torque in these logs; expected logs of a robot that moves")
+    history = before.model.history or (_step(before, {n: a for n, (a, _) in score.errors.items()}),)
+    step = dataclasses.replace(
+        _step(after, {n: b for n, (_, b) in score.errors.items()}),
+        effect=pick.candidate.effect.id,
+        joint=pick.candidate.joint,
+        shapes=dict(pick.candidate.shapes),
+        joints=score.errors,
+        changed=score.changed,
+        falls=score.better,
+    )
+    model = dataclasses.replace(after.model, history=(*history, step))
+    return dataclasses.replace(after, model=model), score
+
+
+def _step(fitted: _Fitted, errors: Mapping[str, float]) -> Addition:
+    """A model as a step of its history.
+
+    Args:
+        fitted: it.
+        errors: relative, by joint, on unseen motion.
+    """
+    training = errors_of(left_of(fitted.model, fitted.rows.compiled, fitted.rows.fitted))
+    return Addition(
+        effect="",
+        joint=None,
+        shapes={},
+        error=rms_error(errors.values()),
+        training_error=rms_error(training.values()),
+        held_out=tuple(log.name for log in fitted.rows.logs.held_out),
+        robot_text=fitted.model.robot_text,
+        delay=fitted.model.processing.delay,
+        joints={name: (error, error) for name, error in errors.items()},
+    )
+
+
+def _with(before: _Fitted, pick: Pick) -> _Fitted:
+    """The model with the effect, fitted."""
+    model, rows, effect = before.model, before.rows, pick.candidate.effect
+    if effect.acts is Acts.LINK:
+        felt = [p.name for p in body_parameters(pick.candidate, pick.state.rows.signals[0])]
+        names = [p.name for p in model.spec.standard]
+        chi = np.eye(len(names))[[names.index(name) for name in felt]]
+        free = np.column_stack([rows.compiled.base_parameters(one) for one in chi])
+        return _Fitted(_loaded(model, free @ pick.values), rows, free)
+    if effect.acts is Acts.TORQUE:
+        seen = pick.state.data.observation.report.processing
+        processing = dataclasses.replace(model.processing, delay=seen.delay + float(pick.values[0]))
+        return _fitted(model.robot_text, lambda made: rows_of(made, rows.logs, processing))
+    text = described(model.robot_text, pick.candidate, pick.values, pick.state.reference)
+    return _fitted(text, rows.of)
+
+
+def _finished(fitted: _Fitted) -> IdentifiedModel:
+    """The model with the spread along its shapes, and its verdict."""
+    model, rows = fitted.model, fitted.rows
+    wide = analysed(rows.compiled, rows.logs.fitted, model.processing, prepared=rows.prepared[0])
+    model = with_shapes(model, rows.compiled, wide)
+    fit = with_verdict(rows.compiled, rows.fitted, model.fit)
+    return dataclasses.replace(model, fit=fit)
+
+
+def _fitted(text: str, seen: Callable[[CompiledModel], Rows]) -> _Fitted:
+    """The robot of that file fitted to the logs."""
+    derivation = derive(robot_from_text(text, "robot with the effect"))
+    emitted = generate(derivation)
+    rows = seen(load(emitted.spec, emitted.code))
+    fit, used = identify(rows.fitted), provenance(rows.fitted.report)
+    return _Fitted(IdentifiedModel(text, emitted.spec, emitted.code, fit, used), rows)
+
+
+def _loaded(model: IdentifiedModel, body: np.ndarray) -> IdentifiedModel:
+    """The model with a body more on a link: its base parameters (c,), nothing else."""
+    pairs = zip(model.fit.parameters, model.beta + body, strict=True)
+    parameters = tuple(dataclasses.replace(p, value=float(v)) for p, v in pairs)
+    return dataclasses.replace(model, fit=dataclasses.replace(model.fit, parameters=parameters))

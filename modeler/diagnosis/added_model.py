@@ -1,0 +1,432 @@
+"""How sure a model is whose shapes were fitted too: sigmas and intervals that know of it."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.errors import DataError, RobotError
+from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.gram import base_of, blocks_of
+from modeler.diagnosis.profile import Problem, Profile, profile
+from modeler.diagnosis.score import Unseen, told
+from modeler.diagnosis.sentences import where
+from modeler.diagnosis.signals import Reference, tilt_basis
+from modeler.diagnosis.state import Data, State, columns_of, state_of
+from modeler.diagnosis.values import told_spread
+from modeler.effects.catalogue import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, effect_named
+from modeler.effects.effect import Acts, Effect
+from modeler.estimation.model_file import Addition, IdentifiedModel
+from modeler.observation.log import Log
+from modeler.observation.low_speed import shafts
+from modeler.observation.observation import Observation, model_torque, observed, observed_alike
+from modeler.observation.prepare import Prepared, prepare
+from modeler.observation.processing import Processing
+from modeler.robot.edit import with_coupling, with_effect, with_gravity, with_reference
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import Robot
+from modeler.runtime.model import CompiledModel
+
+
+def with_shapes(
+    model: IdentifiedModel, compiled: CompiledModel, observation: Observation
+) -> IdentifiedModel:
+    """The model with standard deviations that know that shapes were fitted too.
+
+    Covariance, sigmas of all parameters, intervals of the parameters and shapes of the effects in
+    its history. The shapes of one effect are varied at a time.
+
+    Args:
+        model: as fitted, with its history.
+        compiled: its robot.
+        observation: of the logs that it was fitted to, in the band in which shapes are found.
+    """
+    catalogue = robot_from_text(model.robot_text, "robot of the model").catalogue
+    state = None
+    history = list(model.history)
+    for i, step in enumerate(history):
+        pick = _candidate(model, step, catalogue)
+        if pick is None:
+            continue
+        state = state or state_of(Data(compiled, observation), (), model.beta)
+        own = _own_columns(model, state, pick)
+        along = profile(_problem(state, own, pick), pick) if own else None
+        if along is None:
+            continue
+        model = _widened(model, along, own)
+        history[i] = dataclasses.replace(
+            step, shape_sigmas=along.shape_deviations(), shape_intervals=along.shape_intervals()
+        )
+    return dataclasses.replace(model, history=tuple(history))
+
+
+def _candidate(
+    model: IdentifiedModel, step: Addition, catalogue: Sequence[Effect]
+) -> Candidate | None:
+    """The effect of a step, if it has shapes on a joint."""
+    effect = effect_named(step.effect, catalogue) if step.effect else None
+    if effect is None or effect.acts is not Acts.JOINT or not step.shapes:
+        return None
+    forms = [f for f in effect.forms if {s.name for s in f.shapes} == set(step.shapes)]
+    names = [joint.name for joint in model.spec.joints]
+    if not forms or step.joint not in names:
+        return None
+    return Candidate(effect, forms[0], step.joint, names.index(step.joint), dict(step.shapes))
+
+
+def _own_columns(model: IdentifiedModel, state: State, pick: Candidate) -> list[int]:
+    """Base columns of the effect, in the order of its own; of several ripples, those alike."""
+    found = columns_of(state.rows, pick, state.cache)[pick.index]
+    effect = {p.name: (p.effect, p.joint) for p in model.spec.standard}
+    free = [i for i, b in enumerate(model.spec.base) if effect[b.column_of] == pick.key]
+    if found is None or len(free) < found.shape[1]:
+        return []
+    base = state.rows.W[pick.index]
+    own = []
+    for column in found.T:
+        best = max(free, key=lambda i: _alike(base[:, i], column))
+        own.append(best)
+        free.remove(best)
+    return own
+
+
+def _alike(one: np.ndarray, other: np.ndarray) -> float:
+    size = float(np.linalg.norm(one) * np.linalg.norm(other))
+    return abs(float(one @ other)) / size if size > 0.0 else 0.0
+
+
+def _problem(state: State, own: Sequence[int], pick: Candidate) -> Problem:
+    rows = state.rows
+    return Problem(
+        rows,
+        state.data.observation,
+        tuple(np.delete(w, own, axis=1) for w in rows.W),
+        rows.y,
+        state.base.sigma,
+        state.scales[pick.index],
+    )
+
+
+def _widened(model: IdentifiedModel, along: Profile, own: Sequence[int]) -> IdentifiedModel:
+    """The model with the spread along the shapes of one effect in its covariance."""
+    fit = model.fit
+    order = [*(i for i in range(len(fit.parameters)) if i not in own), *own]
+    extra = np.zeros(fit.covariance.shape)
+    extra[np.ix_(order, order)] = along.extra()
+    known = np.array([p.sigma is not None for p in fit.parameters])
+    covariance = fit.covariance + np.where(np.outer(known, known), extra, 0.0)
+    scale = np.ones(len(order))
+    for i, sigma in zip(own, along.deviations(), strict=True):
+        if covariance[i, i] > 0.0:
+            scale[i] = max(1.0, float(sigma / np.sqrt(covariance[i, i])))
+    covariance = covariance * np.outer(scale, scale)
+    # the fit has a narrower band, and with it values that differ a little
+    moved = fit.beta[own] - along.told.values
+    ends = [(float(low), float(high)) for low, high in along.intervals() + moved[:, None]]
+    intervals = dict(zip(own, ends, strict=True))
+    parameters = tuple(
+        p if p.sigma is None else dataclasses.replace(
+            p,
+            sigma=float(np.sqrt(covariance[i, i])),
+            interval=intervals.get(i, p.interval),
+        )
+        for i, p in enumerate(fit.parameters)
+    )  # fmt: skip
+    better = dataclasses.replace(fit, parameters=parameters, covariance=covariance)
+    return dataclasses.replace(model, fit=better)
+
+
+# The robot file with one effect more.
+
+
+def described(text: str, pick: Candidate, values: np.ndarray, reference: Reference) -> str:
+    """The robot file with the effect.
+
+    Args:
+        text: as it is.
+        pick: effect, joint, shapes.
+        values: of its parameters, for effects that change the description itself.
+        reference: the model.
+
+    Raises:
+        DataError: its coupling cannot be written.
+        RobotError: it stands there already.
+    """
+    effect = pick.effect
+    if effect.acts is Acts.GRAVITY:
+        return with_gravity(text, _tilted(text, values, reference).tolist())
+    if effect.acts is Acts.PASSIVE:
+        assert pick.joint is not None
+        return _passive(text, effect, pick.joint)
+    assert pick.joint is not None
+    if effect.acts is Acts.MOTOR:
+        text = _coupled(text, pick, reference)
+    changed = with_effect(text, effect.id, pick.joint, _shapes(pick, reference))
+    return with_reference(changed, _referred(reference)) if _depends(effect) else changed
+
+
+def _passive(text: str, effect: Effect, joint: str) -> str:
+    """The file with friction on a joint without motor."""
+    robot = robot_from_text(text, "robot of the model")
+    everyone = [row.name for row in robot.moving if row.actuated]
+    for name in PASSIVE_FRICTION_IS if effect.id == PASSIVE_FRICTION else (effect.id,):
+        text = with_effect(text, name, joint, {}, everyone)
+    return text
+
+
+def _shapes(pick: Candidate, reference: Reference) -> dict[str, float]:
+    """The shapes of a joint's effect, and where its temperature or time is 0."""
+    shapes = {} if pick.effect.acts is Acts.MOTOR else dict(pick.shapes)
+    fixed = {s.name: s.grid[0] for s in pick.form.shapes if len(s.grid) == 1}
+    shapes = {name: value for name, value in shapes.items() if fixed.get(name) != value}
+    moments = [shape.name for shape in pick.form.shapes if shape.scale == "moment"]
+    if moments and _is_first_moment(pick, reference):
+        shapes |= dict.fromkeys(moments, 0.0)
+    if "T" in pick.form.names and pick.joint is not None:
+        shapes["T0"] = reference.temperature[pick.joint]
+    if "t" in pick.form.names:
+        shapes["t0"] = reference.time
+    return shapes
+
+
+def _is_first_moment(pick: Candidate, reference: Reference) -> bool:
+    """True if the model has sin(q - q0) on that joint already: gravity of its links."""
+    model = reference.compiled
+    joints = len(model.spec.joints)
+    generator = np.random.default_rng(7)
+    q, qd, qdd = generator.uniform(-2.0, 2.0, (3, 40 * joints, joints))
+    signals = np.ones((len(q), len(model.spec.signals))) if model.spec.signals else None
+    phi = model.base_regressor(q, qd, qdd, signals).reshape(q.size, -1)
+    column = np.zeros(q.shape)
+    column[:, pick.index] = np.sin(q[:, pick.index] - pick.shapes["q0"])
+    target = column.ravel()
+    solved = np.linalg.lstsq(phi, target, rcond=1e-10)[0]
+    return bool(np.linalg.norm(phi @ solved - target) < 1e-6 * np.linalg.norm(target))
+
+
+def _depends(effect: Effect) -> bool:
+    names = frozenset().union(*(form.names for form in effect.forms))
+    return effect.acts is Acts.POSITION or not names.isdisjoint({"load", "static", "torque"})
+
+
+def _referred(reference: Reference) -> dict[str, float]:
+    """Standard parameters with the torques of the model: each base parameter in its own column."""
+    known = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
+    effects = {p.name: p.effect for p in reference.compiled.spec.standard}
+    return {
+        base.column_of: float(f"{value:.9g}")
+        for base, value in zip(reference.compiled.spec.base, reference.beta, strict=True)
+        if effects[base.column_of] in known
+    }
+
+
+def _tilted(text: str, values: np.ndarray, reference: Reference) -> np.ndarray:
+    """Gravity with the tilt, of the length it had."""
+    robot: Robot = robot_from_text(text, "robot of the model")
+    symbols = {name: value.number() for name, value in robot.symbols.items()}
+    gravity = np.array([entry.number(symbols) for entry in robot.gravity])
+    basis = tilt_basis(reference)
+    assert basis is not None
+    turned = gravity + values[0] * basis[0][0] + values[1] * basis[1][0]
+    return turned * (np.linalg.norm(gravity) / np.linalg.norm(turned))
+
+
+def _coupled(text: str, pick: Candidate, reference: Reference) -> str:
+    """The file with the motor's coupling, if it has none for that joint."""
+    if "c" not in pick.shapes:
+        return text
+    joints = reference.compiled.spec.joints
+    here, before = joints[pick.index].name, joints[pick.index - 1].name
+    sign = "+" if pick.shapes["c"] > 0.0 else "-"
+    share = abs(pick.shapes["c"])
+    times = "" if share == 1.0 else f"{share:g}*"
+    try:
+        return with_coupling(text, here, f"q{here} {sign} {times}q{before}")
+    except RobotError as error:
+        raise DataError(f"{pick.effect.id}: {error}") from None
+
+
+# What the user should know of an effect that was added, beside its error.
+
+
+def added(model: IdentifiedModel) -> list[str]:
+    """Parameters that the step added last put into the model, with their units and shapes."""
+    if len(model.history) < 2:
+        return []
+    last = model.history[-1]
+    own = {p.name for p in model.spec.standard if (p.effect, p.joint) == (last.effect, last.joint)}
+    base = {b.name for b in model.spec.base if b.column_of in own}
+    lines = [
+        f"{p.name} = {p.value:.5g}{told_spread(p.value, p.sigma or 0.0, p.interval)} {p.unit}"
+        for p in model.fit.parameters if p.name in base
+    ]  # fmt: skip
+    if lines and last.shapes:
+        units = _units(model, last)
+        texts = [
+            f"{k} = {v:.4g}{_spread(last, k)}{units.get(k, '')}" for k, v in last.shapes.items()
+        ]
+        lines.append("with " + ", ".join(texts))
+    return lines
+
+
+def _spread(step: Addition, name: str) -> str:
+    sigma, interval = step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name)
+    return told_spread(step.shapes[name], sigma, interval)
+
+
+def _units(model: IdentifiedModel, step: Addition) -> dict[str, str]:
+    """What stands behind the values of the shapes."""
+    effect = effect_named(step.effect, robot_from_text(model.robot_text, "robot").catalogue)
+    assert effect is not None
+    linear = any(j.name == step.joint and j.unit == "m" for j in model.spec.joints)
+    shapes = [shape for form in effect.forms for shape in form.shapes]
+    units = {shape.name: shape.unit(linear) for shape in shapes}
+    return {name: f" {unit}" for name, unit in units.items() if unit != "1"}
+
+
+def notes(model: IdentifiedModel, since: int = -1) -> list[str]:
+    """Sentences on steps that were added: which errors fall, and what is not as asked.
+
+    Args:
+        model: with its history.
+        since: place of the first of them in the history.
+    """
+    if len(model.history) < 2:
+        return []
+    catalogue = robot_from_text(model.robot_text, "robot").catalogue
+    found = []
+    for step in model.history[since:]:
+        effect = effect_named(step.effect, catalogue)
+        assert effect is not None
+        name = f"{effect.id}, {where(step.joint)}"
+        if _stands_in(effect, step):
+            found.append(
+                f"{name}: the logs have no column temperature{step.joint} or temperature, so the "
+                "time since their start stands for it; log it to know more"
+            )
+        found.append(_change(name, step))
+    return found
+
+
+def _change(name: str, step: Addition) -> str:
+    change = told(step.joints, step.changed)
+    if step.falls:
+        return f"{name}: the error falls: {change}"
+    return (
+        f"{name}: the error does not fall ({change}); `modeler add MODEL undo` takes the effect "
+        "out again"
+    )
+
+
+def _stands_in(effect: Effect, step: Addition) -> bool:
+    """True if the effect usually reads a temperature and here does not."""
+    usual = effect.forms[0]
+    return "T" in usual.names and {shape.name for shape in usual.shapes} != set(step.shapes)
+
+
+# The rows of logs for a robot, also with other effects, and what a model leaves of them.
+
+
+@dataclass(frozen=True, eq=False)
+class Logs:
+    """What the model is fitted to, and what it is judged on."""
+
+    fitted: Sequence[Log]
+    held_out: Sequence[Log] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Logs as one robot sees them.
+
+    Attributes:
+        logs: they.
+        compiled: the robot.
+        prepared: filtered and differentiated; those that are held out second, if there are any.
+        seen: the observations, in that order.
+    """
+
+    logs: Logs
+    compiled: CompiledModel
+    prepared: tuple[Prepared, ...]
+    seen: tuple[Observation, ...]
+
+    @property
+    def fitted(self) -> Observation:
+        """What a model is fitted to."""
+        return self.seen[0]
+
+    @property
+    def held_out(self) -> bool:
+        """True if there are logs to judge on."""
+        return len(self.seen) > 1
+
+    def of(self, compiled: CompiledModel) -> "Rows":
+        """The rows of the same robot with other effects; nothing is filtered again."""
+        if shafts(compiled) == shafts(self.compiled):
+            seen = tuple(observed_alike(compiled, observation) for observation in self.seen)
+            return dataclasses.replace(self, compiled=compiled, seen=seen)
+        return _rows(compiled, self.logs, self.prepared)
+
+
+def rows_of(compiled: CompiledModel, logs: Logs, processing: Processing) -> Rows:
+    """The rows of logs.
+
+    Args:
+        compiled: the robot.
+        logs: read with its manifest.
+        processing: that of the model.
+
+    Raises:
+        DataError: no usable row.
+    """
+    given = (logs.fitted, logs.held_out) if logs.held_out else (logs.fitted,)
+    prepared = tuple(prepare(compiled.spec, some, processing) for some in given)
+    return _rows(compiled, logs, prepared)
+
+
+def _rows(compiled: CompiledModel, logs: Logs, prepared: tuple[Prepared, ...]) -> Rows:
+    given = (logs.fitted, logs.held_out)[: len(prepared)]
+    pairs = zip(given, prepared, strict=True)
+    return Rows(logs, compiled, prepared, tuple(observed(compiled, *pair) for pair in pairs))
+
+
+def left_of(model: IdentifiedModel, compiled: CompiledModel, observation: Observation) -> Unseen:
+    """What it leaves of logs."""
+    left = observation.torque - model_torque(observation, compiled, model.beta)
+    return _unseen_of(observation, [left[own, j] for j, own in enumerate(observation.used.T)])
+
+
+def left_out(
+    model: IdentifiedModel, observation: Observation, free: np.ndarray | None = None
+) -> Unseen:
+    """What it leaves of its own logs, each eighth predicted from a fit to the others.
+
+    Args:
+        model: fitted.
+        observation: of its logs.
+        free: (c, k) the directions of beta that are fitted, beside the model; None: all of it.
+    """
+    used = observation.used.T
+    W = [observation.columns[own, j] for j, own in enumerate(used)]
+    y = [observation.torque[own, j] for j, own in enumerate(used)]
+    if free is not None:
+        y = [tau - w @ model.beta for w, tau in zip(W, y, strict=True)]
+        W = [w @ free for w in W]
+    blocks = blocks_of(observation)
+    number = [blocks.number[own] for own in used]
+    sigma = np.array([joint.sigma if joint.sigma > 0.0 else 1.0 for joint in model.fit.joints])
+    base = base_of(W, y, sigma, number, blocks.fold)
+    return _unseen_of(observation, [s * e for s, e in zip(sigma, base.left_out, strict=True)])
+
+
+def _unseen_of(observation: Observation, left: list[np.ndarray]) -> Unseen:
+    used = observation.used.T
+    return Unseen(
+        tuple(joint.name for joint in observation.joints),
+        tuple(left),
+        tuple(observation.torque[own, j] for j, own in enumerate(used)),
+        tuple(observation.time[own] for own in used),
+        tuple(observation.run[own] for own in used),
+    )

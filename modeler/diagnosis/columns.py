@@ -1,0 +1,401 @@
+"""The rows of an analysis: measured torque, base columns and candidates through one filter."""
+
+import dataclasses
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from modeler.core.brief import Brief
+from modeler.core.manifest import ModuleSpec, ParameterSpec
+from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.signals import EVERY, WINDOW, Reference, Signals, tilt_columns
+from modeler.effects.effect import Acts, Memory
+from modeler.numerics.filters import SPREAD, only
+from modeler.observation.observation import Observation
+from modeler.observation.stretch import Stretch
+
+# The columns of a candidate over the samples of a segment: the catalogue's equations in numpy.
+
+
+FUNCTIONS = {
+    "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp": np.exp,
+    "abs": np.abs, "sign": np.sign, "tanh": np.tanh,
+}  # fmt: skip
+
+UNFELT = 1e-12
+"""Columns that are nowhere larger are felt by no joint."""
+
+
+def own_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -> np.ndarray:
+    """(n, k) equations of its k columns on its joint, over a window of the samples."""
+    values: dict[str, object] = {**candidate.shapes, **_read(candidate, signals, window)}
+    memory = candidate.form.memory
+    if memory is not None:
+        values["z"] = _state(memory, candidate, signals)[window]
+    ones = np.ones(len(signals.q[window]))
+    with np.errstate(all="ignore"):  # columns that are not finite are not looked at
+        return np.column_stack(
+            [
+                ones * column.equation.fold(values, FUNCTIONS, np.pi, float)
+                for column in candidate.form.columns
+            ]
+        )
+
+
+def _read(candidate: Candidate, signals: Signals, window: slice) -> dict[str, np.ndarray | None]:
+    """(n,) what its equations read of the motion and the model, by name."""
+    j, names = candidate.index, candidate.form.names
+    values: dict[str, np.ndarray | None]
+    motion = {"q": signals.q, "v": signals.v, "a": signals.a}
+    values = {name: x[window, j] for name, x in motion.items()}
+    for name in ("load", "static", "torque", "rate"):
+        if name in names:
+            values[name] = getattr(signals, name)[window, j]
+    if "t" in names:
+        values["t"] = signals.time[window]
+    if "T" in names:
+        warmth = signals.temperature(candidate.joint or "")
+        values["T"] = None if warmth is None else warmth[window]
+    return values
+
+
+def own_columns_of(
+    candidates: Sequence[Candidate], signals: Signals, window: slice = EVERY
+) -> np.ndarray:
+    """(n, k) of candidates of one form on one joint, that of the first, then the next."""
+    first = candidates[0]
+    if first.form.memory is not None or len(candidates) == 1 or not first.shapes:
+        return np.hstack([own_columns(candidate, signals, window) for candidate in candidates])
+    values: dict[str, object] = {
+        name: np.array([candidate.shapes[name] for candidate in candidates])
+        for name in first.shapes
+    }
+    values |= {
+        name: value[:, None]
+        for name, value in _read(first, signals, window).items() if value is not None
+    }  # fmt: skip
+    found = np.empty((len(signals.q[window]), len(candidates), len(first.form.columns)))
+    with np.errstate(all="ignore"):
+        for k, column in enumerate(first.form.columns):
+            found[:, :, k] = column.equation.fold(values, FUNCTIONS, np.pi, float)
+    return found.reshape(len(found), -1)
+
+
+def _state(memory: Memory, candidate: Candidate, signals: Signals) -> np.ndarray:
+    return signals.state(memory, candidate.index, candidate.shapes)
+
+
+def all_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -> np.ndarray:
+    """(n, J, k) torques of its columns on every joint, over a window of the samples."""
+    acts = candidate.effect.acts
+    if acts is Acts.TORQUE:
+        return signals.rate[window, :, None]
+    if acts is Acts.GRAVITY:
+        return tilt_columns(signals, window)
+    if acts is Acts.LINK:
+        return _body(candidate, signals, window)
+    if acts is Acts.MOTOR:
+        return _motor(candidate, signals, window)
+    if acts is Acts.PASSIVE:
+        return _passive(candidate, signals, window)
+    if acts is Acts.POSITION:
+        dq = own_columns(candidate, signals)
+        return signals.moved(candidate.index, dq, candidate.effect.whole_axis, window)
+    own = own_columns(candidate, signals, window)
+    result = np.zeros((len(own), signals.q.shape[1], own.shape[1]))
+    result[:, candidate.index] = own
+    return result
+
+
+def _shaft(candidate: Candidate, speed: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
+    """(n, k) equations of a shaft that is no joint of the model."""
+    values = {"v": speed, "a": acceleration}
+    return np.column_stack(
+        [c.equation.fold(values, FUNCTIONS, np.pi, float) for c in candidate.form.columns]
+    )
+
+
+def _motor(candidate: Candidate, signals: Signals, window: slice) -> np.ndarray:
+    turn = np.zeros(signals.q.shape[1])
+    turn[list(candidate.turn)] = list(candidate.turn.values())
+    own = _shaft(candidate, signals.v[window] @ turn, signals.a[window] @ turn)
+    return own[:, None, :] * turn[None, :, None]
+
+
+def _body(candidate: Candidate, signals: Signals, window: slice) -> np.ndarray:
+    """Columns of the ten inertial parameters of a link, those that any joint feels."""
+    every = _inertial(candidate, signals.reference.compiled.spec)
+    own = [i for i, _ in every if signals.largest[i] > UNFELT]
+    return signals.regressor(window)[:, :, own]
+
+
+def body_parameters(candidate: Candidate, signals: Signals) -> list[ParameterSpec]:
+    """The standard parameters of the columns of a body on a link."""
+    every = _inertial(candidate, signals.reference.compiled.spec)
+    return [parameter for i, parameter in every if signals.largest[i] > UNFELT]
+
+
+def _inertial(candidate: Candidate, spec: ModuleSpec) -> list[tuple[int, ParameterSpec]]:
+    """Inertial parameters of the link that a candidate loads, with their places."""
+    links = [p.joint for p in spec.standard if p.effect == "rigid_body"]
+    own = list(dict.fromkeys(links))[candidate.index]
+    return [
+        (i, p) for i, p in enumerate(spec.standard) if p.effect == "rigid_body" and p.joint == own
+    ]
+
+
+def _passive(candidate: Candidate, signals: Signals, window: slice) -> np.ndarray:
+    row = signals.coupling[window, candidate.index]
+    speed = np.einsum("nj,nj->n", row, signals.v[window])
+    own = _shaft(candidate, speed, np.zeros_like(speed))
+    return own[:, None, :] * row[:, :, None]
+
+
+Columns = tuple[np.ndarray | None, ...]
+"""Columns of one candidate by joint, (rows_j, k) each; None where they are zero throughout."""
+
+
+_WIDE = 12
+"""Values per sample above which it is not worth the while to evaluate all samples at once."""
+
+Evaluate = Callable[[int, slice], np.ndarray]
+"""Values over a window of the samples of a stretch, by its number."""
+
+
+@dataclass(frozen=True, eq=False)
+class Block(Brief):
+    """Rows that lie beside each other, and the samples that they reach.
+
+    Attributes:
+        window: samples.
+        filters: (rows_j, samples of the window) by joint.
+    """
+
+    window: slice
+    filters: tuple[csr_array, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Rows(Brief):
+    """The used rows of every joint; J joints, c base columns.
+
+    Attributes:
+        y: (rows_j,) by joint, measured torque, N m or N.
+        W: (rows_j, c) by joint, base columns.
+        time: (rows_j,) by joint, s.
+        run: (rows_j,) by joint, index of the log.
+        segment: (rows_j,) by joint.
+        filters: (rows_j, samples) by stretch and joint.
+        blocks: the same in pieces, by stretch.
+        signals: by stretch.
+        known: what was made of them for this reference, by name.
+    """
+
+    y: tuple[np.ndarray, ...]
+    W: tuple[np.ndarray, ...]
+    time: tuple[np.ndarray, ...]
+    run: tuple[np.ndarray, ...]
+    segment: tuple[np.ndarray, ...]
+    filters: tuple[tuple[csr_array, ...], ...]
+    blocks: tuple[tuple[Block, ...], ...]
+    signals: tuple[Signals, ...]
+    known: dict[Any, Any] = field(default_factory=dict)
+
+    @property
+    def joints(self) -> int:
+        """Number of joints, J."""
+        return len(self.y)
+
+    def about(self, reference: Reference) -> "Rows":
+        """The same rows with effects linearised about another reference of the same robot."""
+        signals = tuple(dataclasses.replace(s, reference=reference) for s in self.signals)
+        return dataclasses.replace(self, signals=signals, known={})
+
+    def filtered(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
+        """(rows_j, ...) of values (samples, ...) by stretch, on joint j."""
+        return np.concatenate(
+            [own[j] @ value for own, value in zip(self.filters, values, strict=True)]
+        )
+
+    def columns(self, candidate: Candidate) -> Columns:
+        """The columns of a candidate on these rows."""
+        if candidate.local or candidate.effect.acts is Acts.POSITION:
+            return self._together([candidate])
+        width = self.joints * len(candidate.form.columns)
+        return self.spread(lambda i, w: all_columns(candidate, self.signals[i], w), width)
+
+    def many(self, candidates: Sequence[Candidate]) -> list[Columns]:
+        """The columns of several candidates of one effect on one joint."""
+        first = candidates[0]
+        if not first.local and first.effect.acts is not Acts.POSITION:
+            return [self.columns(candidate) for candidate in candidates]
+        whole = self._together(candidates)
+        columns = [None if c is None else np.ascontiguousarray(c.T) for c in whole]
+        size = len(first.form.columns)
+        return [
+            _or_none([None if c is None else c[k : k + size].T for c in columns])
+            for k in range(0, size * len(candidates), size)
+        ]
+
+    def _together(self, candidates: Sequence[Candidate]) -> Columns:
+        """Columns of candidates of one effect on its joint, beside each other."""
+        first, signals = candidates[0], self.signals
+        width = len(candidates) * len(first.form.columns)
+        if first.local and first.form.memory is None:
+            return self._on(
+                first.index, lambda i, w: own_columns_of(candidates, signals[i], w), width
+            )
+        own = [own_columns_of(candidates, s) for s in signals]
+        if first.local:
+            return self._on(first.index, lambda i, w: own[i][w], 0)
+        j, whole = first.index, first.effect.whole_axis
+        return self.spread(lambda i, w: signals[i].moved(j, own[i], whole, w), self.joints * width)
+
+    def _on(self, j: int, evaluate: Evaluate, width: int) -> Columns:
+        """Columns of one joint from its values (samples, k)."""
+        found: list[np.ndarray | None] = [None] * self.joints
+        found[j] = np.concatenate(
+            [block.filters[j] @ evaluate(i, block.window) for i, block in self._blocks(width)]
+        )
+        return tuple(found)
+
+    def spread(self, evaluate: Evaluate, width: int = 0) -> Columns:
+        """Columns from values (samples, J, k); None on joints where they are 0 throughout.
+
+        Args:
+            evaluate: gives the values.
+            width: values per sample.
+        """
+        parts: list[list[np.ndarray]] = [[] for _ in range(self.joints)]
+        shown = np.zeros(self.joints, dtype=bool)
+        for i, block in self._blocks(width):
+            values = evaluate(i, block.window)
+            shown |= values.any(axis=(0, 2))
+            for j, weights in enumerate(block.filters):
+                parts[j].append(weights @ values[:, j])
+        return tuple(
+            np.concatenate(own) if felt else None for own, felt in zip(parts, shown, strict=True)
+        )
+
+    def _blocks(self, width: int) -> Iterator[tuple[int, Block]]:
+        """Stretch by stretch: small ones where many values are evaluated for each sample."""
+        for i, (blocks, filters) in enumerate(zip(self.blocks, self.filters, strict=True)):
+            if width > _WIDE:
+                yield from ((i, block) for block in blocks)
+            else:
+                yield i, Block(slice(0, len(self.signals[i].q)), filters)
+
+
+def _or_none(columns: Sequence[np.ndarray | None]) -> Columns:
+    """Of a candidate that moves other joints than its neighbours do."""
+    return tuple(None if c is None or not c.any() else c for c in columns)
+
+
+def dense(columns: Columns, j: int, rows: int) -> np.ndarray:
+    """(rows, k) columns on joint j; zeros where there are none."""
+    here = columns[j]
+    if here is not None:
+        return here
+    return np.zeros((rows, next(c.shape[1] for c in columns if c is not None)))
+
+
+def rows_of(observation: Observation, reference: Reference) -> Rows:
+    """The rows of an observation.
+
+    Args:
+        observation: of the analysis.
+        reference: where effects are linearised.
+    """
+    cutoff = observation.report.processing.parallel_cutoff or 0.0
+    signals = tuple(_signals(part, reference, cutoff) for part in observation.stretches)
+    joints = len(observation.joints)
+    full = [[_filter(part, j) for j in range(joints)] for part in observation.stretches]
+    filters = tuple(
+        tuple(_thinned(own, s.every) for own in part) for part, s in zip(full, signals, strict=True)
+    )
+    blocks = tuple(_blocks(own, len(s.q)) for own, s in zip(filters, signals, strict=True))
+    used = [observation.used[:, j] for j in range(joints)]
+    torque = [part.segment.tau for part in observation.stretches]
+    return Rows(
+        y=tuple(
+            np.concatenate([f[j] @ tau[:, j] for f, tau in zip(full, torque, strict=True)])
+            for j in range(joints)
+        ),
+        W=base_columns(blocks, signals),
+        time=tuple(observation.time[rows] for rows in used),
+        run=tuple(observation.run[rows] for rows in used),
+        segment=tuple(observation.segment[rows] for rows in used),
+        filters=filters,
+        blocks=blocks,
+        signals=signals,
+    )
+
+
+def base_columns(
+    blocks: Sequence[Sequence[Block]], signals: Sequence[Signals]
+) -> tuple[np.ndarray, ...]:
+    """(rows_j, c) by joint, of the motion of some signals."""
+    parts: list[list[np.ndarray]] = [[] for _ in blocks[0][0].filters]
+    for own, s in zip(blocks, signals, strict=True):
+        for block in own:
+            values = s.base_regressor(block.window)
+            for j, weights in enumerate(block.filters):
+                parts[j].append(weights @ values[:, j])
+    return tuple(np.concatenate(own) for own in parts)
+
+
+def _blocks(filters: Sequence[csr_array], samples: int) -> tuple[Block, ...]:
+    """Of one stretch: the rows whose first sample lies in one window, for one after the other."""
+    starts = np.arange(0, samples, WINDOW)
+    edges = []
+    for weights in filters:
+        first = weights.indices[weights.indptr[:-1]]
+        edges.append([*np.searchsorted(first, starts).tolist(), len(first)])
+    found = []
+    for start, *ends in zip(starts.tolist(), *(pairwise(own) for own in edges), strict=True):
+        parts = [_part(w, slice(*own)) for w, own in zip(filters, ends, strict=True)]
+        stop = max(int(indices.max(initial=start)) for _, indices, _ in parts) + 1
+        made = [
+            csr_array((data, indices - start, pointer), shape=(len(pointer) - 1, stop - start))
+            for data, indices, pointer in parts
+        ]
+        found.append(Block(slice(start, stop), tuple(made)))
+    return tuple(found)
+
+
+def _part(weights: csr_array, rows: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Data, indices and pointers of some rows."""
+    pointer = weights.indptr[rows.start : rows.stop + 1]
+    own = slice(pointer[0], pointer[-1])
+    return weights.data[own], weights.indices[own], pointer - pointer[0]
+
+
+def _filter(part: Stretch, j: int) -> csr_array:
+    """(used rows, samples) weights over usable samples, each row summing to one."""
+    return _normed(only(part.rows.weights, part.usable[:, j])[part.used[:, j]])
+
+
+def _thinned(weights: csr_array, every: int) -> csr_array:
+    """The same filter over every k-th sample."""
+    if every == 1:
+        return weights
+    return _normed(csr_array(weights[:, ::every]))
+
+
+def _normed(weights: csr_array) -> csr_array:
+    """Each row divided by its sum."""
+    total = weights @ np.ones(weights.shape[1])
+    share = np.repeat(1.0 / np.where(total > 0.0, total, 1.0), np.diff(weights.indptr))
+    return csr_array((weights.data * share, weights.indices, weights.indptr), shape=weights.shape)
+
+
+def _signals(part: Stretch, reference: Reference, cutoff: float) -> Signals:
+    """Columns are smooth beside the filter: its Gaussian needs one sample per width."""
+    segment = part.segment
+    every = max(1, int(SPREAD / (cutoff * segment.step))) if cutoff > 0.0 else 1
+    q, v, a = (np.ascontiguousarray(x[::every]) for x in (segment.q, segment.qd, segment.qdd))
+    return Signals(segment, every, q, v, a, reference)

@@ -1,0 +1,175 @@
+"""Other looks at the same machine: what names an effect must lead in all of them.
+
+The first look is at the training logs, in the band of the diagnosis. The others change what has
+nothing to do with the robot: the held-out logs take the place of the training logs, and the filters
+cut off at `FACTORS` times the frequency. What leads in one and not in the other is a matter of the
+look, so it is not stated as fact. Diagnoses of one machine with training and held-out logs
+exchanged, or with such another cut-off, then state two names only where the one is not among the
+nearest rivals of the other: each looks at what the other was made from. And what the user ruled
+out is asked beside every effect: if it would have been named instead, the effect stands in for it.
+"""
+
+import dataclasses
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from modeler.diagnosis.analyse import analysed
+from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.drive_gains import all_columns_about, settled
+from modeler.diagnosis.judge import Judged, best_shapes, decide, numbers, tied
+from modeler.diagnosis.propose import proposals, ruled_out
+from modeler.diagnosis.search import Search, Step, survey_of
+from modeler.diagnosis.state import Data, State, state_of, visible
+from modeler.observation.log import Log
+from modeler.observation.motion import HIGHEST
+from modeler.observation.prepare import Mending
+from modeler.observation.processing import Processing
+
+FACTORS = (0.7, 1.4)
+"""Cut-offs of the other looks, over those of the diagnosis."""
+
+RIVALS = 8
+"""Effects that are asked again in the other looks: those that came nearest."""
+
+
+Key = tuple[str, str | None]
+"""Effect and joint; the joint of an effect of the whole robot is None."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """What another look says of one effect.
+
+    Attributes:
+        what: which look, in words.
+        leads: effect and joint that lead there; None if nothing surely does.
+        agrees: True if that is the effect, if the data there do not tell it from the effect, or if
+            nothing is sure there.
+    """
+
+    what: str
+    leads: Key | None
+    agrees: bool
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        leads = (
+            None if self.leads is None else dict(zip(("effect", "joint"), self.leads, strict=True))
+        )
+        return {"what": self.what, "leads": leads, "agrees": self.agrees}
+
+
+def other_looks(data: Data, mending: Mending, other: Data | None) -> Iterator[tuple[str, Data]]:
+    """The same robot's data, looked at otherwise.
+
+    Args:
+        data: the training logs.
+        mending: of them.
+        other: held-out logs in the same band.
+    """
+    if other is not None:
+        yield "the held-out logs", other
+    logs = mending.logs
+    for factor, changed in cut_off_otherwise(data, logs):
+        yield (
+            f"cut-offs x {factor:g}",
+            dataclasses.replace(
+                data,
+                observation=analysed(data.compiled, logs, changed, chosen=True, mending=mending),
+            ),
+        )
+
+
+def cut_off_otherwise(data: Data, logs: Sequence[Log]) -> Iterator[tuple[float, Processing]]:
+    """The processing of the training logs with the filters elsewhere, by `FACTORS`."""
+    processing = data.observation.report.processing
+    highest = HIGHEST / max(log.step for log in logs)
+    for factor in FACTORS:
+        cut = {
+            name: min(factor * value, highest)
+            for name in ("position_cutoff", "parallel_cutoff")
+            if (value := getattr(processing, name))
+        }
+        yield factor, dataclasses.replace(processing, **cut, decimation=None, edge=None)
+
+
+def looked_again(
+    found: Search, looks: Iterable[tuple[str, Data]], tick: Callable[[], None] = lambda: None
+) -> list[tuple[Look, ...]]:
+    """What the other looks say of every effect that was put in, in order.
+
+    Args:
+        found: the search in the first look.
+        looks: others, one after the other: each is let go before the next is made.
+        tick: called after each.
+    """
+    said: list[list[Look]] = [[] for _ in found.steps]
+    for what, data in looks if found.steps else ():
+        for place, own in enumerate(said):
+            own.append(_look(what, data, found, place))
+            tick()
+        del data
+    return [(*own, *_ruled_out(found, s)) for own, s in zip(said, found.steps, strict=True)]
+
+
+def _ruled_out(found: Search, step: Step) -> list[Look]:
+    """What would have been named had the user ruled nothing out, or explains as much as simply."""
+    if not found.without:
+        return []
+    state = step.before
+    barred = [c for c in proposals(state) if ruled_out(*c.key, found.without)]
+    if not barred:
+        return []
+    asked = survey_of(state, [step.pick, *barred]).judged()
+    own = [j for j in asked.ranked if j.candidate.key == step.pick.key]
+    least = float(own[0].drop.sum()) if own else 0.0
+    alike = (
+        j for j in asked.ranked
+        if j not in own and j.significant and float(j.drop.sum()) >= least
+        and numbers(j.candidate) <= numbers(step.pick)
+    )  # fmt: skip
+    best = next(alike, asked.best)
+    if best is None or best.candidate.key == step.pick.key:
+        return []
+    return [Look("ruled out", best.candidate.key, False)]
+
+
+def _look(what: str, data: Data, found: Search, place: int) -> Look:
+    step = found.steps[place]
+    picks = [s.pick for s in found.steps[: place + 1]]
+    if not all(_logged(data, pick) for pick in picks):
+        return Look(what, None, True)
+    state = _beside_earlier(data, picks[:-1], step.before)
+    judged = _asked_again(state, step, found)
+    best = decide(state, judged).best
+    if best is None:
+        return Look(what, None, True)
+    alike = {best.candidate.key, *(j.candidate.key for j in tied(best, judged))}
+    return Look(what, best.candidate.key, step.pick.key in alike)
+
+
+def _logged(data: Data, candidate: Candidate) -> bool:
+    """False for what reads a temperature that these logs lack."""
+    temperature = data.rows.signals[0].reference.temperature
+    return "T" not in candidate.form.names or candidate.joint in temperature
+
+
+def _beside_earlier(data: Data, picks: Sequence[Candidate], before: State) -> State:
+    """The state in which the effect was chosen, from other data."""
+    once = state_of(data, picks, before.beta)
+    about = settled(once)
+    return state_of(data, picks, once.beta if about is None else about, once.cache)
+
+
+def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
+    """The effect and its nearest rivals, each at the best of its shapes."""
+    refused = {j.candidate.key for j in found.vetoed}
+    rivals = [j.candidate for j in step.rivals if j.candidate.key not in refused][:RIVALS]
+    first = [step.pick, *rivals]
+    keys = {c.key for c in first}
+    again = [c for c in proposals(state, None, found.without, keys) if c.key in keys]
+    every = [c for c in (*first, *again) if _logged(state.data, c)]
+    columns = all_columns_about(state, every)
+    seen = [i for i, c in enumerate(columns) if visible(c)]
+    return best_shapes(state, [every[i] for i in seen], [columns[i] for i in seen])

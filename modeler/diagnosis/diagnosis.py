@@ -1,0 +1,232 @@
+"""Which physical effect is missing: from a model and logs to a diagnosis."""
+
+import dataclasses
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from modeler.core.errors import DataError
+from modeler.diagnosis.analyse import analysed, bands_line
+from modeler.diagnosis.assemble import assembled
+from modeler.diagnosis.candidates import Known
+from modeler.diagnosis.channel_faults import channel_faults
+from modeler.diagnosis.cross_checks import looked_again, other_looks
+from modeler.diagnosis.errors import vetoing
+from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
+from modeler.diagnosis.result import Diagnosis
+from modeler.diagnosis.search import MOST, Search, search
+from modeler.diagnosis.state import Data, State, state_of
+from modeler.diagnosis.timing import logger_shift
+from modeler.effects.catalogue import effect_named
+from modeler.effects.effect import Acts, Effect
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.observation.channels import Fault
+from modeler.observation.log import Log
+from modeler.observation.observation import Observation
+from modeler.observation.prepare import Mending
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+CHANGED = 1.3
+"""Ratio of the residual variances with kept and with refitted parameters from which on the robot
+has changed since the fit."""
+
+_READ, _SEARCHED, _LOOKED = 0.05, 0.7, 0.9  # shares of the work when these are done
+
+
+_STRIDE = 0.04  # of what is left of a stage
+
+
+class Meter:
+    """A share between 0 and 1 that only grows.
+
+    Args:
+        tell: called with the share.
+        end: of the first stage.
+    """
+
+    def __init__(self, tell: Callable[[float], None] | None, end: float) -> None:
+        self._tell = tell or (lambda share: None)
+        self._share, self._end = 0.0, end
+        self._tell(0.0)
+
+    def stage(self, end: float) -> None:
+        """What comes next ends at that share; nothing changes if it is the same stage again."""
+        if end > self._end:
+            self._share, self._end = self._end, end
+        self._tell(self._share)
+
+    def tick(self) -> None:
+        """A piece of work is done: nearer to the end of the stage, never there."""
+        self._share += _STRIDE * (self._end - self._share)
+        self._tell(self._share)
+
+    def done(self) -> None:
+        """All is done."""
+        self._tell(1.0)
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
+def diagnose(
+    model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log],
+    holdout: Sequence[Log] = (), without: Sequence[str] = (), most: int = MOST,
+    progress: Callable[[float], None] | None = None, known: Known | None = None,
+) -> Diagnosis:  # fmt: skip
+    """The effects that the model lacks on these logs, with what they would gain.
+
+    Args:
+        model: fitted.
+        compiled: its robot.
+        logs: to explain.
+        holdout: other motion, from which the errors come: it never chooses an effect, but vetoes.
+        without: ids of effects, or id@joint, that the user rules out.
+        most: effects to name at most.
+        progress: called with a share between 0 and 1.
+        known: the effects to try, and how motors are coupled, by the robot file.
+
+    Raises:
+        DataError: no usable row.
+    """
+    meter = Meter(progress, _READ)
+    mending = Mending(logs, compiled.spec)
+    seen = analysed(compiled, logs, model.processing, mending=mending)
+    data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known())
+    without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
+    doubted = channel_faults(model, data, other, mending)
+    options = model.beta, without, 0 if any(f.certain for f in doubted) else most, meter
+    found = _searched(data, other, *options)
+    aligned = _aligned(data, found, model, mending)
+    if aligned is not None:
+        data, other = aligned, _held_out(aligned, holdout)
+        found = _searched(data, other, *options)
+    window = _push(data, found) if _may_push(data, without) else None
+    if window is not None:
+        found = _searched(_masked(data, window), other, *options)
+    return _told(model, data, mending, other, found, window, doubted, meter)
+
+
+def _looks(
+    data: Data, mending: Mending, other: Data | None, window: Window | None
+) -> Iterator[tuple[str, Data]]:
+    """Other looks, those at the training logs without the rows of a push."""
+    for what, look in other_looks(data, mending, other):
+        yield what, look if window is None or look is other else _masked(look, window)
+        del look  # or it would live beside the next
+
+
+def _told(
+    model: IdentifiedModel, data: Data, mending: Mending, other: Data | None, found: Search,
+    window: Window | None, doubted: Sequence[Fault], meter: Meter,
+) -> Diagnosis:  # fmt: skip
+    """What a search found, looked at again, with a sentence on the band."""
+    meter.stage(_LOOKED)
+    looks = looked_again(found, _looks(data, mending, other, window), meter.tick)
+    meter.stage(1.0)
+    diagnosis = assembled(model, found, other, window, looks, doubted, meter.tick)
+    meter.done()
+    line = bands_line(model.processing, data.observation.report.processing)
+    return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
+
+
+def _searched(
+    data: Data, other: Data | None, beta: np.ndarray, without: Sequence[str], most: int,
+    meter: Meter,
+) -> Search:  # fmt: skip
+    meter.stage(_SEARCHED)
+    return search(data, beta, without, most, vetoing(other), meter.tick)
+
+
+def _aligned(data: Data, found: Search, model: IdentifiedModel, mending: Mending) -> Data | None:
+    """The data without a delay that is a convention of the logger; None if there is none."""
+    ranked = found.steps[0].rivals if found.steps else found.last.ranked
+    delays = [j for j in ranked if j.candidate.effect.acts is Acts.TORQUE and not j.confirmed]
+    shift = logger_shift(found.start, delays[0].candidate, delays[0].values) if delays else 0.0
+    if shift == 0.0:
+        return None
+    moved = dataclasses.replace(model.processing, delay=model.processing.delay + shift)
+    seen = analysed(data.compiled, mending.logs, moved, mending=mending)
+    return dataclasses.replace(data, observation=seen)
+
+
+def _ids(without: Sequence[str], catalogue: Sequence[Effect]) -> tuple[str, ...]:
+    """What the user rules out, by ids in place of aliases."""
+    found = []
+    for entry in without:
+        name, at, joint = entry.partition("@")
+        effect = effect_named(name, catalogue)
+        if effect is None:
+            raise DataError(
+                f"without {entry}: no such effect; expected one of "
+                f"{', '.join(known.id for known in catalogue)}"
+            )
+        found.append(f"{effect.id}{at}{joint}")
+    return tuple(found)
+
+
+def _held_out(data: Data, holdout: Sequence[Log]) -> Data | None:
+    """Held-out logs in the band of the training logs."""
+    if not holdout:
+        return None
+    processing = data.observation.report.processing
+    seen = analysed(data.compiled, holdout, processing, chosen=True)
+    return dataclasses.replace(data, observation=seen)
+
+
+def kept_parameters(
+    model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log], seen: Observation
+) -> np.ndarray | None:
+    """The model's parameters if these logs are of a robot that has changed since; else None."""
+    if any(used.shares_rows(log) for used in model.logs for log in logs):
+        return None
+    free = state_of(Data(compiled, seen), (), model.beta)
+    pool, ranking = free.ranked([])
+    del pool
+    fitted = float(ranking.before.sum())
+    given = sum(
+        float(np.sum(((y - w @ model.beta) / s) ** 2))
+        for y, w, s in zip(free.rows.y, free.rows.W, free.base.sigma, strict=True)
+    )
+    return model.beta if given > CHANGED * fitted else None
+
+
+def _may_push(data: Data, without: Sequence[str]) -> bool:
+    """True unless the user rules it out."""
+    return any(e.acts is Acts.WINDOW and e.id not in without for e in data.known.catalogue)
+
+
+def _rattles(state: State) -> bool:
+    """True if a gear has so much play that one of its knocks looks like a push."""
+    return any(burst_ratio(state, j) > BURST for j in range(state.rows.joints))
+
+
+def _push(data: Data, found: Search) -> Window | None:
+    """When something pushed; with its first part left out of the fit, more of it may show."""
+    if not found.last.ranked or _rattles(found.end):
+        return None
+    window = contact_window(found.end)
+    more = window
+    while window is not None and more is not None:
+        later = contact_window(state_of(_masked(data, window), found.end.picks, found.end.beta))
+        more = window.with_part(later) if later is not None else None
+        window = more or window
+    if window is None:
+        return None
+    return explained(window, state_of(_masked(data, window), found.end.picks, found.end.beta), data)
+
+
+def _masked(data: Data, window: Window) -> Data:
+    """The data without the rows of a window, and a little around it."""
+    observation = data.observation
+    hit = (observation.run == window.log) & (observation.time > window.start - MARGIN)
+    hit &= observation.time < window.end + MARGIN
+    used = observation.used & ~hit[:, None]
+    parts, at = [], 0
+    for part in observation.stretches:
+        rows = len(part.used)
+        parts.append(dataclasses.replace(part, used=used[at : at + rows]))
+        at += rows
+    rest = dataclasses.replace(observation, used=used, stretches=tuple(parts))
+    return dataclasses.replace(data, observation=rest)

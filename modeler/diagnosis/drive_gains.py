@@ -1,0 +1,379 @@
+"""Wrong drive gains: the model about which their columns are linear, and what they are known to.
+
+The torque of a joint is logged g times too large: y_j = g_j W_j beta, g_j = 1 - eps_j. Joints that
+share base parameters tell each other's g apart, up to one scale that those without eps have. The
+column of eps_j is -W_j beta of the *true* beta; about the beta of a model without eps_j it would
+bend eps_j and, where |eps_j| > 1, no repetition would mend that: the parameters that joint j has
+alone grow by eps_j every time. So beta and all g are solved for together, by the equations that the
+linear fit with these columns satisfies at its own parameters (`instruments`: W_j and W_j beta).
+"""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.columns import Columns, dense
+from modeler.diagnosis.state import State, all_columns_of
+
+TENFOLD = 10.0
+"""A drive gain that is wrong by more, either way, is a matter of units."""
+
+_PASSES = 60
+_SETTLED = 1e-8
+_WEIGHINGS = 5
+_LEAST = 1e-6  # of a joint's torque: it leaves no less
+_CLOSE = 1e-3  # what is moved less than this at the end is used still
+_STEP = 0.5  # largest change of a g at once, as a share of it
+_FARTHEST = 20.0  # a g is sought from there on
+_GRID = tuple(np.geomspace(0.1, 10.0, 13))
+_RIDGE = 1e-10
+_SAME = 0.01  # weights that change by less are settled
+_SCALES = frozenset({"torque"})
+
+
+def is_gain(candidate: Candidate) -> bool:
+    """True for an effect that scales the torque of its joint."""
+    return candidate.local and candidate.form.names == _SCALES
+
+
+def all_columns_about(state: State, candidates: Sequence[Candidate]) -> list[Columns]:
+    """The columns of candidates; those of a gain about the model with that gain."""
+    every = all_columns_of(state.rows, candidates, state.cache)
+    return [_about(state, c, own) for c, own in zip(candidates, every, strict=True)]
+
+
+def _about(state: State, candidate: Candidate, columns: Columns) -> Columns:
+    beta = settled(state, candidate) if is_gain(candidate) else None
+    if beta is None:
+        return columns
+    own: list[np.ndarray | None] = [None] * state.rows.joints
+    own[candidate.index] = -(state.rows.W[candidate.index] @ beta)[:, None]
+    return tuple(own)
+
+
+def settled(state: State, candidate: Candidate | None = None) -> np.ndarray | None:
+    """(c,) base parameters about which the gains among the picks and a candidate are linear.
+
+    Gains that the robot has already count among them. None without a gain, or without an answer.
+    """
+    picks = [*state.picks] if candidate is None else [*state.picks, candidate]
+    if not any(is_gain(pick) for pick in picks):
+        return None
+    problem = _problem(state, [pick.index for pick in picks if is_gain(pick)])
+    found = _best(problem)
+    return None if found is None else found.beta
+
+
+def likeliest(state: State, candidates: Sequence[Candidate]) -> Candidate | None:
+    """Of gains of several joints the one that leaves least; each joint weighs by what it leaves.
+
+    Where a wrong gain bends the model, the weights of the state say more of the bend than of the
+    joints. None where no gain can be settled.
+    """
+    found = {}
+    for k, candidate in enumerate(candidates):
+        gains = [pick.index for pick in (*state.picks, candidate) if is_gain(pick)]
+        best = _best(_problem(state, gains))
+        if best is not None:
+            found[k] = best.order
+    return candidates[min(found, key=lambda k: found[k])] if found else None
+
+
+def with_gains(state: State, joints: Sequence[int]) -> tuple[np.ndarray, np.ndarray] | None:
+    """Base parameters (c,) and g (J,) with the gains of these joints; None if none make sense."""
+    found = _best(_problem(state, joints))
+    return None if found is None or found.order[0] else (found.beta, found.g)
+
+
+def _best(problem: "_Problem") -> "_Solution | None":
+    """The likeliest of the solutions from all starts, with the weights given and with none."""
+    every = [p.weighed(start) for p in (problem, problem.level()) for start in p.starts()]
+    found = [f for f in every if f is not None]
+    return min(found, key=lambda f: f.order) if found else None
+
+
+def gain_deviations(state: State, place: int) -> np.ndarray:
+    """(1,) standard deviation of the eps of one pick, of a state about its own parameters.
+
+    From sums over blocks, so that coloured residuals count, and with all that beta may be.
+    """
+    problem = _problem(state, [pick.index for pick in state.picks if is_gain(pick)])
+    own = [problem.gains.index(state.picks[place].index)]
+    return problem.deviations(problem.given, _weighted(state), state.base.block)[own]
+
+
+def gain_visible(state: State, place: int) -> float:
+    """Share of the column of one pick that all else does not hide, of a state about itself."""
+    problem = _problem(state, [pick.index for pick in state.picks if is_gain(pick)])
+    return problem.visible(state.picks[place].index)
+
+
+@dataclass(frozen=True, eq=False)
+class _Solution:
+    beta: np.ndarray  # (c,)
+    g: np.ndarray  # (J,)
+    left: np.ndarray  # (J,) squares, in units of sigma
+    score: float  # the less, the likelier
+
+    @property
+    def order(self) -> tuple[bool, float]:
+        """The likelier, the less; a sign or a unit is a matter of channels, and comes last."""
+        return not bool(np.all((self.g > 1.0 / TENFOLD) & (self.g < TENFOLD))), self.score
+
+
+@dataclass(frozen=True, eq=False)
+class _Problem:
+    """J joints; z columns: c of the base, then those of all picks that are no gains.
+
+    Attributes:
+        rows: (J,) how many.
+        grams: (J, z + 1, z + 1) products of the columns, divided by sigma; the last is the torque.
+        free: indices of the columns that are fitted.
+        fixed: (z,) values of the others.
+        gains: joints with a g.
+        size: c.
+        given: (J,) g of the robot's own gains and of the last fit.
+        had: base columns that are gains which the robot has, and their joints.
+        spread: (J,) sigma.
+    """
+
+    rows: np.ndarray
+    grams: np.ndarray
+    free: np.ndarray
+    fixed: np.ndarray
+    gains: list[int]
+    size: int
+    given: np.ndarray
+    had: Mapping[int, int]
+    spread: np.ndarray
+
+    @cached_property
+    def scale(self) -> np.ndarray:
+        """(free,) lengths of the columns."""
+        square = np.einsum("jkk->k", self.grams)[self.free]
+        return np.sqrt(np.where(square > 0.0, square, 1.0))
+
+    def starts(self) -> list[np.ndarray]:
+        """(J,) of g: with the measured torque for a column; for a new one, the best of a grid."""
+        found = [self._measured()]
+        for j in self.gains:
+            if self.given[j] == 1.0:
+                grid = [np.where(np.arange(len(self.rows)) == j, g, self.given) for g in _GRID]
+                found.append(min(grid, key=lambda g: self._score(self._left(g, self._values(g)))))
+        return found
+
+    def level(self) -> "_Problem":
+        """With every joint weighed by its torque: no model has bent that."""
+        return self.reweighed(self.torque)
+
+    def solved(self, g: np.ndarray) -> _Solution | None:
+        """All parameters and gains; None where they do not come to rest."""
+        g, values, step = g.copy(), self._values(g), np.inf
+        for _ in range(_PASSES):
+            matrix, right = self._equations(g, values)
+            change = _solve(matrix, right)
+            most = _STEP * np.maximum(np.abs(g[self.gains]), 0.1)
+            step_g = np.clip(change[len(self.free) :], -most, most)
+            g[self.gains] += step_g
+            values = self._values(g)
+            step = float(np.max(np.abs(step_g) / np.maximum(np.abs(g[self.gains]), 1e-3)))
+            if step < _SETTLED:
+                break
+        if not step < _CLOSE:
+            return None
+        beta = values[: self.size].copy()
+        for column, j in self.had.items():
+            beta[column] = 1.0 - g[j]
+        left = self._left(g, values)
+        return _Solution(beta, g, left, self._score(left))
+
+    def _score(self, left: np.ndarray) -> float:
+        """Minus twice the log likelihood of what is left, each joint with its own sigma."""
+        seen = (self.rows > 0) & (self.torque > 0.0)
+        floor = _LEAST**2 * self.torque
+        variance = np.where(seen, np.maximum(left, floor) / np.maximum(self.rows, 1), 1.0)
+        return float(np.sum(self.rows * np.log(variance * self.spread**2)))
+
+    def weighed(self, g: np.ndarray) -> _Solution | None:
+        """The same with the weight of each joint from what it leaves."""
+        problem, found = self, self.solved(g)
+        for _ in range(_WEIGHINGS):
+            if found is None:
+                break
+            before, problem = problem.spread, problem.reweighed(found.left)
+            found = problem.solved(found.g)
+            if np.max(np.abs(problem.spread / before - 1.0)) < _SAME:
+                break
+        return found
+
+    def reweighed(self, left: np.ndarray) -> "_Problem":
+        """With sigma of each joint so that it leaves one for each row."""
+        rows = np.maximum(self.rows, 1)
+        least = _LEAST * np.sqrt(self.torque / rows)
+        ratio = np.where(self.torque > 0.0, np.maximum(np.sqrt(left / rows), least), 1.0)
+        grams = self.grams / ratio[:, None, None] ** 2
+        return dataclasses.replace(self, grams=grams, spread=self.spread * ratio)
+
+    def deviations(
+        self, g: np.ndarray, weighted: Sequence[np.ndarray], block: Sequence[np.ndarray]
+    ) -> np.ndarray:
+        """(gains,) standard deviations of g, from sums over blocks.
+
+        Args:
+            g: (J,).
+            weighted: (rows_j, z + 1) by joint: what `grams` are the products of.
+            block: (rows_j,) by joint.
+        """
+        values, c = self._values(g), self.size
+        matrix, _ = self._equations(g, values)
+        length = np.sqrt(np.maximum(np.diag(matrix), 1e-300))
+        inverse = np.linalg.pinv(matrix / np.outer(length, length), rcond=_RIDGE)
+        inverse = (inverse / np.outer(length, length))[len(self.free) :]
+        sums = np.zeros((max(int(own.max(initial=0)) for own in block) + 1, len(matrix)))
+        for j, own in enumerate(weighted):
+            base, rest = own[:, :c] @ values[:c], own[:, c:-1] @ values[c:]
+            more = [base if j == k else np.zeros(len(own)) for k in self.gains]
+            instruments = np.column_stack([own[:, self.free] / self.scale, *more])
+            np.add.at(sums, block[j], instruments * (own[:, -1] - g[j] * base - rest)[:, None])
+        return np.asarray(np.sqrt(np.sum((sums @ inverse.T) ** 2, axis=0)))
+
+    def visible(self, joint: int) -> float:
+        """Share of the column of a gain that the others do not hide."""
+        values, n, i = self._values(self.given), len(self.free), self.gains.index(joint)
+        matrix, _ = self._equations(self.given, values)
+        scaled = self._scaled(self.given)
+        whole = np.einsum("jkl,jk,jl->kl", self.grams[:, :-1, :-1], scaled, scaled)
+        scale = np.outer(self.scale, self.scale)
+        matrix[:n, :n] = whole[np.ix_(self.free, self.free)] / scale
+        matrix[:n, n:] = matrix[n:, :n].T
+        rest = np.delete(np.arange(len(matrix)), n + i)
+        column = matrix[rest, n + i]
+        hidden = column @ _solve(matrix[np.ix_(rest, rest)], column)
+        return float(np.sqrt(max(0.0, 1.0 - hidden / max(matrix[n + i, n + i], 1e-300))))
+
+    def _scaled(self, g: np.ndarray) -> np.ndarray:
+        """(J, z) what multiplies each column on each joint."""
+        scaled = np.ones((len(g), len(self.fixed)))
+        scaled[:, : self.size] = g[:, None]
+        return scaled
+
+    def _values(self, g: np.ndarray) -> np.ndarray:
+        """(z,) of the columns with these gains."""
+        P = self.grams
+        matrix = np.einsum("jkl,jl->kl", P[:, :-1, :-1], self._scaled(g))
+        right = P[:, :-1, -1].sum(axis=0) - matrix @ self.fixed
+        own = np.ix_(self.free, self.free)
+        scale = self.scale
+        found = _solve(matrix[own] / np.outer(scale, scale), right[self.free] / scale)
+        values = self.fixed.copy()
+        values[self.free] = found / scale
+        return values
+
+    def _equations(self, g: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Of the changes of all values (times their scale) and gains, to first order."""
+        P, free, n = self.grams, self.free, len(self.free)
+        scaled = self._scaled(g)
+        matrix, right = np.zeros((n + len(self.gains),) * 2), np.zeros(n + len(self.gains))
+        whole = np.einsum("jkl,jl->kl", P[:, :-1, :-1], scaled)
+        matrix[:n, :n] = whole[np.ix_(free, free)] / np.outer(self.scale, self.scale)
+        right[:n] = (P[:, :-1, -1].sum(axis=0) - whole @ values)[free] / self.scale
+        base = np.where(np.arange(len(values)) < self.size, values, 0.0)
+        for i, j in enumerate(self.gains, start=n):
+            along = P[j, :-1, :-1] @ base
+            matrix[:n, i] = along[free] / self.scale
+            matrix[i, :n] = (along * scaled[j])[free] / self.scale
+            matrix[i, i] = base @ along
+            right[i] = base @ P[j, :-1, -1] - along @ (scaled[j] * values)
+        return matrix, right
+
+    def _left(self, g: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """(J,) squares that these leave."""
+        along = np.hstack([-self._scaled(g) * values, np.ones((len(g), 1))])
+        return np.maximum(np.einsum("jk,jkl,jl->j", along, self.grams, along), 0.0)
+
+    @property
+    def torque(self) -> np.ndarray:
+        """(J,) squares of the torque, in units of sigma."""
+        return self.grams[:, -1, -1]
+
+    def _measured(self) -> np.ndarray:
+        """(J,) g by least squares of y_j = W_j beta + (1 - 1/g_j) y_j."""
+        P, n = self.grams, len(self.free)
+        matrix, right = np.zeros((n + len(self.gains),) * 2), np.zeros(n + len(self.gains))
+        matrix[:n, :n] = P.sum(axis=0)[np.ix_(self.free, self.free)]
+        right[:n] = (P[:, :-1, -1] - P[:, :-1, :-1] @ self.fixed).sum(axis=0)[self.free]
+        for i, j in enumerate(self.gains, start=n):
+            matrix[:n, i] = matrix[i, :n] = P[j, self.free, -1]
+            matrix[i, i] = P[j, -1, -1]
+            right[i] = P[j, -1, -1] - P[j, -1, :-1] @ self.fixed
+        length = np.sqrt(np.where(np.diag(matrix) > 0.0, np.diag(matrix), 1.0))
+        share = (_solve(matrix / np.outer(length, length), right / length) / length)[n:]
+        g = self.given.copy()
+        left = np.where(np.abs(1.0 - share) < 1.0 / _FARTHEST, 1.0 / _FARTHEST, 1.0 - share)
+        g[self.gains] = 1.0 / left
+        return g
+
+
+def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """With a ridge in place of the rank: products of columns of length one."""
+    ridge = _RIDGE * np.maximum(np.diag(matrix), 1.0)
+    return np.linalg.solve(matrix + np.diag(ridge), right)
+
+
+def _weighted(state: State) -> list[np.ndarray]:
+    """(rows_j, z + 1) by joint: base columns, those of picks that are no gains, and torque."""
+    rows = state.rows
+    extra = [e for e, pick in zip(state.extra, state.picks, strict=True) if not is_gain(pick)]
+    found = []
+    for j, (base, y) in enumerate(zip(rows.W, rows.y, strict=True)):
+        parts = [dense(e, j, len(y)) for e in extra]
+        found.append(np.hstack([base, *parts, y[:, None]]) / state.base.sigma[j])
+    return found
+
+
+@lru_cache(maxsize=1)
+def _grams(state: State) -> np.ndarray:
+    """(J, z + 1, z + 1) products of the columns of `_weighted`."""
+    return np.stack([own.T @ own for own in _weighted(state)])
+
+
+def _problem(state: State, gains: Sequence[int]) -> _Problem:
+    """With these gains, those of the robot, and all picks that are no gains."""
+    grams, had = _grams(state), _own_gains(state)
+    size, every = len(state.beta), grams.shape[1] - 1
+    fixed = np.zeros(every)
+    if state.data.kept is not None:
+        fixed[:size] = state.data.kept
+        fixed[state.data.free] = 0.0
+    fixed[list(had)] = 0.0
+    given = np.ones(state.rows.joints)
+    for column, j in had.items():
+        given[j] -= state.beta[column]
+    for pick, values in zip(state.picks, state.values, strict=True):
+        if is_gain(pick):
+            given[pick.index] -= values[0]
+    free = [*(int(i) for i in state.data.free if i not in had), *range(size, every)]
+    return _Problem(
+        rows=np.array([len(own) for own in state.rows.y]),
+        grams=grams,
+        free=np.array(free, dtype=int), fixed=fixed,
+        gains=sorted({*gains, *had.values()}), size=size, given=given, had=had,
+        spread=state.base.sigma,
+    )  # fmt: skip
+
+
+def _own_gains(state: State) -> dict[int, int]:
+    """Base columns that are gains which the robot has, and their joints."""
+    spec = state.data.compiled.spec
+    owner = {p.name: (p.effect, p.joint) for p in spec.standard}
+    place = {joint.name: j for j, joint in enumerate(spec.joints)}
+    scales = {e.id for e in state.data.known.catalogue if e.forms[0].names == _SCALES}
+    return {
+        i: place[owner[base.column_of][1]]
+        for i, base in enumerate(spec.base)
+        if owner[base.column_of][0] in scales
+    }

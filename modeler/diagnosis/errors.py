@@ -1,0 +1,109 @@
+"""Errors of a state on motion it was not fitted to, and whether an effect lowers them."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from modeler.diagnosis.judge import Judged
+from modeler.diagnosis.score import Score, Unseen, scored
+from modeler.diagnosis.state import Data, State, picked_columns
+
+
+def unseen(state: State, other: Data | None) -> Unseen:
+    """What a state leaves of held-out logs; without any, of its own, each fold from the others.
+
+    Args:
+        state: fitted.
+        other: held-out logs, in the same band.
+    """
+    if other is not None:
+        return left_of(state, other)
+    left = (s * e for s, e in zip(state.base.sigma, state.base.left_out, strict=True))
+    return _of(state.data, tuple(left))
+
+
+def left_of(state: State, data: Data) -> Unseen:
+    """What a state leaves of logs, with its parameters as they are."""
+    rows = data.about(state.reference)
+    extra = picked_columns(rows, state.picks, data.cache)
+    found = []
+    for j in range(rows.joints):
+        left = rows.y[j] - rows.W[j] @ state.beta
+        for columns, values in zip(extra, state.values, strict=True):
+            own = columns[j]
+            if own is not None:
+                left = left - own @ values
+        found.append(left)
+    return _of(data, tuple(found))
+
+
+def _of(data: Data, left: tuple[np.ndarray, ...]) -> Unseen:
+    names = tuple(joint.name for joint in data.compiled.spec.joints)
+    return Unseen(names, left, data.rows.y, data.rows.time, data.rows.run)
+
+
+def compared(
+    before: Unseen, after: Unseen, concerned: Sequence[int], state: State, block: float = 0.0
+) -> Score:
+    """The score of an effect on the joints that it concerns, in blocks of some s.
+
+    The torque of each counts in units of what the state leaves of it, so that N m and N are never
+    added.
+    """
+    weights = {}
+    for j in concerned:
+        y = state.rows.y[j] / state.base.sigma[j]
+        weights[before.names[j]] = float(np.mean(y**2)) if y.size else 0.0
+    return scored(before, after, weights, block)
+
+
+KEPT = 0.2
+"""Share of the expected gain that must come true on held-out motion, which may excite it less."""
+
+TOUCHED = 0.1
+"""Least fall of a joint's squared residual, as a share of the largest, that counts as touched."""
+
+
+def touched_joints(judged: Judged, before: State, after: State) -> list[int]:
+    """Joints whose residuals an effect explains: its own, or all where they fall most."""
+    if judged.alone:
+        return [judged.candidate.index]
+    sigma = before.base.sigma
+    fall = np.array(
+        [
+            float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2))
+            for b, a, s in zip(before.residual, after.residual, sigma, strict=True)
+        ]
+    )
+    if fall.max() <= 0.0:
+        return [int(np.argmax(fall))]
+    return [int(j) for j in np.flatnonzero(fall >= TOUCHED * fall.max())]
+
+
+def vetoing(other: Data | None) -> Callable[[State, State, Judged], bool]:
+    """A veto by unseen motion: True if a state with an effect more is not the better one there.
+
+    The error of the joints that it touches must surely fall (`scored`), and on held-out logs by a
+    good part of what the effect lets expect.
+
+    Args:
+        other: held-out logs.
+    """
+
+    def veto(before: State, after: State, judged: Judged) -> bool:
+        touched = touched_joints(judged, before, after)
+        score = compared(unseen(before, other), unseen(after, other), touched, before)
+        expected = judged.gain if judged.alone else _fall(touched, before, after)
+        least = 0.0 if other is None else KEPT * expected
+        return not score.better or score.whole.gain < least
+
+    return veto
+
+
+def _fall(joints: Sequence[int], before: State, after: State) -> float:
+    """Share of the squared residual of some joints that is gone, in units of the first one."""
+    sums = [
+        sum(float(np.sum((s.residual[j] / before.base.sigma[j]) ** 2)) for j in joints)
+        for s in (before, after)
+    ]
+    return 1.0 - sums[1] / max(sums[0], 1e-300)

@@ -1,0 +1,250 @@
+"""Something pushed for a while: a torque that lasts on one or more joints and comes only once."""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from modeler.diagnosis.errors import compared, left_of
+from modeler.diagnosis.score import Change
+from modeler.diagnosis.state import Data, State
+
+MARGIN = 0.5
+"""s before and after a push that are left out with it."""
+
+_CELL = 0.1  # s
+_PART = 0.05  # s of a window that are predicted from those beside
+_BESIDE = 4  # parts before and after
+_LENGTHS = range(2, 31)  # cells of a window; one of the longest is no push
+_APART = 2.0  # s between a push and what counts as elsewhere: the torque turns as the robot moves
+_STANDS_OUT = 4.0  # energy over the largest elsewhere; 1 to 2 without a push, whatever is hidden
+_ALSO = 2.0  # energy of what adjoins a push and is part of it, over the largest elsewhere
+_GAP = 0.15  # s
+_BEGINNING = 2.0  # s of a log in which inner states of friction and cables are not known yet
+
+
+@dataclass(frozen=True, eq=False)
+class Window:
+    """When it pushed.
+
+    Attributes:
+        log: index.
+        start, end: s.
+        ratio: energy of the steady torque there over the largest in any window elsewhere.
+        torque: its mean by joint, N m or N.
+        change: of the error of all joints by it, over all rows of the logs; None for what comes
+            only once as well, but is no steady torque: a spike, a shock.
+    """
+
+    log: int
+    start: float
+    end: float
+    ratio: float
+    torque: Mapping[str, float] = field(default_factory=dict)
+    change: Change | None = None
+
+    def with_part(self, other: "Window") -> "Window | None":
+        """The push together with a part of it that was found later; None if it is another push."""
+        near = other.start < self.end + _APART and other.end > self.start - _APART
+        if other.log != self.log or not near:
+            return None
+        start, end = min(self.start, other.start), max(self.end, other.end)
+        return dataclasses.replace(self, start=start, end=end)
+
+
+@dataclass(frozen=True, eq=False)
+class _Windows:
+    """All windows of some lengths within the logs.
+
+    Attributes:
+        run: (windows,) index of the log.
+        start, end: (windows,) s.
+        cells: (windows,) length.
+        energy: (windows,) of a steady torque, in units of each joint's median residual.
+    """
+
+    run: np.ndarray
+    start: np.ndarray
+    end: np.ndarray
+    cells: np.ndarray
+    energy: np.ndarray
+
+
+def contact_window(state: State) -> Window | None:
+    """The window in which a steady torque stands out from that in any other; None if none does.
+
+    A push gives joint j a mean residual m_j over the n_j rows of its window, of energy
+    sum_j n_j m_j^2 / s_j^2 (s_j the joint's median residual): largest over the very window of the
+    push. What acts more than once, as friction or a wrong model do, is as large elsewhere.
+    """
+    windows = _windows(state)
+    if windows is None:
+        return None
+    top = int(np.argmax(windows.energy))
+    run, start, end = int(windows.run[top]), float(windows.start[top]), float(windows.end[top])
+    same = windows.run == run
+    near = same & (windows.end > start - _APART) & (windows.start < end + _APART)
+    elsewhere = max(float(windows.energy[~near].max(initial=0.0)), 1e-300)
+    ratio = float(windows.energy[top]) / elsewhere
+    if ratio < _STANDS_OUT or near.all():
+        return None
+    start, end = _grown(windows, same & (windows.energy > _ALSO * elsewhere), start, end)
+    began = float(windows.start[same].min())
+    if start - began < _BEGINNING or end - start >= _LENGTHS[-1] * _CELL:
+        return None
+    return Window(run, start, end, ratio)
+
+
+def _grown(windows: _Windows, loud: np.ndarray, start: float, end: float) -> tuple[float, float]:
+    """The push with what adjoins it: as the robot moves, the torque of a push changes its sign."""
+    while True:
+        after = loud & (np.abs(windows.start - end) < _GAP)
+        before = loud & (np.abs(windows.end - start) < _GAP)
+        if not (after | before).any():
+            return start, end
+        best = int(np.argmax(np.where(after | before, windows.energy, 0.0)))
+        start = min(start, float(windows.start[best]))
+        end = max(end, float(windows.end[best]))
+        loud = loud & ((windows.end <= start + _GAP) | (windows.start >= end - _GAP))
+
+
+def _windows(state: State) -> _Windows | None:
+    """The windows, from sums over cells of a tenth of a second; None where none fits."""
+    run, number, total, rows = _sums(state)
+    parts = []
+    for length in _LENGTHS:
+        last = np.arange(length - 1, len(run))
+        first = last - length + 1
+        whole = (run[first] == run[last]) & (number[last] - number[first] <= length)
+        first, last = first[whole], last[whole]
+        count = rows[last + 1] - rows[first]
+        square = (total[last + 1] - total[first]) ** 2
+        energy = np.divide(square, count, out=np.zeros_like(square), where=count > 0).sum(axis=1)
+        start, end = number[first] * _CELL, (number[last] + 1) * _CELL
+        parts.append((run[first], start, end, np.full(len(first), length), energy))
+    found = _Windows(*(np.concatenate(part) for part in zip(*parts, strict=True)))
+    return found if len(found.run) else None
+
+
+def _sums(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Log and number of each cell (cells,); sums before it of residuals and rows (cells + 1, J)."""
+    rows = state.rows
+    own = [
+        np.column_stack([run, np.floor(time / _CELL).astype(int)])
+        for run, time in zip(rows.run, rows.time, strict=True)
+    ]
+    cells, place = np.unique(np.concatenate(own), axis=0, return_inverse=True)
+    total, count = np.zeros((2, len(cells) + 1, rows.joints))
+    ends = np.cumsum([len(keys) for keys in own])[:-1]
+    for j, at in enumerate(np.split(np.ravel(place), ends)):
+        size = float(np.median(np.abs(state.residual[j]))) if len(at) else 0.0
+        if size > 0.0:
+            total[1:, j] = np.bincount(at, state.residual[j] / size, len(cells))
+            count[1:, j] = np.bincount(at, minlength=len(cells))
+    return cells[:, 0], cells[:, 1], np.cumsum(total, axis=0), np.cumsum(count, axis=0)
+
+
+def explained(window: Window, state: State, data: Data) -> Window:
+    """The push with its torques, if these surely lower the error (`scored`).
+
+    A torque of each joint that changes steadily is fitted to the residuals of the window, that of
+    each twentieth of a second to those around.
+
+    Args:
+        window: of the push.
+        state: fitted to the logs without the window.
+        data: the logs with it.
+    """
+    left = left_of(state, data)
+    inside = [
+        np.flatnonzero((run == window.log) & (time >= window.start) & (time < window.end))
+        for run, time in zip(left.run, left.time, strict=True)
+    ]
+    after = [residual.copy() for residual in left.residual]
+    for rest, time, rows in zip(after, left.time, inside, strict=True):
+        rest[rows] -= _from_others(time[rows] - window.start, rest[rows])
+    pushed = dataclasses.replace(left, residual=tuple(after))
+    score = compared(left, pushed, range(len(after)), state, _PART)
+    if not score.better:
+        return window
+    parts = zip(left.names, left.residual, inside, strict=True)
+    torque = {name: float(np.mean(residual[rows])) for name, residual, rows in parts if rows.size}
+    return dataclasses.replace(window, torque=torque, change=score.whole)
+
+
+def _from_others(since: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """(r,) what a straight line through the values in the cells around says of those in one."""
+    cell, line = np.floor(since / _PART), np.vander(since, 2)
+    found = np.zeros(len(values))
+    for c in np.unique(cell):
+        out, beside = cell == c, (cell != c) & (np.abs(cell - c) <= _BESIDE)
+        found[out] = line[out] @ np.linalg.lstsq(line[beside], values[beside], rcond=None)[0]
+    return found
+
+
+# Play in a gear: bursts of the residual where the load changes sign, not the speed.
+
+
+AFTER = 0.1
+"""s: how long a burst lasts."""
+
+BURST = 11.0
+"""Energy within that time over that elsewhere from which on play is named."""
+
+LOUD = 30.0
+"""The same where columns are named that take the bursts away."""
+
+EVENTS = 5
+"""Least number of sign changes of the load."""
+
+
+def burst_ratio(state: State, j: int) -> float:
+    """Mean squared residual within 0.1 s after sign changes of the load, over that elsewhere.
+
+    The loudest fifth of the events, and of the rows elsewhere the loudest hundredth, are left out:
+    play bursts every time. 0 where the load changes sign, far from speed reversals, less than
+    `EVENTS` times.
+    """
+    label, events = [], 0
+    for s, turns in zip(state.rows.signals, load_turns(state, j), strict=True):
+        span = max(1, round(AFTER / s.step))
+        flags = np.zeros(len(s.q))
+        for turn in turns:
+            events += 1
+            flags[turn : turn + span] = events
+        label.append(flags)
+    if events < EVENTS:
+        return 0.0
+    return _ratio(state.residual[j] ** 2, _nearest(state, j, label), events)
+
+
+def load_turns(state: State, j: int) -> list[np.ndarray]:
+    """Samples, by stretch, where the load on joint j changes sign while the joint moves on."""
+    found = []
+    for s in state.rows.signals:
+        span, least = max(1, round(AFTER / s.step)), 0.02 * state.scales[j].speed
+        turns = np.flatnonzero(np.diff(np.sign(s.load[:, j])) != 0)
+        speed = np.abs(s.v[:, j])
+        moving = [turn for turn in turns if speed[turn : turn + span].min() > least]
+        found.append(np.array(moving, dtype=int))
+    return found
+
+
+def _nearest(state: State, j: int, label: list[np.ndarray]) -> np.ndarray:
+    """(rows,) event of each row, 0 for none: that of the sample in the middle of its weights."""
+    found = []
+    for own, flags in zip(state.rows.filters, label, strict=True):
+        middle = own[j] @ np.arange(len(flags))
+        found.append(flags[np.clip(np.round(middle).astype(int), 0, len(flags) - 1)])
+    return np.concatenate(found)
+
+
+def _ratio(square: np.ndarray, event: np.ndarray, events: int) -> float:
+    loud = np.sort([square[event == k].mean() for k in range(1, events + 1) if (event == k).any()])
+    quiet = np.sort(square[event == 0])
+    if len(loud) < EVENTS or len(quiet) < 8:
+        return 0.0
+    kept = loud[: len(loud) - max(1, len(loud) // 5)]
+    rest = quiet[: len(quiet) - len(quiet) // 100]
+    return float(kept.mean() / max(float(rest.mean()), 1e-300))

@@ -1,0 +1,271 @@
+"""From a ranking to a judgement: what is big enough, sure enough, possible, and what ties."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.columns import Columns
+from modeler.diagnosis.gram import VISIBLE, Pool
+from modeler.diagnosis.ranking import Ranking
+from modeler.diagnosis.score import SURE as TIED
+from modeler.diagnosis.score import standard_errors
+from modeler.diagnosis.state import State
+from modeler.diagnosis.timing import confirmed
+
+GATE = 0.03
+"""Least share of the residual variance on held-out motion that is worth a name."""
+
+FELT = 0.002
+"""Least fall of the error, as a share of the rms torque of its joints: filters distort as much."""
+
+SURE = 4.5
+"""Least ratio of a fall to its standard error over blocks: random signs of the blocks reach it by
+chance with one candidate in a hundred thousand."""
+
+SAME = 0.3
+"""Share of a rival's fall that may be left with the best put in, if both explain the same."""
+
+NEARLY = 0.95
+"""Share of the best fall with which a simpler effect is preferred, if the data do not tell."""
+
+
+@dataclass(frozen=True, eq=False)
+class Judged(Brief):
+    """One effect on one joint at its best shapes.
+
+    Attributes:
+        candidate: effect, joint, shapes.
+        gain: expected fall of the residual variance of its joints on other motion.
+        share: the same of all joints.
+        drop: (blocks,) fall there of the squared residual, weighted.
+        values: of its parameters, SI.
+        deviations: their standard deviations for residuals of the size that the state has, SI.
+        sure: fall over its standard error.
+        felt: rms of what it explains over the rms torque of its joints.
+        visible: share that the model does not hide.
+        possible: False for a sign or a size that physics forbids.
+        confirmed: False if only errors of timing speak for it.
+        why: physics forbids it on this robot, if it does.
+    """
+
+    candidate: Candidate
+    gain: float
+    share: float
+    drop: np.ndarray
+    values: np.ndarray
+    deviations: np.ndarray
+    sure: float
+    felt: float
+    visible: float
+    possible: bool
+    confirmed: bool = True
+    why: str = ""
+
+    @property
+    def alone(self) -> bool:
+        """True if only its own joint feels it.
+
+        A drive gain is a matter of all joints that share parameters, and so is what explains more
+        than there is to explain on its joint.
+        """
+        candidate = self.candidate
+        return candidate.local and "torque" not in candidate.form.names and self.gain < 1.0
+
+    @property
+    def mends(self) -> bool:
+        """True if its sign says that it mends the form of a law in the model."""
+        return self.candidate.effect.mends(float(self.values[0]))
+
+    @property
+    def unlikely(self) -> bool:
+        """True if it is possible, but rare, or its sign is."""
+        effect = self.candidate.effect
+        return effect.rare or (effect.rarely_negative and float(self.values[0]) < 0.0)
+
+    @property
+    def significant(self) -> bool:
+        """True if it is worth a name."""
+        big = self.gain > GATE and self.sure > SURE and self.felt > FELT
+        return big and self.possible and self.confirmed and self.visible > VISIBLE
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement(Brief):
+    """All effects in one state, best first; `best` is None if none is worth a name."""
+
+    ranked: tuple[Judged, ...]
+    best: Judged | None
+
+    def others(self, best: Judged) -> tuple[Judged, ...]:
+        """All but that effect on its joint."""
+        return tuple(j for j in self.ranked if j.candidate.key != best.candidate.key)
+
+
+def judge(state: State, found: Sequence[Candidate], columns: Sequence[Columns]) -> Judgement:
+    """The best shapes of every effect on every joint, judged."""
+    return decide(state, best_shapes(state, found, columns))
+
+
+def best_shapes(
+    state: State, found: Sequence[Candidate], columns: Sequence[Columns]
+) -> list[Judged]:
+    """Every effect on every joint at the best of the given shapes, best first."""
+    order = sift(state, found, columns)
+    return judged_at(state, found, columns, leading(found, order))
+
+
+Order = tuple[bool, float]
+"""What chooses among the shapes of an effect: whether it is possible, and what it explains."""
+
+
+def sift(state: State, found: Sequence[Candidate], columns: Sequence[Columns]) -> list[Order]:
+    """Of every candidate."""
+    seen = state.sifted(columns)
+    return [
+        (possible(candidate, value), float(total))
+        for candidate, value, total in zip(found, seen.value, seen.total, strict=True)
+    ]
+
+
+def leading(found: Sequence[Candidate], order: Sequence[Order]) -> list[int]:
+    """Places of the best shapes of every effect on every joint."""
+    best: dict[tuple[str, str | None], int] = {}
+    for i, candidate in enumerate(found):
+        at = best.get(candidate.key)
+        if at is None or order[i] > order[at]:
+            best[candidate.key] = i
+    return list(best.values())
+
+
+def judged_at(
+    state: State,
+    found: Sequence[Candidate],
+    columns: Sequence[Columns],
+    places: Sequence[int],
+) -> list[Judged]:
+    """Some of the candidates judged, best first."""
+    if not places:
+        return []
+    pool, ranking = state.ranked([columns[i] for i in places])
+    judged = [_judged(state, found[i], ranking, pool, k) for k, i in enumerate(places)]
+    judged.sort(key=lambda j: -float(j.drop.sum()))
+    return judged
+
+
+def decide(state: State, judged: list[Judged]) -> Judgement:
+    """The first that passes, or a simpler one that the data do not tell from it.
+
+    Timing-like ones are confirmed only when they lead.
+    """
+    for place, item in enumerate(judged):
+        if not item.significant:
+            continue
+        if item.candidate.effect.timing and not confirmed(state, item.candidate, item.values):
+            judged[place] = dataclasses.replace(item, confirmed=False)
+            continue
+        return Judgement(tuple(judged), _simplest(state, item, judged))
+    return Judgement(tuple(judged), None)
+
+
+def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
+    """Of those tied with the best and nearly as good, that with the fewest free numbers.
+
+    What only mends a law in the model comes last, before it what is rare, or has a rare sign.
+
+    A timing-like effect may stand for another timing-like one only.
+    """
+    timing = best.candidate.effect.timing
+    near = [
+        other for other in tied(best, judged)
+        if other.significant and (timing or not other.candidate.effect.timing)
+        and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
+    ]  # fmt: skip
+
+    def place(j: Judged) -> tuple[bool, bool, float, float]:
+        return j.mends, j.unlikely, numbers(j.candidate), -float(j.drop.sum())
+
+    order = sorted([best, *near], key=place)
+    return next(
+        j
+        for j in order
+        if j is best or not j.candidate.effect.timing or confirmed(state, j.candidate, j.values)
+    )
+
+
+def numbers(candidate: Candidate) -> float:
+    """Free numbers: parameters, and shapes that are refined."""
+    shapes = candidate.form.shapes
+    free = sum(s.smooth or candidate.shapes[s.name] not in s.grid for s in shapes)
+    ratios = len(candidate.shapes) - len(shapes)
+    return len(candidate.form.columns) + free + 0.5 * ratios
+
+
+def _own(pool: Pool, i: int) -> np.ndarray:
+    return np.flatnonzero(pool.owner == i)
+
+
+def possible(candidate: Candidate, values: np.ndarray) -> bool:
+    """False for a sign or a size of the candidate's parameters that physics forbids."""
+    for value, column in zip(map(float, values), candidate.form.columns, strict=False):
+        if (column.nonnegative and value < 0.0) or abs(value) > column.largest:
+            return False
+    return True
+
+
+def _judged(state: State, candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> Judged:
+    drop = ranking.drop[:, i]
+    own = _own(pool, i)
+    return Judged(
+        candidate,
+        min(1.0, float(drop.sum()) / max(_at_stake(candidate, ranking), 1e-300)),
+        float(drop.sum()) / max(float(ranking.before.sum()), 1e-300),
+        drop,
+        ranking.value[own],
+        ranking.deviation[own],
+        float(ranking.sure[i]),
+        float(np.sqrt(max(0.0, float(drop.sum())) / _torque(state, candidate))),
+        float(ranking.visible[i]),
+        possible(candidate, ranking.value[own]),
+    )
+
+
+def _at_stake(candidate: Candidate, ranking: Ranking) -> float:
+    """Squared residual of the joints that the effect concerns, weighted, on held-out motion."""
+    return float(ranking.before[candidate.concerns(len(ranking.before))].sum())
+
+
+def _torque(state: State, candidate: Candidate) -> float:
+    """Squared torque of the joints that the effect concerns, weighted."""
+    own = candidate.concerns(len(state.y))
+    return sum(float(np.sum((state.rows.y[j] / state.base.sigma[j]) ** 2)) for j in own) + 1e-300
+
+
+def alternatives(best: Judged, others: Sequence[Judged], after: Judgement) -> list[Judged]:
+    """Tied ones that explain the same: with the best put in, little is left for them.
+
+    Args:
+        best: that was put in.
+        others: its rivals then.
+        after: the judgement with it.
+    """
+    left = {j.candidate.key: float(j.drop.sum()) for j in after.ranked}
+    return [
+        other for other in tied(best, others)
+        if left.get(other.candidate.key, 0.0) < SAME * float(other.drop.sum())
+    ]  # fmt: skip
+
+
+def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
+    """Those that explain as much as the best: paired differences over blocks decide."""
+    found = []
+    for other in others:
+        if other is best or not other.possible or other.gain < GATE:
+            continue
+        same = other.candidate.effect.id in best.candidate.effect.same_as
+        if same or standard_errors(best.drop - other.drop) <= TIED:
+            found.append(other)
+    return found

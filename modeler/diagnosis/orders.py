@@ -1,0 +1,195 @@
+"""The order spectrum of a state, and the ripples that it proposes."""
+
+from collections.abc import Callable, Set
+from typing import cast
+
+import numpy as np
+
+from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.columns import all_columns, own_columns
+from modeler.diagnosis.signals import resonance
+from modeler.diagnosis.state import State, column_key
+from modeler.effects.effect import Effect
+from modeler.numerics.noise import forgotten, outbursts, returning
+from modeler.numerics.spectra import OrderSpectrum
+from modeler.numerics.spectra import order_spectrum as spectrum_of
+from modeler.numerics.splines import LEAST, SLIPS, Flexible, Measured, flexible, functions
+from modeler.observation.low_speed import bristle
+
+
+def order_spectrum(state: State, j: int) -> OrderSpectrum | None:
+    """Of the moving samples of joint j, at full rate; None if it rests."""
+    key = "order spectrum", j
+    if key not in state.known:
+        state.known[key] = _order_spectrum(state, j)
+    return cast(OrderSpectrum | None, state.known[key])
+
+
+def _order_spectrum(state: State, j: int) -> OrderSpectrum | None:
+    q, r = _samples(state, j)
+    unit = state.data.compiled.spec.joints[j].unit
+    return spectrum_of(q, r, unit, _reached(state, j)) if q.size else None
+
+
+def _reached(state: State, j: int) -> float:
+    """Order that passes the parallel filter at the median speed of the joint."""
+    cutoff = state.data.observation.report.processing.parallel_cutoff or 1e9
+    speeds = np.abs(
+        np.concatenate([s.v[s.segment.whole[:: s.every], j] for s in state.rows.signals])
+    )
+    slow = float(np.quantile(speeds[speeds > 0.0], 0.1)) if (speeds > 0.0).any() else 1.0
+    return 2.0 * np.pi * cutoff / max(slow, 1e-9)
+
+
+def _samples(state: State, j: int) -> tuple[np.ndarray, np.ndarray]:
+    """Positions and residuals of the samples that count, not filtered."""
+    q, r = [], []
+    segment = state.rows.segment[j]
+    for number, part in enumerate(state.data.observation.stretches):
+        if not (segment == number).any():
+            continue
+        signals = state.rows.signals[number]
+        usable = part.usable[:: signals.every, j]
+        model = signals.torque[:, j] + _extra(state, number, j)
+        q.append(signals.q[usable, j])
+        r.append((part.segment.tau[:: signals.every, j] - model)[usable])
+    if not q:
+        return np.zeros(0), np.zeros(0)
+    residual = np.concatenate(r)
+    return np.concatenate(q), residual - residual.mean()
+
+
+def _extra(state: State, number: int, j: int) -> np.ndarray:
+    """Torque of the effects put in so far, at full rate."""
+    signals = state.rows.signals[number]
+    total = np.zeros(len(signals.q))
+    for pick, values in zip(state.picks, state.values, strict=True):
+        if pick.local and pick.index != j:
+            continue
+        if pick.local:
+            total = total + own_columns(pick, signals) @ values
+        else:
+            total = total + _torques(state, number, pick)[:, j] @ values
+    return total
+
+
+def _torques(state: State, number: int, pick: Candidate) -> np.ndarray:
+    """(n, J, k) torques of the columns of a pick over one stretch, remembered for all joints."""
+    key = "torques", number, column_key(state.rows, pick)
+    if key not in state.rows.known:
+        state.rows.known[key] = all_columns(pick, state.rows.signals[number])
+    return np.asarray(state.rows.known[key])
+
+
+def counted(order: float) -> float:
+    """The whole number of waves next to an order: teeth and poles are counted."""
+    return float(max(1, round(order)))
+
+
+def ripple_candidates(
+    state: State,
+    allowed: Callable[[str, str | None], bool],
+    joints: Set[str | None] | None = None,
+) -> list[Candidate]:
+    """Waves at the orders that stand out on each joint, and at the whole numbers next to them.
+
+    Args:
+        state: it.
+        allowed: False for an id and a joint that the user rules out.
+        joints: names of those that count; None: all.
+    """
+    found = []
+    for j, joint in enumerate(state.data.compiled.spec.joints):
+        asked = joint.actuated and (joints is None or joint.name in joints)
+        spectrum = order_spectrum(state, j) if asked else None
+        for order in spectrum.peaks if spectrum else ():
+            for effect in _waving(state, order, joint.name, allowed):
+                (shape,) = effect.forms[0].shapes
+                found += [
+                    Candidate(effect, effect.forms[0], joint.name, j, {shape.name: waves})
+                    for waves in dict.fromkeys((order, counted(order)))
+                ]
+    return found
+
+
+def _waving(
+    state: State, order: float, joint: str, allowed: Callable[[str, str | None], bool]
+) -> list[Effect]:
+    """Effects that such waves are proposed for; the other name of one that is ruled out."""
+    every = [e for e in state.data.known.catalogue if e.orders and allowed(e.id, joint)]
+    likely = [e for e in every if e.orders and e.orders[0] <= order < e.orders[1]]
+    named = {other for effect in likely for other in effect.same_as}
+    return likely + [e for e in every if e not in likely and not named & {e.id, *e.same_as}]
+
+
+# How much of a residual is physics of whatever cause: predictable, back in every lap, no noise.
+
+
+_LIGHT = 0.1  # damping ratio of what rings
+_RINGING = (0.7, 1.5, 3.0, 6.0, 12.0)
+"""Hz of the oscillators that the motion excites: sloshing, swinging, springs."""
+
+
+def systematic_share(state: State, j: int) -> float:
+    """Share of the variance of joint j's residual that cannot be noise."""
+    rows, residual = state.rows, state.residual[j]
+    log = rows.time[j], residual, rows.run[j]
+    cutoff = state.data.observation.report.processing.parallel_cutoff or 0.0
+    periods = state.data.blocks.period
+    steps = (periods, [forgotten(cutoff)] * len(periods))
+    again = [returning(*log, later) or 0.0 for later in steps]
+    return max(rival(state, j).share, knocking(state, j), *again)
+
+
+def knocking(state: State, j: int) -> float:
+    """Share of the energy of joint j's residual in outbursts."""
+    return outbursts(state.residual[j], state.base.block[j])
+
+
+def rival(state: State, j: int) -> Flexible:
+    """What a flexible smooth function of all that was measured says of joint j's residual."""
+    fold = state.data.blocks.fold[state.base.block[j]]
+    sets = functions(_measured(state, j)) if fold.size >= LEAST else {}
+    return flexible(sets, state.residual[j], fold)
+
+
+def _measured(state: State, j: int) -> Measured:
+    rows, observation = state.rows, state.data.observation
+    used = observation.used[:, j]
+    loads = rows.filtered(j, [np.hstack([s.load, s.torque]) for s in rows.signals])
+    way = [np.sign(s.v[:, j]) for s in rows.signals]
+    slips = [
+        np.column_stack([bristle(s.q[:, j], d * state.scales[j].range) for d in SLIPS])
+        for s in rows.signals
+    ]
+    return Measured(
+        joint=j,
+        q=observation.q[used],
+        v=observation.qd[used],
+        a=observation.qdd[used],
+        load=loads[:, : rows.joints],
+        torque=loads[:, rows.joints :],
+        direction=rows.filtered(j, way),
+        slips=rows.filtered(j, slips),
+        further={"waves": _waves(state, j), "ringing": _ringing(state, j)},
+    )
+
+
+def _waves(state: State, j: int) -> np.ndarray:
+    """(rows_j, 2 k) cosine and sine of the k orders that stand out in the residual."""
+    found = order_spectrum(state, j)
+    if found is None or not found.peaks:
+        return np.zeros((len(state.residual[j]), 0))
+    angles = [np.outer(s.q[:, j], found.peaks) for s in state.rows.signals]
+    return state.rows.filtered(j, [np.hstack([np.cos(x), np.sin(x)]) for x in angles])
+
+
+def _ringing(state: State, j: int) -> np.ndarray:
+    """(rows_j, ...) oscillators that the accelerations of all joints excite, and their speeds."""
+    every = []
+    for s in state.rows.signals:
+        z = np.column_stack(
+            [resonance(a, s.step, frequency, _LIGHT) for a in s.a.T for frequency in _RINGING]
+        )
+        every.append(np.hstack([z, np.gradient(z, axis=0)]))
+    return state.rows.filtered(j, every)

@@ -1,0 +1,237 @@
+"""Do the values of an effect belong to this robot?"""
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.columns import body_parameters
+from modeler.diagnosis.drive_gains import TENFOLD
+from modeler.diagnosis.state import State, columns_of
+from modeler.effects.effect import Needs
+from modeler.estimation.nearest_body import body, nearest_possible
+
+# Friction brakes: does that of a model with an effect, on the motion seen and where it has faded?
+#
+# The friction of a joint takes energy: its torque times the speed is not negative, at any speed,
+# load and temperature of the logs (what turns gradually, as bristles do, gives back a little
+# after a reversal and is left out). What reads more than the motion of its joint may be absent:
+# friction that grows with the load, or fades as the joint warms up, adds to that of the unloaded
+# or warm joint, which brakes too. An effect with values that make friction drive describes
+# something else.
+
+
+DRIVES = "with it the friction of its joint would drive instead of brake"
+"""Why such an effect is refused."""
+
+FADES = frozenset({"t", "load", "static"})
+"""What may be absent while a joint moves: time since the start, load."""
+
+
+def drives(before: State, after: State, pick: Candidate) -> bool:
+    """True if friction drives with the effect by more than the model leaves, and not without it.
+
+    Args:
+        before: the state without the effect.
+        after: with it, as the last that was put in.
+        pick: the effect.
+    """
+    if pick.effect.family != "friction" or not pick.local:
+        return False
+    j = pick.index
+    if not has_friction(after, j):
+        return False  # a model without friction says nothing of the whole
+    left = float(np.sqrt(np.mean(after.residual[j] ** 2)))
+    own = [k for k, other in enumerate(after.picks) if _brakes(other, j)]
+    worst = _driving(after, j, own)
+    if pick.form.names & FADES:
+        worst = max(worst, _driving(after, j, own[:-1]))
+    earlier = [k for k, other in enumerate(before.picks) if _brakes(other, j)]
+    return worst > max(left, _driving(before, j, earlier))
+
+
+def has_friction(state: State, j: int) -> bool:
+    """True if the model has friction of joint j alone."""
+    return bool(_own(state, j))
+
+
+def _brakes(pick: Candidate, j: int) -> bool:
+    """True for friction of that joint without memory."""
+    friction = pick.effect.family == "friction" and pick.local and pick.form.memory is None
+    return friction and pick.index == j
+
+
+def largest_friction(state: State, j: int) -> float:
+    """The largest friction torque of joint j on its rows, but for one in fifty, N m or N."""
+    picks = [k for k, other in enumerate(state.picks) if _brakes(other, j)]
+    torque = np.abs(_friction(state, j, picks))
+    return float(np.quantile(torque, 0.98)) if torque.size else 0.0
+
+
+def _driving(state: State, j: int, picks: Sequence[int]) -> float:
+    """Rms of the friction torque of joint j where it drives, N m or N; with some of the picks."""
+    way = np.sign(state.rows.filtered(j, [s.v[:, j] for s in state.rows.signals]))
+    return float(np.sqrt(np.mean(np.minimum(0.0, _friction(state, j, picks) * way) ** 2)))
+
+
+def _own(state: State, j: int) -> list[int]:
+    """Base columns of the friction of joint j alone."""
+    base = state.data.compiled.spec.base
+    return [i for i, b in enumerate(base) if b.kind == "friction" and b.rows == (j,)]
+
+
+def _friction(state: State, j: int, picks: Sequence[int]) -> np.ndarray:
+    """(rows_j,) friction torque of joint j, N m or N: of the model and some of the picks."""
+    own = _own(state, j)
+    torque = state.rows.W[j][:, own] @ state.beta[own]
+    for k in picks:
+        columns = state.extra[k][j]
+        assert columns is not None, "it acts on its joint"
+        torque = torque + columns @ state.values[k]
+    return torque
+
+
+LOOSE = 5.0
+"""Ratio of the inertia that an elastic joint rings with to that of the model, either way, from
+which on it is not this joint that rings."""
+
+LOST = 0.3
+"""Share, of the rms that a body on a link explains, that one that can be built may miss."""
+
+MORE = 1.3
+"""Of the whole friction of a joint, more than which no part of it is, however badly known."""
+
+WEIGHTLESS = 0.02
+"""Gravity over torque, rms, below which a joint has nothing to balance."""
+
+
+def objection(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """Why the values cannot be those of the effect named; empty if they can.
+
+    A joint of stiffness K rings, with its motor held, at f = sqrt(K/J)/(2 pi), J the inertia that
+    the model has on its axis: something else that rings (a sloshing load, a soft base) has another
+    J (Spong 1987). And where no gravity turns a joint, nothing balances it; nor is a lever seen
+    where a straight line describes its torque as well.
+
+    Args:
+        state: with the effect.
+        pick: it.
+        parameters: its parameters and shapes by name, SI.
+    """
+    doubts = (_CHECKS[need](state, pick, parameters) for need in pick.effect.needs)
+    return next((doubt for doubt in doubts if doubt), "")
+
+
+def _more_than_all(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """A part of the friction that is larger than all of it."""
+    part, unit = parameters[pick.parameter_names()[0]], "N m" if _turns(state, pick) else "N"
+    whole = largest_friction(state, pick.index)
+    if part <= MORE * whole:
+        return ""
+    return f"all friction of its joint is {whole:.3g} {unit}, and this part of it {part:.3g} {unit}"
+
+
+def _turns(state: State, pick: Candidate) -> bool:
+    return state.data.compiled.spec.joints[pick.index].unit == "rad"
+
+
+def _no_rest(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """Far from its rest a spring is a constant torque, unless the model has one already."""
+    del parameters
+    having = {(p.effect, p.joint) for p in state.data.compiled.spec.standard}
+    scale = state.scales[pick.index]
+    if ("offset", pick.joint) in having or abs(
+        pick.shapes["q0"] - scale.middle
+    ) < 0.5 * scale.range:
+        return ""
+    return f"its rest lies outside of all that joint {pick.joint} moves over: a constant torque"
+
+
+def _no_body(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """What a body that can be built explains, over what these parameters do."""
+    mass = parameters.get("mass", 0.0)
+    if mass < 0.0:
+        return f"no body has a mass of {mass:.3g} kg"
+    root = _alone(state, pick)
+    felt = body_parameters(pick, state.rows.signals[0])
+    values = np.array([parameters[name] for name in list(parameters)[: len(felt)]])
+    nearest = nearest_possible(body(felt), values, root)
+    if nearest is None or nearest.distance < LOST * float(np.linalg.norm(root @ values)):
+        return ""
+    return "no body has these inertial parameters: its pseudo-inertia would be negative"
+
+
+def _alone(state: State, pick: Candidate) -> np.ndarray:
+    """(k, k) root of the information on the parameters of an effect, beside all else."""
+    k = next(len(v) for v, p in zip(state.values, state.picks, strict=True) if p is pick)
+    columns, sigma = columns_of(state.rows, pick, state.cache), state.base.sigma
+    own = np.vstack(
+        [
+            np.zeros((len(w), k)) if c is None else c / s
+            for c, w, s in zip(columns, state.rows.W, sigma, strict=True)
+        ]
+    )
+    others = np.vstack([w[:, state.data.free] / s
+                        for w, s in zip(state.rows.W, sigma, strict=True)])  # fmt: skip
+    left = own - others @ np.linalg.lstsq(others, own, rcond=None)[0] if others.size else own
+    return np.asarray(np.linalg.qr(left, mode="r"))
+
+
+def _no_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """A torque of the other sign, or off by that much, is no matter of its torque constant."""
+    del state
+    eps = parameters[pick.parameter_names()[0]]
+    if 1.0 / TENFOLD < 1.0 - eps < TENFOLD:
+        return ""
+    true = f"{1.0 / (1.0 - eps):.2g} times" if eps != 1.0 else "infinitely many times"
+    return f"the true gain would be {true} the given one: check sign and unit of that torque"
+
+
+def _nothing_to_balance(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """A lever with a spring is built where gravity turns a joint."""
+    del parameters
+    weight = np.concatenate([s.static[::20, pick.index] for s in state.rows.signals])
+    torque = state.rows.y[pick.index]
+    if np.mean(weight**2) > WEIGHTLESS**2 * np.mean(torque**2):
+        return ""
+    return f"gravity does not turn joint {pick.joint}, so no spring balances it"
+
+
+def _no_lever(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """What the residual covers of its torque beside a straight line over the stroke is not seen."""
+    j = pick.index
+    column = columns_of(state.rows, pick, state.cache)[j]
+    assert column is not None, "it acts on its own joint"
+    torque = column @ [parameters[name] for name in pick.parameter_names()]
+    line = np.vander(state.rows.filtered(j, [s.q[:, j] for s in state.rows.signals]), 2)
+    bent = torque - line @ np.linalg.lstsq(line, torque, rcond=None)[0]
+    if np.mean(bent**2) > np.mean(state.residual[j] ** 2):
+        return ""
+    return "over this stroke its torque is a straight line in q: another spring gives it too"
+
+
+def _other_oscillator(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    compliance = parameters[pick.parameter_names()[0]]
+    q = np.concatenate([s.q[::20] for s in state.rows.signals])
+    inertia = state.data.compiled.inertia_matrix(q, state.reference.links)
+    own = float(np.median(inertia[:, pick.index, pick.index]))
+    rings = 1.0 / max(compliance * (2.0 * np.pi * parameters["f"]) ** 2, 1e-300)
+    if own <= 0.0 or max(rings / own, own / rings) < LOOSE:
+        return ""
+    unit = "kg m2" if _turns(state, pick) else "kg"
+    return (
+        f"what rings has {rings:.3g} {unit} on this axis, and the links have {own:.3g} {unit}: "
+        "something else rings"
+    )
+
+
+_CHECKS: Mapping[Needs, Callable[[State, Candidate, Mapping[str, float]], str]] = {
+    Needs.GRAVITY: _nothing_to_balance,
+    Needs.CURVE: _no_lever,
+    Needs.REST: _no_rest,
+    Needs.MASS: _no_body,
+    Needs.INERTIA: _other_oscillator,
+    Needs.GAIN: _no_gain,
+    Needs.FRICTION: _more_than_all,
+}
+"""A sentence where the robot is not so; empty where it is."""

@@ -1,0 +1,428 @@
+"""How sure values are whose shapes were fitted too: the likelihood along all shapes.
+
+For shapes theta of an effect, all parameters beside them are linear: least squares gives their
+values g(theta) with deviations s(theta), and the weighted squared residual S(theta). With S* the
+least of it,
+
+    L(theta) = exp(-(S(theta) - S*) / (2 f^2))
+
+is the profile likelihood (f^2: by how much residuals that remember raise variances). A value is in
+the interval if any shape with it is not refused:
+
+    min_theta (S(theta) - S*) / f^2 + ((g - g(theta)) / s(theta))^2 <= 3.84, the 95 % quantile;
+
+where two shapes do as well, it spans both (Venzon and Moolgavkar 1988, Applied Statistics 37(1);
+Seber and Wild 1989, section 5.4). The standard deviation is that of the mixture of all shapes,
+weighted by L, about the value that is told; for a narrow L it is that of the delta method.
+"""
+
+import dataclasses
+import itertools
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from modeler.diagnosis.candidates import Candidate, JointScale
+from modeler.diagnosis.columns import Columns, Rows
+from modeler.diagnosis.gram import blocks_of
+from modeler.effects.effect import Shape
+from modeler.estimation.covariance import autocorrelation, repeated
+from modeler.numerics.least_squares import orthonormal
+from modeler.observation.observation import Observation
+
+# The fit of an effect with given shapes, beside all else that a model has.
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """One set of shapes, and the fit with it.
+
+    Attributes:
+        shapes: values by name, SI.
+        squares: S, weighted.
+        values: (k,) parameters of the effect.
+        deviations: (k,) theirs, for white residuals of variance 1.
+        others: (c,) the other parameters.
+        weight: of its cell among the shapes; not the likelihood.
+    """
+
+    shapes: Mapping[str, float]
+    squares: float
+    values: np.ndarray
+    deviations: np.ndarray
+    others: np.ndarray
+    weight: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """What a profile is made from; J joints.
+
+    Attributes:
+        rows: where columns come from.
+        observation: the rows' samples and segments.
+        others: (rows_j, c) by joint: columns of all else.
+        y: (rows_j,) by joint.
+        sigma: (J,) rms residual with the effect in.
+        scale: what is large on its joint.
+    """
+
+    rows: Rows
+    observation: Observation
+    others: Sequence[np.ndarray]
+    y: Sequence[np.ndarray]
+    sigma: np.ndarray
+    scale: JointScale
+
+    @cached_property
+    def block(self) -> np.ndarray:
+        """(samples,) number of the block of time of each sample."""
+        return blocks_of(self.observation).number
+
+    @cached_property
+    def base(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
+        """Orthonormal weighted columns of all else by joint, and (c, r): columns = W turn."""
+        return orthonormal(self.others, self.sigma)
+
+    @cached_property
+    def target(self) -> tuple[tuple[np.ndarray, ...], np.ndarray, float]:
+        """Weighted y by joint, its products with the base, and what the base leaves of y.y."""
+        scaled = tuple(t / s for t, s in zip(self.y, self.sigma, strict=True))
+        u = sum(q.T @ t for q, t in zip(self.base[0], scaled, strict=True))
+        return scaled, np.asarray(u), float(sum(t @ t for t in scaled) - u @ u)
+
+    def weighted(self, columns: Columns) -> tuple[np.ndarray, ...]:
+        """(rows_j, k) by joint, divided by sigma; zeros where there are none."""
+        size = next(c.shape[1] for c in columns if c is not None)
+        return tuple(
+            np.zeros((len(t), size)) if c is None else c / s
+            for c, t, s in zip(columns, self.y, self.sigma, strict=True)
+        )
+
+    def at(self, candidate: Candidate) -> Point | None:
+        """The fit with these shapes; None where the columns cannot be told from all else."""
+        columns = self.rows.columns(candidate)
+        if not all(c is None or np.isfinite(c).all() for c in columns):
+            return None
+        if all(c is None for c in columns):
+            return None
+        y, u, left = self.target
+        felt = [j for j, c in enumerate(columns) if c is not None]
+        own = [np.asarray(columns[j]) / self.sigma[j] for j in felt]
+        T = sum(self.base[0][j].T @ c for j, c in zip(felt, own, strict=True))
+        M = sum(c.T @ c for c in own) - T.T @ T
+        h = sum(c.T @ y[j] for j, c in zip(felt, own, strict=True)) - T.T @ u
+        length = np.sqrt(sum(np.sum(c**2, axis=0) for c in own))
+        if not (length > 0.0).all():
+            return None
+        inverse = np.linalg.pinv(M / np.outer(length, length), rcond=1e-9, hermitian=True)
+        inverse = inverse / np.outer(length, length)
+        values = inverse @ h
+        others = self.base[1] @ (u - T @ values)
+        deviations = np.sqrt(np.maximum(np.diag(inverse), 0.0))
+        return Point(dict(candidate.shapes), left - float(h @ values), values, deviations, others)
+
+    def off(self, columns: Sequence[np.ndarray]) -> np.ndarray:
+        """(rows of all joints, k) what all else leaves of weighted columns."""
+        T = sum(q.T @ c for q, c in zip(self.base[0], columns, strict=True))
+        return np.concatenate([c - q @ T for q, c in zip(self.base[0], columns, strict=True)])
+
+    def by_joint(self) -> Iterator[tuple[slice, np.ndarray]]:
+        """Where the rows of each joint stand among all, and their samples."""
+        first = 0
+        for j, y in enumerate(self.y):
+            yield slice(first, first + len(y)), np.flatnonzero(self.observation.used[:, j])
+            first += len(y)
+
+
+SURE = 3.841458820694124
+"""95 % quantile of chi-square with one degree of freedom."""
+
+REFUSED = 9.0
+"""Rise from which on a shape is out of the question: three standard deviations."""
+
+_FINE = 0.03  # share of all likelihood that a cell may hold
+_MOST = 64  # shapes looked at along one line
+_LINE = 7  # values per shape where there are several
+_REACHED = 3.0  # standard deviations to which those reach
+_BESIDE = 6  # half waves in the stroke, to which other orders of a ripple are looked at
+_STEP = 1e-3  # of a coded shape, for slopes
+
+
+@dataclass(frozen=True, eq=False)
+class Profile:
+    """The likelihood of an effect along its shapes.
+
+    Attributes:
+        points: shapes that were looked at.
+        told: shapes and values that are told.
+        factor: (k,) of the deviations: residuals that remember.
+        shape_factor: f.
+    """
+
+    points: tuple[Point, ...]
+    told: Point
+    factor: np.ndarray
+    shape_factor: float
+
+    @cached_property
+    def rise(self) -> np.ndarray:
+        """(points,) (S - S*) / f^2."""
+        squares = np.array([point.squares for point in self.points])
+        return (squares - squares.min()) / self.shape_factor**2
+
+    @cached_property
+    def share(self) -> np.ndarray:
+        """(points,) of the likelihood, summing to one."""
+        weight = np.array([point.weight for point in self.points]) * np.exp(-0.5 * self.rise)
+        weight = np.where(self.rise < REFUSED, weight, 0.0)
+        return np.asarray(weight / weight.sum())
+
+    def deviations(self) -> np.ndarray:
+        """(k,) standard deviations of the parameters, shapes included.
+
+        Never more than the interval reaches: where an effect all but vanishes from the rows, its
+        parameter may be anything.
+        """
+        own = np.array([point.deviations for point in self.points]) * self.factor
+        apart = np.array([point.values for point in self.points]) - self.told.values
+        reach = np.abs(self.intervals() - self.told.values[:, None]).max(axis=1)
+        return np.minimum(np.sqrt(self.share @ (own**2 + apart**2)), reach)
+
+    def intervals(self) -> np.ndarray:
+        """(k, 2) 95 % intervals of the parameters, shapes included."""
+        every = [*self.points, self.told]
+        rise = np.append(self.rise, 0.0)
+        half = np.sqrt(np.maximum(SURE - rise, 0.0))[:, None] * self.factor
+        values = np.array([point.values for point in every])
+        reach = half * np.array([point.deviations for point in every])
+        allowed = rise < SURE
+        low, high = (values - reach)[allowed], (values + reach)[allowed]
+        return np.column_stack([low.min(axis=0), high.max(axis=0)])
+
+    def shape_deviations(self) -> dict[str, float]:
+        """Standard deviations of the shapes by name."""
+        return {
+            name: float(
+                np.sqrt(self.share @ (np.array([p.shapes[name] for p in self.points]) - value) ** 2)
+            )
+            for name, value in self.told.shapes.items()
+        }
+
+    def shape_intervals(self) -> dict[str, tuple[float, float]]:
+        """95 % intervals of the shapes by name: all that the data do not refuse."""
+        allowed = [p for p, rise in zip(self.points, self.rise, strict=True) if rise < SURE]
+        found = {}
+        for name, value in self.told.shapes.items():
+            own = [value, *(point.shapes[name] for point in allowed)]
+            found[name] = (min(own), max(own))
+        return found
+
+    def extra(self) -> np.ndarray:
+        """(c + k,) squared: what the shapes add to the covariance; all else first, then own."""
+        every = np.array([np.concatenate([p.others, p.values]) for p in self.points])
+        apart = every - np.concatenate([self.told.others, self.told.values])
+        return np.asarray((apart * self.share[:, None]).T @ apart)
+
+
+def profile(problem: Problem, told: Candidate) -> Profile | None:
+    """The likelihood along the shapes of an effect; None if it has none that could be others.
+
+    Args:
+        problem: the rows.
+        told: the effect with the shapes that are told.
+    """
+    fixed, smooth = _kinds(told)
+    first = problem.at(told)
+    if first is None or not (smooth or any(len(values) > 1 for _, values in fixed)):
+        return None
+    points: list[Point] = []
+    for values in itertools.product(*(values for _, values in fixed)):
+        chosen = dict(zip((name for name, _ in fixed), values, strict=True))
+        here = dataclasses.replace(told, shapes={**told.shapes, **chosen})
+        points += _explored(problem, here, smooth, first.squares)
+    points = [p for p in points if _possible(told, p)] or [first]
+    factors = _factors(problem, told, smooth, first)
+    k = len(first.values)
+    shapes = factors[k:] if len(factors) > k else factors
+    return Profile(tuple(points), first, factors[:k], float(shapes.max()))
+
+
+def _possible(candidate: Candidate, point: Point) -> bool:
+    """False where physics forbids the sign of a value."""
+    return all(
+        value >= 0.0 or not column.nonnegative
+        for value, column in zip(point.values, candidate.form.columns, strict=False)
+    )
+
+
+def _kinds(told: Candidate) -> tuple[list[tuple[str, tuple[float, ...]]], list[Shape]]:
+    """Shapes of which only some values make sense, with these, and the others."""
+    fixed, smooth = [], []
+    for shape in told.form.shapes:
+        value = told.shapes[shape.name]
+        if shape.smooth or (shape.scale == "waves" and value not in shape.grid):
+            smooth.append(shape)
+        elif len(shape.grid) > 1 and value in shape.grid:
+            fixed.append((shape.name, shape.grid))
+    return fixed, smooth
+
+
+def _explored(
+    problem: Problem, start: Candidate, smooth: Sequence[Shape], least: float
+) -> list[Point]:
+    """Points with weights, the smooth shapes over all that makes sense."""
+    if not smooth:
+        point = problem.at(start)
+        return [] if point is None else [point]
+    lines = [_line(problem.scale, start, shape) for shape in smooth]
+    if len(smooth) == 1:
+        return _along(lambda x: problem.at(_moved(start, smooth, [x])), lines[0], least)
+    return _around(problem, start, smooth, lines)
+
+
+@dataclass(frozen=True)
+class _Line:
+    """Coded values of one shape: those to begin with, ascending; the told one among them."""
+
+    values: tuple[float, ...]
+    told: float
+
+
+def _line(scale: JointScale, start: Candidate, shape: Shape) -> _Line:
+    told = coded(shape, start.shapes[shape.name])
+    if shape.scale == "waves":
+        near = told + np.pi / scale.range * np.linspace(-_BESIDE, _BESIDE, 4 * _BESIDE + 1)
+        return _Line(tuple(float(m) for m in near if m > 0.0), told)
+    low, high = (coded(shape, scale.value(shape, end)) for end in shape.limits)
+    inner = {coded(shape, scale.value(shape, entry)) for entry in shape.grid}
+    kept = {x for x in (*inner, told) if low < x < high}
+    return _Line(tuple(sorted({low, high, *kept})), told)
+
+
+def coded(shape: Shape, value: float) -> float:
+    """Positive shapes by their logarithm."""
+    return float(np.log(value)) if shape.limits[0] > 0.0 else value
+
+
+def decoded(shape: Shape, x: float) -> float:
+    """The value of a coded shape."""
+    return float(np.exp(x)) if shape.limits[0] > 0.0 else float(x)
+
+
+def _moved(start: Candidate, smooth: Sequence[Shape], x: Sequence[float]) -> Candidate:
+    values = {shape.name: decoded(shape, v) for shape, v in zip(smooth, x, strict=True)}
+    return dataclasses.replace(start, shapes={**start.shapes, **values})
+
+
+def _along(at: Callable[[float], Point | None], line: _Line, least: float) -> list[Point]:
+    """Points along one shape, closest where the likelihood is: the biggest cell is halved."""
+    seen = {x: at(x) for x in line.values}
+    while len(seen) < _MOST:
+        x = np.array(sorted(seen))
+        squares = np.array([_squares(seen[value]) for value in x])
+        likely = np.exp(-0.5 * (squares - min(least, squares.min())))
+        # a peak may hide between two points: cells count by their better end
+        cells = np.diff(x) * np.maximum(likely[:-1], likely[1:])
+        total = cells.sum()
+        biggest = int(np.argmax(cells))
+        if not total > 0.0 or cells[biggest] < _FINE * total:
+            break
+        middle = 0.5 * (x[biggest] + x[biggest + 1])
+        if middle in (x[biggest], x[biggest + 1]):
+            break
+        seen[middle] = at(middle)
+    x = np.array(sorted(seen))
+    edges = np.concatenate([x[:1], 0.5 * (x[1:] + x[:-1]), x[-1:]])
+    widths = np.diff(edges)
+    found = zip((seen[value] for value in x), widths, strict=True)
+    return [dataclasses.replace(p, weight=float(w)) for p, w in found if p is not None]
+
+
+def _squares(point: Point | None) -> float:
+    return np.inf if point is None else point.squares
+
+
+def _around(
+    problem: Problem, start: Candidate, smooth: Sequence[Shape], lines: Sequence[_Line]
+) -> list[Point]:
+    """Points on a grid about the told shapes, along the axes of the likelihood there."""
+    middle = np.array([line.told for line in lines])
+    low = np.array([line.values[0] for line in lines])
+    high = np.array([line.values[-1] for line in lines])
+
+    def at(x: np.ndarray) -> Point | None:
+        if np.any(x < low) or np.any(x > high):
+            return None
+        return problem.at(_moved(start, smooth, list(x)))
+
+    axes = _axes(problem, start, smooth, middle) * _REACHED
+    steps = np.linspace(-1.0, 1.0, _LINE)
+    places = (middle + axes @ np.array(z) for z in itertools.product(steps, repeat=len(smooth)))
+    return [point for point in map(at, places) if point is not None]
+
+
+def _axes(
+    problem: Problem, start: Candidate, smooth: Sequence[Shape], middle: np.ndarray
+) -> np.ndarray:
+    """(s, s) root of the covariance of the coded shapes, by the slopes of the columns."""
+    _, slopes = _slopes(problem, start, smooth, middle)
+    gram = slopes.T @ slopes
+    values, vectors = np.linalg.eigh(gram)
+    floor = 1e-9 * max(float(values.max(initial=0.0)), 1e-300)
+    return np.asarray(vectors / np.sqrt(np.maximum(values, floor)))
+
+
+def _slopes(
+    problem: Problem, told: Candidate, smooth: Sequence[Shape], middle: Sequence[float] | np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Own columns, and slopes of the effect by its coded shapes, off all else; rows of all joints.
+
+    The slopes are off the own columns too.
+    """
+    here = problem.at(told)
+    assert here is not None
+    own = problem.off(problem.weighted(problem.rows.columns(told)))
+    slopes = []
+    for i in range(len(smooth)):
+        ends = []
+        for sign in (-1.0, 1.0):
+            x = np.array(middle, dtype=float)
+            x[i] += sign * _STEP
+            moved = problem.rows.columns(_moved(told, smooth, list(x)))
+            ends.append(problem.off(problem.weighted(moved)) @ here.values)
+        slopes.append((ends[1] - ends[0]) / (2.0 * _STEP))
+    slope = np.column_stack(slopes) if slopes else np.zeros((len(own), 0))
+    return own, slope - own @ np.linalg.lstsq(own, slope, rcond=1e-9)[0]
+
+
+def _factors(
+    problem: Problem, told: Candidate, smooth: Sequence[Shape], first: Point
+) -> np.ndarray:
+    """(k + s,) on the deviations of parameters and smooth shapes, 1 and more.
+
+    Residuals remember, and they are largest where an effect acts, in a few reversals, say. The
+    larger of two estimates: by the autocorrelation of the residuals, and by their own sums over
+    blocks of time, V = sum_b g_b g_b^T with g_b = sum_t u_t e_t, u_t the influence of a row on the
+    parameters (White 1980, Econometrica 48(4); Arellano 1987).
+    """
+    middle = [coded(shape, told.shapes[shape.name]) for shape in smooth]
+    own, slopes = _slopes(problem, told, smooth, middle)
+    left = problem.off([t[:, None] for t in problem.target[0]])[:, 0] - own @ first.values
+    both = np.column_stack([own, slopes])
+    influence = both @ np.linalg.pinv(both.T @ both, rcond=1e-12, hermitian=True)
+    white = np.sum(influence**2, axis=0)
+    extra, number = np.zeros(len(white)), []
+    segment = problem.observation.segment
+    for rows, sample in problem.by_joint():
+        number.append(problem.block[sample])
+        if rows.stop > rows.start:
+            r = autocorrelation(left[rows], sample, segment)
+            extra += repeated(influence[rows], r, sample, segment)
+    sums = np.zeros((problem.block.max() + 1, len(white)))
+    np.add.at(sums, np.concatenate(number), influence * left[:, None])
+    safe = np.where(white > 0.0, white, 1.0)
+    ratio = np.maximum(1.0 + extra / safe, np.sum(sums**2, axis=0) / safe)
+    return np.sqrt(np.maximum(ratio, 1.0))

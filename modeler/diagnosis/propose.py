@@ -1,0 +1,73 @@
+"""All candidates of a state: those of the effects' grids, and those that the data suggest."""
+
+import dataclasses
+from collections.abc import Sequence, Set
+
+import numpy as np
+
+from modeler.diagnosis.candidates import Candidate, candidates
+from modeler.diagnosis.orders import ripple_candidates
+from modeler.diagnosis.state import State
+from modeler.effects.effect import Acts
+
+
+def proposals(
+    state: State, only: str | None = None, without: Sequence[str] = (),
+    keys: Set[tuple[str, str | None]] | None = None,
+) -> list[Candidate]:  # fmt: skip
+    """What could be missing in this state, without what was put in already.
+
+    Args:
+        state: it.
+        only: id of the one effect that is asked for.
+        without: ids of effects, or id@joint, that the user rules out.
+        keys: effects and joints that count; None: all.
+    """
+    spec = state.data.compiled.spec
+    temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
+    changed = state.data.kept is not None
+    present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
+    asked = [e for e in state.data.known.catalogue if only in (None, e.id)]
+    known = dataclasses.replace(state.data.known, catalogue=asked)
+
+    def allowed(effect: str, joint: str | None) -> bool:
+        return not ruled_out(effect, joint, without)
+
+    found = candidates(spec, state.scales, temperature, present, known, allowed)
+    span = float(np.ptp(state.data.observation.time))
+    found = [c for c in found if only is not None or _lasts(span, c)]
+    if waving := {effect.id for effect in known.catalogue if effect.orders}:
+        waves = None if keys is None else {joint for effect, joint in keys if effect in waving}
+        found += ripple_candidates(state, allowed, waves)
+    if changed:
+        found += load_candidates(state)
+    taken = {
+        (same, pick.joint) for pick in state.picks if not pick.effect.several
+        for same in (pick.effect.id, *pick.effect.same_as)
+    }  # fmt: skip
+    found = [c for c in found if only in (None, c.effect.id) and allowed(*c.key)]
+    return [c for c in found if c.key not in taken]
+
+
+def ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool:
+    """True if the user rules out the effect, everywhere or on that joint."""
+    return effect in without or f"{effect}@{joint}" in without
+
+
+def _lasts(span: float, candidate: Candidate) -> bool:
+    """False for what fades much faster than the logs can show, or takes longer than they last."""
+    times = [candidate.shapes[s.name] for s in candidate.form.shapes if s.scale == "seconds"]
+    return all(0.1 * span <= time <= span for time in times)
+
+
+def load_candidates(state: State) -> list[Candidate]:
+    """A body on the last link, or on another: only where the links' parameters are kept."""
+    spec = state.data.compiled.spec
+    links = list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
+    carrier = spec.closure.carrier if spec.closure is not None else ""
+    last = carrier or links[-1]
+    return [
+        Candidate(effect, effect.forms[0], None if effect.last_link else link, place, {})
+        for effect in state.data.known.catalogue if effect.acts is Acts.LINK
+        for place, link in enumerate(links) if effect.last_link is (link == last)
+    ]  # fmt: skip

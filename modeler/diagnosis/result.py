@@ -1,0 +1,291 @@
+"""What a diagnosis says, as plain data."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.core.json import nulled
+from modeler.core.result import Presented
+from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.cross_checks import Key, Look
+from modeler.diagnosis.events import Window
+from modeler.diagnosis.search import Search
+from modeler.diagnosis.state import State
+
+# Does an effect explain what is systematic, or only part of it?
+
+
+CLOSED = 0.95
+"""Share of what is systematic that an effect must explain to be stated as the cause."""
+
+ALIKE = 1.2
+"""Noise on held-out logs over that on training logs, variances, that is no sign of physics."""
+
+
+def closure(
+    chain: Sequence[State],
+    touched: Sequence[int],
+    systematic: Sequence[float],
+    held_out: Sequence[np.ndarray] | None,
+) -> float:
+    """What one effect explains, over that, what later ones explain and what stays systematic.
+
+    Squared residuals of the joints it touches, in units of their first residual. What a wrong name
+    leaves, others are found to mend; so what they explain there counts as left. On held-out logs
+    all that exceeds the noise of the training logs is systematic: a wrong form fails there. The
+    smaller share counts.
+
+    Args:
+        chain: the state before the effect, the one with it, those with the later ones.
+        touched: joints whose residuals it explains.
+        systematic: (J,) share of the variance of each joint's last residual.
+        held_out: (J,) mean squared residual on held-out logs, by state of the chain.
+    """
+    squares = [np.array([mean_square(r) for r in state.residual]) for state in chain]
+    noise = [(1.0 - systematic[j]) * squares[-1][j] for j in range(len(squares[-1]))]
+    sigma = chain[0].base.sigma
+    shares = [_share(squares, touched, noise, sigma)]
+    if held_out is not None:
+        shares.append(_share(held_out, touched, [ALIKE * n for n in noise], sigma))
+    return min(shares)
+
+
+def mean_square(values: np.ndarray) -> float:
+    """0 of none."""
+    return float(np.mean(values**2)) if values.size else 0.0
+
+
+def _share(
+    squares: Sequence[np.ndarray], touched: Sequence[int], noise: Sequence[float], sigma: np.ndarray
+) -> float:
+    """Explained over explained and left; 0 if nothing is explained."""
+    before, after, end = squares[0], squares[1], squares[-1]
+    explained = left = 0.0
+    for j in touched:
+        unit = float(sigma[j]) ** 2
+        explained += max(0.0, float(before[j] - after[j])) / unit
+        left += max(0.0, float(after[j] - end[j])) / unit
+        left += max(0.0, float(end[j] - noise[j])) / unit
+    return explained / (explained + left) if explained > 0.0 else 0.0
+
+
+FELT = 0.005
+"""Of the torque's rms: what is systematic below is not worth a word."""
+
+LEFT = 0.15
+"""Share of the residual's variance that must be systematic before an unnamed cause is reported."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pick(Brief):
+    """An effect ready to go into a model: nothing has to be searched for again.
+
+    Attributes:
+        candidate: effect, joint, shapes.
+        values: (k,) of its columns, SI; a delay is that of the logs as they are.
+        state: the model with all effects that were found, about which it is linearised.
+        visible: share of its columns that the model does not hide.
+    """
+
+    candidate: Candidate
+    values: np.ndarray
+    state: State
+    visible: float
+
+
+@dataclass(frozen=True)
+class Finding(Brief):
+    """One missing effect.
+
+    Attributes:
+        effect: id.
+        joint: name; None for an effect of the whole robot.
+        error_before, error_after: relative error of its joints without and with it, on unseen
+            motion: the same rows, and the same weight of each joint. NaN where it is not known.
+        parameters: its parameters and shapes by name, SI.
+        sigmas: standard deviations of the parameters and shapes; those of an effect with shapes
+            hold for all shapes that the data do not refuse.
+        units: of the parameters and shapes.
+        ties: effects that the data do not tell from it.
+        evidence: why, in one or two sentences.
+        closure: share of what is systematic on its joints that it explains itself; None for
+            contacts and play, which are no columns of the model.
+        refines: True if it refines a law of the model, or an effect named before on its joint.
+        objection: why its values cannot be those of this robot; empty if they can.
+        intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
+        looks: what other logs and other cut-offs say of it; empty for contacts and play.
+        pick: what `modeler add` puts in; None for contacts and play.
+        event: True if it came once.
+    """
+
+    effect: str
+    joint: str | None
+    error_before: float
+    error_after: float
+    parameters: Mapping[str, float]
+    sigmas: Mapping[str, float]
+    units: Mapping[str, str]
+    ties: tuple[Key, ...]
+    evidence: str
+    closure: float | None
+    refines: bool
+    objection: str = ""
+    intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    looks: tuple[Look, ...] = ()
+    pick: Pick | None = field(default=None, repr=False, compare=False)
+    event: bool = False
+
+    @property
+    def stands(self) -> bool:
+        """True if no other look surely names another effect in its place."""
+        return all(look.agrees for look in self.looks)
+
+    @property
+    def stated(self) -> bool:
+        """True if it is the cause, or one of those that these data do not tell apart."""
+        closed = self.closure is None or self.closure >= CLOSED
+        return closed and self.stands and not self.objection and not math.isnan(self.gain)
+
+    @property
+    def status(self) -> str:
+        """Either "fact", what is stated as missing, or "named"; a tie is no fact."""
+        return "fact" if self.stated and not self.refines and not self.ties else "named"
+
+    @property
+    def gain(self) -> float:
+        """Fall of the residual variance of its joints: 1 - (error_after / error_before)^2."""
+        before = self.error_before
+        return 1.0 - (self.error_after / before) ** 2 if before > 0.0 else math.nan
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "effect": self.effect,
+            "joint": self.joint,
+            "status": self.status,
+            "gain": self.gain,
+            "error_before": self.error_before,
+            "error_after": self.error_after,
+            "parameters": dict(self.parameters),
+            "sigmas": dict(self.sigmas),
+            "intervals": {name: list(ends) for name, ends in self.intervals.items()},
+            "units": dict(self.units),
+            "ties": [{"effect": effect, "joint": joint} for effect, joint in self.ties],
+            "evidence": self.evidence,
+            "closure": self.closure,
+            "objection": self.objection,
+            "looks": [look.to_json() for look in self.looks],
+        }
+
+
+@dataclass(frozen=True)
+class JointState(Brief):
+    """One joint before and after.
+
+    Attributes:
+        error_before, error_after: relative error, held out.
+        unit: of the torque.
+        rms_before, rms_after: of the residual on the training logs.
+        explained: share of the torque's variance that the model explains; NaN without torque.
+        systematic: share of it that is left and is no noise: predictable, repeatable, lasting, or
+            in outbursts.
+        noise: the rest.
+    """
+
+    error_before: float
+    error_after: float
+    unit: str
+    rms_before: float
+    rms_after: float
+    explained: float
+    systematic: float
+    noise: float
+
+    @property
+    def unexplained(self) -> bool:
+        """True if what is left of physics is worth a word."""
+        left = self.systematic + self.noise
+        return self.systematic > max(FELT**2, LEFT * left)
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return dict(vars(self))
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis(Presented):
+    """What is missing in a model.
+
+    Attributes:
+        robot: name.
+        verdict: missing | closest description | nothing significant | unexplained | cannot tell.
+        effects: named, best first.
+        refinements: of laws that the model has, or of effects named before.
+        rivals: of the first effect: effect, joint, gain.
+        blind_spots: what these data cannot show, by effect and joint.
+        joints: by name; those with rows.
+        unmoved: joints of which no row can be used.
+        held_out: names of the logs that errors come from; empty for cross-validation.
+        sentences: for people: verdict first.
+        fit_band: Hz up to which the model was fitted, and `modeler add` fits.
+        data: doubts about the logs themselves.
+        contradicted: True if channels of the logs contradict the model: then nothing is named.
+        window: when something pushed, if anything did.
+        search: everything behind it.
+    """
+
+    robot: str
+    verdict: str
+    effects: tuple[Finding, ...]
+    refinements: tuple[Finding, ...]
+    rivals: tuple[tuple[str, str | None, float], ...]
+    blind_spots: tuple[Key, ...]
+    joints: Mapping[str, JointState]
+    unmoved: tuple[str, ...]
+    held_out: tuple[str, ...]
+    sentences: tuple[str, ...]
+    fit_band: float
+    data: tuple[str, ...]
+    contradicted: bool
+    window: Window | None
+    search: Search
+
+    @property
+    def band(self) -> float:
+        """Hz up to which residuals were looked at; values are those of this band too."""
+        observation = self.search.start.data.observation
+        return observation.report.processing.parallel_cutoff or 0.0
+
+    @property
+    def changed(self) -> bool:
+        """True if the base parameters were kept and the robot has changed since."""
+        return self.search.start.data.kept is not None
+
+    def to_json(self) -> dict[str, Any]:
+        """The `diagnose` object that scripts read; numbers that mean nothing are null."""
+        return nulled({
+            "robot": self.robot,
+            "verdict": self.verdict,
+            "effects": [finding.to_json() for finding in self.effects],
+            "refinements": [finding.to_json() for finding in self.refinements],
+            "rivals": [
+                {"effect": effect, "joint": joint, "gain": gain}
+                for effect, joint, gain in self.rivals
+            ],
+            "blind_spots": [
+                {"effect": effect, "joint": joint} for effect, joint in self.blind_spots
+            ],
+            "joints": {name: joint.to_json() for name, joint in self.joints.items()},
+            "unmoved": list(self.unmoved),
+            "held_out": list(self.held_out),
+            "sentences": list(self.sentences),
+            "band": self.band,
+            "fit_band": self.fit_band,
+            "data": list(self.data),
+            "changed": self.changed,
+            "contradicted": self.contradicted,
+        })  # fmt: skip

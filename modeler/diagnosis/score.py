@@ -1,0 +1,240 @@
+"""Is a change of a model for the better? The one rule of `diagnose`, `add` and `auto`.
+
+A change is kept, or stated as missing, if the error that is printed for it falls as printed on
+blocks of time that were not fitted, by more than two standard errors of the paired differences.
+"""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.diagnosis.gram import BLOCK, MOST
+
+SURE = 2.0
+"""Standard errors beyond which differences over blocks of time are more than chance."""
+
+DIGITS = 4
+"""Most significant digits of an error that is printed: what does not differ in them is the same."""
+
+LEAST = 1e-3
+"""Relative errors below are as good as none."""
+
+WORSE = math.sqrt(2.0)
+"""Ratio of the errors of a joint from which on more comes on top than its own noise."""
+
+
+@dataclass(frozen=True, eq=False)
+class Unseen:
+    """Rows of every joint that count; J joints.
+
+    Attributes:
+        names: of the joints.
+        residual: (rows_j,) by joint, measured minus predicted torque, N m or N.
+        torque: (rows_j,) by joint, measured.
+        time: (rows_j,) by joint, s.
+        run: (rows_j,) by joint, index of the log.
+    """
+
+    names: tuple[str, ...]
+    residual: tuple[np.ndarray, ...]
+    torque: tuple[np.ndarray, ...]
+    time: tuple[np.ndarray, ...]
+    run: tuple[np.ndarray, ...]
+
+
+@dataclass(frozen=True)
+class Change:
+    """One joint before and after, or some of them together.
+
+    Attributes:
+        joint: name.
+        before, after: relative error on unseen motion; NaN where none is known.
+        scatter: fall of the error in blocks of time over the standard error of that.
+    """
+
+    joint: str
+    before: float
+    after: float
+    scatter: float
+
+    @property
+    def differs(self) -> bool:
+        """True if the two printed numbers differ."""
+        return len(set(printed(self.before, self.after))) > 1
+
+    @property
+    def falls(self) -> bool:
+        """True if the error surely falls."""
+        return self.scatter > SURE and self.differs and self.after < self.before
+
+    @property
+    def rises(self) -> bool:
+        """True if it surely rises."""
+        return self.scatter < -SURE and self.differs and self.after > self.before
+
+    @property
+    def gain(self) -> float:
+        """Fall of the squared error, as a share of it."""
+        return 1.0 - (self.after / self.before) ** 2 if self.before > 0.0 else 0.0
+
+    @property
+    def ratio(self) -> float:
+        """After over before."""
+        return max(self.after, LEAST) / max(self.before, LEAST)
+
+
+@dataclass(frozen=True)
+class Score:
+    """Of a change of a model.
+
+    Attributes:
+        joints: those with rows and torque.
+        whole: the error that is printed for the change: root mean square over joints.
+    """
+
+    joints: tuple[Change, ...]
+    whole: Change
+
+    @property
+    def better(self) -> bool:
+        """True if the printed error surely falls, and no joint is spoilt."""
+        return self.whole.falls and not self.spoilt
+
+    @property
+    def spoilt(self) -> bool:
+        """True if the error of a joint surely rises by more than its noise."""
+        return any(change.rises and change.ratio > WORSE for change in self.joints)
+
+    @property
+    def errors(self) -> dict[str, tuple[float, float]]:
+        """Before and after, by joint."""
+        return {change.joint: (change.before, change.after) for change in self.joints}
+
+    @property
+    def changed(self) -> tuple[str, ...]:
+        """Joints whose error falls or rises."""
+        return tuple(change.joint for change in self.joints if change.falls or change.rises)
+
+
+def scored(
+    before: Unseen, after: Unseen, weights: Mapping[str, float] | None = None, block: float = 0.0
+) -> Score:
+    """The score of a change.
+
+    With S_jb and T_jb the sums of the squared residuals of joint j over block b of time, before and
+    after, and Y_j those of its torque over all B blocks, the squared relative errors of the joint
+    are sum_b S_jb / Y_j and sum_b T_jb / Y_j;
+    the errors of a block sqrt(S_jb / Y_j) and sqrt(T_jb / Y_j), and d_b is their difference (of
+    the squares, a few blocks of fast motion would be all that counts): blocks are paired, and
+    residuals are coloured within them but not beyond, so the standard error of sum_b d_b is
+    `sqrt(B / (B - 1) sum_b (d_b - mean)^2)`. The whole is the weighted mean of the squares over
+    joints, in every block as in all.
+
+    Args:
+        before: residuals of the model without the change.
+        after: with it, on the same logs.
+        weights: of the joints, by name; None: the same of all.
+        block: s; 0: half a second, longer where logs are long.
+    """
+    grid = _Grid.of(before, block)
+    old, new = errors_of(before), errors_of(after)
+    known = [(j, name) for j, name in enumerate(before.names) if name in old and name in new]
+    shares = {name: (grid.shares(before, j), grid.shares(after, j)) for j, name in known}
+    changes = tuple(
+        Change(name, old[name], new[name], standard_errors(np.sqrt(a) - np.sqrt(b)))
+        for name, (a, b) in shares.items()
+    )
+    share = {name: 1.0 if weights is None else weights.get(name, 0.0) for name in shares}
+    total = sum(share.values())
+    if not total > 0.0:
+        return Score(changes, Change("", math.nan, math.nan, 0.0))
+    first, last = (math.sqrt(sum(share[name] * of[name] ** 2 for name in shares) / total)
+                   for of in (old, new))  # fmt: skip
+    pooled = [
+        np.sqrt(np.sum([share[name] * own[k] for name, own in shares.items()], axis=0))
+        for k in (0, 1)
+    ]
+    return Score(changes, Change("", first, last, standard_errors(pooled[0] - pooled[1])))
+
+
+def standard_errors(differences: np.ndarray) -> float:
+    """The sum of differences (blocks,) over its standard error; 0 of fewer than two blocks."""
+    count = len(differences)
+    spread = float(np.std(differences)) * count / math.sqrt(max(1, count - 1))
+    total = float(np.sum(differences))
+    return total / max(spread, 1e-9 * abs(total), 1e-300) if count > 1 else 0.0
+
+
+def rms_error(errors: Iterable[float]) -> float:
+    """Root mean square of relative errors over joints."""
+    found = list(errors)
+    return float(np.sqrt(np.mean(np.square(found)))) if found else 0.0
+
+
+def errors_of(seen: Unseen) -> dict[str, float]:
+    """Relative error of every joint that has a torque."""
+    sizes = [(float(np.linalg.norm(e)), float(np.linalg.norm(y)))
+             for e, y in zip(seen.residual, seen.torque, strict=True)]  # fmt: skip
+    return {name: e / y for name, (e, y) in zip(seen.names, sizes, strict=True) if y > 0.0}
+
+
+def percent(share: float, digits: int = 3) -> str:
+    """A share in percent, as in "3.41 %"; "-" where it is not known."""
+    return f"{100.0 * share:.{digits}g} %" if math.isfinite(share) else "-"
+
+
+def printed(before: float, after: float) -> tuple[str, str]:
+    """Two errors in percent, with a digit more where they are alike in three."""
+    pair, finer = ((percent(before, digits), percent(after, digits)) for digits in (3, DIGITS))
+    return finer if pair[0] == pair[1] and finer[0] != finer[1] else pair
+
+
+def told(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
+    """The errors that change: "joint 7 11.4 % -> 7.1 %; joint 2 rises, 3 % -> 3.2 %".
+
+    Args:
+        joints: error before and after, by joint.
+        changed: joints whose error falls or rises.
+    """
+    pairs = {name: " -> ".join(printed(*joints[name])) for name in changed}
+    rising = [name for name in changed if joints[name][1] > joints[name][0]]
+    parts = [", ".join(f"joint {name} {text}" for name, text in pairs.items()
+                       if name not in rising)]  # fmt: skip
+    parts += [f"joint {name} rises, {pairs[name]}" for name in rising]
+    if len(changed) < len(joints):
+        parts.append("other joints unchanged" if changed else "no joint changes")
+    return "; ".join(part for part in parts if part)
+
+
+@dataclass(frozen=True, eq=False)
+class _Grid:
+    """Blocks of time, alike for all models that see the same logs."""
+
+    start: Mapping[int, float]  # s, by log
+    ends: Mapping[int, tuple[int, int]]  # numbers of its first and its last block, by log
+    length: float  # s
+    blocks: int
+
+    @classmethod
+    def of(cls, seen: Unseen, block: float) -> "_Grid":
+        """Of that many s; of 0, half a second, longer where logs are long."""
+        run, time = np.concatenate(seen.run), np.concatenate(seen.time)
+        spans = {int(r): (time[run == r].min(), time[run == r].max()) for r in np.unique(run)}
+        length = block or max(BLOCK, sum(b - a for a, b in spans.values()) / MOST)
+        count, ends = 0, {}
+        for r, (a, b) in spans.items():
+            last = count + int((b - a) / length)
+            ends[r], count = (count, last), last + 1
+        return cls({r: float(a) for r, (a, _) in spans.items()}, ends, float(length), count)
+
+    def shares(self, seen: Unseen, j: int) -> np.ndarray:
+        """(blocks,) squared residuals of one joint, over its squared torque in all of them."""
+        number = np.zeros(len(seen.run[j]), dtype=int)
+        for r, start in self.start.items():
+            own = seen.run[j] == r
+            since = np.floor((seen.time[j][own] - start) / self.length).astype(int)
+            number[own] = np.clip(self.ends[r][0] + since, *self.ends[r])
+        size = float(seen.torque[j] @ seen.torque[j])
+        return np.bincount(number, seen.residual[j] ** 2, self.blocks) / size

@@ -1,0 +1,480 @@
+"""The search: name the best effect, refine it, put it in, look again; drop what is not needed.
+
+And which spring hangs on a lever: a helical one, or one of constant force?
+"""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.diagnosis.candidates import Candidate, over_grid
+from modeler.diagnosis.columns import Columns
+from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled
+from modeler.diagnosis.judge import (
+    NEARLY,
+    Judged,
+    Judgement,
+    Order,
+    alternatives,
+    decide,
+    judge,
+    judged_at,
+    leading,
+    sift,
+)
+from modeler.diagnosis.plausible import DRIVES, drives, objection
+from modeler.diagnosis.polish import best_polished, polished
+from modeler.diagnosis.propose import proposals, ruled_out
+from modeler.diagnosis.state import Data, State, all_columns_of, columns_of, state_of, visible
+from modeler.diagnosis.values import values_of
+from modeler.effects.catalogue import effect_named
+from modeler.effects.effect import Effect
+
+# Every hypothesis in a state: at the best of its shapes, the leading ones refined.
+
+
+_T = TypeVar("_T")
+
+STARTS = 4
+"""Grid values from which an effect with two shapes is refined: its fit has several summits."""
+
+NEAR = 0.95
+"""Share of the best fall with which another fixed shape of an effect is refined too."""
+
+CLOSE = 0.7
+"""Rivals with this share of the best fall are refined before the best is chosen: up to `MANY`."""
+
+MANY = 5
+
+BETTER = 0.5
+"""What a refused effect may leave, over what it left then, to be asked for again: of two wrong
+drive gains, the second mends the first."""
+
+WORTH = 0.02
+"""Gain below which nothing is refined."""
+
+
+@dataclass(frozen=True, eq=False)
+class Survey:
+    """Every candidate in a state.
+
+    Attributes:
+        state: it.
+        found: candidates that show.
+        columns: theirs.
+        best: every effect on every joint at the best of its shapes, none refined, best first.
+        order: what chooses among the shapes of `found`.
+        refined: effects that were refined, by the shapes that this began with.
+    """
+
+    state: State
+    found: Sequence[Candidate]
+    columns: Sequence[Columns]
+    best: Sequence[Judged]
+    order: Sequence[Order] = ()
+    refined: dict[tuple[Any, ...], Judged] = field(default_factory=dict)
+
+    def still(self, refused: Sequence[Judged]) -> list[Judged]:
+        """Vetoed effects that have not become far better by the effect put in since."""
+        gains = {judged.candidate.key: judged.gain for judged in self.best}
+        return [
+            j for j in refused
+            if j.mends or 1.0 - gains.get(j.candidate.key, 0.0) > BETTER * (1.0 - j.gain)
+        ]  # fmt: skip
+
+    def but(self, vetoed: Sequence[Judged]) -> "Survey":
+        """The same without what was vetoed."""
+        left = [i for i, c in enumerate(self.found) if not among(c, vetoed)]
+        if len(left) == len(self.found):
+            return self
+        found, columns = _picked(self.found, left), _picked(self.columns, left)
+        order = _picked(self.order, left)
+        touched = {c.key for c in self.found if among(c, vetoed)}
+        again = [i for i in leading(found, order) if found[i].key in touched]
+        best = [j for j in self.best if j.candidate.key not in touched]
+        best += judged_at(self.state, found, columns, again)
+        best.sort(key=lambda j: -float(j.drop.sum()))
+        return Survey(self.state, found, columns, best, order, self.refined)
+
+    def judged(
+        self, vetoed: Sequence[Judged] = (), tick: Callable[[], None] = lambda: None
+    ) -> Judgement:
+        """All but what was vetoed; the leading ones refined, with a tick after each."""
+        left = self.but(vetoed)
+        close = [
+            j for j in left.best[:MANY]
+            if j.possible and j.share > CLOSE * left.best[0].share and j.gain > WORTH
+        ]  # fmt: skip
+        # Of effects that were not refined, only the best shapes may win still.
+        refined = {}
+        for item in close:
+            refined[item.candidate.key] = left.at_best(item)
+            tick()
+        best = [refined.get(j.candidate.key, j) for j in left.best]
+        return decide(self.state, sorted(best, key=lambda j: -float(j.drop.sum())))
+
+    def at_best(self, judged: Judged) -> Judged:
+        """An effect with its best shapes refined, or with the next best if these do better."""
+        starts = self.starts(judged.candidate)
+        key = tuple((*c.key, *c.shapes.items()) for c in starts)
+        if key not in self.refined:
+            self.refined[key] = self._refined(judged, starts)
+        return self.refined[key]
+
+    def _refined(self, judged: Judged, starts: Sequence[Candidate]) -> Judged:
+        better = best_polished(self.state, starts)
+        if better is judged.candidate:
+            return judged
+        first = judged.candidate
+        others = [i for i, c in enumerate(self.found) if c.key == first.key and c is not first]
+        found = [better, *_picked(self.found, others)]
+        columns = [columns_of(self.state.rows, better, {}), *_picked(self.columns, others)]
+        order = [*sift(self.state, found[:1], columns[:1]), *_picked(self.order, others)]
+        return judged_at(self.state, found, columns, leading(found, order))[0]
+
+    def starts(self, first: Candidate) -> list[Candidate]:
+        """Shapes of one effect from which refining starts, the best first.
+
+        With one shape to refine, the best for each value of the others, if it comes near; with
+        more, the best few.
+        """
+        refined = [s.name for s in first.form.shapes if s.smooth and len(s.grid) > 1]
+        if len(first.form.shapes) < 2 or not refined:
+            return [first]
+        own = [i for i, c in enumerate(self.found) if c.key == first.key]
+        total = np.array([self.order[i][1] for i in own])
+        least = NEAR * float(total.max()) if len(refined) == 1 else -np.inf
+        places = [own[k] for k in np.argsort(-total) if total[k] >= least]
+        order = [first, *(c for c in (self.found[i] for i in places) if c is not first)]
+        if len(refined) > 1:
+            return order[:STARTS]
+        best: dict[tuple[float, ...], Candidate] = {}
+        for c in order:
+            best.setdefault(tuple(v for n, v in c.shapes.items() if n != refined[0]), c)
+        return list(best.values())
+
+
+def surveyed(
+    state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
+) -> Survey:
+    """All candidates in a state, or those of one effect, or of one joint."""
+    return survey_of(
+        state, [c for c in proposals(state, only, without) if joint in (None, c.joint)]
+    )
+
+
+def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
+    """Some candidates in a state; those that show."""
+    columns = all_columns_about(state, found)
+    seen = [i for i, c in enumerate(columns) if visible(c)]
+    found, columns = _picked(found, seen), _picked(columns, seen)
+    if not found:
+        return Survey(state, (), (), (), ())
+    order = sift(state, found, columns)
+    best = judged_at(state, found, columns, leading(found, order))
+    return Survey(state, found, columns, best, order)
+
+
+def _picked(items: Sequence[_T], places: Sequence[int]) -> list[_T]:
+    return [items[i] for i in places]
+
+
+def among(candidate: Candidate, vetoed: Sequence[Judged]) -> bool:
+    """True if it was vetoed; of ripples, all orders that differ by less than a tenth."""
+    others = [judged.candidate for judged in vetoed]
+    if not candidate.effect.several:
+        return any(c.key == candidate.key for c in others if not c.effect.several)
+    order = candidate.order
+    orders = [c.order for c in others if c.effect.several]
+    return any(abs(order - m) < 0.1 * m for m in orders)
+
+
+MOST = 8
+"""Effects named in one diagnosis."""
+
+MUCH = 0.15
+"""Gain from which on an effect whose values are not those of this robot is a description still."""
+
+ASKED = 20
+"""Effects that are refused in one diagnosis before it ends: where held-out motion refuses that
+many, it is other motion, or the logs hold nothing that returns."""
+
+
+Veto = Callable[[State, State, Judged], bool]
+"""True if an effect does not lower the error on held-out logs: state without it, with it, the
+effect as it was judged."""
+
+CLEAR = 1.01
+"""Ratio of two falls that decides, and of what they leave of the squared residuals."""
+
+_STARTS = 4  # shapes of a sign that are refined
+
+
+@dataclass(frozen=True, eq=False)
+class Step(Brief):
+    """One effect that was put in.
+
+    Attributes:
+        judged: the effect, and its numbers when it was chosen.
+        rivals: the others then, best first.
+        before: the state it was chosen in.
+        ties: rivals that the data do not tell from it.
+    """
+
+    judged: Judged
+    rivals: tuple[Judged, ...]
+    before: State
+    ties: tuple[Judged, ...] = ()
+
+    @property
+    def pick(self) -> Candidate:
+        """The effect on its joint, with its shapes."""
+        return self.judged.candidate
+
+
+@dataclass(frozen=True, eq=False)
+class Search(Brief):
+    """What a search found.
+
+    Attributes:
+        start: the model as given.
+        steps: effects put in, in order; those that later ones made unnecessary are left out.
+        end: the model with them.
+        last: the judgement that ended it.
+        vetoed: effects that would have raised the error on held-out logs, when they led.
+        without: what the user ruled out.
+    """
+
+    start: State
+    steps: tuple[Step, ...]
+    end: State
+    last: Judgement
+    vetoed: tuple[Judged, ...] = ()
+    without: tuple[str, ...] = ()
+
+
+def search(
+    data: Data,
+    beta: np.ndarray,
+    without: Sequence[str] = (),
+    most: int = MOST,
+    veto: Veto | None = None,
+    tick: Callable[[], None] = lambda: None,
+) -> Search:
+    """Effects that the model lacks, one by one.
+
+    Args:
+        data: training logs.
+        beta: (c,) parameters of the model, where effects are linearised first.
+        without: ids of effects, or id@joint, that the user rules out.
+        most: effects to name at most; with 0 nothing is judged.
+        veto: looks at held-out logs.
+        tick: called whenever something is done.
+    """
+    start = state = _started(data, beta)
+    steps, refused, every = list[Step](), list[Judged](), list[Judged]()
+    survey = surveyed(state, without) if most else None
+    judgement = survey.judged((), tick) if survey else Judgement((), None)
+    while survey is not None and judgement.best is not None and len(steps) < most:
+        if len(every) == ASKED:
+            break
+        first = judgement.best
+        asked = put_in(state, _named(state, first, refused, without), veto)
+        best, later = asked.judged, asked.later
+        other = _instead(survey, refused, asked, tick)
+        if other is not None or later is None:
+            refused, every = [*refused, best], [*every, best]
+            judgement = other or Judgement((), None)
+            continue
+        survey = surveyed(later, without)
+        doubted, refused = _doubted(refused, best), survey.still(refused)
+        after = survey.judged(refused, tick)
+        steps.append(_step(state, best, judgement.others(best), after, doubted))
+        state, judgement = later, after
+    kept, state = _backward(state, steps, tick)
+    return Search(start, tuple(kept), state, judgement, tuple(every), tuple(without))
+
+
+def _step(
+    state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgement,
+    doubted: Sequence[Judged],
+) -> Step:  # fmt: skip
+    return Step(best, rivals, state, (*alternatives(best, rivals, after), *doubted))
+
+
+def _doubted(refused: Sequence[Judged], best: Judged) -> list[Judged]:
+    """What gave way to an effect that explains as much: for the data it is a tie."""
+    return [
+        judged for judged in refused
+        if judged.why not in ("", DRIVES)
+        and NEARLY * judged.share < best.share < judged.share / NEARLY
+    ]  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """An effect that led, with what speaks against its values, and the state with it.
+
+    `later` is None where it was refused: `judged.why` says why, if it is not by held-out motion.
+    """
+
+    judged: Judged
+    later: State | None
+
+
+def put_in(state: State, best: Judged, veto: Veto | None) -> Asked:
+    """The effect, and the state with it."""
+    later = extended(state, best.candidate)
+    if drives(state, later, best.candidate):
+        return Asked(dataclasses.replace(best, possible=False, why=DRIVES), None)
+    if veto is not None and veto(state, later, best):
+        return Asked(best, None)
+    why = _objection(later)
+    return Asked(dataclasses.replace(best, why=why) if why else best, later)
+
+
+def _instead(
+    survey: Survey, refused: Sequence[Judged], asked: Asked, tick: Callable[[], None]
+) -> Judgement | None:
+    """What leads without an effect that was refused, or is doubted, if another explains as much.
+
+    Or if the doubted one explains little. None where the effect is put in.
+    """
+    doubted = asked.judged
+    if asked.later is not None and not doubted.why:
+        return None
+    without = survey.judged([*refused, doubted], tick)
+    best = without.best
+    if asked.later is None or doubted.gain < MUCH:
+        return without
+    return without if best is not None and best.share > NEARLY * doubted.share else None
+
+
+def _objection(later: State) -> str:
+    """Why the values of the last effect cannot be those of this robot; empty if they can."""
+    pick, values = later.picks[-1], later.values[-1]
+    named = values_of(later, pick, values, np.zeros(len(values)))
+    return objection(later, pick, named.value | dict(pick.shapes))
+
+
+def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:
+    """The best effect, or its twin of another law where that explains the same with less.
+
+    Of drive gains, the likeliest: ranks weigh the joints by what a model bent by it leaves.
+    """
+    if is_gain(best.candidate):
+        every = proposals(state, best.candidate.effect.id, without)
+        gains = [c for c in every if not among(c, vetoed)]
+        return _judged_again(state, likeliest(state, gains) or best.candidate)
+    other = effect_named(best.candidate.effect.twin, state.data.known.catalogue)
+    joint = best.candidate.joint
+    if other is None or ruled_out(other.id, joint, without):
+        return best
+    pull = constant_force(state, best.candidate, other)
+    if pull is None or among(pull, vetoed):
+        return best
+    return _judged_again(state, pull)
+
+
+def _judged_again(state: State, candidate: Candidate) -> Judged:
+    return judge(state, [candidate], all_columns_about(state, [candidate])).ranked[0]
+
+
+def _started(data: Data, beta: np.ndarray) -> State:
+    """Without any effect, linearised about its own parameters."""
+    given = state_of(data, (), beta)
+    return state_of(data, (), given.beta, given.cache)
+
+
+def extended(state: State, pick: Candidate) -> State:
+    """The state with one effect more, linearised about its own parameters."""
+    picks, about = (*state.picks, pick), settled(state, pick)
+    once = state_of(state.data, picks, state.beta if about is None else about, state.cache)
+    about = settled(once)
+    return state_of(state.data, picks, once.beta if about is None else about, state.cache)
+
+
+def _backward(
+    state: State, steps: Sequence[Step], tick: Callable[[], None]
+) -> tuple[list[Step], State]:
+    """Drops effects that the others made unnecessary, the weakest first.
+
+    What the others gain is judged again then, beside those that are left.
+    """
+    kept = list(steps)
+    while len(kept) > 1:
+        judged = []
+        for step in kept:
+            judged.append(_beside(state, kept, step))
+            tick()
+        weakest = int(np.argmin([j.gain for j in judged]))
+        if judged[weakest].significant:
+            break
+        del kept[weakest]
+        state = state_of(state.data, [s.pick for s in kept], state.beta, state.cache)
+    if len(kept) < len(steps):
+        kept = [dataclasses.replace(s, judged=_beside(state, kept, s)) for s in kept]
+    return kept, state
+
+
+def _beside(state: State, kept: Sequence[Step], step: Step) -> Judged:
+    """One of the effects, judged in the model with the others."""
+    others = [s.pick for s in kept if s is not step]
+    less = state_of(state.data, others, state.beta, state.cache)
+    return _judged_again(less, step.pick)
+
+
+def constant_force(state: State, helical: Candidate, other: Effect) -> Candidate | None:
+    """The spring of constant force that explains more than any helical one; None if none does.
+
+    With l the length of the spring, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq for a
+    constant pull: in sin(q - q0) / l the first has the coefficient -k l0 b, the second +F b. The
+    rest of the first, k b sin(q - q0), is mostly that of the link's first moment.
+
+    Args:
+        state: without either.
+        helical: its candidate.
+        other: the effect of constant force.
+    """
+    pull = _best(state, helical, other, 1.0)
+    if pull is None:
+        return None
+    _, ranking = state.ranked([columns_of(state.rows, helical, state.cache)])
+    total = float(ranking.before[helical.index])
+    if _better(float(ranking.drop.sum()), pull[1], total):
+        return None
+    spring = _best(state, helical, helical.effect, -1.0)
+    return pull[0] if spring is None or _better(pull[1], spring[1], total) else None
+
+
+def _better(fall: float, other: float, total: float) -> bool:
+    """True if a fall of the joint's squared residuals is clearly larger than another."""
+    left, others = (max(total - f, 1e-3 * total) for f in (fall, other))
+    return fall > CLEAR * other or CLEAR * left < others
+
+
+def _best(
+    state: State, like: Candidate, effect: Effect, sign: float
+) -> tuple[Candidate, float] | None:
+    """The best shapes with which the part sin / l has that sign, and the fall they give."""
+    scale = state.scales[like.index]
+    grid = list(over_grid(effect, effect.forms[0], str(like.joint), like.index, scale))
+    tried = _signed(state, grid, sign)[:_STARTS]
+    refined = [polished(state, candidate) for candidate, _ in tried]
+    return next(iter(_signed(state, [*refined, *(c for c, _ in tried)], sign)), None)
+
+
+def _signed(
+    state: State, candidates: Sequence[Candidate], sign: float
+) -> list[tuple[Candidate, float]]:
+    """Those whose last parameter has that sign, and the fall of each, best first."""
+    if not candidates:
+        return []
+    seen = state.sifted(all_columns_of(state.rows, candidates, state.cache))
+    last, fall = [value[-1] for value in seen.value], seen.total
+    order = [k for k in np.argsort(-fall) if sign * last[k] > 0.0 and fall[k] > 0.0]
+    return [(candidates[k], float(fall[k])) for k in order]

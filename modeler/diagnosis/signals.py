@@ -1,0 +1,381 @@
+"""What the equations of effects read: motion, loads and states of one stretch at full rate."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.effects.effect import Memory
+from modeler.observation.low_speed import bristle, signals_of
+from modeler.observation.motion import Segment
+from modeler.observation.prepare import nearest_closed
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+
+_STEP = 1e-5  # rad or m, of central differences
+_BESIDE = 2  # samples to both sides that a difference quotient of another reads
+
+EVERY = slice(None)
+"""All samples of a stretch."""
+
+WINDOW = 2048
+"""Samples that are evaluated at a time."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reference(Brief):
+    """The model about which effects that depend on torques are linearised.
+
+    Attributes:
+        compiled: the robot.
+        beta: (c,) base parameters.
+        time: s, where the time of effects is 0.
+        temperature: K by joint, where the temperature of effects is 0.
+    """
+
+    compiled: "CompiledModel"
+    beta: np.ndarray
+    time: float
+    temperature: Mapping[str, float]
+
+    @cached_property
+    def links(self) -> np.ndarray:
+        """(c,) beta of the links alone: no friction, rotors, offsets."""
+        kinds = [base.kind for base in self.compiled.spec.base]
+        return np.where([kind == "inertial" for kind in kinds], self.beta, 0.0)
+
+    @cached_property
+    def drives(self) -> np.ndarray:
+        """(2, J) viscous friction and rotor inertia of each joint, where they stand alone."""
+        spec = self.compiled.spec
+        owner = {p.name: (p.effect, p.joint) for p in spec.standard}
+        values = {
+            owner[base.column_of]: float(value)
+            for base, value in zip(spec.base, self.beta, strict=True)
+        }
+        return np.array(
+            [
+                [values.get((effect, joint.name), 0.0) for joint in spec.joints]
+                for effect in ("viscous", "rotor_inertia")
+            ]
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Signals(Brief):
+    """Of one segment, thinned to what the band of the analysis needs; n samples, J joints.
+
+    Attributes:
+        segment: where it comes from.
+        every: every how manieth of its samples is used.
+        q, v, a: (n, J) motion.
+        reference: the model.
+    """
+
+    segment: Segment
+    every: int
+    q: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    reference: Reference
+
+    @property
+    def step(self) -> float:
+        """Between samples, s."""
+        return self.segment.step * self.every
+
+    @cached_property
+    def read(self) -> np.ndarray | None:
+        """(n, m) what effects of the model read besides the motion."""
+        every = signals_of(self.reference.compiled.spec, self.segment)
+        return None if every is None else np.ascontiguousarray(every[:: self.every])
+
+    def base_regressor(self, window: slice) -> np.ndarray:
+        """(n, J, c) of the model, over a window of the samples."""
+        return self.reference.compiled.base_regressor(*self._states(window))
+
+    def regressor(self, window: slice) -> np.ndarray:
+        """(n, J, p) by standard parameters."""
+        return self.reference.compiled.regressor(*self._states(window))
+
+    def _states(self, window: slice) -> tuple[np.ndarray | None, ...]:
+        read = None if self.read is None else self.read[window]
+        return self.q[window], self.v[window], self.a[window], read
+
+    def windows(self) -> Iterator[slice]:
+        """Of few samples each: what is evaluated over one of them stays in the cache."""
+        for start in range(0, len(self.q), WINDOW):
+            yield slice(start, min(start + WINDOW, len(self.q)))
+
+    @cached_property
+    def largest(self) -> np.ndarray:
+        """(p,) magnitude that each column of a standard parameter reaches."""
+        every = [np.abs(self.regressor(w)).max(axis=(0, 1)) for w in self.windows()]
+        return np.asarray(np.max(every, axis=0))
+
+    @cached_property
+    def load(self) -> np.ndarray:
+        """(n, J) torque of the links, inertia and gravity."""
+        ref = self.reference
+        return ref.compiled.inverse_dynamics(self.q, self.v, self.a, ref.links, self.read)
+
+    @cached_property
+    def static(self) -> np.ndarray:
+        """(n, J) torque of gravity."""
+        return self.reference.compiled.gravity(self.q, self.reference.links)
+
+    @cached_property
+    def torque(self) -> np.ndarray:
+        """(n, J) torque of the whole model, friction by the measured speeds."""
+        ref = self.reference
+        return ref.compiled.inverse_dynamics(self.q, self.v, self.a, ref.beta, self.read)
+
+    @cached_property
+    def rate(self) -> np.ndarray:
+        """(n, J) time derivative of `torque`."""
+        return np.gradient(self.torque, self.step, axis=0)
+
+    @cached_property
+    def coupling(self) -> np.ndarray:
+        """(n, variables, J) G of ud = G qd; only for robots with loops."""
+        return self.reference.compiled.coupling(self.q)
+
+    @cached_property
+    def time(self) -> np.ndarray:
+        """(n,) s."""
+        return self.segment.time[:: self.every] - self.reference.time
+
+    def temperature(self, joint: str) -> np.ndarray | None:
+        """(n,) K above the reference; None where the training logs have no such column.
+
+        0 where only another log lacks it: nobody knows better.
+        """
+        if joint not in self.reference.temperature:
+            return None
+        for name in (f"temperature{joint}", "temperature"):
+            if name in self.segment.extra:
+                return self.segment.extra[name][:: self.every] - self.reference.temperature[joint]
+        return np.zeros(len(self.q))
+
+    def state(self, memory: Memory, j: int, shapes: Mapping[str, float]) -> np.ndarray:
+        """(n,) inner state z on joint j, for shape parameters by name."""
+        if memory.kind == "slip":
+            return bristle(self.q[:, j], shapes[memory.shape])
+        return resonance(self.load[:, j], self.step, shapes[memory.shape], shapes[memory.damping])
+
+    def slopes(self, j: int) -> tuple[np.ndarray, ...]:
+        """(n, J) derivatives of the links' torque by q, v and a of joint j.
+
+        The torque is quadratic in v and linear in a: there differences are exact.
+        """
+        if j not in self._slopes:
+            self._slopes.clear()  # those of one joint are remembered
+            self._slopes[j] = tuple(self._slope(j, k) for k in range(3))
+        return self._slopes[j]
+
+    @cached_property
+    def _slopes(self) -> dict[int, tuple[np.ndarray, ...]]:
+        return {}
+
+    def _slope(self, j: int, kind: int) -> np.ndarray:
+        model, beta = self.reference.compiled, self.reference.links
+        if kind == 2:
+            unit = np.zeros(self.q.shape[1])
+            unit[j] = 1.0
+            return (
+                model.inverse_dynamics(self.q, self.v, self.a + unit, beta, self.read) - self.load
+            )
+        size = (_STEP, 1.0, 1.0)[kind]
+        ahead, behind = [self.q, self.v, self.a], [self.q, self.v, self.a]
+        step = np.zeros(self.q.shape[1])
+        step[j] = size
+        ahead[kind] = ahead[kind] + step
+        behind[kind] = behind[kind] - step
+        if (
+            kind == 0
+        ):  # beside the last posture that closes the loops there may be one that does not
+            nearest = nearest_closed(model, ahead[0], behind[0])
+            if nearest is not None:
+                ahead[0], behind[0] = ahead[0][nearest], behind[0][nearest]
+        forth, back = (
+            model.inverse_dynamics(q, v, a, beta, self.read) for q, v, a in (ahead, behind)
+        )
+        return (forth - back) * (0.5 / size)
+
+    def moved(
+        self, j: int, dq: np.ndarray, whole: bool = False, window: slice = EVERY
+    ) -> np.ndarray:
+        """(m, J, k) torques that follow k small changes dq (n, k) of the position of joint j.
+
+        The derivative of the inverse dynamics of the links along (dq, dq', dq'').
+
+        Args:
+            j: index of the joint.
+            dq: rad or m.
+            whole: True if rotor and viscous friction are moved too.
+            window: m of the samples.
+        """
+        start, stop, _ = window.indices(len(dq))
+        first = max(0, start - _BESIDE)
+        dq, inside = dq[first : stop + _BESIDE], slice(start - first, stop - first)
+        torque = np.zeros((self.q.shape[1], stop - start, dq.shape[1]))
+        if not dq.any():
+            return torque.swapaxes(0, 1)
+        dv = np.gradient(dq, self.step, axis=0)
+        da = np.gradient(dv, self.step, axis=0)
+        dq, dv, da = dq[inside], dv[inside], da[inside]
+        slopes, part = [slope[start:stop] for slope in self.slopes(j)], np.empty_like(dq)
+        for k in range(self.q.shape[1]):
+            place, speed, acceleration = (slope[:, k, None] for slope in slopes)
+            np.multiply(place, dq, out=torque[k])
+            torque[k] += np.multiply(speed, dv, out=part)
+            torque[k] += np.multiply(acceleration, da, out=part)
+        if whole:
+            viscous, rotor = self.reference.drives[:, j]
+            torque[j] += viscous * dv + rotor * da
+        return torque.swapaxes(0, 1)
+
+
+def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -> np.ndarray:
+    """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
+    from scipy.signal import lfilter  # it takes long to load
+
+    numerator, denominator = _oscillator(step, frequency, damping)
+    first = load[0]
+    return first + lfilter(numerator, denominator, load - first)
+
+
+@lru_cache(maxsize=1024)
+def _oscillator(step: float, frequency: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients of the resonance on a grid, loads straight between its points."""
+    from scipy.signal import cont2discrete
+
+    w = 2.0 * np.pi * min(frequency, 0.4 / step)
+    numerator, denominator, _ = cont2discrete(
+        ([w**2], [1.0, 2.0 * damping * w, w**2]), step, method="foh"
+    )
+    return np.ravel(numerator), denominator
+
+
+# Gravity from another direction: torques for unit gravity across the one the model has.
+
+
+_STATES = 64
+_TILT_STEP = 1e-5  # rad or m, of central differences
+_SEEN = 1e-6
+
+
+def tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
+    """(n, J, k): first the torques of unit gravity along two axes across the model's gravity.
+
+    The others belong to first moments that the model's gravity hides (those of a vertical first
+    axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
+    """
+    weights = tilt_weights(signals.reference)
+    q = signals.q[window]
+    if weights is None:
+        return np.zeros((*q.shape, 0))
+    return frame_slopes(signals.reference.compiled, q).reshape(*q.shape, -1) @ weights
+
+
+def tilt_weights(reference: Reference) -> np.ndarray | None:
+    """(rows 3 4, k): `tilt_columns` of the entries of `frame_slopes`; None if it has none."""
+    basis = tilt_basis(reference)
+    if basis is None:
+        return None
+    return -np.column_stack([_weights(axis, chi) for axis, chi in basis])
+
+
+def frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
+    """(n, J, rows, 3, 4) d/dq_j of [R | p] of every moving row, by differences; q is (n, J)."""
+    found: np.ndarray | None = None
+    for j in range(q.shape[1]):
+        step = np.zeros(q.shape[1])
+        step[j] = _TILT_STEP
+        ahead, behind = model.forward_kinematics(q + step), model.forward_kinematics(q - step)
+        if found is None:
+            found = np.empty((len(q), q.shape[1], *ahead.shape[1:]))
+        np.subtract(ahead, behind, out=found[:, j])
+    assert found is not None, "a robot has joints"
+    return found / (2.0 * _TILT_STEP)
+
+
+def gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
+    """(n, J) torque for gravity `axis`: -d/dq of axis . sum (M p + R MS).
+
+    Args:
+        slopes: (n, J, rows, 3, 4) of `frame_slopes`.
+        axis: (3,) m/s^2 in frame 0.
+        chi: (rows, 4) M, MX, MY, MZ of every moving row.
+    """
+    return -slopes.reshape(*slopes.shape[:2], -1) @ _weights(axis, chi)
+
+
+def _weights(axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
+    """(rows 3 4,) of the frames' entries in axis . sum (M p + R MS)."""
+    moments = np.column_stack([chi[:, 1:], chi[:, 0]])
+    return (axis[None, :, None] * moments[:, None, :]).ravel()
+
+
+def tilt_basis(reference: Reference) -> list[tuple[np.ndarray, np.ndarray]] | None:
+    """Axes and first moments of the columns of `tilt_columns`."""
+    model = reference.compiled
+    if model.spec.closure is not None:
+        return None
+    rows = [p.joint for p in model.spec.standard if p.effect == "rigid_body" and p.name[0] == "M"]
+    rows = list(dict.fromkeys(rows))
+    if len(rows) != model.forward_kinematics(np.zeros((1, len(model.spec.joints)))).shape[1]:
+        return None  # virtual rows: which frame is whose is not in the manifest
+    chi = _stands_for(reference, rows)
+    q = np.random.default_rng(3).uniform(-1.5, 1.5, (_STATES, len(model.spec.joints)))
+    unit = np.eye(3)
+    slopes = frame_slopes(model, q)
+    along = np.column_stack([gravity_torque(slopes, e, chi).ravel() for e in unit])
+    target = model.gravity(q, reference.links).ravel()
+    if np.linalg.norm(target) <= _SEEN or np.linalg.norm(along) <= _SEEN:
+        return None
+    gravity = np.linalg.lstsq(along, target, rcond=None)[0]
+    down = gravity / np.linalg.norm(gravity)
+    first = unit[int(np.argmin(np.abs(down)))]
+    across = first - down * (down @ first)
+    across = across / np.linalg.norm(across)
+    axes = (across, np.cross(down, across))
+    found = [(axis, chi) for axis in axes]
+    return found + _woken(slopes, axes, down, len(rows))
+
+
+def _stands_for(reference: Reference, rows: list[str]) -> np.ndarray:
+    """(rows, 4) first moments and masses that give the model's torques: the base columns' own."""
+    chi = np.zeros((len(rows), 4))
+    for base, value in zip(reference.compiled.spec.base, reference.links, strict=True):
+        for k, prefix in enumerate(("M", "MX", "MY", "MZ")):
+            for r, row in enumerate(rows):
+                if base.column_of == f"{prefix}{row}":
+                    chi[r, k] = value
+    return chi
+
+
+def _woken(
+    slopes: np.ndarray, axes: tuple[np.ndarray, np.ndarray], down: np.ndarray, rows: int
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """First moments without torque under the model's gravity that the others make felt."""
+    found: list[tuple[np.ndarray, np.ndarray]] = []
+    known = np.zeros((slopes.shape[0] * slopes.shape[1], 0))
+    for r in range(rows):
+        for k in (1, 2, 3):
+            chi = np.zeros((rows, 4))
+            chi[r, k] = 1.0
+            if np.linalg.norm(gravity_torque(slopes, down, chi)) > _SEEN:
+                continue
+            for axis in axes:
+                column = gravity_torque(slopes, axis, chi).ravel()
+                rest = column - known @ (known.T @ column)
+                if np.linalg.norm(rest) > 1e-3 * max(1.0, float(np.linalg.norm(column))):
+                    known = np.column_stack([known, rest / np.linalg.norm(rest)])
+                    found.append((axis, chi))
+    return found

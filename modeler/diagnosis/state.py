@@ -1,0 +1,360 @@
+"""The analysis at one point of the search: what is in the model so far, and what it leaves."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.diagnosis.candidates import Candidate, JointScale, Known, scales_of
+from modeler.diagnosis.columns import Columns, Rows, rows_of
+from modeler.diagnosis.gram import Base, Blocks, Pool, base_of, blocks_of, folded, pool_of, sigma_of
+from modeler.diagnosis.ranking import Ranking, Sifted, rank, sifted
+from modeler.diagnosis.signals import Reference, frame_slopes, tilt_weights
+from modeler.effects.effect import Acts
+from modeler.numerics.least_squares import Reduced, Reduction, reduction, turn_of
+from modeler.observation.observation import Observation
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+
+@dataclass(frozen=True, eq=False)
+class Data(Brief):
+    """What does not change during a search.
+
+    Attributes:
+        compiled: the robot.
+        observation: of the training logs, in the band of the analysis.
+        kept: (c,) base parameters where the robot has changed since their fit: those of the
+            links are not fitted again, friction and offsets are; None: all are fitted.
+        known: the effects that may be missing, and how motors are coupled.
+    """
+
+    compiled: "CompiledModel"
+    observation: Observation
+    kept: np.ndarray | None = None
+    known: Known = field(default_factory=Known)
+
+    @cached_property
+    def blocks(self) -> Blocks:
+        """Blocks and folds."""
+        return blocks_of(self.observation)
+
+    @cached_property
+    def rows(self) -> Rows:
+        """All rows; effects are not linearised about anything yet."""
+        beta = np.zeros(len(self.compiled.spec.base))
+        return rows_of(
+            self.observation, Reference(self.compiled, beta, *_references(self.observation))
+        )
+
+    def rows_about(self, beta: np.ndarray) -> Rows:
+        """The rows with effects linearised about beta (c,)."""
+        return self.about(dataclasses.replace(self.rows.signals[0].reference, beta=beta))
+
+    def about(self, reference: Reference) -> Rows:
+        """The same about a reference; the last few are remembered."""
+        key = reference.beta.tobytes(), _clock(reference)
+        found = self._about.pop(key, None) or self.rows.about(reference)
+        self._about[key] = found
+        if len(self._about) > _REMEMBERED:
+            del self._about[next(iter(self._about))]
+        return found
+
+    @cached_property
+    def _about(self) -> dict[Any, Rows]:
+        return {}
+
+    @cached_property
+    def cache(self) -> dict[Any, Any]:
+        """Columns that do not depend on the model."""
+        return {}
+
+    @cached_property
+    def free(self) -> np.ndarray:
+        """Indices of the base columns that are fitted."""
+        base = self.compiled.spec.base
+        return np.array(
+            [i for i, b in enumerate(base) if self.kept is None or b.kind in _FREE], dtype=int
+        )
+
+    @cached_property
+    def y(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint: torques, less those of base parameters that are kept."""
+        if self.kept is None:
+            return self.rows.y
+        kept = self.kept.copy()
+        kept[self.free] = 0.0
+        return tuple(y - w @ kept for y, w in zip(self.rows.y, self.rows.W, strict=True))
+
+    @cached_property
+    def reduction(self) -> Reduction:
+        """Of the base columns that are fitted, and y."""
+        return reduction([w[:, self.free] for w in self.rows.W], self.y)
+
+    @cached_property
+    def numbers(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint, number of the block of time."""
+        used = self.observation.used
+        return tuple(self.blocks.number[used[:, j]] for j in range(self.rows.joints))
+
+
+_FREE = ("friction", "offset")
+
+_REMEMBERED = 3  # references: that of a state, and those of the next
+
+
+def _clock(reference: Reference) -> tuple[Any, ...]:
+    """What the time and the temperature of effects are counted from."""
+    return reference.time, *sorted(reference.temperature.items())
+
+
+@dataclass(frozen=True, eq=False)
+class State(Brief):
+    """The model with the effects accepted so far.
+
+    Attributes:
+        data: the logs.
+        picks: accepted candidates, in order.
+        reference: where effects are linearised.
+        rows: motion, torque, base columns.
+        extra: columns of the picks.
+    """
+
+    data: Data
+    picks: tuple[Candidate, ...]
+    reference: Reference
+    rows: Rows
+    extra: tuple[Columns, ...]
+    cache: dict = field(default_factory=dict)
+
+    @cached_property
+    def W(self) -> tuple[np.ndarray, ...]:
+        """(rows_j, f + extra) by joint: base columns that are fitted, then the picks'."""
+        sizes = [next(c.shape[1] for c in e if c is not None) for e in self.extra]
+        if not sizes and self.data.kept is None:
+            return self.rows.W
+        found = []
+        for j, base in enumerate(self.rows.W):
+            parts = [base[:, self.data.free]]
+            for columns, size in zip(self.extra, sizes, strict=True):
+                own = columns[j]
+                parts.append(np.zeros((len(base), size)) if own is None else own)
+            found.append(np.hstack(parts))
+        return tuple(found)
+
+    @property
+    def y(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint: torques, less those of base parameters that are kept."""
+        return self.data.y
+
+    @cached_property
+    def base(self) -> Base:
+        """Of the model so far."""
+        numbers, fold = self.data.numbers, self.data.blocks.fold
+        return base_of(self.W, self.y, self.sigma, numbers, fold, self.turn)
+
+    @cached_property
+    def folded(self) -> Base:
+        """The same by folds."""
+        return folded(self.base)
+
+    @cached_property
+    def reduced(self) -> Reduced:
+        """The rows of the model so far, reduced to few."""
+        return self.data.reduction.beside(self.extra)
+
+    @cached_property
+    def sigma(self) -> np.ndarray:
+        """(J,) rms residual of each joint."""
+        return sigma_of(self.reduced)
+
+    @cached_property
+    def turn(self) -> np.ndarray:
+        """(f + extra, r) to orthonormal weighted columns."""
+        return turn_of(self.reduced.W, self.sigma)
+
+    @cached_property
+    def solution(self) -> np.ndarray:
+        """(f + extra,) parameters on all rows, SI; first the base parameters that are fitted."""
+        few = self.reduced
+        if not self.turn.shape[1]:
+            return np.zeros(len(self.turn))
+        G, u = 1e-12 * np.eye(self.turn.shape[1]), np.zeros(self.turn.shape[1])
+        for w, y, s in zip(few.W, few.y, self.sigma, strict=True):
+            columns = w @ (self.turn / s)
+            G, u = G + columns.T @ columns, u + columns.T @ (y / s)
+        return np.asarray(self.turn @ np.linalg.solve(G, u))
+
+    @cached_property
+    def beta(self) -> np.ndarray:
+        """(c,) base parameters."""
+        found = np.zeros(self.rows.W[0].shape[1]) if self.data.kept is None else self.data.kept
+        found = found.copy()
+        found[self.data.free] = self.solution[: len(self.data.free)]
+        return found
+
+    @cached_property
+    def values(self) -> list[np.ndarray]:
+        """Parameters of each pick, SI."""
+        found, at = [], len(self.data.free)
+        for columns in self.extra:
+            size = next(c.shape[1] for c in columns if c is not None)
+            found.append(self.solution[at : at + size])
+            at += size
+        return found
+
+    @cached_property
+    def residual(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint, N m or N."""
+        return tuple(y - w @ self.solution for y, w in zip(self.y, self.W, strict=True))
+
+    @cached_property
+    def known(self) -> dict[Any, Any]:
+        """What was made of it, by name."""
+        return {}
+
+    @cached_property
+    def scales(self) -> list[JointScale]:
+        """What is large on each joint."""
+        signals = self.rows.signals
+        whole = [s.segment.whole[:: s.every] for s in signals]
+        return scales_of(
+            self.data.compiled.spec,
+            [s.q[w] for s, w in zip(signals, whole, strict=True)],
+            [s.v[w] for s, w in zip(signals, whole, strict=True)],
+            [s.load[w] for s, w in zip(signals, whole, strict=True)],
+        )
+
+    def sifted(self, every: Sequence[Columns]) -> Sifted:
+        """Falls and values of candidates by their columns, in sums."""
+        return sifted(self.folded, pool_of(self.folded, every))
+
+    def ranked(self, every: Sequence[Columns]) -> tuple[Pool, Ranking]:
+        """Candidates by their columns."""
+        pool = pool_of(self.base, every)
+        return pool, rank(self.base, pool)
+
+
+def state_of(
+    data: Data, picks: Sequence[Candidate], beta: np.ndarray, cache: dict | None = None
+) -> State:
+    """The analysis with these effects, linearised about beta.
+
+    Args:
+        data: the logs.
+        picks: accepted so far.
+        beta: (c,) base parameters.
+        cache: of columns that do not depend on beta, kept between states.
+    """
+    rows = data.rows_about(beta)
+    kept = data.cache if cache is None else cache
+    extra = picked_columns(rows, picks, kept)
+    return State(data, tuple(picks), rows.signals[0].reference, rows, extra, kept)
+
+
+def picked_columns(rows: Rows, picks: Sequence[Candidate], cache: dict) -> tuple[Columns, ...]:
+    """The columns of what was put in: remembered for every reference."""
+    for pick in picks:
+        if column_key(rows, pick) not in rows.known:
+            rows.known[column_key(rows, pick)] = columns_of(rows, pick, cache)
+    return tuple(rows.known[column_key(rows, pick)] for pick in picks)
+
+
+def columns_of(rows: Rows, candidate: Candidate, cache: dict) -> Columns:
+    """The candidate's columns; those that do not depend on the model are computed once."""
+    if candidate.effect.acts is Acts.GRAVITY:
+        return _tilt(rows, cache)
+    if not _fixed(candidate):
+        return rows.columns(candidate)
+    key = column_key(rows, candidate)
+    if key not in cache:
+        cache[key] = rows.columns(candidate)
+    return cache[key]
+
+
+def all_columns_of(rows: Rows, candidates: Sequence[Candidate], cache: dict) -> list[Columns]:
+    """The columns of many candidates: the shapes of one effect at once."""
+    found: list[Columns | None] = [None] * len(candidates)
+    groups: dict[Any, list[int]] = {}
+    for i, candidate in enumerate(candidates):
+        if _fixed(candidate) and column_key(rows, candidate) in cache:
+            found[i] = cache[column_key(rows, candidate)]
+        else:
+            groups.setdefault((candidate.key, id(candidate.form)), []).append(i)
+    # Joint after joint: the slopes along the motion of one joint serve all its effects.
+    for places in sorted(groups.values(), key=lambda own: candidates[own[0]].index):
+        every = [candidates[i] for i in places]
+        if len(every) == 1 or every[0].effect.acts is Acts.GRAVITY:
+            made = [columns_of(rows, candidate, cache) for candidate in every]
+        else:
+            made = rows.many(every)
+            new = zip(every, made, strict=True)
+            cache.update({column_key(rows, c): own for c, own in new if _fixed(c)})
+        for i, own in zip(places, made, strict=True):
+            found[i] = own
+    return [own for own in found if own is not None]
+
+
+def _fixed(candidate: Candidate) -> bool:
+    """True if its columns do not depend on the model."""
+    memory = candidate.form.memory
+    return (
+        candidate.form.names.isdisjoint({"load", "static", "torque", "rate"})
+        and candidate.effect.acts in _FIXED
+        and (memory is None or memory.kind == "slip")
+    )
+
+
+def column_key(rows: Rows, candidate: Candidate) -> tuple[Any, ...]:
+    """What columns that do not depend on the model depend on."""
+    shapes = tuple(sorted(candidate.shapes.items()))
+    clock = () if candidate.form.names.isdisjoint({"t", "T"}) else _clock(rows.signals[0].reference)
+    return candidate.effect.id, candidate.joint, shapes, clock
+
+
+_FIXED = (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE, Acts.LINK)
+"""What reads the motion only, if its equations do."""
+
+
+def _tilt(rows: Rows, cache: dict) -> Columns:
+    """`tilt_columns`: the model only weighs the slopes of the frames, which are filtered once."""
+    weights = tilt_weights(rows.signals[0].reference)
+    if weights is None:
+        return (None,) * rows.joints
+    key = "frame slopes"
+    if key not in cache:
+        cache[key] = rows.spread(partial(_frame_slopes, rows), width=1000)
+    return tuple(None if own is None else own @ weights for own in cache[key])
+
+
+def _frame_slopes(rows: Rows, stretch: int, window: slice) -> np.ndarray:
+    signals = rows.signals[stretch]
+    found = frame_slopes(signals.reference.compiled, signals.q[window])
+    return found.reshape(*found.shape[:2], -1)
+
+
+def visible(columns: Columns) -> bool:
+    """True if the columns are finite and none of them is zero throughout."""
+    own = [c.T for c in columns if c is not None]
+    if not own or not len(own[0]):
+        return False
+    square = sum(np.einsum("ij,ij->i", c, c) for c in own)
+    return bool(np.isfinite(square).all() and np.all(square > 0.0))
+
+
+def _references(observation: Observation) -> tuple[float, Mapping[str, float]]:
+    """The first time, and the mean temperature by joint where one is logged."""
+    segments = [part.segment for part in observation.stretches]
+    temperature = {}
+    for joint in observation.joints:
+        for name in (f"temperature{joint.name}", "temperature"):
+            if all(name in s.extra and np.isfinite(s.extra[name]).all() for s in segments):
+                every = np.concatenate([s.extra[name] for s in segments])
+                temperature[joint.name] = float(every.mean())
+                break
+    return float(np.min(observation.time)), temperature

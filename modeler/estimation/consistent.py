@@ -1,0 +1,385 @@
+"""Values of a machine that could be built, down to every standard parameter of every link.
+
+    minimise  1/2 ||R (K chi) - z||^2 + gamma sum_j (tr(P0_j^-1 P_j) - log det(P0_j^-1 P_j) - 4)
+
+over the standard parameters chi with every pseudo-inertia P_j positive definite (`possible`) and
+friction and rotor inertias not negative. R and z are the weighted rows of the fit, so that the
+first term counts standard deviations; the second, the log-determinant divergence from a reference
+body P0_j, keeps every link inside what can be built, does not depend on units or frames, and
+decides what no torque feels (Lee, Wensing and Park 2020, IEEE T-RO 36(2); Sousa and Cortesao 2014,
+IJRR 33(6)). Convex: solved by cvxpy with Clarabel.
+"""
+
+import contextlib
+import dataclasses
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.core.manifest import ModuleSpec
+from modeler.estimation.least_squares import Estimate, least_squares
+from modeler.estimation.nearest_body import PREFIXES, Machine, machine_of, scales
+from modeler.estimation.problem import Problem
+from modeler.numerics.least_squares import Rank
+
+WEIGHT = 0.01
+"""gamma where nothing is known of the links: so small that no value which the data tell moves."""
+
+KNOWN_WEIGHT = 1.0
+"""gamma of a link that the robot file states: to be off by its own size, in any direction of the
+pseudo-inertia, costs about as much as one standard deviation of a row. A guide, not a fact."""
+
+_ROUNDS = (1e4, 1e2, 1.0, 1.0)
+"""Factors of gamma, one round after the other, each written around the answer before: the first
+rounds need few digits, the last have them."""
+
+_SECOND = {"XX": (1, 2), "YY": (0, 2), "ZZ": (0, 1)}
+_PRODUCT = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2)}
+_MOMENT = {"MX": 0, "MY": 1, "MZ": 2}
+_AT_ZERO = 1e-6  # of its scale: a friction this small is at its bound
+
+
+@dataclass(frozen=True, eq=False)
+class Consistent:
+    """A machine that could be built.
+
+    Attributes:
+        chi: (m,) unknowns of the `Machine`: the standard parameters, all ten of every link.
+        beta: (c,) K chi.
+        covariance: (c, c) of beta, from the curvature of what is minimised: the reference counts
+            as knowledge, a bound that holds does not.
+        rise: by how much the weighted squares are above their least, in variances of a row.
+        bodies: by link, the pseudo-inertia, SI.
+        at_bound: friction and rotor inertias that are 0.
+    """
+
+    chi: np.ndarray
+    beta: np.ndarray
+    covariance: np.ndarray
+    rise: float
+    bodies: Mapping[str, np.ndarray]
+    at_bound: tuple[str, ...]
+
+
+def consistent(
+    machine: Machine,
+    whole: np.ndarray,
+    reference: Mapping[str, np.ndarray],
+) -> Consistent:
+    """The machine that fits best.
+
+    Args:
+        machine: unknowns and bounds.
+        whole: (c + 1, c + 1) or fewer rows, triangle [R z; 0 .] of the rows over their standard
+            deviations.
+        reference: (4, 4) pseudo-inertias of known links, positive definite; others get one.
+
+    Raises:
+        DataError: the solver finds no answer.
+    """
+    R, z = whole[:, :-1], whole[:, -1]
+    gamma = {name: KNOWN_WEIGHT if name in reference else WEIGHT for name in machine.links}
+    near = {name: _root(P) for name, P in _references(machine, R, z, reference).items()}
+    problem = _Problem(machine, R @ machine.K, z, gamma, near)
+    roots, others = problem.answer()
+    bodies = {name: root @ root.T for name, root in roots.items()}
+    chi = problem.chi(bodies, others)
+    zero = problem.at_zero(others)
+    curvature = problem.covariance(roots)
+    beta = machine.K @ chi
+    return Consistent(
+        chi, beta, machine.K @ curvature @ machine.K.T, _rise(R, z, beta), bodies,
+        tuple(name for name, place in machine.positive.items() if place in zero),
+    )  # fmt: skip
+
+
+def parameters_of(body: np.ndarray) -> dict[str, float]:
+    """The ten standard parameters of a pseudo-inertia (4, 4), by prefix."""
+    return {prefix: float(np.sum(_PICKS[prefix] * body)) for prefix in PREFIXES}
+
+
+def pseudo_inertia_of(values: Mapping[str, float]) -> np.ndarray:
+    """(4, 4) [[int x x' dm, int x dm], [., M]] of ten standard parameters, by prefix."""
+    half = (values["XX"] + values["YY"] + values["ZZ"]) / 2.0
+    body = np.zeros((4, 4))
+    for axis, prefix in enumerate(_SECOND):
+        body[axis, axis] = half - values[prefix]
+    for prefix, (i, j) in _PRODUCT.items():
+        body[i, j] = body[j, i] = -values[prefix]
+    for prefix, i in _MOMENT.items():
+        body[i, 3] = body[3, i] = values[prefix]
+    body[3, 3] = values["M"]
+    return body
+
+
+def _picks() -> dict[str, np.ndarray]:
+    """Symmetric matrices: each parameter is their inner product with the pseudo-inertia."""
+    found = {prefix: np.zeros((4, 4)) for prefix in PREFIXES}
+    for prefix, axes in _SECOND.items():
+        for axis in axes:
+            found[prefix][axis, axis] = 1.0
+    for prefix, (i, j) in _PRODUCT.items():
+        found[prefix][i, j] = found[prefix][j, i] = -0.5
+    for prefix, i in _MOMENT.items():
+        found[prefix][i, 3] = found[prefix][3, i] = 0.5
+    found["M"][3, 3] = 1.0
+    return found
+
+
+_PICKS = _picks()
+
+
+@dataclass(frozen=True, eq=False)
+class _Problem:
+    """The rows A chi = z, and what is added to their squares."""
+
+    machine: Machine
+    A: np.ndarray
+    z: np.ndarray
+    gamma: Mapping[str, float]
+    reference: Mapping[str, np.ndarray]  # roots of P0: root root' = P0
+
+    @property
+    def others(self) -> list[int]:
+        """Places in chi of what is no link's: friction, rotor inertias, offsets, loads."""
+        inertial = {place for own in self.machine.links.values() for place in own.values()}
+        return [i for i in range(self.A.shape[1]) if i not in inertial]
+
+    def chi(self, bodies: Mapping[str, np.ndarray], others: np.ndarray) -> np.ndarray:
+        """(m,) all unknowns."""
+        found = np.zeros(self.A.shape[1])
+        for name, own in self.machine.links.items():
+            for prefix, value in parameters_of(bodies[name]).items():
+                found[own[prefix]] = value
+        found[self.others] = others
+        return found
+
+    def columns(self, name: str, root: np.ndarray) -> np.ndarray:
+        """(r, 16) rows of a link's X, where P = root X root'."""
+        own = self.machine.links[name]
+        picks = np.stack([root.T @ _PICKS[prefix] @ root for prefix in PREFIXES])
+        return np.asarray(self.A[:, [own[p] for p in PREFIXES]] @ picks.reshape(len(PREFIXES), 16))
+
+    def answer(self) -> tuple[dict[str, np.ndarray], np.ndarray]:
+        """Roots of the bodies, and the other values.
+
+        Raises:
+            DataError: the solver does not get there.
+        """
+        roots, others, settled = dict(self.reference), np.zeros(len(self.others)), False
+        for factor in _ROUNDS:
+            found = self.solved(roots, others, factor)
+            if found is not None:
+                (roots, others), settled = found, factor == 1.0
+        if not settled:
+            raise DataError(
+                "no machine that could be built was found for these logs (the solver does not "
+                "settle); use --method weighted, and look at what its doubts say"
+            )
+        return roots, others
+
+    def solved(
+        self, roots: Mapping[str, np.ndarray], others: np.ndarray, factor: float
+    ) -> tuple[dict[str, np.ndarray], np.ndarray] | None:
+        """The answer with gamma times a factor, written around bodies and values near to it.
+
+        None if the solver does not get there.
+        """
+        import cvxpy as cp  # only here: other fits need not wait for it
+
+        scale = self._scale()
+        error = -self.z + self.A[:, self.others] @ others
+        step = cp.Variable(len(others))
+        total = (self.A[:, self.others] * scale) @ step
+        bounds = [
+            others[i] + scale[i] * step[i] >= 0.0
+            for i, place in enumerate(self.others)
+            if place in self.machine.positive.values()
+        ]
+        X = {name: cp.Variable((4, 4), PSD=True) for name in roots}
+        divergence = cp.Constant(0.0)
+        for name, root in roots.items():
+            columns = self.columns(name, root)
+            error = error + columns @ np.eye(4).ravel()
+            total = total + columns @ cp.vec(X[name] - np.eye(4), order="C")
+            turned = np.linalg.solve(self.reference[name], root)
+            pull = cp.trace(turned.T @ turned @ X[name]) - cp.log_det(X[name])
+            divergence = divergence + factor * self.gamma[name] * pull
+        goal = cp.Minimize(0.5 * cp.sum_squares(total + error) + divergence)
+        problem = cp.Problem(goal, bounds)
+        with contextlib.suppress(cp.SolverError), warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # the status is looked at below
+            problem.solve(solver=cp.CLARABEL)
+        if problem.status not in ("optimal", "optimal_inaccurate"):
+            return None
+        found = {name: root @ _root(np.asarray(X[name].value)) for name, root in roots.items()}
+        moved = others if step.value is None else others + scale * step.value
+        least = np.where(np.isin(self.others, list(self.machine.positive.values())), 0.0, -np.inf)
+        return found, np.maximum(moved, least)
+
+    def _scale(self) -> np.ndarray:
+        length = np.linalg.norm(self.A[:, self.others], axis=0)
+        return np.where(length > 0.0, 1.0 / np.where(length > 0.0, length, 1.0), 1.0)
+
+    def at_zero(self, others: np.ndarray) -> set[int]:
+        """Places of the parameters at their bound: less than a millionth of the torque."""
+        size = _AT_ZERO * max(float(np.linalg.norm(self.z)), 1e-300) * self._scale()
+        positive = set(self.machine.positive.values())
+        return {
+            place for place, value, least in zip(self.others, others, size, strict=True)
+            if place in positive and value <= least
+        }  # fmt: skip
+
+    def covariance(self, roots: Mapping[str, np.ndarray]) -> np.ndarray:
+        """(m, m) inverse of the curvature.
+
+        Around X = 1 the curvature of -log det X is the identity in an orthonormal basis of the
+        symmetric matrices.
+        """
+        moves, stiffness = [], []
+        for name, root in roots.items():
+            own = self.machine.links[name]
+            for i in range(4):
+                for j in range(i, 4):
+                    E = np.zeros((4, 4))
+                    E[i, j] = E[j, i] = 1.0 if i == j else np.sqrt(0.5)
+                    move = np.zeros(self.A.shape[1])
+                    for prefix, value in parameters_of(root @ E @ root.T).items():
+                        move[own[prefix]] = value
+                    moves.append(move)
+                    stiffness.append(self.gamma[name])
+        scale = dict(zip(self.others, self._scale(), strict=True))
+        for place in self.others:
+            moves.append(np.eye(self.A.shape[1])[place] * scale[place])
+            stiffness.append(0.0)
+        T = np.array(moves).T
+        root = np.vstack([self.A @ T, np.diag(np.sqrt(stiffness))])
+        inverse = np.linalg.pinv(root, rcond=1e-12)
+        spread = T @ inverse
+        return np.asarray(spread @ spread.T)
+
+
+def _references(
+    machine: Machine, R: np.ndarray, z: np.ndarray, known: Mapping[str, np.ndarray]
+) -> dict[str, np.ndarray]:
+    """Reference bodies: as known, or round, of the mass and size that the torques allow."""
+    size = max(float(np.linalg.norm(z)), 1e-300)
+    scale = scales(machine, R @ machine.K / size)
+    count = max(1, len(machine.links))
+    found = {}
+    for name, own in machine.links.items():
+        mass = scale[own["M"]] / count
+        metre = scale[own["MX"]] / scale[own["M"]]
+        found[name] = known.get(name, mass * np.diag([metre**2, metre**2, metre**2, 1.0]))
+    return found
+
+
+def _root(matrix: np.ndarray) -> np.ndarray:
+    """Lower triangle of a positive definite matrix; what rounding made negative is raised."""
+    values, vectors = np.linalg.eigh((matrix + matrix.T) / 2.0)
+    values = np.maximum(values, 1e-12 * max(float(values[-1]), 1e-300))
+    return np.asarray(np.linalg.cholesky((vectors * values) @ vectors.T))
+
+
+def _rise(R: np.ndarray, z: np.ndarray, beta: np.ndarray) -> float:
+    best = np.linalg.lstsq(R, z, rcond=None)[0]
+    return float(np.sum((R @ beta - z) ** 2) - np.sum((R @ best - z) ** 2))
+
+
+# The physically consistent estimator: from a problem to a machine that could be built.
+
+
+_LEAST = 1e-6  # a plate or a rod of a drawing is given so much thickness, relative
+
+
+def buildable(problem: Problem) -> Estimate:
+    """The machine that fits best, weighted as `least_squares` weights.
+
+    Links of which the robot file states all ten parameters are references: a guide, that the data
+    overrule. What the data cannot tell has a value here, which follows from the bounds and the
+    references, but no sigma.
+
+    Raises:
+        DataError: no compiled robot, or loads beside it; the solver finds no answer.
+    """
+    model = problem.robot("consistent")
+    start = least_squares(problem.data, "weighted")
+    machine = machine_of(model.spec)
+    known = references(model.spec)
+    found = consistent(machine, problem.data.whole(start.sigma), known)
+    told = np.isin(np.arange(len(found.beta)), start.rank.kept)
+    return dataclasses.replace(
+        start,
+        beta=found.beta,
+        covariance=found.covariance * np.outer(told, told),
+        rank=Rank(start.rank.kept, (), start.rank.last_kept, start.rank.first_dropped),
+        standard=_named(model.spec, machine, found.chi),
+        sentences=tuple(_sentences(model.spec, found, start, known)),
+    )
+
+
+def references(spec: ModuleSpec) -> dict[str, np.ndarray]:
+    """(4, 4) pseudo-inertias of the links of which the robot file states all ten parameters."""
+    stated: dict[str, dict[str, float]] = {}
+    for parameter in spec.standard:
+        if parameter.effect == "rigid_body" and parameter.nominal is not None:
+            prefix = parameter.name.removesuffix(parameter.joint)
+            stated.setdefault(parameter.joint, {})[prefix] = parameter.nominal
+    found = {}
+    for link, values in stated.items():
+        if len(values) == len(PREFIXES) and values["M"] > 0.0:
+            body = pseudo_inertia_of(values)
+            size = np.sqrt(np.maximum(np.diag(body), 0.0))
+            size = np.maximum(size, 1e-3 * size[:3].max() * np.array([1.0, 1.0, 1.0, 0.0]))
+            body = body + _LEAST * np.diag(size**2)
+            if size.all() and np.linalg.eigvalsh(body / np.outer(size, size))[0] > 0.0:
+                found[link] = body
+    return found
+
+
+def _named(spec: ModuleSpec, machine: Machine, chi: np.ndarray) -> dict[str, float]:
+    names = {i: parameter.name for i, parameter in enumerate(spec.standard)}
+    for link, own in machine.links.items():
+        names |= {place: f"{prefix}{link}" for prefix, place in own.items()}
+    return {names[i]: float(value) for i, value in enumerate(chi)}
+
+
+def _at_zero(spec: ModuleSpec, names: Sequence[str]) -> list[str]:
+    """Of the parameters at 0: which the data would have below it, and which they do not tell."""
+    sums = [[term.parameter for term in base.terms] for base in spec.base]
+    own = [name for name in names if [name] in sums]
+    said = [f"{', '.join(own)} held at 0, which would be negative"] if own else []
+    for name in names:
+        if name not in own:
+            beside = dict.fromkeys(x for terms in sums if name in terms for x in terms)
+            others = " and ".join(x for x in beside if x != name)
+            said.append(f"{name} cannot be told from {others} and is put at 0")
+    return said
+
+
+def _sentences(
+    spec: ModuleSpec, found: Consistent, start: Estimate, known: Mapping[str, np.ndarray]
+) -> list[str]:
+    degrees = len(found.beta)
+    said = []
+    if found.rise > degrees:
+        said.append(
+            f"a machine that could be built leaves {found.rise:.3g} variances more than least "
+            f"squares, where its {degrees} values would raise it by {degrees} if they were wrong "
+            "by one sigma each: these logs hold something that the model does not; see the doubts "
+            "of --method weighted"
+        )
+    said += _at_zero(spec, found.at_bound)
+    if start.rank.aside:
+        names = ", ".join(tangle.name for tangle in start.rank.aside)
+        said.append(f"not told by these data, but by what can be built: {names}")
+    loose = [link for link in found.bodies if link not in known]
+    if loose:
+        said.append(
+            f"link {', '.join(loose)}: no drawing in the robot file ([parameters]); what no torque "
+            "feels of it is that of a round body, and means nothing by itself"
+        )
+    return said

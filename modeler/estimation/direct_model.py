@@ -1,0 +1,376 @@
+"""The direct model: a fitted robot that follows the motion of a log, without noise.
+
+The controller of the log is not known. The one here is a cascade of position and speed loop as
+drives have it, scheduled with the model's own inertia, so that its bandwidth does not depend on the
+parameters (Gautier, Janot and Vandanjon 2013, IEEE Trans. Control Systems Technology 21(2)):
+
+    M(q) qdd + h(q, qd) = M(q) (kv e + f qdd_r) + effort,  e = r kv (q_r - q) + f qd_r - qd,
+    effort' = i kv^2/4 M(q) e.
+
+Speed loop kv, ratio r of the position loop, integral action i and feedforward f (0 or 1) are those
+that bring the simulated positions nearest to the logged ones. Without a logged command the
+reference is the logged motion, smoothed, and only kv is chosen: the motion along which the torques
+fit best.
+"""
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.observation.low_speed import signals_of
+from modeler.observation.motion import HIGHEST, Segment, low_pass
+from modeler.observation.observation import Observation
+from modeler.runtime.model import CompiledModel
+
+BANDWIDTHS = (2.0, 4.0, 8.0, 16.0, 32.0, 64.0)
+"""Hz of the speed loops that are tried."""
+
+KINDS = ((0.25, 1.0), (0.25, 0.0), (1.0, 0.0), (2.0, 0.0))
+"""Ratio of the position loop and integral action that are tried: a drive's cascade, and PD."""
+
+_FINER = (1.5, 1.2, 1.07)  # widest factors on speed and ratio, one search after the other
+
+_LONGEST = 1e-3  # s, of a step
+_STABLE = 0.4  # kv times the step at most
+_INTEGRAL = 0.25  # of the speed loop
+_SHARE = 0.5  # of the position cut-off: low-pass of a reference made of the logged motion
+_WINDOW = 0.5  # s, of a piece that is simulated beside the others
+_WARM = 1.0  # s, simulated before it and left out: by then the start is forgotten
+_TRIED = 5  # pieces on which the loop is chosen
+_LOST = 10.0  # ranges of motion from the reference at which the robot is lost
+_FLOOR = 1e-2  # eigenvalues of the inertia matrix are raised to this, its median diagonal being 1
+
+Motion = np.ndarray
+"""(3, samples, joints) q, qd, qdd."""
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A controller.
+
+    Attributes:
+        speed: kv, rad/s; infinite: the reference is carried out exactly.
+        ratio: r.
+        integral: i.
+        forward: f, 1 if speed and acceleration of the reference are fed forward.
+        distance: rms of simulated less logged position, as a share of that of reference less
+            logged position; without commands, the criterion of the fit along its motion.
+    """
+
+    speed: float
+    ratio: float
+    integral: float
+    forward: float
+    distance: float = np.inf
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """Samples of a segment, simulated from `first`, kept from `start` to `stop`."""
+
+    segment: int
+    first: int
+    start: int
+    stop: int
+
+
+class DirectModel:
+    """A robot that follows the logs of an observation.
+
+    Attributes:
+        commanded: the reference is the commanded motion of all logs; else the logged one, smoothed.
+    """
+
+    def __init__(self, model: CompiledModel, observation: Observation) -> None:
+        self.model, self.observation = model, observation
+        self.segments = [part.segment for part in observation.stretches]
+        self.commanded = all(segment.commanded is not None for segment in self.segments)
+        self.cutoff = observation.report.processing.position_cutoff or 0.0
+        self.references = [self._reference(segment) for segment in self.segments]
+        self.signals = [signals_of(model.spec, segment) for segment in self.segments]
+        self.raised = 0.0  # share of samples whose inertia matrix was not positive definite
+        self.lightest = 0  # the joint that moves most along its lowest eigenvalue
+
+    def columns(self, motions: list[Motion]) -> np.ndarray:
+        """(rows, c) the columns of W along motions, filtered as those of the log."""
+        places = {id(segment): i for i, segment in enumerate(self.segments)}
+
+        def evaluate(segment: Segment, window: slice) -> np.ndarray:
+            i = places[id(segment)]
+            q, qd, qdd = motions[i][:, window]
+            signals = self.signals[i]
+            return self.model.base_regressor(
+                q, qd, qdd, None if signals is None else signals[window]
+            )
+
+        return self.observation.filtered(evaluate)[self.observation.used]
+
+    def chosen(self, beta: np.ndarray) -> Loop:
+        """The controller that brings the robot nearest to the logged positions.
+
+        Expects commanded positions. Without them the nearest is the fastest, see `gentlest`.
+        """
+        pieces = self._pieces()
+        pieces = [pieces[i] for i in sorted({*np.linspace(0, len(pieces) - 1, _TRIED).astype(int)})]
+        step, speeds = self._speeds()
+        rough = self._nearest(
+            beta, pieces,
+            [Loop(speed, *kind, forward) for speed in speeds for kind in KINDS
+             for forward in (0.0, 1.0)],
+        )  # fmt: skip
+        for width in _FINER if np.isfinite(rough.distance) else ():
+            factors = width ** np.linspace(-1.0, 1.0, 5)
+            rough = self._nearest(
+                beta, pieces,
+                [dataclasses.replace(rough, speed=rough.speed * a, ratio=rough.ratio * b)
+                 for a in factors for b in factors if rough.speed * a * step < _STABLE],
+            )  # fmt: skip
+        if not np.isfinite(rough.distance) or rough.distance > 1.0:
+            return Loop(np.inf, 0.0, 0.0, 1.0, 1.0)
+        return rough
+
+    def gentlest(self, beta: np.ndarray, misfit: Callable[[list[Motion]], float]) -> Loop:
+        """The controller along whose motion the torques fit best, where no command was logged.
+
+        The reference is the logged motion itself. Its positions say nothing of the controller: the
+        faster that is, the nearer it comes to them and to their noise. So the cascade with integral
+        action, which holds friction and gravity from the first sample on, and feedforward is
+        taken, and its speed by `misfit`, the criterion of the fit along a motion.
+        """
+        ratio, integral = KINDS[0]
+        found = Loop(np.inf, 0.0, 0.0, 1.0, np.inf)
+        for speed in self._speeds()[1]:
+            loop = Loop(speed, ratio, integral, 1.0)
+            try:
+                far = misfit(self.followed(beta, loop))
+            except DataError:
+                continue
+            if far < found.distance:
+                found = dataclasses.replace(loop, distance=far)
+        return found
+
+    def _speeds(self) -> tuple[float, list[float]]:
+        """Step of the simulation, s, and speed loops to try, rad/s."""
+        step = min(_LONGEST, min(segment.step for segment in self.segments))
+        return step, [2 * np.pi * f for f in BANDWIDTHS if 2 * np.pi * f * step < _STABLE]
+
+    def _nearest(self, beta: np.ndarray, pieces: list[_Piece], loops: list[Loop]) -> Loop:
+        ways = self._walked(beta, pieces * len(loops), [loop for loop in loops for _ in pieces])
+        far = [
+            self._distance(pieces, ways[i : i + len(pieces)])
+            for i in range(0, len(ways), len(pieces))
+        ]
+        best = int(np.argmin(far))
+        return dataclasses.replace(loops[best], distance=far[best])
+
+    def followed(self, beta: np.ndarray, loop: Loop) -> list[Motion]:
+        """The motion of the robot with these parameters, one per segment.
+
+        Raises:
+            DataError: the controller loses the robot.
+        """
+        if np.isinf(loop.speed):
+            return self.references
+        pieces = self._pieces()
+        ways = self._walked(beta, pieces, [loop] * len(pieces))
+        motions = [np.empty_like(reference) for reference in self.references]
+        for piece, way in zip(pieces, ways, strict=True):
+            if not np.isfinite(way).all():
+                raise DataError(
+                    f"{self.model.spec.robot}: the direct model with the fitted values does not "
+                    f"follow the log at {self.segments[piece.segment].time[piece.start]:.4g} s; "
+                    'expected a fit whose inertia matrix is one; use method "weighted"'
+                )
+            motions[piece.segment][:, piece.start : piece.stop] = way
+        return [
+            np.stack([self._smooth(segment, signal) for signal in motion])
+            for segment, motion in zip(self.segments, motions, strict=True)
+        ]
+
+    def error(self, motions: list[Motion]) -> np.ndarray:
+        """(joints,) rms of simulated less logged position, as a share of the range of motion."""
+        away = np.concatenate([
+            (motion[0] - segment.q)[segment.whole]
+            for segment, motion in zip(self.segments, motions, strict=True)
+        ])  # fmt: skip
+        every = np.concatenate([segment.q[segment.whole] for segment in self.segments])
+        extent = np.ptp(every, axis=0)
+        return np.sqrt(np.mean(away**2, axis=0)) / np.where(extent > 0.0, extent, 1.0)
+
+    def _smooth(self, segment: Segment, signal: np.ndarray) -> np.ndarray:
+        return low_pass(signal, segment.step, min(self.cutoff, HIGHEST / segment.step))
+
+    def _reference(self, segment: Segment) -> Motion:
+        """Commanded positions with their derivatives, or the motion of the fit smoothed further.
+
+        Derivatives that the log brought along are kept: those of its positions are noisier.
+        """
+        if self.commanded:
+            assert segment.commanded is not None
+            return differentiated(segment.commanded, segment.step)
+        cutoff = min(_SHARE * self.cutoff, HIGHEST / segment.step)
+        motion = (segment.q, segment.qd, segment.qdd)
+        return np.stack([low_pass(signal, segment.step, cutoff) for signal in motion])
+
+    def _pieces(self) -> list[_Piece]:
+        pieces = []
+        for i, segment in enumerate(self.segments):
+            length = max(2, round(_WINDOW / segment.step))
+            warm = round(_WARM / segment.step)
+            for start in range(0, segment.samples, length):
+                stop = min(start + length, segment.samples)
+                pieces.append(_Piece(i, max(0, start - warm), start, stop))
+        return pieces
+
+    def _distance(self, pieces: list[_Piece], ways: list[Motion]) -> float:
+        """rms of simulated less logged position, each joint in units of its own tracking error."""
+        errors, scales = [], []
+        for piece, way in zip(pieces, ways, strict=True):
+            segment, kept = self.segments[piece.segment], slice(piece.start, piece.stop)
+            logged, whole = segment.q[kept], segment.whole[kept]
+            errors.append((way[0] - logged)[whole] ** 2)
+            scales.append((self.references[piece.segment][0, kept] - logged)[whole] ** 2)
+        scale = np.sum(np.concatenate(scales), axis=0)
+        moved = scale > 0.0
+        error = np.sum(np.concatenate(errors), axis=0)
+        total = float(np.mean(error[moved] / scale[moved])) if moved.any() else 0.0
+        return float(np.sqrt(total)) if np.isfinite(total) else np.inf
+
+    def _walked(self, beta: np.ndarray, pieces: list[_Piece], loops: list[Loop]) -> list[Motion]:
+        """The pieces, each with its loop, simulated side by side; NaN where the robot is lost."""
+        steps = [float(f"{self.segments[piece.segment].step:.4g}") for piece in pieces]
+        ways: dict[int, Motion] = {}
+        for step in sorted(set(steps)):
+            own = [i for i, other in enumerate(steps) if other == step]
+            reference, signals = self._stacked([pieces[i] for i in own])
+            robot = _Robot(self.model, beta, reference)
+            if robot.raised > self.raised:
+                self.raised, self.lightest = robot.raised, robot.lightest
+            start = np.stack([self._logged(pieces[i]) for i in own], axis=1)
+            motion = _walk(robot, start, reference, signals, step, [loops[i] for i in own])
+            for place, i in enumerate(own):
+                piece = pieces[i]
+                kept = slice(piece.start - piece.first, piece.stop - piece.first)
+                ways[i] = motion[:, kept, place]
+        return [ways[i] for i in range(len(pieces))]
+
+    def _stacked(self, pieces: list[_Piece]) -> tuple[np.ndarray, np.ndarray | None]:
+        """(3, samples, pieces, joints) references, ends held, and (samples, pieces, m) signals."""
+        longest = max(piece.stop - piece.first for piece in pieces)
+
+        def stacked(values: Callable[[int], np.ndarray]) -> np.ndarray:
+            rows = [
+                np.minimum(piece.first + np.arange(longest), piece.stop - 1) for piece in pieces
+            ]
+            return np.stack(
+                [values(p.segment)[..., r, :] for p, r in zip(pieces, rows, strict=True)], axis=-2
+            )
+
+        if self.signals[0] is None:
+            return stacked(lambda i: self.references[i]), None
+        return stacked(lambda i: self.references[i]), stacked(self._signals)
+
+    def _logged(self, piece: _Piece) -> np.ndarray:
+        """(2, joints) q and qd of the log at the start: what is simulated begins where it was."""
+        segment = self.segments[piece.segment]
+        return np.stack([segment.q[piece.first], segment.qd[piece.first]])
+
+    def _signals(self, i: int) -> np.ndarray:
+        signals = self.signals[i]
+        assert signals is not None
+        return signals
+
+
+def differentiated(q: np.ndarray, step: float) -> Motion:
+    """(3, n, joints) of positions (n, joints): central differences, as of logged positions."""
+    qdd = np.zeros_like(q)
+    qdd[1:-1] = (q[2:] - 2.0 * q[1:-1] + q[:-2]) / step**2
+    return np.stack([q, np.gradient(q, step, axis=0), qdd])
+
+
+class _Robot:
+    """M and tau for many states at once; h = tau(q, qd, qdd_r) - M qdd_r."""
+
+    def __init__(self, model: CompiledModel, beta: np.ndarray, reference: np.ndarray) -> None:
+        self.model, self.beta = model, beta
+        q = reference[0].reshape(-1, reference.shape[-1])
+        M = model.inertia_matrix(q[:: max(1, len(q) // 500)], beta)
+        diagonal = np.abs(np.median(np.einsum("sjj->sj", M), axis=0))
+        self.scale = np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+        values, vectors = np.linalg.eigh(M / np.outer(self.scale, self.scale))
+        self.raised = float(np.mean(values[:, 0] < _FLOOR))
+        self.lightest = int(np.argmax(np.abs(vectors[np.argmin(values[:, 0]), :, 0])))
+
+    def inertia(self, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """M of the model, and one that is positive definite: the same if it is."""
+        M = self.model.inertia_matrix(q, self.beta)
+        if self.raised == 0.0:
+            return M, M
+        scale = np.outer(self.scale, self.scale)
+        values, vectors = np.linalg.eigh(M / scale)
+        lifted = np.maximum(values, _FLOOR)[:, None, :] * vectors
+        return M, np.asarray((lifted @ vectors.transpose(0, 2, 1)) * scale)
+
+    def torque(
+        self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
+    ) -> np.ndarray:
+        return self.model.inverse_dynamics(q, qd, qdd, self.beta, s)
+
+
+def _walk(
+    robot: _Robot,
+    start: np.ndarray,
+    reference: np.ndarray,
+    signals: np.ndarray | None,
+    step: float,
+    loops: list[Loop],
+) -> np.ndarray:
+    """(3, samples, pieces, joints) the motion, by Adams and Bashforth of order 2."""
+    inner = max(1, int(np.ceil(step / _LONGEST)))
+    h, motion = step / inner, np.full(reference.shape, np.nan)
+    far = _LOST * (np.ptp(reference[0], axis=(0, 1)) + 1e-6)
+    kv, ratio, integral, f = _gains(loops)
+    (q, qd), (_, speed, qdd) = start, reference[:, 0]
+    tau = robot.torque(q, qd, qdd, None if signals is None else signals[0])
+    asked = kv * (ratio * kv * (reference[0, 0] - q) + f * speed - qd) + f * qdd
+    effort = integral * (tau - _times(robot.inertia(q)[1], asked))
+    lost = np.zeros(len(q), dtype=bool)
+    for k in range(reference.shape[1]):
+        s = None if signals is None else signals[k]
+        for m in range(inner):
+            wanted, speed, push = _ahead(reference[:, k], m * h)
+            raw, M = robot.inertia(q)
+            error = ratio * kv * (wanted - q) + f * speed - qd
+            effort = effort + h * integral * _INTEGRAL * kv**2 * _times(M, error)
+            rest = robot.torque(q, qd, push, s) - _times(raw, push)
+            before, qdd = (
+                qdd,
+                kv * error + f * push + np.linalg.solve(M, (effort - rest)[:, :, None])[:, :, 0],
+            )
+            if m == 0:
+                motion[:, k] = q, qd, qdd
+                motion[:, k, lost] = np.nan
+            q = q + h * qd + 0.5 * h**2 * qdd
+            qd = qd + h * (1.5 * qdd - 0.5 * before)
+            gone = ~np.all(np.abs(q - wanted) < far, axis=1) | ~np.isfinite(qd).all(axis=1)
+            if gone.any():
+                lost |= gone
+                q[gone], qd[gone], effort[gone], qdd[gone] = wanted[gone], speed[gone], 0.0, 0.0
+    return motion
+
+
+def _gains(loops: list[Loop]) -> np.ndarray:
+    """(4, pieces, 1) speed, ratio, integral, forward."""
+    return np.array([(o.speed, o.ratio, o.integral, o.forward) for o in loops]).T[:, :, None]
+
+
+def _ahead(state: np.ndarray, dt: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    q, qd, qdd = state
+    return q + dt * qd + 0.5 * dt**2 * qdd, qd + dt * qdd, qdd
+
+
+def _times(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    return np.asarray(np.einsum("bij,bj->bi", matrix, vector))

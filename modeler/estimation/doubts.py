@@ -1,0 +1,368 @@
+"""What a fit found that physics does not allow, or that does not deserve trust: in sentences."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from modeler.core.manifest import BaseSpec, ModuleSpec
+from modeler.estimation.identify import Crossed, Equations, base_equations, fit_equations
+from modeler.estimation.least_squares import least_squares
+from modeler.estimation.payload import Payload, loaded_equations
+from modeler.estimation.result import FitResult, ParameterEstimate
+from modeler.observation.observation import Observation
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+
+_FAR = 3.0  # standard deviations below zero
+
+LITTLE = 0.3
+"""Relative error above which a model does not describe a joint: 9 % of the torque's variance."""
+
+HALF = 0.5**0.5
+"""Relative error above which more of a joint's torque is left, in variance, than is described."""
+
+WIDE = 2.0
+"""Ratio of the error on left-out motion to that on fitted motion above which rows are too few."""
+
+ELSEWHERE = 3.0
+"""Ratio of the error on all rows to that in windows of them above which other rows differ; where
+logs are all of one kind it is 0.6 to 1.3."""
+
+STRUCTURE = 0.1
+"""Rms of what is left and lasts, over that of the torque, above which values carry some of it."""
+
+MOST = 0.5
+"""Share of the parameters that logs may leave open; beyond it they are a glimpse of a motion."""
+
+_TORQUES = "check units, signs and columns of the log, the table, and the effects in the robot file"
+
+
+class Told(Protocol):
+    """A finding about the logs that another stage makes: a line, and whether it is certain."""
+
+    @property
+    def line(self) -> str:
+        """Where, what, and what to do."""
+
+    @property
+    def certain(self) -> bool:
+        """True if no physics can look like it."""
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Why a fit may not be what it looks like.
+
+    Attributes:
+        line: where and what; after the last semicolon what to do.
+        certain: True if the model is not usable for it.
+        values: True if it leaves the prediction of torques of like motion untouched, and only the
+            values of parameters are in doubt.
+        explains: True if it is why the fit does not describe or foretell some torques; what is
+            usually to blame for that is then not told.
+    """
+
+    line: str
+    certain: bool = False
+    values: bool = False
+    explains: bool = False
+
+
+def negative(spec: ModuleSpec, result: FitResult) -> list[Doubt]:
+    """Values below zero that physics does not allow, whatever the other parameters are.
+
+    A base parameter cannot be negative if all its terms are parameters that cannot be, with
+    coefficients that are not: friction, rotor inertias, moments of inertia, masses.
+    """
+    possible = {parameter.name for parameter in spec.standard if parameter.nonnegative}
+    return [
+        Doubt(
+            f"{base.name} = {estimate.value:.4g} {base.unit} is negative, which physics does "
+            "not allow: a sign, a unit or the order of columns in the log may be wrong, or an "
+            "effect is missing that this parameter stands in for; let `modeler diagnose` look",
+            values=True,
+        )
+        for base, estimate in zip(spec.base, result.parameters, strict=True)
+        if estimate.sigma is not None
+        and estimate.value < -_FAR * estimate.sigma
+        and _nonnegative(base, possible)
+    ]
+
+
+def _nonnegative(base: BaseSpec, possible: set[str]) -> bool:
+    return all(term.value >= 0.0 and term.parameter in possible for term in base.terms)
+
+
+def undescribed(result: FitResult) -> list[Doubt]:
+    """Joints whose torques the model does not describe, even where it was fitted."""
+    return [
+        Doubt(
+            f"joint {joint.name}: {100.0 * joint.relative_error:.0f} % of the torque is not "
+            f"described even on the data of the fit; {_TORQUES}; `modeler diagnose` names what is "
+            "missing",
+            certain=joint.relative_error > HALF,
+            values=True,
+        )
+        for joint in result.joints
+        if joint.relative_error is not None and joint.relative_error > LITTLE
+    ]
+
+
+def systematic(result: FitResult, lasting: np.ndarray) -> list[Doubt]:
+    """Joints whose residual is so large, and so little noise, that values must carry some of it.
+
+    Args:
+        result: of the fit.
+        lasting: (n,) what of the residual is the same in the next row, rms over that of the torque.
+    """
+    large = {
+        joint.name: float(share)
+        for joint, share in zip(result.joints, lasting, strict=True)
+        if share > STRUCTURE and (joint.relative_error or 0.0) <= LITTLE  # else it is told already
+    }
+    if not large:
+        return []
+    return [
+        Doubt(
+            f"joint {', '.join(large)}: up to {100.0 * max(large.values()):.2g} % of the "
+            "torque is left and is no noise: an effect is missing, and the values of others stand "
+            "in for it; `modeler diagnose` names it",
+            values=True,
+        )
+    ]
+
+
+def scarce(result: FitResult, seen: Crossed) -> list[Doubt]:
+    """Joints whose torques the fit does not predict where it was not fitted: rows are too few."""
+    lost = [
+        (joint.name, error)
+        for joint, error in zip(result.joints, seen.errors, strict=True)
+        if joint.relative_error is not None
+        and np.isfinite(error)
+        and error > max(LITTLE, WIDE * joint.relative_error)
+    ]
+    if not lost:
+        return []
+    names = ", ".join(name for name, _ in lost)
+    much = max(error for _, error in lost)
+    miss = "all of the torque" if much >= 1.0 else f"up to {100.0 * much:.0f} % of the torque"
+    swings = f"swings of the motion ({seen.swing:.2g} s each)"
+    moved = (
+        f"the logs hold less than two {swings}"
+        if seen.stretches < 2
+        else f"of {seen.stretches} {swings}, a fit to the others misses each by {miss}"
+    )
+    return [
+        Doubt(
+            f"joint {names}: not enough data for {len(result.parameters)} parameters, or columns "
+            f"that do not belong together: {moved}; record a longer motion of all joints, at many "
+            "speeds and poses, if `modeler log` finds no column exchanged, shifted or spoilt",
+            certain=True,
+        )
+    ]
+
+
+def unshown(result: FitResult, seen: Crossed, scale: np.ndarray) -> list[Doubt]:
+    """Joints whose torques are described worse on all rows than windows of them let expect.
+
+    Relatively, and in N m too: where the windows show a faster motion, noise alone is a larger
+    share of the other torques.
+
+    Args:
+        result: of all rows.
+        seen: in the windows.
+        scale: (n,) rms torque of all rows over that of the windows.
+    """
+    found = []
+    for joint, error, torque in zip(result.joints, seen.errors, scale, strict=True):
+        own = joint.relative_error
+        if own is None or not own * min(1.0, float(torque)) > ELSEWHERE * error:
+            continue
+        found.append(
+            Doubt(
+                f"joint {joint.name}: all rows are described to {100.0 * own:.2g} %, the windows "
+                f"to {100.0 * error:.2g} %: some rows hold what the windows do not show; fit "
+                "pieces, FILE@START:END, to find them",
+                certain=True,
+            )
+        )
+    return found
+
+
+def undetermined(spec: ModuleSpec, result: FitResult, spread: np.ndarray) -> list[Doubt]:
+    """Parameters that could be anything: only their sums with others are known.
+
+    Args:
+        spec: the robot.
+        result: of the fit.
+        spread: (c,) one standard deviation of each parameter, as torque over that of the joint
+            that feels it most.
+    """
+    vague = [base.name for base, share in zip(spec.base, spread, strict=True) if share > 1.0]
+    aside = [p.name for p in result.parameters if p.sigma is None]
+    unknown, count = len({*vague, *aside}), len(result.parameters)
+    if unknown > MOST * count:
+        return [
+            Doubt(
+                f"not enough data for {count} parameters: {unknown} of them are not told by these "
+                f"logs ({_some([*aside, *vague])}); record a longer motion of all joints, at many "
+                "speeds and poses",
+                certain=True,
+            )
+        ]
+    found = []
+    if vague:
+        found.append(
+            Doubt(
+                f"{_some(vague)}: one sigma is more than the whole torque of a joint, so only sums "
+                "with other parameters are known, not the values; record poses and accelerations "
+                "that the logs lack",
+                values=True,
+            )
+        )
+    if aside:
+        found.append(
+            Doubt(
+                f"{_some(aside)}: not told by these logs and set aside; record a motion that moves "
+                "all joints over a wide range",
+                values=True,
+            )
+        )
+    return found
+
+
+def _some(names: list[str]) -> str:
+    rest = f" and {len(names) - 5} more" if len(names) > 5 else ""
+    return ", ".join(names[:5]) + rest
+
+
+# Whether logs belong together: one robot, and a load that sits on its link alike in all.
+
+
+WORSE = 2.0
+"""Ratio of what is left together to what is left alone from which on logs are not of one robot."""
+
+_TELLS = 0.02  # of a joint's torque: less is left of it together than any two machines differ
+_FAR_APART = 4.0  # standard deviations between two logs
+_WORTH = 0.1  # share of the largest first moment
+_FIRST = ("MX", "MY", "MZ")
+
+
+def not_together(
+    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+) -> list[str]:
+    """Why logs do not belong together: `mounted_differently`, or else `not_alike`."""
+    found = mounted_differently(model, observation, payloads)
+    return found or not_alike(model, observation, payloads)
+
+
+def remounted(payload: Payload) -> list[Payload]:
+    """A load for each log: the same mass, its own centre and inertia."""
+    if len(payload.logs) == 1:
+        return [payload]
+    return [
+        dataclasses.replace(payload, logs=(log,), name=f"{payload.name}{i}")
+        for i, log in enumerate(payload.logs, start=1)
+    ]
+
+
+def mounted_differently(
+    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+) -> list[str]:
+    """A line for each load whose centre of mass is not the same in all its logs.
+
+    Each of its logs gets a load of its own. Two logs disagree if a first moment MX, MY, MZ differs
+    by more than _FAR of its standard deviations and _WORTH of the largest one.
+    """
+    return [
+        line
+        for payload in payloads
+        if len(payload.logs) > 1
+        for line in _disagreement(model, observation, payload)
+    ]
+
+
+def _disagreement(model: "CompiledModel", observation: Observation, payload: Payload) -> list[str]:
+    parts = remounted(payload)
+    equations = loaded_equations(model, observation, parts).equations
+    fit = fit_equations(observation, equations, "weighted", noise_only=True)
+    found = [_moments(fit.loads, part.name) for part in parts]
+    largest = max((abs(p.value) for moments in found for p in moments.values()), default=0.0)
+    worst, line = max(_FAR_APART, 0.0), ""
+    for label in sorted(set.intersection(*(set(moments) for moments in found))):
+        a, b = (pick(found, key=lambda m: m[label].value)[label] for pick in (max, min))
+        apart = (a.value - b.value) / float(np.hypot(a.sigma or np.inf, b.sigma or np.inf))
+        if apart > worst and a.value - b.value > _WORTH * largest:
+            worst = apart
+            line = (
+                f"payload {payload.name}: the logs {', '.join(payload.logs)} disagree about where "
+                f"it sits: {label} is from {b.value:.3g} to {a.value:.3g} {a.unit}; if it was "
+                "taken off in between, give --payload-moved"
+            )
+    return [line] if line else []
+
+
+def _moments(loads: Sequence[ParameterEstimate], name: str) -> dict[str, ParameterEstimate]:
+    """First moments that the logs tell, by name without that of the load."""
+    return {
+        p.name.removesuffix(f"_{name}"): p
+        for p in loads
+        if p.name.endswith(f"_{name}") and p.sigma is not None and p.name.startswith(_FIRST)
+    }
+
+
+def not_alike(
+    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+) -> list[str]:
+    """A line if the logs are described alone, loaded ones with another last link, but not together.
+
+    Together every log has the same base parameters, loads come beside them, and every load has its
+    own mass; torques are taken as they are. The line names the joint where it shows most.
+
+    Args:
+        model: the robot.
+        observation: of all logs.
+        payloads: which of them carry what.
+    """
+    loaded = loaded_equations(model, observation, payloads)
+    weights = [f"weight {i}" for i in range(len(loaded.weighed))]
+    free = loaded.equations.with_columns(loaded.torques, weights)
+    bare, every = base_equations(observation), np.ones(len(observation.y), dtype=bool)
+    together = _left(free, every) ** 2
+    alone = np.zeros(len(together))
+    for run in range(len(observation.logs)):
+        alone += _left(bare, observation.row_run == run) ** 2
+    torque = bare.compressed(every).torque_norms()
+    felt = (torque > 0.0) & (together > (_TELLS * torque) ** 2)
+    if not felt.any():
+        return []
+    ratio = np.where(felt, together / np.maximum(alone, 1e-300), 0.0)
+    worst = int(np.argmax(ratio))
+    if ratio[worst] < WORSE**2:
+        return []
+    apart, all_of_them = (
+        100.0 * float(np.sqrt(v[worst])) / float(torque[worst]) for v in (alone, together)
+    )
+    return [
+        f"the logs {', '.join(observation.logs)} do not fit one robot: joint "
+        f"{observation.joints[worst].name} has {apart:.2g} % of its torque left if each is "
+        f"described alone, and {all_of_them:.2g} % together; are all of the same robot, is the "
+        "load on the link that is said to carry it, and does friction grow with the load?"
+    ]
+
+
+def _left(equations: Equations, rows: np.ndarray) -> np.ndarray:
+    """(n,) norm of what a weighted fit of these rows leaves of each joint, N m or N.
+
+    Raised by as much as the parameters lower it: few rows are described by many parameters.
+    """
+    count, columns = int(rows.sum()), len(equations.names)
+    if count <= columns:
+        return np.full(len(equations.observation.joints), np.inf)  # nothing to be said of so few
+    data = equations.compressed(rows)
+    return float(np.sqrt(count / (count - columns))) * data.residual_norms(least_squares(data).beta)

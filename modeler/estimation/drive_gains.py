@@ -1,0 +1,271 @@
+"""Drive gains from currents: a bare run, and a run with a load of known mass."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.core.manifest import JointSpec, ModuleSpec
+from modeler.estimation.covariance import Colour, coloured
+from modeler.estimation.doubts import not_together
+from modeler.estimation.identify import Equations, dead_joints, fit_equations
+from modeler.estimation.least_squares import Estimate
+from modeler.estimation.payload import Loaded, Payload, loaded_equations
+from modeler.estimation.result import FitResult, ParameterEstimate
+from modeler.estimation.total_least_squares import MAX_ITERATIONS, GainEstimate, mixed_tls
+from modeler.observation.log import Log
+from modeler.observation.observation import Observation
+from modeler.observation.report import LogReport
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+LOOSE = 0.1
+"""Share of a gain that its sigma may be; beyond, a maker's data sheet is as good."""
+
+_FAR = 5.0  # standard deviations of a singular value of noise
+_KNOWN = "known weight"  # its column; no parameter is called so
+_MORE = (
+    "record a motion that is livelier and moves all joints at once, bare and loaded, or a heavier "
+    "load"
+)
+
+
+@dataclass(frozen=True, eq=False)
+class GainFit:
+    """Drive gains and the fit with them.
+
+    Attributes:
+        gains: torque per drive unit, by joint, N m or N.
+        sigmas: their standard deviations.
+        result: with the torques that these gains make of the currents.
+    """
+
+    gains: Mapping[str, float]
+    sigmas: Mapping[str, float]
+    result: FitResult
+
+
+def in_drive_units(spec: ModuleSpec) -> ModuleSpec:
+    """The manifest to read logs with before gains are known: 1 where the robot file states none."""
+    joints = tuple(
+        dataclasses.replace(joint, drive_gain=1.0) if joint.drive_gain is None else joint
+        for joint in spec.joints
+    )
+    return dataclasses.replace(spec, joints=joints)
+
+
+def check_currents(logs: Sequence[Log], joints: Sequence[JointSpec]) -> None:
+    """Nothing, if every motor's current is logged.
+
+    Raises:
+        DataError: a log gives a torque instead; names it.
+    """
+    for log in logs:
+        for joint, source in zip(joints, log.torque_source, strict=True):
+            if joint.actuated and not source.startswith("current"):
+                raise DataError(
+                    f"{log.name}: got {source}, a torque; --method tls finds the gain of each "
+                    f"drive and expects its current in drive units; log current{joint.name}, or "
+                    "use another --method"
+                )
+
+
+def are_currents(logs: Sequence[Log | LogReport]) -> bool:
+    """True if no torque of the logs was measured as a torque."""
+    return not any(source.startswith("tau") for log in logs for source in log.torque_source)
+
+
+def identify_gains(
+    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+) -> GainFit:
+    """One gain for each drive, base parameters and loads: g_j V = W beta + W_L chi_L.
+
+    V are the currents, W_L the columns of the loads, the weighed mass among chi_L known (Briot and
+    Gautier 2012, section 3; see `estimate.tls`). Sigmas are those of gains and parameters together,
+    raised for residuals that remember; the error of the scale, which the load's mass sets, is not
+    in them.
+
+    Args:
+        model: the robot, read with gains that are taken for starts: `in_drive_units`.
+        observation: of bare and loaded logs of currents, times these gains.
+        payloads: at least one of known mass.
+
+    Raises:
+        DataError: no load of known mass, a current that is 0 throughout, or logs that do not tell
+            the gains; says by which figure.
+    """
+    loaded = loaded_equations(model, observation, payloads)
+    _check_known(observation, loaded)
+    estimate = _estimate(observation, loaded)
+    scaled = dataclasses.replace(observation, torque=observation.torque * estimate.gains)
+    equations = dataclasses.replace(loaded.equations, y=scaled.y - loaded.torques.sum(axis=1))
+    fit = fit_equations(scaled, equations, "weighted")
+    colour = _colour(scaled, equations, estimate)
+    try:
+        _check_told(observation, estimate, colour)
+    except DataError as error:
+        why = not_together(model, observation, payloads)
+        raise DataError("; ".join([str(error), *why])) from None
+    return _result(model.spec, fit, estimate, colour, loaded)
+
+
+def _check_known(observation: Observation, loaded: Loaded) -> None:
+    if not loaded.weighed:
+        raise DataError(
+            "--method tls: no load of known mass, and without one all gains and all parameters may "
+            "be larger by one factor; weigh the load of the --payload-log and give --payload-mass"
+        )
+    dead = dead_joints(observation)
+    if dead:
+        names = ", ".join(observation.joints[j].name for j in dead)
+        raise DataError(
+            f"joint {names}: the current is 0 in every row, so no gain can be found; is it "
+            "connected? if the joint has no motor, mark it passive in the robot file (mu = 0)"
+        )
+
+
+def _estimate(observation: Observation, loaded: Loaded) -> GainEstimate:
+    equations = loaded.equations.with_columns(loaded.torques.sum(axis=1), [_KNOWN])
+    rows, columns = len(observation.y), len(equations.names)
+    if rows < columns + len(observation.joints):
+        raise DataError(
+            f"{', '.join(observation.logs)}: {rows} rows for {columns} parameters "
+            f"and {len(observation.joints)} gains; record more motion"
+        )
+    data = equations.compressed(np.ones(rows, dtype=bool))
+    estimate = mixed_tls(data, known=columns - 1)
+    if estimate is None:
+        raise DataError(
+            "--method tls: the weight of the known load cannot be told from the robot's own "
+            "parameters, or from the load's inertia, in these logs, so nothing sets the scale of "
+            f"the gains; {_MORE}"
+        )
+    if not np.isfinite(estimate.covariance).all():
+        raise DataError(
+            f"--method tls: the gain of joint {_blamed(observation, estimate)} has a sigma without "
+            f"bound, as where it rests; {_MORE}"
+        )
+    return estimate
+
+
+def _colour(observation: Observation, equations: Equations, estimate: GainEstimate) -> Colour:
+    """What memory of the residuals does to the sigmas of gains and parameters."""
+    driven = [j for j, joint in enumerate(observation.joints) if joint.actuated]
+    predicted = observation.y - equations.y + equations.W @ estimate.beta[:-1]
+    own = observation.row_joint[:, None] == np.array(driven)
+    J = np.column_stack([own * (-predicted / estimate.gains[observation.row_joint])[:, None],
+                         equations.W])  # fmt: skip
+    values = np.concatenate([estimate.gains[driven], estimate.beta[:-1]])
+    residual = equations.y - equations.W @ estimate.beta[:-1]
+    white = Estimate(
+        values, estimate.covariance[:-1, :-1], estimate.sigma, estimate.rank,
+        0, estimate.settled, 0.0, 0.0, 0,
+    )  # fmt: skip
+    every = np.ones(len(residual), dtype=bool)
+    return coloured(observation, J, residual + J @ values, every, white)
+
+
+def _check_told(observation: Observation, estimate: GainEstimate, colour: Colour) -> None:
+    """Refuse gains that the logs do not tell apart.
+
+    Raises:
+        DataError: no gap between the last two singular values, or a sigma that is too large.
+    """
+    driven = [j for j, joint in enumerate(observation.joints) if joint.actuated]
+    d = len(driven)
+    sigma = colour.factors[:d] * np.sqrt(np.diag(estimate.covariance)[:d])
+    share = sigma / np.abs(estimate.gains[driven])
+    rows = np.bincount(observation.row_joint, minlength=len(observation.joints))[driven]
+    noise = 1.0 + _FAR * float(colour.factors[:d].max()) * float(np.sqrt(2.0 / rows.min()))
+    if estimate.gap**2 < noise:
+        names = _blamed(observation, estimate)
+        raise DataError(
+            f"--method tls: no gap between the singular values that tell the drive gains: the last "
+            f"two are {_listed(estimate.singular[-2:])}, s[-2]/s[-1] = {estimate.gap:.4g}, and "
+            f"noise alone makes up to {noise**0.5:.4g}; least told: joint {names}; {_MORE}"
+        )
+    if not np.all(share <= LOOSE):
+        worst = int(np.argmax(np.where(np.isnan(share), np.inf, share)))
+        raise DataError(
+            f"--method tls: the gain of joint {observation.joints[driven[worst]].name} has a sigma "
+            f"of {100.0 * share[worst]:.3g} %, no better than a data sheet; expected at most "
+            f"{100.0 * LOOSE:.0f} % (s[-2]/s[-1] = {estimate.gap:.4g}); {_MORE}"
+        )
+
+
+def _blamed(observation: Observation, estimate: GainEstimate) -> str:
+    order = np.argsort(-estimate.vague)
+    kept = [j for j in order if estimate.vague[j] > 0.5 * estimate.vague[order[0]]]
+    return ", ".join(observation.joints[j].name for j in kept[:3])
+
+
+def _listed(values: np.ndarray) -> str:
+    return ", ".join(f"{value:.4g}" for value in values)
+
+
+def _result(
+    spec: ModuleSpec, fit: FitResult, estimate: GainEstimate, colour: Colour, loaded: Loaded
+) -> GainFit:
+    driven = [j for j, joint in enumerate(spec.joints) if joint.actuated]
+    d, c = len(driven), len(fit.parameters)
+    covariance = estimate.covariance[:-1, :-1] * np.outer(colour.factors, colour.factors)
+    sigma = np.sqrt(np.diag(covariance))
+    gains = tuple(
+        _gain(spec.joints[j], float(estimate.gains[j]), float(s))
+        for j, s in zip(driven, sigma[:d], strict=True)
+    )
+    values = [
+        p if p.sigma is None else dataclasses.replace(p, sigma=float(s))
+        for p, s in zip((*fit.parameters, *fit.loads), sigma[d:], strict=True)
+    ]
+    result = dataclasses.replace(
+        fit,
+        method="tls",
+        status=fit.status if estimate.settled else "not settled",
+        parameters=tuple(values[:c]),
+        loads=tuple(values[c:]),
+        covariance=covariance[d : d + c, d : d + c],
+        gains=gains,
+        singular_values=tuple(map(float, estimate.singular)),
+        sentences=(*fit.sentences, *_sentences(estimate, loaded)),
+    )
+    names = [spec.joints[j].name for j in driven]
+    return GainFit(
+        {name: gain.value for name, gain in zip(names, gains, strict=True)},
+        {name: gain.sigma or 0.0 for name, gain in zip(names, gains, strict=True)},
+        result,
+    )
+
+
+def _gain(joint: JointSpec, ratio: float, sigma: float) -> ParameterEstimate:
+    """The gain that is `ratio` times the one with which the log was read."""
+    start = 1.0 if joint.drive_gain is None else joint.drive_gain
+    return ParameterEstimate(
+        name=f"g_tau{joint.name}",
+        unit=f"{joint.effort_unit}/unit",
+        value=start * ratio,
+        sigma=abs(start) * sigma,
+        essential=True,
+        status="estimated",
+    )
+
+
+def _sentences(estimate: GainEstimate, loaded: Loaded) -> list[str]:
+    masses = ", ".join(f"{payload.mass:g} kg" for payload in loaded.weighed)
+    said = [
+        f"the known load ({masses}) sets the scale: 1 % of its mass is 1 % of every drive gain and "
+        "every parameter, beyond the sigmas"
+    ]
+    if len(estimate.singular) > 1:
+        gap = f"{estimate.gap:.4g}" if np.isfinite(estimate.gap) else "infinite"
+        said.append(
+            f"singular values of the currents beside the model: {_listed(estimate.singular)} "
+            f"(noise has 1); gap s[-2]/s[-1] = {gap}"
+        )
+    if not estimate.settled:
+        said.append(f"gains and weights still change after {MAX_ITERATIONS} iterations")
+    return said

@@ -1,0 +1,256 @@
+"""The reduced model: the essential parameters with values of their own, the others left out."""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.special import fdtri
+
+from modeler.core.brief import Brief
+from modeler.core.errors import DataError, Method
+from modeler.estimation.least_squares import Estimate, least_squares, solve_by_qr
+from modeler.estimation.parameter import ParameterEstimate, read_parameter
+from modeler.numerics.least_squares import Compressed, triangle
+
+# Essential parameters: the others may be left out and no F-test notices.
+
+
+LEVEL = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class Essential:
+    """The reduced model.
+
+    Attributes:
+        names: essential parameters, in column order.
+        dropped: the others that were kept by the rank, in the order of leaving.
+        beta: (c,) values with the dropped ones at 0.
+        error_before: relative error ||y - W beta|| / ||y|| with all parameters.
+        error_after: with the essential ones.
+        ratio: F statistic of all dropped parameters together.
+        limit: the F quantile, which rules unless sigmas do.
+        reduced: the estimate of the essential parameters alone, columns as `names`.
+    """
+
+    names: tuple[str, ...]
+    dropped: tuple[str, ...]
+    beta: np.ndarray
+    error_before: float
+    error_after: float
+    ratio: float
+    limit: float
+    reduced: Estimate
+
+    def sentence(self) -> str:
+        """What was found."""
+        if not self.dropped:
+            return f"all {len(self.names)} parameters are essential"
+        return (
+            f"{len(self.names)} of {len(self.names) + len(self.dropped)} parameters are "
+            f"essential; leaving the others out changes the relative error from "
+            f"{100.0 * self.error_before:.4g} % to {100.0 * self.error_after:.4g} %"
+        )
+
+    def judged_on(self, data: Compressed, full: np.ndarray) -> "Essential":
+        """The same, with the errors that these and all parameters (c,) leave of other rows."""
+        return dataclasses.replace(
+            self,
+            error_before=relative_error(data, full),
+            error_after=relative_error(data, self.beta),
+        )
+
+
+def essential_parameters(
+    data: Compressed, full: Estimate, method: Method, below: float | None = None
+) -> Essential:
+    """The essential parameters.
+
+    The parameter of the largest relative standard deviation leaves, one after the other, as long
+    as F = ((S_r - S) / k) / (S / (rows - c)) stays below the 95 % quantile of F(k, rows - c): S
+    and S_r are the weighted sums of squares of the full model and without k parameters, with the
+    weights of the full model (Gautier and Khalil 1991; Janot, Vandanjon and Gautier 2014). Then
+    each of those left out comes back for another, as long as fewer parameters, or as many with a
+    smaller S_r, are found so. An estimator that is the least squares of equations of its own is
+    reduced in these.
+
+    Args:
+        data: compressed rows.
+        full: the estimate with all parameters.
+        method: how the reduced model is estimated at the end.
+        below: percent; given, a parameter leaves where its relative standard deviation, in the
+            model that it leaves, is not below this, whatever F says (Guegan, Khalil and Lemoine
+            2003: 15).
+
+    Raises:
+        DataError: `below` is no positive number.
+    """
+    if below is not None and not 0.0 < below < np.inf:
+        raise DataError(
+            f"essential parameters: got sigmas below {below:g} %; expected a number above 0, as 15"
+        )
+    whole = data.whole(full.sigma) if full.whole is None else full.whole
+    kept, dropped, ratio, limit = _eliminate(triangle(whole), full, below)
+    left = tuple(data.names[i] for i in dropped)
+    aside = [tangle.name for tangle in full.rank.aside]
+    own = data.without([*left, *aside])
+    reduced = least_squares(own, "ordinary" if method == "ordinary" else "weighted")
+    if kept and method not in ("weighted", "ordinary"):
+        values, root = solve_by_qr(whole[:, kept], whole[:, -1])
+        reduced = dataclasses.replace(reduced, beta=values, covariance=root @ root.T)
+    beta = np.zeros(len(data.names))
+    beta[kept] = reduced.beta
+    return Essential(
+        names=tuple(data.names[i] for i in kept),
+        dropped=left,
+        beta=beta,
+        error_before=relative_error(data, full.beta),
+        error_after=relative_error(data, beta),
+        ratio=float(ratio),
+        limit=limit,
+        reduced=reduced,
+    )
+
+
+def relative_error(data: Compressed, beta: np.ndarray) -> float:
+    """||y - W beta|| / ||y|| over all rows, unweighted."""
+    total = np.linalg.norm(data.torque_norms())
+    return float(np.linalg.norm(data.residual_norms(beta)) / total) if total > 0.0 else np.nan
+
+
+def _eliminate(
+    whole: np.ndarray, full: Estimate, below: float | None
+) -> tuple[list[int], list[int], float, float]:
+    """Columns kept, columns dropped in the order of leaving, their F statistic and its limit."""
+    every = list(full.rank.kept)
+    reference = _squares(whole, every)
+    noise = max(reference / full.degrees, np.finfo(float).tiny)
+
+    def tested(kept: list[int]) -> tuple[float, float]:
+        count = len(every) - len(kept)
+        ratio = (_squares(whole, kept) - reference) / max(count, 1) / noise
+        return ratio, float(fdtri(count, full.degrees, 1.0 - LEVEL)) if count else np.inf
+
+    def fewer(kept: list[int], dropped: list[int], stays: int = -1) -> tuple[list[int], list[int]]:
+        """Without the weakest, one after the other; the first of them is not `stays`."""
+        while len(kept) > 1:
+            weakest, share = _weakest(whole, kept, stays)
+            rest = [i for i in kept if i != weakest]
+            ratio, limit = tested(rest)
+            if not (ratio < limit if below is None else 100.0 * np.sqrt(noise) * share >= below):
+                break
+            kept, dropped, stays = rest, [*dropped, weakest], -1
+        return kept, dropped
+
+    found, best = None, fewer(every, [])
+    while found is not best:
+        found = best
+        kept, dropped = found
+        back = [
+            fewer(sorted([*kept, i]), [other for other in dropped if other != i], i)
+            for i in dropped
+        ]
+        best = min([found, *back], key=lambda sets: (len(sets[0]), _squares(whole, sets[0])))
+    return *found, *tested(found[0])
+
+
+def _squares(whole: np.ndarray, kept: list[int]) -> float:
+    reduced = triangle(whole[:, [*kept, whole.shape[1] - 1]])
+    return float(np.sum(reduced[len(kept) :, -1] ** 2))
+
+
+def _weakest(whole: np.ndarray, kept: list[int], stays: int) -> tuple[int, float]:
+    """Column, but `stays`, with the largest sigma / |beta|, in units of the noise, and that.
+
+    A value of exactly 0 is the weakest of all.
+    """
+    beta, root = solve_by_qr(whole[:, kept], whole[:, -1])
+    sigma = np.linalg.norm(root, axis=1)
+    with np.errstate(divide="ignore"):
+        share = np.where(np.array(kept) == stays, 0.0, sigma / np.abs(beta))
+    return kept[int(np.argmax(share))], float(share.max())
+
+
+@dataclass(frozen=True)
+class Reduced(Brief):
+    """The essential parameters, estimated anew without the others (Gautier and Khalil 1991).
+
+    Attributes:
+        parameters: essential ones, in column order; sigma holds if those left out are 0.
+        dropped: names of those left out, in the order of leaving.
+        condition_number: of W with their columns only.
+        condition_scaled: with columns of length one.
+        relative_error: ||y - W beta|| / ||y||, with the same filter on both sides.
+        ratio: F statistic of all that were left out together.
+        limit: the F quantile, which rules unless sigmas do; None if nothing was left out.
+    """
+
+    parameters: tuple[ParameterEstimate, ...]
+    dropped: tuple[str, ...]
+    condition_number: float
+    condition_scaled: float
+    relative_error: float
+    ratio: float
+    limit: float | None
+
+    def lines(self) -> list[str]:
+        """Lines of text; none if nothing was left out. Its values stand beside those of all."""
+        if not self.dropped:
+            return []
+        count = len(self.parameters)
+        return [
+            f"reduced model: {count} essential of {count + len(self.dropped)} parameters, "
+            f"estimated anew; condition number {self.condition_number:.4g} "
+            f"({self.condition_scaled:.4g} with columns of length one), relative error "
+            f"{100.0 * self.relative_error:.3f} %"
+        ]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        parameters = [parameter.to_json() for parameter in self.parameters]
+        return vars(self) | {"parameters": parameters, "dropped": list(self.dropped)}
+
+
+def reduced_from_json(raw: Mapping[str, Any] | None) -> Reduced | None:
+    """Read `Reduced.to_json` back; None where a file of an earlier version has none."""
+    if raw is None:
+        return None
+    return Reduced(
+        parameters=tuple(read_parameter(entry) for entry in raw["parameters"]),
+        dropped=tuple(raw["dropped"]),
+        condition_number=float(raw["condition_number"]),
+        condition_scaled=float(raw["condition_scaled"]),
+        relative_error=float(raw["relative_error"]),
+        ratio=float(raw["ratio"]),
+        limit=None if raw["limit"] is None else float(raw["limit"]),
+    )
+
+
+def reduced_model(
+    essential: Essential, factors: np.ndarray, units: Mapping[str, str]
+) -> Reduced | None:
+    """The reduced model of a fit; None if no parameter is left.
+
+    Args:
+        essential: which are, what leaving out the others costs, and the estimate of them alone.
+        factors: (essential,) on its standard deviations, where residuals repeat each other.
+        units: by name.
+    """
+    reduced = essential.reduced
+    if not np.isfinite(reduced.condition_number):
+        return None
+    sigma = factors * np.sqrt(np.diag(reduced.covariance))
+    return Reduced(
+        parameters=tuple(
+            ParameterEstimate(name, units[name], float(value), float(deviation), True, "estimated")
+            for name, value, deviation in zip(essential.names, reduced.beta, sigma, strict=True)
+        ),
+        dropped=essential.dropped,
+        condition_number=reduced.condition_number,
+        condition_scaled=reduced.condition_scaled,
+        relative_error=essential.error_after,
+        ratio=essential.ratio,
+        limit=essential.limit if essential.dropped else None,
+    )

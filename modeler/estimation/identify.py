@@ -1,0 +1,442 @@
+"""From an observation to a fitted model."""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from modeler.core.errors import DataError, Method
+from modeler.estimation.covariance import Colour, coloured
+from modeler.estimation.essential import Essential, essential_parameters, reduced_model
+from modeler.estimation.halves import Halves, halves
+from modeler.estimation.least_squares import MAX_ITERATIONS, Estimate, least_sigma
+from modeler.estimation.methods import method_of
+from modeler.estimation.parameter import estimates
+from modeler.estimation.problem import Neighbours, Problem, compressed, residual_of
+from modeler.estimation.result import FitResult, JointFit
+from modeler.numerics.least_squares import Compressed, compress
+from modeler.observation.observation import Observation
+from modeler.observation.reduce import is_streamed
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+
+@dataclass(frozen=True, eq=False)
+class Equations:
+    """y = W beta, row for row those of an observation; first the base parameters, then loads.
+
+    Attributes:
+        observation: whose W stands first.
+        extra: (rows, loads) further columns.
+        y: (rows,) N m or N.
+        names: (c + loads,) of the columns.
+        units: (c + loads,) of the parameters.
+        sentences: what a reader of the fit must know of them.
+        carried: names of the logs with a load.
+    """
+
+    observation: Observation
+    extra: np.ndarray
+    y: np.ndarray
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    sentences: tuple[str, ...] = ()
+    carried: tuple[str, ...] = ()
+
+    @cached_property
+    def W(self) -> np.ndarray:
+        """(rows, c + loads)."""
+        W = self.observation.W
+        return np.column_stack([W, self.extra]) if self.extra.shape[1] else W
+
+    @property
+    def kept(self) -> np.ndarray | None:
+        """W; None where it is large and the base parameters' alone: then rows are to pass by."""
+        return None if not self.carried and is_streamed(self.observation) else self.W
+
+    def conditions(self, counted: np.ndarray) -> dict[str, np.ndarray]:
+        """(rows,) True for the counted ones, "bare" and "loaded"; empty if no log has a load."""
+        if not self.carried:
+            return {}
+        logs = np.array(self.observation.logs)
+        loaded = np.isin(logs, self.carried)[self.observation.row_run]
+        return {"bare": counted & ~loaded, "loaded": counted & loaded}
+
+    def with_columns(self, columns: np.ndarray, names: Sequence[str]) -> "Equations":
+        """The same with further columns (rows, k), and the torques as they were measured."""
+        return dataclasses.replace(
+            self,
+            extra=np.column_stack([self.extra, columns]),
+            y=self.observation.y,
+            names=(*self.names, *names),
+            units=(*self.units, *("1" for _ in names)),
+        )
+
+    def compressed(self, counted: np.ndarray) -> Compressed:
+        """Some rows, compressed."""
+        joints = self.observation.joints
+        free = [j for j, joint in enumerate(joints) if not joint.actuated]
+        if (W := self.kept) is None:
+            return compressed(self.observation, counted, free)
+        own = self.observation.row_joint[counted]
+        return compress(W[counted], self.y[counted], own, len(joints), self.names, free)
+
+    def residual(self, beta: np.ndarray, counted: np.ndarray) -> np.ndarray:
+        """y - W beta of some rows."""
+        if (W := self.kept) is None:
+            return residual_of(self.observation, beta, counted)
+        return np.asarray(self.y[counted] - W[counted] @ beta)
+
+
+def identify(
+    observation: Observation,
+    method: Method = "weighted",
+    model: "CompiledModel | None" = None,
+    below: float | None = None,
+) -> FitResult:
+    """The fit of the base parameters to an observation.
+
+    Parameters that the data cannot tell are set aside by name; the essential ones are marked.
+
+    Args:
+        observation: of one or several logs.
+        method: the estimator, see `estimate.methods`.
+        model: the compiled robot, for estimators that simulate it or know its nominal values.
+        below: percent, of the rule by sigmas for what is essential; see `essential_parameters`.
+
+    Raises:
+        DataError: fewer rows than parameters, no torque at all, no such method, or one that these
+            logs or this robot give nothing to work on.
+    """
+    return fit_equations(observation, base_equations(observation), method, model, below)
+
+
+def base_equations(observation: Observation) -> Equations:
+    """The equations of the bare robot."""
+    none = np.zeros((len(observation.y), 0))
+    return Equations(observation, none, observation.y, observation.names, observation.units)
+
+
+def fit_equations(
+    observation: Observation,
+    equations: Equations,
+    method: Method,
+    model: "CompiledModel | None" = None,
+    below: float | None = None,
+    noise_only: bool = False,
+    data: Compressed | None = None,
+    share: float = 1.0,
+) -> FitResult:
+    """The fit of y = W beta; equations row for row those of the observation, else as `identify`.
+
+    Sigmas of noise only leave out what halves of the motion disagree about: for tests of it.
+
+    Of long logs the data are all rows, and the observation's are windows, that share of them: how
+    far residuals remember, what halves disagree about, and by what factors that raises the sigmas,
+    comes from the windows.
+    """
+    estimator, windows = method_of(method), data is not None
+    dead, alive = dead_joints(observation), alive_rows(observation)
+    data = data or equations.compressed(alive)
+    check_enough_rows(observation, len(equations.names), int(data.rows.sum()))
+    problem = Problem(
+        observation, equations.kept, equations.y, alive, equations.names, equations.units, data,
+        model,
+    )  # fmt: skip
+    estimate = estimator.estimate(problem)
+    rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
+    essential = essential_parameters(data, estimate, method, below)
+    colour = _coloured(problem, rows, estimate, share)
+    white = np.sqrt(np.diag(estimate.covariance))
+    differ = Halves(np.ones(len(white)))
+    if not noise_only:
+        lasting = np.zeros(len(observation.joints)) if windows else colour.lasting
+        differ = halves(  # windows tell a difference by so much less surely than all rows
+            observation, equations.compressed, alive, estimate,
+            colour.factors * white / share**0.5, lasting, equations.conditions(alive).get("loaded"),
+        )  # fmt: skip
+    raised = np.sqrt(1.0 + (differ.factors**2 - 1.0) / share)
+    factors = colour.factors * raised
+    at = [equations.names.index(name) for name in essential.names]
+    alone = _coloured(problem, rows, essential.reduced, share, at).factors
+    return result_of(
+        equations, method,
+        dataclasses.replace(estimate, covariance=estimate.covariance * np.outer(factors, factors)),
+        essential,
+        rows=int(data.rows.sum()),
+        joints=joints_of(observation, data, estimate.beta, estimate.sigma),
+        sentences=(*equations.sentences, *dead_sentences(observation, dead), *estimate.sentences,
+                   *sentences_of(estimate, essential), *colour.sentences(),
+                   *differ.sentences(equations.names, [j.name for j in observation.joints])),
+        reduced=raised[at] * alone,
+        standard=estimate.standard,
+        own=estimate.sentences,
+        by_load={
+            name: joints_of(observation, equations.compressed(own), estimate.beta, estimate.sigma)
+            for name, own in equations.conditions(alive).items()
+        },
+    )  # fmt: skip
+
+
+def _coloured(
+    problem: Problem,
+    rows: np.ndarray | Neighbours,
+    estimate: Estimate,
+    share: float,
+    at: Sequence[int] | None = None,
+) -> Colour:
+    """The colour that a share of the rows shows; the estimate, of columns `at`, is of all of them.
+
+    The covariance of that share alone is larger by its inverse, and so is the pull of its rows.
+    """
+    if share < 1.0:
+        pull = None if estimate.influence is None else estimate.influence.times(1.0 / share)
+        covariance = estimate.covariance / share
+        estimate = dataclasses.replace(estimate, covariance=covariance, influence=pull)
+    W = rows if at is None or isinstance(rows, Neighbours) else rows[:, at]
+    return coloured(problem.observation, W, problem.y, problem.counted, estimate, at)
+
+
+def result_of(
+    equations: Equations,
+    method: str,
+    estimate: Estimate,
+    essential: Essential,
+    rows: int,
+    joints: tuple[JointFit, ...],
+    sentences: tuple[str, ...],
+    reduced: np.ndarray | None = None,
+    **further: Any,
+) -> FitResult:
+    """The result that an estimate makes.
+
+    Args:
+        equations: that were fitted.
+        method: id.
+        estimate: its solution, the covariance raised where residuals repeat each other.
+        essential: of its parameters.
+        rows: that were fitted.
+        joints: what is left of each.
+        sentences: what a reader must know.
+        reduced: (essential,) factors on the sigmas of the reduced model; None: it has none.
+        **further: fields of the result.
+    """
+    observation, count = equations.observation, len(equations.observation.names)
+    labels = list(zip(equations.names, equations.units, strict=True))
+    sigma = np.sqrt(np.diag(estimate.covariance))
+    every = estimates(labels, estimate.beta, sigma, estimate.rank.kept, essential.names)
+    return FitResult(
+        robot=observation.robot,
+        method=method,
+        status=status_of(estimate),
+        samples=len(observation.time),
+        rows=rows,
+        condition_number=estimate.condition_number,
+        condition_scaled=estimate.condition_scaled,
+        relative_error=essential.error_before,
+        essential_error=essential.error_after,
+        joints=joints,
+        parameters=every[:count],
+        covariance=estimate.covariance[:count, :count],
+        loads=every[count:],
+        sentences=sentences,
+        processing=observation.report.processing,
+        essential=None if reduced is None else reduced_model(essential, reduced, dict(labels)),
+        **further,
+    )
+
+
+def all_rows(observation: Observation) -> Compressed:
+    """The equations of the bare robot on all joints whose torque is connected."""
+    return base_equations(observation).compressed(alive_rows(observation))
+
+
+def alive_rows(observation: Observation) -> np.ndarray:
+    """(rows,) True for those of joints whose torque is connected, see `dead_joints`."""
+    return ~np.isin(observation.row_joint, dead_joints(observation))
+
+
+def dead_joints(observation: Observation) -> list[int]:
+    """Indices of the joints that have a motor and a torque of 0 in all their rows.
+
+    0 = W_j beta from a channel that is not connected would pull all of beta to 0.
+
+    Raises:
+        DataError: no joint has a torque.
+    """
+    driven = [j for j, joint in enumerate(observation.joints) if joint.actuated]
+    seen = [j for j in driven if observation.used[:, j].any()]
+    dead = [j for j in seen if not observation.torque[observation.used[:, j], j].any()]
+    if len(dead) == len(seen):
+        raise DataError(
+            f"{', '.join(observation.logs)}: the torque of every joint with a motor is 0 in all "
+            "rows that are used; expected joint torques; check the recording, or take another part"
+        )
+    return dead
+
+
+def dead_sentences(observation: Observation, dead: Sequence[int]) -> list[str]:
+    """A line on each joint whose torque is not connected."""
+    return [
+        f"joint {observation.joints[j].name}: its torque is 0 in every row, so none of them is "
+        "used; is it connected? if it has no motor, mark it passive in the robot file (mu = 0)"
+        for j in dead
+    ]
+
+
+def check_enough_rows(observation: Observation, columns: int, rows: int) -> None:
+    """Refuse fewer rows than parameters.
+
+    Raises:
+        DataError: there are.
+    """
+    if rows < columns:
+        raise DataError(
+            f"{', '.join(observation.logs)}: {rows} rows for {columns} parameters; record "
+            "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
+        )
+
+
+def joints_of(
+    observation: Observation,
+    data: Compressed,
+    beta: np.ndarray,
+    sigma: np.ndarray | None = None,
+) -> tuple[JointFit, ...]:
+    """What is left of each joint; without a `sigma` (n,) of its rows, that is it."""
+    residual, torque = data.residual_norms(beta), data.torque_norms()
+    if sigma is None:
+        sigma = np.maximum(residual / np.sqrt(np.maximum(data.rows, 1)), least_sigma(data))
+    return tuple(
+        JointFit(
+            name=joint.name,
+            unit=joint.effort_unit,
+            rows=int(data.rows[j]),
+            relative_error=float(residual[j] / torque[j]) if torque[j] > 0.0 else None,
+            rms=float(residual[j] / np.sqrt(max(1, data.rows[j]))),
+            sigma=float(sigma[j]),
+        )
+        for j, joint in enumerate(observation.joints)
+    )
+
+
+def status_of(estimate: Estimate) -> str:
+    """In a word."""
+    if estimate.rank.aside:
+        return "rank deficient"
+    return "ok" if estimate.settled else "not settled"
+
+
+def sentences_of(estimate: Estimate, essential: Essential) -> list[str]:
+    """What a reader must know of an estimate."""
+    said = [tangle.sentence() for tangle in estimate.rank.aside]
+    if not estimate.settled and estimate.iterations >= MAX_ITERATIONS:
+        said.append(
+            f"the joint weights still change after {MAX_ITERATIONS} iterations; "
+            'record more rows, or use method "ordinary"'
+        )
+    return [*said, essential.sentence()]
+
+
+# Does the fit predict motion like that of its logs? What was left out answers.
+
+
+FOLDS = 8
+
+_SEEN = 1e-8  # pivot of a scaled column below which a fold does not see a direction
+
+
+@dataclass(frozen=True, eq=False)
+class Crossed:
+    """Errors of the fit on stretches that it was not fitted to.
+
+    Attributes:
+        errors: (n,) ||y_j - W_j beta|| / ||y_j||, each stretch predicted from the others; nan for
+            a joint without rows or torque.
+        swing: s, half a period of the mean motion: the length of a stretch.
+        stretches: that many.
+        residual: (rows,) y - W beta, each row predicted from other stretches; 0 for those left out.
+    """
+
+    errors: np.ndarray
+    swing: float
+    stretches: int
+    residual: np.ndarray = field(default_factory=lambda: np.zeros(0))
+
+    def on(self, equations: Equations, rows: np.ndarray) -> np.ndarray:
+        """(n,) the errors on some of the rows."""
+        joint, count = equations.observation.row_joint[rows], len(equations.observation.joints)
+        left = np.bincount(joint, self.residual[rows] ** 2, count)
+        total = np.bincount(joint, equations.y[rows] ** 2, count)
+        return np.sqrt(np.where(total > 0.0, left / np.where(total > 0.0, total, 1.0), np.nan))
+
+
+def crossed(
+    equations: Equations,
+    rows: np.ndarray,
+    sigma: np.ndarray,
+    refit: Callable[[np.ndarray], np.ndarray] | None = None,
+) -> Crossed:
+    """Cross-validation over stretches of half a swing.
+
+    A stretch is as long as the motion needs to turn round, pi rms(qd) / rms(qdd), the median over
+    joints: neighbouring samples are alike, and would answer for each other. Every eighth stretch
+    is held out together, so that the motions of a log stand in all parts.
+
+    Args:
+        equations: of all logs, with the columns of loads.
+        rows: (rows,) True for those to use.
+        sigma: (n,) standard deviation of a row of each joint.
+        refit: beta without the samples (s,) that are held out; None: least squares of the
+            other rows.
+    """
+    observation = equations.observation
+    swing = _swing(observation)
+    number = _stretches(observation, swing)
+    seen = np.unique(number[observation.row_sample[rows]])
+    fold = np.searchsorted(seen, number[observation.row_sample]) % FOLDS
+    folds = [rows & (fold == k) for k in range(min(FOLDS, len(seen)))]
+    parts = [equations.compressed(own).whole(sigma) for own in folds]
+    residual = np.zeros(len(equations.y))
+    for k, own in enumerate(folds):
+        if refit is None:
+            beta = solved(np.vstack([parts[0][:0], *parts[:k], *parts[k + 1 :]]))
+        else:
+            beta = refit(np.searchsorted(seen, number) % FOLDS == k)
+        residual[own] = equations.residual(beta, own)
+    found = Crossed(np.full(len(sigma), np.nan), swing, len(seen), residual)
+    return replace(found, errors=found.on(equations, rows))
+
+
+def _swing(observation: Observation) -> float:
+    """s; that of the joints that move."""
+    speed, acceleration = (
+        np.sqrt(np.mean(values**2, axis=0)) for values in (observation.qd, observation.qdd)
+    )
+    moving = (speed > 1e-6 * speed.max(initial=0.0)) & (acceleration > 0.0)
+    return float(np.median(np.pi * speed[moving] / acceleration[moving])) if moving.any() else 0.0
+
+
+def _stretches(observation: Observation, swing: float) -> np.ndarray:
+    """(s,) number of the stretch of each sample, ascending over the logs."""
+    number, first = np.zeros(len(observation.time), dtype=int), 0
+    for run in range(len(observation.logs)):
+        own = observation.run == run
+        if not own.any():
+            continue
+        since = observation.time[own] - observation.time[own].min()
+        number[own] = first + (np.floor(since / swing).astype(int) if swing > 0.0 else 0)
+        first = int(number[own].max()) + 1
+    return number
+
+
+def solved(whole: np.ndarray) -> np.ndarray:
+    """(c,) least squares of a triangle [W y]; 0 along directions that it does not see."""
+    W, y = whole[:, :-1], whole[:, -1]
+    length = np.linalg.norm(W, axis=0)
+    length[length == 0.0] = 1.0
+    return np.asarray(np.linalg.lstsq(W / length, y, rcond=_SEEN)[0] / length)

@@ -1,0 +1,328 @@
+"""Estimators along a motion that was not measured: commanded (iv), simulated (iv-direct, didim)."""
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.estimation.direct_model import DirectModel, Loop, Motion
+from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
+from modeler.estimation.problem import Problem
+from modeler.numerics.least_squares import compress, independent_columns, triangle
+
+# Instrumental variables: what the noise of the measured motion cannot bias.
+
+
+_ITERATIONS = 200
+_SETTLED = 1e-9  # relative change of the weights
+_BLIND = 1e-6  # smallest singular value of Qz^T Qw at which instruments tell nothing of a column
+_WEAK = 0.3  # and at which they tell so little that it is said
+
+
+@dataclass(frozen=True, eq=False)
+class _Solved:
+    """beta = P S^-1/2 y, k columns kept."""
+
+    beta: np.ndarray
+    P: np.ndarray  # (k, rows)
+    cosine: float  # between the spaces of W and of the instruments, the smallest
+    worst: int  # the column that they carry least of
+    whole: np.ndarray  # (k, k + 1) projected equations
+
+
+def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
+    """beta = (Z^T S^-1 W)^-1 Z^T S^-1 y, S = diag sigma_j^2 of y - W beta, iterated.
+
+    Consistent where the instruments Z are uncorrelated with the noise of y and of W; the covariance
+    is (Z^T S^-1 W)^-1 Z^T S^-1 Z (W^T S^-1 Z)^-1 (Young 2011; Janot, Vandanjon and Gautier 2014,
+    IEEE Trans. Control Systems Technology 22(1)).
+
+    Args:
+        problem: beta in the units of its columns, y N m or N.
+        Z: (rows, c) the columns of W along a motion that the noise did not touch.
+        method: for the refusal, DataError, of instruments that tell nothing of a parameter.
+    """
+    counted, joint = problem.counted, problem.joint[problem.counted]
+    start = least_squares(problem.data, "weighted")
+    kept = np.asarray(start.rank.kept, dtype=int)
+    W, Z, y = problem.W[counted][:, kept], Z[counted][:, kept], problem.y[counted]
+    _check(problem, method, Z, kept)
+    sigma, settled, iterations = start.sigma, False, 0
+    while not settled and iterations < _ITERATIONS:
+        found = _solved(W, Z, y, sigma[joint])
+        if found.cosine < _BLIND:
+            raise DataError(_refusal(method, problem.names[kept[found.worst]]))
+        before, sigma = sigma, _spread(problem, W, y, found, sigma, start)
+        settled = bool(np.all(np.abs(sigma / before - 1.0) < _SETTLED))
+        iterations += 1
+    beta, covariance = np.zeros_like(start.beta), np.zeros_like(start.covariance)
+    beta[kept], covariance[np.ix_(kept, kept)] = found.beta, found.P @ found.P.T
+    return dataclasses.replace(
+        start,
+        beta=beta,
+        covariance=covariance,
+        sigma=sigma,
+        iterations=iterations,
+        settled=settled,
+        sentences=_weak(found.cosine),
+        influence=_influence(problem, kept, found.P / sigma[joint], beta),
+        whole=_whole(problem, kept, found, (y - W @ found.beta) / sigma[joint]),
+    )
+
+
+def _solved(W: np.ndarray, Z: np.ndarray, y: np.ndarray, sigma: np.ndarray) -> _Solved:
+    lengths = np.linalg.norm(W / sigma[:, None], axis=0)
+    X, y = W / sigma[:, None] / lengths, y / sigma
+    far = np.linalg.norm(Z / sigma[:, None], axis=0)
+    Qz, _ = np.linalg.qr(Z / sigma[:, None] / np.where(far > 0.0, far, 1.0))
+    Qw, Rw = np.linalg.qr(X)
+    across = Qz.T @ Qw
+    cosine = float(np.linalg.svd(across, compute_uv=False).min(initial=1.0))
+    across = across @ Rw
+    worst = int(np.argmin(np.linalg.norm(across, axis=0)))
+    P = np.linalg.lstsq(across, Qz.T, rcond=None)[0] / lengths[:, None]
+    whole = np.column_stack([across * lengths, Qz.T @ y])
+    return _Solved(P @ y, P, cosine, worst, whole)
+
+
+def _spread(
+    problem: Problem,
+    W: np.ndarray,
+    y: np.ndarray,
+    found: _Solved,
+    sigma: np.ndarray,
+    start: Estimate,
+) -> np.ndarray:
+    """(n,) sigma_j^2 = |r_j|^2 / (rows_j - h_j), h_j the trace of joint j's part of W P."""
+    data, joint = problem.data, problem.joint[problem.counted]
+    n = len(data.rows)
+    scaled = np.einsum("rk,kr->r", W / sigma[joint][:, None], found.P)
+    share = np.bincount(joint, scaled, n)
+    squares = np.bincount(joint, (y - W @ found.beta) ** 2, n)
+    spread = np.sqrt(squares / np.maximum(data.rows - share, 0.5))
+    spread = np.where(data.free | (data.rows == 0), start.sigma, spread)
+    return np.maximum(spread, least_sigma(data))
+
+
+def _influence(problem: Problem, kept: np.ndarray, pull: np.ndarray, beta: np.ndarray) -> Influence:
+    every = np.zeros(problem.W.shape)
+    every[np.ix_(problem.counted, kept)] = pull.T
+    return Influence(every, problem.y - problem.W @ beta)
+
+
+def _whole(problem: Problem, kept: np.ndarray, found: _Solved, residual: np.ndarray) -> np.ndarray:
+    """Equations Qz^T S^-1/2 W beta = Qz^T S^-1/2 y, which beta satisfies, above what it leaves."""
+    c = len(problem.names)
+    whole = np.zeros((c + 1, c + 1))
+    whole[np.ix_(np.arange(len(kept)), np.append(kept, c))] = found.whole
+    whole[-1, -1] = np.linalg.norm(residual)
+    return whole
+
+
+def _check(problem: Problem, method: str, Z: np.ndarray, kept: np.ndarray) -> None:
+    """Refuse instruments that depend on each other where the columns do not."""
+    names = [problem.names[i] for i in kept]
+    aside = independent_columns(triangle(Z), names).aside
+    if aside:
+        raise DataError(_refusal(method, aside[0].name))
+
+
+def _refusal(method: str, name: str) -> str:
+    return (
+        f'method "{method}": the instruments tell nothing of a parameter; got it for {name}; '
+        'expected a commanded motion that moves all joints as the log does; use method "weighted"'
+    )
+
+
+def _weak(cosine: float) -> tuple[str, ...]:
+    if cosine > _WEAK:
+        return ()
+    return (
+        f"the instruments are weak: of one combination of parameters they carry {cosine:.2g} of "
+        "its column; noise then biases it as without instruments, and its sigma is too small",
+    )
+
+
+_SIMULATIONS = 12
+_WORSE = 1.5  # error along the logged motion over that of the start, from which on it is told
+_NEAR = 0.1  # step, in standard deviations, at which the simulation need not be repeated
+
+
+def iv(problem: Problem) -> Estimate:
+    """Instruments by the inverse model: the regressor along the commanded motion.
+
+    Noise of the encoders is in W and not in what was commanded; see `with_instruments`.
+
+    Raises:
+        DataError: a log without commanded positions.
+    """
+    observation = problem.observation
+    robot = DirectModel(problem.robot("iv"), observation)
+    for segment in robot.segments:
+        if segment.commanded is None:
+            raise DataError(
+                f'{observation.logs[segment.run]}: method "iv" needs commanded positions; got no '
+                f"complete columns qc{observation.joints[0].name} ...; log those of all joints, "
+                'or use method "weighted" or "iv-direct"'
+            )
+    return with_instruments(problem, robot.columns(robot.references), "iv")
+
+
+def iv_direct(problem: Problem) -> Estimate:
+    """Instruments by the direct model: the regressor along the simulated motion, repeated.
+
+    The robot with the values of the last estimate follows the log (`estimate.direct`); the first
+    estimate is the weighted fit (Janot, Vandanjon and Gautier 2014).
+
+    Raises:
+        DataError: a joint without a motor, or a fit that cannot be simulated.
+    """
+    return _repeated(problem, "iv-direct", lambda Z: with_instruments(problem, Z, "iv-direct"))
+
+
+def didim(problem: Problem) -> Estimate:
+    """min sum_j |y_j - W_j(q_s(beta)) beta|^2 / sigma_j^2, q_s the simulated motion.
+
+    Gauss-Newton: q_s hardly depends on beta, as the controller holds the motion, so each step is
+    the weighted fit of the measured torque to the columns along the last simulated motion
+    (Gautier, Janot and Vandanjon 2013). The logged motion is used to choose the controller, and the
+    rows, alone; and for the covariance: d d^T is added to it, d = P (W(q_s) - W(q)) beta with P the
+    pseudo-inverse of the fit. By d the values move if the logged motion is right and the simulated
+    one is not, as where the controller of the log is another one.
+
+    Raises:
+        DataError: a joint without a motor, or a fit that cannot be simulated.
+    """
+    return _repeated(problem, "didim", lambda W: _along(problem, W))
+
+
+def _along(problem: Problem, W: np.ndarray) -> Estimate:
+    """The weighted fit of the torques to columns along another motion."""
+    counted, free = problem.counted, np.flatnonzero(problem.data.free)
+    data = compress(
+        W[counted], problem.y[counted], problem.joint[counted],
+        len(problem.data.rows), problem.names, free.tolist(),
+    )  # fmt: skip
+    found = least_squares(data, "weighted")
+    weight = np.where(counted, 1.0 / found.sigma[problem.joint] ** 2, 0.0)
+    pull = (W @ found.covariance) * weight[:, None]
+    shift = pull.T @ ((W - problem.W) @ found.beta)
+    return dataclasses.replace(
+        found,
+        covariance=found.covariance + np.outer(shift, shift),
+        influence=Influence(pull, problem.y - W @ found.beta),
+        whole=data.whole(found.sigma),
+    )
+
+
+def _misfit(problem: Problem, start: Estimate, W: np.ndarray, beta: np.ndarray) -> float:
+    """rms of (y_j - W_j beta) / sigma_j over the counted rows, sigma_j of `start`."""
+    rows = problem.counted
+    residual = (problem.y[rows] - W[rows] @ beta) / start.sigma[problem.joint[rows]]
+    return float(np.sqrt(np.mean(residual**2)))
+
+
+def _loop(problem: Problem, robot: DirectModel, start: Estimate, beta: np.ndarray) -> Loop:
+    if robot.commanded:
+        return robot.chosen(beta)
+    return robot.gentlest(beta, lambda way: _misfit(problem, start, robot.columns(way), beta))
+
+
+def _followed(
+    problem: Problem, robot: DirectModel, start: Estimate, beta: np.ndarray, loop: Loop
+) -> tuple[list[Motion], Loop]:
+    """The simulated motion; where the loop was not in the log, by another one if it must be."""
+    try:
+        return robot.followed(beta, loop), loop
+    except DataError:
+        if robot.commanded:
+            raise
+    loop = _loop(problem, robot, start, beta)
+    return robot.followed(beta, loop), loop
+
+
+def _repeated(
+    problem: Problem, method: str, estimate: Callable[[np.ndarray], Estimate]
+) -> Estimate:
+    """Simulate, estimate, until the step is small beside the standard deviations."""
+    model = problem.robot(method)
+    idle = [joint.name for joint in model.spec.joints if not joint.actuated]
+    if idle:
+        raise DataError(
+            f'method "{method}": joint {idle[0]} of {model.spec.robot} has no motor; expected one '
+            "motor a joint, so that a controller can hold the robot; use another method"
+        )
+    robot = DirectModel(model, problem.observation)
+    start = least_squares(problem.data, "weighted")
+    beta, settled = start.beta, False
+    loop = _loop(problem, robot, start, beta)
+    for _ in range(_SIMULATIONS):
+        motions, loop = _followed(problem, robot, start, beta, loop)
+        found = estimate(robot.columns(motions))
+        sigma = np.sqrt(np.diag(found.covariance))
+        step = np.abs(found.beta - beta) / np.where(sigma > 0.0, sigma, np.inf)
+        beta, settled = found.beta, bool(step.max(initial=0.0) < _NEAR)
+        if settled or np.isinf(loop.speed):
+            break
+    said = _worse(problem, method, start, beta) + _told(problem, robot, loop, robot.error(motions))
+    if not settled and np.isfinite(loop.speed):
+        said.append(
+            f"the values still move by up to {step.max():.2g} sigma from one simulation to the "
+            f"next after {_SIMULATIONS}; add that to their uncertainty"
+        )
+    return dataclasses.replace(
+        found,
+        settled=found.settled and (settled or bool(np.isinf(loop.speed))),
+        sentences=(*said, *found.sentences),
+    )
+
+
+def _worse(problem: Problem, method: str, start: Estimate, beta: np.ndarray) -> list[str]:
+    """Whether the method ends clearly worse than it started, by its criterion on the log."""
+    before, after = (_misfit(problem, start, problem.W, own) for own in (start.beta, beta))
+    if after <= _WORSE * before:
+        return []
+    return [
+        f"along the logged motion the values leave {after / before:.3g} times the error of "
+        f'"weighted", from which method "{method}" starts: the simulated motion is not that of '
+        'the log; take the values of method "weighted"'
+    ]
+
+
+def _told(problem: Problem, robot: DirectModel, loop: Loop, error: np.ndarray) -> list[str]:
+    worst = int(np.argmax(error))
+    joint = problem.observation.joints[worst].name
+    near = f"within {100 * error[worst]:.2g} % of the range of joint {joint}, the farthest"
+    if np.isinf(loop.speed):
+        how = (
+            "the commanded motion is nearer to the log than what any controller that was tried "
+            "makes of it"
+            if robot.commanded
+            else "none that was tried holds the robot with the fitted values, and the logged "
+            "motion, smoothed, stands for the simulated one"
+        )
+    else:
+        parts = [("integral action", loop.integral), ("feedforward", loop.forward)]
+        fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts)
+        best = "comes nearest to the log" if robot.commanded else "explains the torques best"
+        how = (
+            f"the simulated one that {best} has speed loops of "
+            f"{loop.speed / 2 / np.pi:.3g} Hz, position loops of {loop.ratio:.2g} times that, {fed}"
+        )
+    said = [f"the controller of the log is not known: {how}, {near}"]
+    if not robot.commanded:
+        said.append(
+            "no commanded positions in these logs: the simulated robot follows the logged motion, "
+            "smoothed; its noise below the band of that stays, and is no better off than with "
+            'method "weighted"'
+        )
+    if robot.raised > 0.0:
+        light = problem.observation.joints[robot.lightest].name
+        said.append(
+            f"the fitted inertia matrix is not positive definite in {100 * robot.raised:.0f} % of "
+            f"the postures, most at joint {light}: it was raised for the simulation; record "
+            "more motion, or leave out parameters that are not essential"
+        )
+    return said

@@ -1,0 +1,141 @@
+"""What a fit takes for known, tested against the data: weights of loads, drive gains."""
+
+import dataclasses
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from modeler.core.errors import DataError
+from modeler.core.manifest import JointSpec, ModuleSpec
+from modeler.estimation.doubts import Doubt, not_together
+from modeler.estimation.drive_gains import GainFit, identify_gains
+from modeler.estimation.identify import fit_equations
+from modeler.estimation.payload import Loaded, Payload, loaded_equations
+from modeler.estimation.result import ParameterEstimate
+from modeler.observation.observation import Observation
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+FAR = 4.0
+"""Standard deviations between what is given and what the logs say, from which on it is told."""
+
+WORTH = 0.01
+"""Share of a known quantity below which no deviation is told: a load is weighed to this."""
+
+
+def known_doubts(
+    model: "CompiledModel",
+    observation: Observation,
+    payloads: Sequence[Payload],
+    currents: bool,
+) -> list[Doubt]:
+    """Known quantities that the logs contradict, each with the factor.
+
+    First that a load sits alike in all its logs, and that all are of one robot; if not, nothing
+    else is asked.
+
+    Each is set free with all parameters: the mass of a load as the factor of its torques, drive
+    gains as in `identify_gains`. Its value is doubted if it is farther than FAR of its own standard
+    deviations, memory of the residuals included, and WORTH of it, from what was given.
+
+    Args:
+        model: the robot.
+        observation: of bare and loaded logs.
+        payloads: of which those of known mass are tested.
+        currents: True if the torques are logged currents times the gains of the robot file.
+    """
+    apart = not_together(model, observation, payloads)
+    if apart or not any(payload.mass is not None for payload in payloads):
+        return [Doubt(line, values=True) for line in apart]
+    found = _weights(observation, loaded_equations(model, observation, payloads), currents)
+    if currents:
+        found += _gains(model, observation, payloads)
+    return found
+
+
+def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[Doubt]:
+    found = []
+    for i, payload in enumerate(loaded.weighed):
+        if not loaded.told(i):
+            continue
+        factor = _freed(observation, loaded, i)
+        if factor.sigma is None or not _contradicts(factor.value, factor.sigma):
+            continue
+        assert payload.mass is not None
+        mass, sigma = factor.value * payload.mass, factor.sigma * payload.mass
+        more = f"{100.0 * abs(factor.value - 1.0):.2g} % {'more' if factor.value > 1.0 else 'less'}"
+        gains = (
+            f"or all drive gains are {1.0 / factor.value:.3g} times what the robot file says; "
+            "--method tls finds the gains"
+            if currents
+            else f"or all torques are logged {factor.value:.3g} times as large as they are: the "
+            "drive gains that the controller assumes are wrong by that"
+        )
+        found.append(
+            Doubt(
+                f"payload {payload.name}: the logs say that it weighs {mass:.4g} +- {sigma:.1g} "
+                f"kg, {more} than the {payload.mass:g} kg given; check the weight, {gains}",
+                values=True,
+            )
+        )
+    return found
+
+
+def _freed(observation: Observation, loaded: Loaded, i: int) -> ParameterEstimate:
+    """The factor on the torques of a weighed load that the logs ask for; 1 if its mass is right."""
+    known, y = loaded.torques[:, i], loaded.equations.y
+    equations = loaded.equations.with_columns(known, ["factor"])
+    equations = dataclasses.replace(equations, y=y + known)
+    return fit_equations(observation, equations, "weighted", noise_only=True).loads[-1]
+
+
+def _contradicts(factor: float, sigma: float) -> bool:
+    return abs(factor - 1.0) > max(FAR * sigma, WORTH)
+
+
+def _gains(
+    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+) -> list[Doubt]:
+    try:
+        found = identify_gains(model, observation, payloads)
+    except DataError:
+        return []  # logs that do not tell the gains contradict none
+    lines = deviations(model.spec, found, only_doubtful=True)
+    if not lines:
+        return []
+    return [
+        Doubt(
+            f"by the weight of the load, the drive gains are not those of the robot file: "
+            f"{'; '.join(lines)}; check them, or let --method tls take the ones found",
+            values=True,
+        )
+    ]
+
+
+def deviations(spec: ModuleSpec, found: GainFit, only_doubtful: bool = False) -> list[str]:
+    """How far identified gains are from those of the robot file, a phrase for each that has one."""
+    return [
+        _deviation(joint, found.gains[joint.name], found.sigmas[joint.name])
+        for joint in spec.joints
+        if joint.name in found.gains and _told(joint, found, only_doubtful)
+    ]
+
+
+def _told(joint: JointSpec, found: GainFit, only_doubtful: bool) -> bool:
+    gain, stated = found.gains[joint.name], joint.drive_gain
+    if stated is None:
+        return gain < 0.0
+    apart = _contradicts(gain / stated, found.sigmas[joint.name] / abs(stated))
+    return apart or not only_doubtful
+
+
+def _deviation(joint: JointSpec, gain: float, sigma: float) -> str:
+    told, stated = f"joint {joint.name} {gain:.4g} +- {sigma:.1g}", joint.drive_gain
+    if stated is None or gain * stated < 0.0:
+        beside = "negative" if stated is None else f"of the other sign than {stated:.4g}"
+        return (
+            f"{told}, {beside}: current{joint.name} or q{joint.name} is counted the other way "
+            "round; if that is a mistake of the log, give the one that is wrong sign = -1 in [log]"
+        )
+    percent = 100.0 * (gain / stated - 1.0)
+    return f"{told}, {abs(percent):.2g} % {'above' if percent > 0.0 else 'below'} {stated:.4g}"

@@ -1,0 +1,352 @@
+"""What each estimator is and when it is the wrong one: for help, pages and the fit's sentences."""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import cast
+
+import numpy as np
+
+from modeler.core.errors import GAIN_METHOD, TWO_STEPS, Method
+from modeler.estimation.problem import Problem, residual_of
+from modeler.numerics.least_squares import Compressed, Rank, independent_columns
+
+
+@dataclass(frozen=True)
+class About:
+    """An estimator in words.
+
+    Attributes:
+        id: as typed.
+        title: as in "weighted least squares".
+        law: its equation.
+        source: where it comes from.
+        avoid: when not to use it.
+    """
+
+    id: str
+    title: str
+    law: str
+    source: str
+    avoid: str
+
+
+_EVERY = (
+    About(
+        "weighted",
+        "weighted least squares",
+        "min sum_j |y_j - W_j beta|^2 / sigma_j^2, sigma_j^2 the residual variance of joint j, "
+        "iterated to the fixed point",
+        "Gautier 1997, ICRA",
+        "where rows are wrong here and there (robust), or the motion is so noisy that W itself is "
+        "(iv, iv-direct): noise of W pulls values towards 0, and sigma does not say so",
+    ),
+    About(
+        "ordinary",
+        "ordinary least squares",
+        "min |y - W beta|^2; covariance with the residual variance of each joint",
+        "Gauss; White 1980",
+        "where joints differ in torque or noise: the loudest joint decides, and the others' "
+        "parameters are worse than they need be",
+    ),
+    About(
+        "robust",
+        "robust least squares",
+        "sum_i psi(r_i / sigma_j) w_i / sigma_j = 0, Huber's psi, then Tukey's bisquare; "
+        "sigma_j = 1.4826 median |r_i| of joint j; sandwich covariance",
+        "Huber 1964; Holland and Welsch 1977",
+        "where the model lacks an effect: the rows that show it lose their weight, and the fit "
+        "looks better than it is; with white noise it needs 5 % more rows",
+    ),
+    About(
+        "ridge",
+        "ridge",
+        "min |S^-1/2 (y - W beta)|^2 + lambda |D (beta - beta_0)|^2, beta_0 the nominal values of "
+        "the robot file or 0, lambda by the probability of the data",
+        "Hoerl and Kennard 1970; MacKay 1992",
+        "where the values themselves matter and the motion could be better: it hides what the data "
+        "do not tell, its values are biased towards the prior, and sigma knows no bias",
+    ),
+    About(
+        "iv",
+        "instrumental variables, commanded motion",
+        "(Z^T S^-1 W) beta = Z^T S^-1 y, Z the columns of W along the commanded motion",
+        "Young 2011; Janot, Vandanjon and Gautier 2014, IEEE TCST 22(1)",
+        "without logged commands qc, where the command follows the measurement (hand guiding, "
+        "impedance control), or where the position is clean: then sigma is larger for nothing",
+    ),
+    About(
+        "iv-direct",
+        "instrumental variables, simulated motion",
+        "(Z^T S^-1 W) beta = Z^T S^-1 y, Z the columns of W along the motion of the direct model, "
+        "repeated with its own values",
+        "Janot, Vandanjon and Gautier 2014, IEEE TCST 22(1)",
+        "without logged commands qc (it then follows the logged motion, and little is gained), or "
+        "where the fit cannot be simulated",
+    ),
+    About(
+        "didim",
+        "direct and inverse model identification",
+        "min sum_j |y_j - W_j(q_s) beta|^2 / sigma_j^2, q_s(beta) simulated in closed loop",
+        "Gautier, Janot and Vandanjon 2013, IEEE TCST 21(2)",
+        "where the controller of the log is not known and none comes near its motion: what they "
+        "differ by goes into the values; sigma is raised by as much",
+    ),
+    About(
+        "consistent",
+        "physically consistent least squares",
+        "min 1/2 |R (K chi - beta)|^2 + sum_j gamma_j D(P_j, P0_j), every pseudo-inertia P_j "
+        "positive definite, friction and rotor inertias not negative; ends in all standard "
+        "parameters chi",
+        "Sousa and Cortesao 2014, IJRR 33(6); Lee, Wensing and Park 2020, IEEE T-RO 36(2)",
+        "to see what is wrong: it hides a missing effect in the nearest machine; look at the "
+        "doubts of weighted first",
+    ),
+)
+ABOUT: dict[Method, About] = {cast(Method, about.id): about for about in _EVERY}
+"""By id, in the order in which they are told."""
+
+
+APART = (
+    About(
+        GAIN_METHOD,
+        "total least squares with drive gains",
+        "g_j V_j = W_j beta + m w_j: the smallest right singular vector of what QR of [W w] leaves "
+        "of the currents V, rows and columns in units of their noise",
+        "Briot and Gautier 2012; Van Huffel and Vandewalle 1991",
+        "without logs of currents and a run with a load of known mass",
+    ),
+    About(
+        TWO_STEPS,
+        "two-step least squares",
+        "inertia J_ii, gravity and friction of each joint that moves alone, then theta = Phi beta",
+        "Hanssen, Hovland and Brogardh 2000, section 4",
+        "where joints may move together: rows of such motion are left out",
+    ),
+)
+"""Beside the others: they take other logs."""
+
+
+def titled(method: str) -> str:
+    """Its title; the id itself if a later version wrote it."""
+    every = (*_EVERY, *APART)
+    return next((about.title for about in every if about.id == method), method)
+
+
+# Ordinary and weighted least squares with their covariance.
+
+
+MAX_ITERATIONS = 500
+_SETTLED = 1e-9  # relative change of the weights
+_LEAST = 1e-9  # a joint's standard deviation is at least this share of its torque
+
+
+@dataclass(frozen=True, eq=False)
+class Influence:
+    """How rows act on an estimate that is no least squares over W: d beta = sum_i pull_i e_i.
+
+    Attributes:
+        pull: (rows, c) in units of beta per unit of row i; 0 for rows that were not fitted. None:
+            W bread.
+        residual: (rows,) what was left of each row, N m or N, weighed as the estimator does.
+        bread: (c, c) where the pull is not kept.
+    """
+
+    pull: np.ndarray | None
+    residual: np.ndarray
+    bread: np.ndarray | None = None
+
+    def of(self, W: np.ndarray) -> np.ndarray:
+        """The pull of the rows of W (rows, c)."""
+        if self.pull is not None:
+            return self.pull
+        assert self.bread is not None
+        return np.asarray(W @ self.bread)
+
+    def times(self, factor: float) -> "Influence":
+        """The same rows, each with a pull so many times as large."""
+        pull, bread = (None if x is None else x * factor for x in (self.pull, self.bread))
+        return replace(self, pull=pull, bread=bread)
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """The solution; c columns, n joints. Columns set aside have value 0 and no variance.
+
+    Attributes:
+        beta: (c,).
+        covariance: (c, c), rows and columns of parameters set aside are 0.
+        sigma: (n,) standard deviation of a row of each joint, N m or N; the weights are 1/sigma.
+        rank: columns kept and set aside.
+        iterations: of the weights; 0 for ordinary least squares.
+        settled: the weights reached their fixed point.
+        condition_number: of W, kept columns.
+        condition_scaled: with columns of length one.
+        degrees: rows less parameters.
+        sentences: what a reader must know of this estimate.
+        influence: of the rows; None for least squares over W with weights 1/sigma.
+        whole: (c + 1, c + 1) triangle of the weighted equations whose least squares this is; None
+            for those of the data with weights 1/sigma.
+        standard: all standard parameters by name, SI, where the estimator ends in them.
+    """
+
+    beta: np.ndarray
+    covariance: np.ndarray
+    sigma: np.ndarray
+    rank: Rank
+    iterations: int
+    settled: bool
+    condition_number: float
+    condition_scaled: float
+    degrees: int
+    sentences: tuple[str, ...] = ()
+    influence: Influence | None = None
+    whole: np.ndarray | None = None
+    standard: Mapping[str, float] = field(default_factory=dict)
+
+
+def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:
+    """The estimate of beta in y = W beta + rho.
+
+    Ordinary: one variance for all rows, sigma^2 (W^T W)^-1. Weighted: rows of joint j divided by
+    the standard deviation sigma_j of that joint's residual, and (sum_j W_j^T W_j / sigma_j^2)^-1
+    (Gautier 1997). The weights are iterated until they no longer change: after one step, the
+    misfit of one joint is still shared out to the others.
+
+    sigma_j^2 = ||r_j||^2 / (rows_j - h_j), h_j the parameters that joint j's rows determine
+    (trace of its part of the hat matrix; the h_j sum to the number of parameters).
+
+    Rows 0 = W_j beta of a joint without a motor would be satisfied by beta = 0 and by their own
+    weight drive the iteration there. Their sigma is at least as large, beside the torques that
+    cancel in them, as the others' beside the torques that are measured.
+
+    Args:
+        data: compressed rows.
+        method: which weights.
+    """
+    sigma = np.ones(len(data.rows))  # what rows tell apart does not depend on their torques
+    rank = independent_columns(data.whole(sigma)[:, :-1], data.names)
+    kept = np.asarray(rank.kept, dtype=int)
+    degrees = max(1, int(data.rows.sum()) - len(kept))
+    beta, covariance = _solve(data, kept, sigma)
+    common = np.sqrt(np.sum(data.residual_norms(beta) ** 2) / degrees)
+    iterations, settled = 0, True
+    if method == "ordinary":
+        sigma = np.full(len(data.rows), max(common, least_sigma(data).max()))
+        covariance = covariance * sigma[0] ** 2
+    else:
+        cancelling = _cancelling(data, beta)
+        sigma = _weighed(data, _spread(data, beta, covariance, sigma), cancelling)
+        settled = False
+        while not settled and iterations < MAX_ITERATIONS:
+            beta, covariance = _solve(data, kept, sigma)
+            updated = _weighed(data, _spread(data, beta, covariance, sigma), cancelling)
+            settled = bool(np.all(np.abs(updated / sigma - 1.0) < _SETTLED))
+            sigma, iterations = updated, iterations + 1
+    raw, scaled = condition_numbers(data.whole(np.ones(len(data.rows)))[:, kept])
+    return Estimate(beta, covariance, sigma, rank, iterations, settled, raw, scaled, degrees)
+
+
+def solve_by_qr(W: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The beta (c,) of least ||y - W beta||, and a root (c, c): root root^T = (W^T W)^-1.
+
+    Args:
+        W: (rows, c) independent columns; scaled to length one before the QR.
+        y: (rows,).
+    """
+    lengths = np.linalg.norm(W, axis=0)
+    q, r = np.linalg.qr(W / lengths)
+    root = np.linalg.solve(r, np.eye(W.shape[1])) / lengths[:, None]
+    return root @ (q.T @ y), root
+
+
+def _rms(data: Compressed) -> np.ndarray:
+    return data.torque_norms() / np.sqrt(np.maximum(data.rows, 1))
+
+
+def least_sigma(data: Compressed) -> np.ndarray:
+    """(n,) the smallest sigma of each joint: exact data would otherwise divide by zero."""
+    rms = _rms(data)
+    return np.maximum(_LEAST * rms, max(1e-3 * _LEAST * rms.max(initial=0.0), 1e-300))
+
+
+def _cancelling(data: Compressed, beta: np.ndarray) -> np.ndarray:
+    """(n,) rms size of the terms of W_j beta, sqrt(sum_c ||W_jc beta_c||^2 / rows_j)."""
+    terms = np.linalg.norm(data.triangles[:, :, :-1] * beta, axis=(1, 2))
+    return np.asarray(terms / np.sqrt(np.maximum(data.rows, 1)))
+
+
+def _weighed(data: Compressed, spread: np.ndarray, cancelling: np.ndarray) -> np.ndarray:
+    """(n,) sigma from the spread of the residuals, kept away from 0."""
+    sigma = np.maximum(spread, least_sigma(data))
+    rms = _rms(data)
+    driven = ~data.free & (rms > 0.0)
+    if driven.any():
+        error = float(np.sqrt(np.mean((sigma[driven] / rms[driven]) ** 2)))
+        sigma = np.where(data.free, np.maximum(sigma, error * cancelling), sigma)
+    return sigma
+
+
+def _solve(data: Compressed, kept: np.ndarray, sigma: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """beta and (W^T S^-1 W)^-1 over all columns."""
+    c = len(data.names)
+    beta, covariance = np.zeros(c), np.zeros((c, c))
+    if kept.size:
+        whole = data.whole(sigma)
+        beta[kept], root = solve_by_qr(whole[:, kept], whole[:, -1])
+        covariance[np.ix_(kept, kept)] = root @ root.T
+    return beta, covariance
+
+
+def _spread(
+    data: Compressed, beta: np.ndarray, covariance: np.ndarray, sigma: np.ndarray
+) -> np.ndarray:
+    """(n,) standard deviation of each joint's rows."""
+    W = data.triangles[:, :, :-1]
+    share = np.einsum("jik,kl,jil->j", W, covariance, W, optimize=True) / sigma**2
+    degrees = np.maximum(data.rows - share, 0.0)
+    spread = data.residual_norms(beta) / np.sqrt(np.maximum(degrees, 1e-12))
+    return np.where(degrees > 0.5, spread, np.maximum(_rms(data), 1e-300))
+
+
+def condition_numbers(W: np.ndarray) -> tuple[float, float]:
+    """Of W (rows, c), and of W with columns of length one; infinite without columns."""
+    if not W.size:
+        return float("inf"), float("inf")
+    return float(np.linalg.cond(W)), float(np.linalg.cond(W / np.linalg.norm(W, axis=0)))
+
+
+# Ordinary least squares whose sigmas know that joints are not alike.
+
+
+def ordinary(problem: Problem) -> Estimate:
+    """min |y - W beta|^2; covariance A^-1 (sum_j s_j^2 W_j^T W_j) A^-1, A = W^T W.
+
+    s_j^2 = |r_j|^2 / (rows_j - h_j) of joint j, h_j = trace(A^-1 W_j^T W_j). The textbook's
+    sigma^2 A^-1 holds where all s_j are one sigma (White 1980, Econometrica 48(4)); a quiet wrist
+    beside a loud shoulder then has sigmas that are too large, and the shoulder too small ones.
+
+    Args:
+        problem: beta in the units of its columns, y N m or N.
+    """
+    data = problem.data
+    found = least_squares(data, "ordinary")
+    bread = found.covariance / found.sigma[0] ** 2
+    own = data.triangles[:, :, :-1]
+    squares = np.einsum("jik,jil->jkl", own, own)
+    share = np.einsum("kl,jlk->j", bread, squares)
+    spread = data.residual_norms(found.beta) / np.sqrt(np.maximum(data.rows - share, 0.5))
+    spread = np.maximum(spread, least_sigma(data))
+    middle = np.einsum("j,jkl->kl", spread**2, squares)
+    return dataclasses.replace(
+        found,
+        covariance=bread @ middle @ bread,
+        influence=_influence(problem, found.beta, bread),
+    )
+
+
+def _influence(problem: Problem, beta: np.ndarray, bread: np.ndarray) -> Influence:
+    if problem.streamed:
+        residual = problem.y - problem.observation.y + residual_of(problem.observation, beta)
+        return Influence(None, residual, bread)
+    return Influence(problem.W @ bread * problem.counted[:, None], problem.y - problem.W @ beta)

@@ -1,0 +1,333 @@
+"""Long logs: a look at windows, then every row once, in chunks, in flat memory; their fit.
+
+A chunk is reduced to what a fit needs of it by pure functions, for any worker.
+"""
+
+import dataclasses
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import reduce
+from os import cpu_count
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from modeler.core.errors import DataError, LoopError, Method
+from modeler.estimation.identify import base_equations, dead_joints, fit_equations
+from modeler.estimation.result import FitResult
+from modeler.numerics.least_squares import Compressed, compress, merged
+from modeler.observation.chunk import Chunk, chunks
+from modeler.observation.chunked_report import Passes, streamed_report
+from modeler.observation.chunks import Chosen, seen
+from modeler.observation.log import FINGER
+from modeler.observation.observation import Evaluated, Observation, no_row_left, torque_of
+from modeler.observation.processing import Processing
+from modeler.observation.read import Source
+from modeler.observation.reduce import with_stretch
+from modeler.observation.stretch import Stretch
+from modeler.observation.survey import Known, Survey, WholeNeeded, survey
+from modeler.observation.tally import Facts
+from modeler.runtime.fused import no_rows
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+PASSES = 3
+"""Over the logs, at most: what a pass finds that the windows did not show may ask for another."""
+
+OF_TRIANGLES: tuple[Method, ...] = ("weighted", "ordinary")
+"""Methods that need no row again once the triangles are there."""
+
+Share = Callable[[float], None]
+"""Is told the share of the rows that are done."""
+
+Reducer = Callable[["CompiledModel", Source, Chosen], Iterable[Any]]
+"""Parts of all chunks of a log, in their order: `Partial`, or what has its `facts` and `over`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Partial:
+    """What a fit needs of some rows of a log; it can be pickled.
+
+    Attributes:
+        data: their triangles.
+        facts: what the rows say of the log.
+    """
+
+    data: Compressed
+    facts: Facts
+
+    def over(self, later: "Partial") -> "Partial":
+        """Of these rows, and of those that follow them."""
+        return Partial(merged(self.data, later.data), self.facts.over(later.facts))
+
+
+def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partial:
+    """The rows y = W beta of a chunk, as triangles. Pure: equal chunks give equal bits.
+
+    Args:
+        model: the compiled robot.
+        chunk: of a log.
+        chosen: for that log.
+
+    Raises:
+        DataError: a value that cannot be.
+    """
+    stretches, facts = seen(model, chunk, chosen)
+    return Partial(_compressed(model, stretches), facts)
+
+
+def merge_all(parts: Iterable[Partial]) -> Partial:
+    """Of all chunks of a log, one after the other."""
+    return reduce(Partial.over, parts)
+
+
+def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compressed:
+    """Triangles of some stretches; W is never there as a whole."""
+    parts = [part for part in stretches if part.used.any()]
+    regressor, state = Evaluated(model, parts), no_rows(model.pattern)
+    for part in parts:
+        torque = part.filtered(torque_of(part.segment))
+        state = with_stretch(regressor, part, torque, part.used, state)
+    like = none_of(model)
+    return Compressed(like.names, state.triangles, state.rows.astype(np.intp), like.free)
+
+
+def none_of(model: "CompiledModel") -> Compressed:
+    """The triangles of no rows."""
+    names, joints = [base.name for base in model.spec.base], model.spec.joints
+    free = [j for j, joint in enumerate(joints) if not joint.actuated]
+    nothing = np.empty((0, len(names)))
+    return compress(nothing, np.empty(0), np.empty(0, dtype=int), len(joints), names, free)
+
+
+@dataclass(frozen=True, eq=False)
+class Streamed:
+    """Long logs, ready for a fit.
+
+    Attributes:
+        observation: of the windows, whose report is that of all rows.
+        data: triangles of all rows.
+        share: of the rows of the data that the observation has.
+        samples: after decimation.
+        reading: how many passes, chunks and rows there were, for the result.
+    """
+
+    observation: Observation
+    data: Compressed
+    share: float
+    samples: int
+    reading: Mapping[str, int]
+
+
+def stream(
+    model: "CompiledModel",
+    sources: Sequence[Source],
+    processing: Processing | None = None,
+    progress: Share = lambda share: None,
+    rows: int = FINGER,
+    reducer: Reducer | None = None,
+) -> Streamed:
+    """Reads every row of long logs once, in chunks, and keeps what a fit needs.
+
+    Windows spread over the logs choose what must be one choice: cut-offs, speed floors, where
+    velocities come from, what is usual in each channel. Then every chunk is mended, split,
+    filtered and reduced to triangles by itself, with margins as long as the filters remember.
+    Where rows contradict what the windows showed, all are read again with what is known then.
+
+    Args:
+        model: the compiled robot.
+        sources: of the logs.
+        processing: None: automatic.
+        progress: is told the share that is done.
+        rows: of a chunk, at least; a multiple of `log.FINGER` for a log read from a file.
+        reducer: of one log; None: by threads of this process.
+
+    Raises:
+        DataError: a log that is damaged, changes while it is read or lacks a column; rows that no
+            choice of the windows fits; no usable row.
+    """
+    passes, every = all_rows(model, sources, processing, progress, rows, reducer or by_threads)
+    return _streamed(model, sources, passes, [part.data for part in every])
+
+
+def identify_long(
+    streamed: Streamed, method: Method = "weighted", model: "CompiledModel | None" = None
+) -> FitResult:
+    """The fit of the base parameters to long logs.
+
+    Values, sigmas, errors and the essential parameters come from all rows; how far residuals
+    remember, and by what factor that raises the sigmas, from the windows.
+
+    Args:
+        streamed: the logs.
+        method: "weighted" or "ordinary".
+        model: the compiled robot.
+
+    Raises:
+        DataError: another method, fewer rows than parameters, or no torque at all.
+    """
+    if method not in OF_TRIANGLES:
+        raise DataError(
+            f"fit: method {method} reads every row again and again, and long logs are not kept in "
+            f"memory; expected {' or '.join(OF_TRIANGLES)}, or a part of the log, FILE@START:END"
+        )
+    observation, data = streamed.observation, streamed.data
+    gone = np.isin(np.arange(len(data.rows)), dead_joints(observation))
+    data = dataclasses.replace(
+        data,
+        triangles=np.where(gone[:, None, None], 0.0, data.triangles),
+        rows=np.where(gone, 0, data.rows),
+    )
+    equations = base_equations(observation)
+    fit = fit_equations(observation, equations, method, model, data=data, share=streamed.share)
+    return dataclasses.replace(fit, samples=streamed.samples, reading=streamed.reading)
+
+
+def all_rows(
+    model: "CompiledModel",
+    sources: Sequence[Source],
+    processing: Processing | None,
+    progress: Share,
+    rows: int,
+    reducer: Reducer,
+) -> tuple[Passes, list[Any]]:
+    """The passes over long logs, and of each log its part; as `stream`, whatever is kept of rows.
+
+    Raises:
+        DataError: as `stream`.
+    """
+    _check_memory(model, sources)
+    known = Known()
+    for number in range(1, PASSES + 1):
+        found = survey(model, sources, processing or Processing(), known, rows)
+        every = list(_all_logs(model, sources, found, reducer, progress))
+        facts = tuple(part.facts for part in every)
+        again = _again(facts, found, known)
+        if again is None or number == PASSES:
+            break
+        known = again
+    _check(model, sources, facts)
+    return Passes(found, facts, number), every
+
+
+def by_threads(
+    model: "CompiledModel",
+    source: Source,
+    chosen: Chosen,
+    reduce_by: Callable[["CompiledModel", Chunk, Chosen], Any] | None = None,
+) -> Iterator[Any]:
+    """The parts of all chunks of a log, in their order, by threads of this process.
+
+    As many chunks are in memory as there are threads, and two. `reduce_by` says what is kept of
+    each; None: `reduce_chunk`.
+    """
+    workers, reduce_by = cpu_count() or 1, reduce_by or reduce_chunk
+    waiting: deque[Future[Any]] = deque()
+    with ThreadPoolExecutor(workers) as pool:
+        try:
+            for chunk in chunks(source, chosen.own, chosen.beside):
+                waiting.append(pool.submit(reduce_by, model, chunk, chosen))
+                if len(waiting) > workers:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
+        finally:  # an error, or Ctrl-C: what has not begun is not begun
+            for future in waiting:
+                future.cancel()
+
+
+def _all_logs(
+    model: "CompiledModel",
+    sources: Sequence[Source],
+    found: Survey,
+    reducer: Reducer,
+    progress: Share,
+) -> Iterator[Any]:
+    """All chunks of each log in one."""
+    total, done = max(1, sum(source.rows for source in sources)), 0
+    begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
+    for source, parts in zip(sources, begun, strict=True):
+        whole: Any = None
+        for part in parts:
+            whole = part if whole is None else whole.over(part)
+            rows = whole.facts.tally.count("rows")
+            progress(min(1.0, (done + rows) / total))
+        if whole is None:
+            raise DataError(f"{source.name}: no rows; expected a motion; leave it out")
+        done += whole.facts.tally.count("rows")
+        yield whole
+
+
+def _again(facts: Sequence[Facts], found: Survey, known: Known) -> Known | None:
+    """What another pass is to know; None if this one was given all."""
+    low = found.chosen[0].processing.low_speed
+    floors = {name: low * top for own in facts for name, top in own.awake.items()}
+    wrong = [k for k, own in enumerate(facts) if own.wrongly_clipped()]
+    if not floors and not wrong:
+        return None
+    extremes = {
+        k: tuple(zip(own.ranges.low[1].tolist(), own.ranges.high[1].tolist(), strict=True))
+        for k, own in enumerate(facts)
+    }
+    return Known({**known.floors, **floors}, extremes)
+
+
+def _check(model: "CompiledModel", sources: Sequence[Source], facts: Sequence[Facts]) -> None:
+    """Refuse what only a log as a whole shows.
+
+    Raises:
+        DataError: a channel without values, or a position whose count changes for good.
+    """
+    for source, own in zip(sources, facts, strict=True):
+        own.ranges.check(Path(source.name), model.spec)
+        turned = {j: t for j, t in own.first("wrap").items() if not _repeats(model, j)}
+        for kind, found in (("another zero", own.first("zero")), ("another turn", turned)):
+            for j, time in found.items():
+                name, rows = model.spec.joints[j].name, own.tally.count("rows")
+                raise WholeNeeded(
+                    f"{source.name}: q{name} counts from {kind} from {time:.6g} s on; a log of "
+                    f"{rows} rows is read in chunks, which cannot be joined across that; fit its "
+                    f"parts, as in {source.name}@:{time:.6g}"
+                )
+
+
+def _check_memory(model: "CompiledModel", sources: Sequence[Source]) -> None:
+    """Refuse an effect that remembers all motion before."""
+    if any(signal.kind == "slip" for signal in model.spec.signals):
+        raise WholeNeeded(
+            f"{sources[0].name}: an effect of {model.spec.robot} remembers its motion without end, "
+            "and long logs are read in chunks; fit a part of it, FILE@START:END"
+        )
+
+
+def _repeats(model: "CompiledModel", j: int) -> bool:
+    """True if a turn of a joint changes nothing in the model."""
+    joints, signals = len(model.spec.joints), model.spec.signals
+    q, qd, qdd = np.random.default_rng(2).uniform(0.2, 1.0, (3, 1, joints))
+    read = np.full((1, len(signals)), 0.5) if signals else None
+    try:
+        here = model.base_regressor(q, qd, qdd, read)
+        there = model.base_regressor(q + 2.0 * np.pi * np.eye(joints)[j], qd, qdd, read)
+    except LoopError:
+        return True
+    return bool(np.allclose(here, there, rtol=1e-6, atol=1e-6))
+
+
+def _streamed(
+    model: "CompiledModel", sources: Sequence[Source], passes: Passes, every: Sequence[Compressed]
+) -> Streamed:
+    data, seen = reduce(merged, every), passes.found.observation
+    report = streamed_report(model, sources, passes)
+    if not data.rows.any():
+        raise no_row_left(report)
+    return Streamed(
+        observation=dataclasses.replace(seen, report=report),
+        data=data,
+        share=min(1.0, float(seen.used.sum() / data.rows.sum())),
+        samples=sum(facts.tally.count("samples") for facts in passes.facts),
+        reading=passes.to_json(),
+    )

@@ -1,0 +1,59 @@
+"""The table of estimators: one row each, from a problem to an estimate."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from modeler.core.errors import DataError, Method
+from modeler.estimation.consistent import buildable
+from modeler.estimation.instrumental import didim, iv, iv_direct
+from modeler.estimation.least_squares import ABOUT, About, Estimate, least_squares, ordinary
+from modeler.estimation.problem import Problem
+from modeler.estimation.ridge import ridge
+from modeler.estimation.robust import robust
+
+
+@dataclass(frozen=True)
+class Estimator:
+    """A way to estimate.
+
+    Attributes:
+        about: id, title, law, source, and when not to use it.
+        estimate: the function. Raises DataError where the problem gives it nothing to work on.
+    """
+
+    about: About
+    estimate: Callable[[Problem], Estimate]
+
+
+def method_of(method: str) -> Estimator:
+    """The estimator of that id.
+
+    Raises:
+        DataError: there is none.
+    """
+    if method not in METHODS:
+        raise DataError(f'method is "{method}"; expected {_listed()}')
+    return METHODS[method]
+
+
+def _listed() -> str:
+    *first, last = METHODS
+    return f"{', '.join(first)} or {last}"
+
+
+def _weighted(problem: Problem) -> Estimate:
+    return least_squares(problem.data, "weighted")
+
+
+_FUNCTIONS: dict[Method, Callable[[Problem], Estimate]] = {
+    "weighted": _weighted,
+    "ordinary": ordinary,
+    "robust": robust,
+    "ridge": ridge,
+    "iv": iv,
+    "iv-direct": iv_direct,
+    "didim": didim,
+    "consistent": buildable,
+}
+METHODS: dict[str, Estimator] = {id: Estimator(ABOUT[id], _FUNCTIONS[id]) for id in _FUNCTIONS}
+"""By id, in the order in which they are told."""

@@ -1,0 +1,513 @@
+"""The MODEL file: one JSON file with all that later commands need; it can be mailed.
+
+It is told whether it still says what was saved, by checksums of its entries and by values that fit
+each other. A checksum tells an edited value from a saved one; it is no proof of who saved the file.
+"""
+
+import dataclasses
+import hashlib
+import json
+import shlex
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from modeler.core.errors import DataError, ManifestError
+from modeler.core.files import read_file, read_text, write_atomically
+from modeler.core.json import JsonError, PlainError, check_fields, parse_json, plain, shown
+from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, module_from_plain
+from modeler.core.result import Presented
+from modeler.estimation.essential import Reduced
+from modeler.estimation.result import FitResult, fit_from_json
+from modeler.observation.log import Rows, shared_rows
+from modeler.observation.processing import Processing
+from modeler.observation.report import DataReport
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+
+FORMAT = 3
+KIND = "modeler model"
+
+
+CHECKSUMS = "checksums"
+"""Name of the entry with the checksums of all others."""
+
+_SAME = 1e-6  # relative, of sigma; it is the root of a variance that was saved with all its digits
+_SYMMETRIC = 1e-9  # of a correlation
+_INDEFINITE = -1e-6  # smallest eigenvalue of the correlations: rounding of singular ones
+_REMEDY = "take the file as it was saved, or fit the model again"
+_MEANING = {
+    "fit": "fit (the values and how they were found)",
+    "covariance": "covariance (how sure the values are)",
+    "robot_text": "robot_text (the robot file; to change the robot, fit the changed file)",
+    "manifest": "manifest (what the C looks like)",
+    "sources": "sources (the C)",
+    "logs": "logs (what was fitted)",
+    "history": "history (the effects added)",
+}
+
+
+@dataclass(frozen=True)
+class LogProvenance:
+    """A log the model was fitted on.
+
+    Attributes:
+        name: its file name, no folder.
+        rows: read.
+        samples: after decimation.
+        content: fingerprint of the whole file's measurements; it tells the file under any name.
+        start, end: s, first and last row that was used of it.
+    """
+
+    name: str
+    rows: int
+    samples: int
+    content: str
+    start: float
+    end: float
+
+    def shares_rows(self, log: Rows) -> bool:
+        """True if rows of `log` were fitted."""
+        return shared_rows(log, self.content, self.start, self.end)
+
+
+@dataclass(frozen=True)
+class Addition(Presented):
+    """One effect that was added to a model.
+
+    Attributes:
+        effect: id; "" for the model as it was first fitted.
+        joint: name; None for an effect of the whole robot.
+        shapes: values of its shape parameters, SI.
+        error: relative error with it on held-out logs, root mean square over the joints; on the
+            fitted logs, eight parts left out in turn, where none were held out.
+        training_error: the same on the fitted logs.
+        held_out: names of the held-out logs.
+        robot_text: the robot file with it.
+        delay: s, of the processing with it.
+        shape_sigmas: standard deviations of the shapes.
+        shape_intervals: 95 % intervals of the shapes.
+        joints: relative error before and with it, by joint, on the logs of `error`.
+        changed: joints whose error surely changed.
+        falls: True if the error surely falls, and no joint is spoilt (see `scoring.score`).
+    """
+
+    effect: str
+    joint: str | None
+    shapes: Mapping[str, float]
+    error: float
+    training_error: float
+    held_out: tuple[str, ...]
+    robot_text: str
+    delay: float = 0.0
+    shape_sigmas: Mapping[str, float] = field(default_factory=dict)
+    shape_intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    joints: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    changed: tuple[str, ...] = ()
+    falls: bool = True
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data, without the robot file."""
+        return {
+            "effect": self.effect or None,
+            "joint": self.joint,
+            "error": self.error,
+            "training_error": self.training_error,
+            "shapes": dict(self.shapes),
+            "shape_sigmas": dict(self.shape_sigmas),
+            "shape_intervals": {name: list(ends) for name, ends in self.shape_intervals.items()},
+            "held_out": list(self.held_out),
+            "joints": {j: {"before": a, "after": b} for j, (a, b) in self.joints.items()},
+            "changed": list(self.changed),
+            "falls": self.falls,
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class IdentifiedModel(Presented):
+    """A robot with values.
+
+    Attributes:
+        robot_text: the robot file, TOML.
+        spec: the manifest.
+        sources: C by file name, as `Emitted.code`.
+        fit: the estimate; `fit.processing` is how its data were processed.
+        logs: what it was fitted on.
+        history: the model as first fitted and every effect added since; empty before the first.
+    """
+
+    robot_text: str
+    spec: ModuleSpec
+    sources: Mapping[str, str]
+    fit: FitResult
+    logs: tuple[LogProvenance, ...]
+    history: tuple[Addition, ...] = ()
+
+    @property
+    def beta(self) -> np.ndarray:
+        """(c,) base parameters, manifest order."""
+        return self.fit.beta
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """(c, c) of beta."""
+        return self.fit.covariance
+
+    @property
+    def processing(self) -> Processing:
+        """How the fitted data were processed; use it for held-out logs."""
+        return self.fit.processing
+
+    @property
+    def warning(self) -> list[str]:
+        """A line if its fit was found not usable."""
+        return [] if self.fit.verdict is None else self.fit.verdict.warning()
+
+    def compile(self) -> "CompiledModel":
+        """The compiled robot.
+
+        Raises:
+            BuildError: no C compiler, or it refused the sources.
+        """
+        # Only here: a model file can be read and printed where there is no compiler.
+        from modeler.runtime.model import load
+
+        return load(self.spec, self.sources, _log_table(self.robot_text))
+
+
+def _log_table(robot_text: str) -> Mapping[str, Any]:
+    """The [log] of a robot file."""
+    try:
+        table = tomllib.loads(robot_text).get("log", {})
+    except ValueError:
+        return {}
+    return table if isinstance(table, Mapping) else {}
+
+
+def provenance(report: DataReport) -> tuple[LogProvenance, ...]:
+    """Which logs went into an observation."""
+    return tuple(
+        LogProvenance(log.name, log.rows, log.samples, log.content, *log.span)
+        for log in report.logs
+    )
+
+
+def save_model(path: str | Path, model: IdentifiedModel) -> None:
+    """Write the model file; an interrupted write leaves the old file.
+
+    Raises:
+        ModelerError: the folder cannot be written.
+    """
+    content = {
+        "kind": KIND,
+        "format": FORMAT,
+        "robot": model.spec.robot,
+        "signature": model.spec.signature(),
+        "fit": model.fit.to_json(),
+        "covariance": model.fit.covariance.tolist(),
+        "logs": [vars(log) for log in model.logs],
+        "robot_text": model.robot_text,
+        "history": [vars(step) for step in model.history],
+        "manifest": json.loads(model.spec.to_json()),
+        "sources": dict(model.sources),
+    }
+    content = json.loads(json.dumps(content, allow_nan=False))  # as it will be read back
+    content[CHECKSUMS] = checksums(content)
+    write_atomically(Path(path), json.dumps(content, indent=1, allow_nan=False) + "\n")
+
+
+def load_model(path: str | Path) -> IdentifiedModel:
+    """Read a model file.
+
+    Raises:
+        ManifestError: missing, not a model file, of another format, damaged, or changed since it
+            was saved.
+    """
+    where = str(path)
+    raw = _read(Path(path))
+    check_checksums(raw, where)
+    spec = module_from_plain(_entry(raw, "manifest", Any, where), f"{where}, manifest")
+    if _entry(raw, "signature", str, where) != spec.signature():
+        raise ManifestError(
+            f"{where}: the manifest does not match its signature, so it was changed after it was "
+            "saved; fit the model again"
+        )
+    fit = _fit(raw, where)
+    expected = [base.name for base in spec.base]
+    if (
+        [p.name for p in fit.parameters] != expected
+        or fit.covariance.shape != (len(expected),) * 2
+        or spec.robot != _entry(raw, "robot", str, where)
+    ):
+        raise ManifestError(
+            f"{where}: the values are not those of the {len(expected)} base parameters of its "
+            "manifest; fit the model again"
+        )
+    check_estimate(fit, where)
+    return IdentifiedModel(
+        robot_text=_entry(raw, "robot_text", str, where),
+        spec=spec,
+        sources=_entry(raw, "sources", Mapping[str, str], where),
+        fit=fit,
+        logs=_entry(raw, "logs", tuple[LogProvenance, ...], where),
+        history=_entry(raw, "history", tuple[Addition, ...], where),
+    )
+
+
+def _fit(raw: Mapping[str, Any], where: str) -> FitResult:
+    """The estimate, every entry of the type that its class declares."""
+    rows = _entry(raw, "covariance", tuple[tuple[float, ...], ...], where)
+    fitted = _entry(raw, "fit", Mapping[str, Any], where)
+    if any(len(row) != len(rows) for row in rows):
+        raise ManifestError(f"{where}: damaged, covariance is not square; fit the model again")
+    try:
+        fit = fit_from_json(fitted, np.array(rows, dtype=float).reshape(len(rows), len(rows)))
+        check_fields(fit)
+    except PlainError as error:
+        raise ManifestError(f"{where}: the fit is damaged ({error}); fit the model again") from None
+    except ManifestError as error:
+        raise ManifestError(f"{where}: {error}") from None
+    return fit
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        raw = parse_json(read_file(path))
+    except OSError as error:
+        raise ManifestError(
+            f"{path}: cannot be read ({error.strerror}); check the path; expected a model, which "
+            "`modeler fit --out` writes, no robot"
+        ) from None
+    except JsonError as error:
+        if _is_robot_file(path):
+            raise _a_robot(path) from None
+        raise ManifestError(
+            f"{path}: not a model file: it {error}; expected the output of `modeler fit --out`"
+        ) from None
+    if not isinstance(raw, dict) or raw.get("kind") != KIND:
+        raise ManifestError(
+            f"{path}: JSON, but not a model file; expected the output of `modeler fit --out`"
+        )
+    if raw.get("format") != FORMAT:
+        got = f"model format {shown(raw['format'])}" if "format" in raw else "no model format"
+        raise ManifestError(f"{path}: {got}, this version reads {FORMAT}; fit the model again")
+    return raw
+
+
+def _is_robot_file(path: Path) -> bool:
+    try:
+        return "mdh" in tomllib.loads(read_text(path))
+    except (ValueError, RecursionError):  # of TOML, or of UTF-8
+        return path.suffix.lower() == ".toml"
+
+
+def _a_robot(path: Path) -> ManifestError:
+    return ManifestError(
+        f"{path}: is a robot; expected a model: make one with "
+        f"`modeler fit {shlex.quote(str(path))} LOG --out MODEL.json`"
+    )
+
+
+def _entry(raw: Mapping[str, Any], name: str, kind: Any, where: str) -> Any:
+    if name not in raw:
+        raise ManifestError(f"{where}: damaged, {name} is missing; fit the model again")
+    try:
+        return plain(kind, raw[name], name)
+    except PlainError as error:
+        raise ManifestError(f"{where}: damaged, {error}; fit the model again") from None
+
+
+def checksums(content: Mapping[str, Any]) -> dict[str, str]:
+    """{entry: checksum} of every entry of a model file but the checksums themselves."""
+    return {name: _checksum(value) for name, value in content.items() if name != CHECKSUMS}
+
+
+def check_checksums(content: Mapping[str, Any], where: str) -> None:
+    """Refuse a model file of which anything was changed since it was saved.
+
+    Raises:
+        ManifestError: names the entries that do not fit.
+    """
+    given = content.get(CHECKSUMS)
+    if not isinstance(given, dict):
+        raise ManifestError(
+            f"{where}: damaged, {CHECKSUMS} is "
+            f"{'missing' if CHECKSUMS not in content else 'not as saved'}; fit the model again"
+        )
+    expected = checksums(content)
+    wrong = [name for name in dict.fromkeys([*expected, *given]) if _differs(name, expected, given)]
+    if wrong:
+        told = ", ".join(_MEANING.get(name, shown(name)) for name in wrong[:3])
+        more = f" and {len(wrong) - 3} more" if len(wrong) > 3 else ""
+        raise ManifestError(
+            f"{where}: changed since it was saved, the checksum does not fit: {told}{more}; "
+            f"{_REMEDY}"
+        )
+
+
+def _differs(name: str, expected: Mapping[str, str], given: Mapping[str, Any]) -> bool:
+    return name not in expected or name not in given or given[name] != expected[name]
+
+
+def _checksum(value: Any) -> str:
+    # Entries stay in their order: that of the joints says which torque is whose.
+    text = json.dumps(value, separators=(",", ":"), allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def check_estimate(fit: FitResult, where: str) -> None:
+    """Refuse values, deviations and a covariance that no fit gives.
+
+    Raises:
+        ManifestError: names the first parameter that is wrong, and how.
+    """
+    for p in (*fit.gains, *fit.parameters, *fit.loads):
+        for what, number in (("value", p.value), ("sigma", p.sigma)):
+            if number is not None and not np.isfinite(number):
+                raise _wrong(where, f"the {what} of {p.name} is {number!r}; expected a finite one")
+        if p.sigma is not None and p.sigma < 0.0:
+            raise _wrong(where, f"the sigma of {p.name} is {p.sigma:g}; expected 0 or more")
+    _check_variances(fit, where)
+    _check_correlations(fit, where)
+
+
+def _check_variances(fit: FitResult, where: str) -> None:
+    names, C = [p.name for p in fit.parameters], fit.covariance
+    if not np.isfinite(C).all():
+        i, j = np.argwhere(~np.isfinite(C))[0]
+        raise _wrong(where, f"the covariance of {names[i]} and {names[j]} is not finite")
+    for p, variance in zip(fit.parameters, np.diag(C), strict=True):
+        if variance < 0.0:
+            raise _wrong(where, f"the variance of {p.name} is {variance:g}; expected 0 or more")
+        deviation = float(np.sqrt(variance))
+        if abs((p.sigma or 0.0) - deviation) > _SAME * deviation:
+            got = "none" if p.sigma is None else f"{p.sigma:g}"
+            raise _wrong(
+                where, f"the sigma of {p.name} is {got}, the root of its variance {deviation:g}"
+            )
+
+
+def _check_correlations(fit: FitResult, where: str) -> None:
+    names, C = [p.name for p in fit.parameters], fit.covariance
+    deviations = np.sqrt(np.diag(C))
+    still = np.flatnonzero(deviations == 0.0)
+    if len(still) and np.any(C[still] != 0.0):
+        i = still[int(np.argmax(np.any(C[still] != 0.0, axis=1)))]
+        raise _wrong(where, f"{names[i]} varies with others, but its variance is 0")
+    known = deviations > 0.0
+    correlation = (
+        C / np.outer(np.where(known, deviations, 1.0), np.where(known, deviations, 1.0))
+    )[np.ix_(known, known)]
+    if not correlation.size:
+        return
+    uneven = np.abs(correlation - correlation.T)
+    if uneven.max() > _SYMMETRIC:
+        i, j = np.flatnonzero(known)[list(np.unravel_index(int(np.argmax(uneven)), uneven.shape))]
+        raise _wrong(where, f"the covariance of {names[i]} and {names[j]} is not symmetric")
+    if np.linalg.eigvalsh(correlation)[0] < _INDEFINITE:
+        raise _wrong(where, "the covariance gives a sum of parameters a negative variance")
+
+
+def _wrong(where: str, what: str) -> ManifestError:
+    return ManifestError(f"{where}: {what}; fit the model again")
+
+
+# What of a fit goes into the C of a controller.
+
+
+def fitted_spec(model: IdentifiedModel) -> FittedSpec:
+    """The values of a model for `codegen.emit`: all parameters, as `compare` predicts with them.
+
+    Parameters that were set aside are 0. Drive gains, fitted or not, are those of the robot file;
+    they are left out unless every joint has one.
+    """
+    fit = model.fit
+    verdict = fit.verdict
+    return FittedSpec(
+        method=fit.method,
+        usable=None if verdict is None else verdict.usable,
+        verdict="" if verdict is None else verdict.line,
+        doubts=() if verdict is None else verdict.doubts,
+        remarks=tuple(_remarks(model)),
+        parameters=tuple(
+            FittedParameter(p.name, p.unit, p.value, p.sigma, p.essential) for p in fit.parameters
+        ),
+        gains=_gains(model.spec),
+    )
+
+
+def _remarks(model: IdentifiedModel) -> list[str]:
+    """Sentences on what the values are of."""
+    fit = model.fit
+    energy = "" if fit.energy is None else ", of the energies instead of the torques"
+    told = [
+        f"Values by the method {fit.method}{energy}, {fit.samples} samples, relative error "
+        f"{100.0 * fit.relative_error:.3g} %."
+    ]
+    added = [
+        step.effect if step.joint is None else f"{step.effect} (joint {step.joint})"
+        for step in model.history
+        if step.effect
+    ]
+    if added:
+        told.append(f"Effects added since the first fit: {', '.join(added)}.")
+    if fit.processing.delay:
+        side = "before" if fit.processing.delay > 0.0 else "after"
+        told.append(
+            f"The torques of the logs stood {1e3 * abs(fit.processing.delay):.3g} ms {side} the "
+            "motion that they belong to; the values are without that delay."
+        )
+    if fit.loads:
+        loads = ", ".join(f"{load.name} {load.value:.6g} {load.unit}" for load in fit.loads)
+        told.append(f"Without the load that some logs carried: {loads}.")
+    return told
+
+
+def _gains(spec: ModuleSpec) -> tuple[float, ...]:
+    """Torque per drive unit, in the order of the joints; empty unless all are known."""
+    known = [joint.drive_gain for joint in spec.joints if joint.drive_gain is not None]
+    return tuple(known) if len(known) == len(spec.joints) else ()
+
+
+def with_essential_only(model: IdentifiedModel, where: str) -> IdentifiedModel:
+    """The model with the values of its reduced model, all others 0.
+
+    Args:
+        model: as it was loaded.
+        where: its file, for the error.
+
+    Raises:
+        DataError: the model was saved without one.
+    """
+    reduced = model.fit.essential
+    if reduced is None:
+        raise DataError(
+            f"{where}: holds no reduced model (--essential), it was fitted by an earlier version; "
+            "fit it again"
+        )
+    return dataclasses.replace(model, fit=_replaced(model.fit, reduced))
+
+
+def _replaced(fit: FitResult, reduced: Reduced) -> FitResult:
+    found = {parameter.name: parameter for parameter in reduced.parameters}
+    values = tuple(
+        found.get(
+            p.name, dataclasses.replace(p, value=0.0, sigma=None, essential=False, interval=None)
+        )
+        for p in fit.parameters
+    )
+    deviations = np.array([p.sigma or 0.0 for p in values])
+    return dataclasses.replace(
+        fit,
+        parameters=values,
+        covariance=np.diag(deviations**2),
+        relative_error=reduced.relative_error,
+        condition_number=reduced.condition_number,
+        condition_scaled=reduced.condition_scaled,
+    )

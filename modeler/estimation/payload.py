@@ -1,0 +1,261 @@
+"""Runs with a load on a link: its inertial parameters beside those of the robot."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.errors import DataError, Method
+from modeler.estimation.identify import Equations, base_equations, fit_equations
+from modeler.estimation.result import FitResult
+from modeler.observation.low_speed import signals_of
+from modeler.observation.motion import Segment
+from modeler.observation.observation import Observation
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+_ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
+"""Where two load parameters cannot be told apart, the first in this order stays."""
+
+_TOLERANCE = 1e-8  # what is left of a column, as a share of its length, counts as zero
+
+
+LARGEST_MASS = 1e6
+"""kg. Nothing that a robot carries weighs more."""
+
+
+@dataclass(frozen=True)
+class Payload:
+    """A load that is fixed on a link during some logs.
+
+    Attributes:
+        logs: names of those logs (`Log.name`).
+        link: row of the table; None: the platform, or the last joint's link.
+        mass: kg, if it is known; its weight and inertia go to the side of the measurement.
+        name: suffix of its parameters.
+    """
+
+    logs: tuple[str, ...]
+    link: str | None = None
+    mass: float | None = None
+    name: str = "load"
+
+
+def identify_with_payloads(
+    model: "CompiledModel",
+    observation: Observation,
+    payloads: Sequence[Payload],
+    method: Method = "weighted",
+    below: float | None = None,
+) -> FitResult:
+    """The fit of robot and loads together: y - m w_M = W beta + W_L chi_L.
+
+    W_L holds the ten standard inertial columns of the link on the rows of the loaded logs, zero on
+    the others, reduced to those that base and other load columns do not reproduce (Khalil, Gautier
+    and Lemoine 2007). The result's `parameters` are the bare robot, `loads` the loads.
+
+    Args:
+        model: the compiled robot.
+        observation: of loaded and unloaded logs together.
+        payloads: which logs carry what.
+        method: as for `identify`.
+        below: as for `identify`.
+
+    Raises:
+        DataError: a log or link that is not there, every log loaded, a mass that is not positive.
+    """
+    equations = loaded_equations(model, observation, payloads).equations
+    return fit_equations(observation, equations, method, model, below)
+
+
+@dataclass(frozen=True, eq=False)
+class Loaded:
+    """The equations of robot and loads.
+
+    Attributes:
+        equations: with the known weights on the side of the measurement.
+        weighed: the payloads of known mass.
+        torques: (rows, weighed) N m or N that each of these masses accounts for.
+    """
+
+    equations: Equations
+    weighed: tuple[Payload, ...]
+    torques: np.ndarray
+
+    def told(self, i: int) -> bool:
+        """True if the logs tell the mass of a weighed payload from all other parameters."""
+        return bool(independent(self.equations.W, self.torques[:, [i]]))
+
+
+def loaded_equations(
+    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+) -> Loaded:
+    """The equations that `identify_with_payloads` fits.
+
+    Raises:
+        DataError: see there.
+    """
+    _check(model, observation, payloads)
+    equations = base_equations(observation)
+    torques = []
+    for payload in payloads:
+        before = equations.y
+        equations = _with_load(equations, model, observation, payload)
+        if payload.mass is not None:
+            torques.append(before - equations.y)
+    weighed = tuple(payload for payload in payloads if payload.mass is not None)
+    stacked = np.column_stack(torques) if torques else np.zeros((len(equations.y), 0))
+    loaded = Loaded(equations, weighed, stacked)
+    blind = [
+        f"{payload.name}: its mass of {payload.mass:g} kg is taken as given: these logs do not "
+        "tell it from its other parameters"
+        for i, payload in enumerate(weighed)
+        if not loaded.told(i)
+    ]
+    told = dataclasses.replace(equations, sentences=(*equations.sentences, *blind))
+    return dataclasses.replace(loaded, equations=told)
+
+
+def _with_load(
+    equations: Equations, model: "CompiledModel", observation: Observation, payload: Payload
+) -> Equations:
+    """The equations with the columns of a load that can be told apart, beside those there are."""
+    link = payload.link or _last_link(model)
+    columns, labels, units = _load_columns(model, observation, payload, link)
+    y = equations.y
+    if payload.mass is not None:
+        y = y - payload.mass * columns[:, labels.index("M")]
+        columns, labels, units = columns[:, 1:], labels[1:], units[1:]
+    kept = independent(equations.W, columns)
+    names = [f"{label}{link}" for label in labels]
+    sums = _sums(equations.W, columns, names, kept)
+    own = [f"{names[i]}{'R' if i in sums else ''}_{payload.name}" for i in kept]
+    remarks = _remarks(payload, columns, names, kept, sums)
+    return Equations(
+        observation=observation,
+        extra=np.column_stack([equations.extra, columns[:, kept]]),
+        y=y,
+        names=(*equations.names, *own),
+        units=(*equations.units, *(units[i] for i in kept)),
+        sentences=(*equations.sentences, *remarks),
+        carried=(*equations.carried, *payload.logs),
+    )
+
+
+def _last_link(model: "CompiledModel") -> str:
+    """The platform of a parallel robot, else the link of the last joint."""
+    closure = model.spec.closure
+    if closure is not None:  # whose joints are the coordinates only
+        return closure.carrier or closure.variables[-1]
+    return model.spec.joints[-1].name
+
+
+def _check(model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]) -> None:
+    loaded: set[str] = set()
+    links = {parameter.joint for parameter in model.spec.standard}
+    for payload in payloads:
+        unknown = [name for name in payload.logs if name not in observation.logs]
+        if unknown or not payload.logs:
+            raise DataError(
+                f"payload {payload.name}: no log {unknown[0] if unknown else 'is named'}; there "
+                f"are {', '.join(observation.logs)}"
+            )
+        if payload.link is not None and payload.link not in links:
+            raise DataError(
+                f"payload {payload.name}: no link {payload.link}; {model.spec.robot} has "
+                f"{', '.join(sorted(links))}"
+            )
+        if payload.mass is not None and not 0.0 < payload.mass <= LARGEST_MASS:
+            raise DataError(
+                f"payload {payload.name}: mass {payload.mass} kg; expected above 0 and at most "
+                f"{LARGEST_MASS:g}"
+            )
+        loaded |= set(payload.logs)
+    if len({payload.name for payload in payloads}) < len(payloads):
+        raise DataError("two payloads have the same name; give each its own")
+    if loaded >= set(observation.logs):
+        raise DataError(
+            "every log carries a load, so it cannot be told from the last link; add a log of the "
+            "bare robot"
+        )
+
+
+def _load_columns(
+    model: "CompiledModel", observation: Observation, payload: Payload, link: str
+) -> tuple[np.ndarray, list[str], list[str]]:
+    """(rows, 10) columns, zero on the other logs; their letters; their units."""
+    place = {p.name: i for i, p in enumerate(model.spec.standard) if p.effect == "rigid_body"}
+    labels = [label for label in _ORDER if f"{label}{link}" in place]
+    columns = [place[f"{label}{link}"] for label in labels]
+    runs = [i for i, name in enumerate(observation.logs) if name in payload.logs]
+
+    def evaluate(s: Segment, w: slice) -> np.ndarray:
+        read = signals_of(model.spec, s)
+        part = None if read is None else read[w]
+        return model.regressor(s.q[w], s.qd[w], s.qdd[w], part)[:, :, columns]
+
+    everywhere = observation.filtered(evaluate)
+    rows = everywhere[observation.used]
+    rows[~np.isin(observation.row_run, runs)] = 0.0
+    return rows, labels, [model.spec.standard[i].unit for i in columns]
+
+
+def _sums(
+    base: np.ndarray, columns: np.ndarray, names: Sequence[str], kept: Sequence[int]
+) -> dict[int, str]:
+    """{kept column: the sum that its parameter stands for, "M3 + 11.1*YY3"}, of those that are."""
+    basis = np.column_stack([base, columns[:, kept]])
+    lengths = np.linalg.norm(basis, axis=0)
+    basis = basis / np.where(lengths > 0.0, lengths, 1.0)
+    found: dict[int, str] = {}
+    for i, name in enumerate(names):
+        length = float(np.linalg.norm(columns[:, i]))
+        if i in kept or length == 0.0 or not kept:
+            continue
+        share = np.linalg.lstsq(basis, columns[:, i] / length, rcond=None)[0][-len(kept) :]
+        for k, part in zip(kept, share, strict=True):
+            if abs(part) > _TOLERANCE**0.5:
+                factor = part * length / float(np.linalg.norm(columns[:, k]))
+                term = f"{'-' if factor < 0.0 else '+'} {abs(factor):.4g}*{name}"
+                found[k] = f"{found.get(k, names[k])} {term}"
+    return found
+
+
+def _remarks(
+    payload: Payload, columns: np.ndarray, names: Sequence[str], kept: Sequence[int],
+    sums: Mapping[int, str],
+) -> list[str]:  # fmt: skip
+    """What became of the load's parameters that are not estimated."""
+    idle = [name for i, name in enumerate(names) if not columns[:, i].any()]
+    gone = [n for i, n in enumerate(names) if i not in kept and n not in idle]
+    said = []
+    if idle:
+        said.append(f"{payload.name}: {', '.join(idle)} of the load have no effect on the torques")
+    if gone:
+        said.append(
+            f"{payload.name}: {', '.join(gone)} of the load cannot be told from the others "
+            "and are grouped with them"
+        )
+    said += [f"{payload.name}: {names[k]}R_{payload.name} = {text}" for k, text in sums.items()]
+    return said
+
+
+def independent(base: np.ndarray, columns: np.ndarray) -> list[int]:
+    """Indices of the columns that neither `base` nor earlier columns reproduce."""
+    lengths = np.linalg.norm(base, axis=0)
+    basis = np.linalg.qr(base[:, lengths > 0.0] / lengths[lengths > 0.0])[0]
+    kept: list[int] = []
+    for i in range(columns.shape[1]):
+        length = np.linalg.norm(columns[:, i])
+        if length == 0.0:
+            continue
+        rest = columns[:, i] / length
+        for _ in range(2):  # Gram and Schmidt twice: once is not enough beside a long basis
+            rest = rest - basis @ (basis.T @ rest)
+        if np.linalg.norm(rest) > _TOLERANCE:
+            kept.append(i)
+            basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
+    return kept

@@ -1,0 +1,206 @@
+"""The rows of an observation without W: compressed, explained, and beside their neighbours."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.numerics.least_squares import Compressed, compress
+from modeler.observation.observation import Evaluated, Observation
+from modeler.observation.reduce import blocks, explained, is_streamed, products, triangles
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+
+_PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows times a matrix
+_ROWS = 64  # that a band matrix is applied to at a time
+
+
+def compressed(
+    observation: Observation, counted: np.ndarray, free: Sequence[int] = ()
+) -> Compressed:
+    """The base parameters' equations of some rows, compressed.
+
+    Args:
+        observation: of the rows.
+        counted: (rows,) True for those to use.
+        free: indices of the joints without a motor.
+    """
+    joints = len(observation.joints)
+    if not is_streamed(observation):
+        own = observation.W[counted], observation.y[counted], observation.row_joint[counted]
+        return compress(*own, joints, observation.names, free)
+    found = triangles(observation, kept_rows(observation, counted))
+    rows = found.rows.astype(np.intp)
+    return Compressed(observation.names, found.triangles, rows, np.isin(np.arange(joints), free))
+
+
+def residual_of(
+    observation: Observation, beta: np.ndarray, counted: np.ndarray | None = None
+) -> np.ndarray:
+    """y - W beta of the base parameters, for all rows or those that are counted (rows,)."""
+    own = slice(None) if counted is None else counted
+    if not is_streamed(observation):
+        return np.asarray(observation.y[own] - observation.W[own] @ beta)
+    keep = observation.used if counted is None else kept_rows(observation, counted)
+    return np.asarray((observation.torque - explained(observation, beta, keep))[keep])
+
+
+class Neighbours:
+    """Rows of the base parameters that are counted, beside those before them in their segment.
+
+    Attributes:
+        observation: of the rows.
+        keep: (s, n) True where they are counted.
+    """
+
+    def __init__(self, observation: Observation, counted: np.ndarray) -> None:
+        self.observation, self.keep = observation, kept_rows(observation, counted)
+        self._products: tuple[list[int], list[np.ndarray] | None] | None = None
+
+    def repeated(self, matrices: Sequence[np.ndarray], r: Sequence[np.ndarray]) -> np.ndarray:
+        """(k,) 2 sum_j sum_l r_j(l) sum_t a_j(t) a_j(t + l), element by element; l = 1, 2, ...
+
+        a_j(t) = w_j(t) A_j, w_j(t) the row of joint j at sample t, 0 where it is not counted.
+
+        Args:
+            matrices: A_j (c, k) of each joint.
+            r: r_j(0), r_j(1), ... of each joint; one value and no more for a joint to leave out.
+        """
+        found = self._made([len(own) - 1 for own in r])
+        if found is None:
+            return _by_blocks(self.observation, self.keep, matrices, r)
+        total = np.zeros(matrices[0].shape[1])
+        for j, own in enumerate(found):
+            A = matrices[j][_columns(self.observation, j)]
+            for weight, product in zip(r[j][1:], own, strict=False):
+                total += 2.0 * weight * np.einsum("ak,ak->k", A, product @ A)
+        return total
+
+    def _made(self, last: list[int]) -> list[np.ndarray] | None:
+        """Products of rows up to so far apart, or farther; kept, as most fits ask twice."""
+        if max(last) > _PRODUCTS:
+            return None
+        if self._products is None or np.any(np.array(last) > self._products[0]):
+            self._products = last, products(self.observation, self.keep, last)
+        return self._products[1]
+
+
+def kept_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
+    """(s, n) True for the rows that are counted (rows,)."""
+    keep = np.zeros(observation.used.shape, dtype=bool)
+    keep[observation.used] = counted
+    return keep
+
+
+def _columns(observation: Observation, joint: int) -> np.ndarray:
+    """Columns that can differ from 0 in the rows of a joint."""
+    regressor = observation.regressor
+    if isinstance(regressor, Evaluated):
+        return regressor.pattern.columns[joint]
+    return np.arange(len(observation.names))
+
+
+def _by_blocks(
+    observation: Observation,
+    keep: np.ndarray,
+    matrices: Sequence[np.ndarray],
+    r: Sequence[np.ndarray],
+) -> np.ndarray:
+    """As `Neighbours.repeated`, from the columns of samples, and the last rows before them."""
+    total, longest = np.zeros(matrices[0].shape[1]), max(len(own) - 1 for own in r)
+    before: list[np.ndarray] = []
+    own_columns = [_columns(observation, j) for j in range(len(r))]
+    at = -1
+    for samples, columns in blocks(observation):
+        if observation.segment[samples.start] != at:
+            before = [np.zeros((longest, len(total)))] * len(r)
+        at = int(observation.segment[samples.start])
+        for j, correlation in enumerate(r):
+            if len(correlation) < 2:
+                continue
+            own = own_columns[j]
+            now = (columns[:, j, own] * keep[samples, j, None]) @ matrices[j][own]
+            rows = np.concatenate([before[j], now])
+            total += 2.0 * _neighbours(rows, correlation, longest)
+            before[j] = rows[len(rows) - longest :]
+    return total
+
+
+def _neighbours(rows: np.ndarray, r: np.ndarray, before: int) -> np.ndarray:
+    """(k,) sum_l r(l) sum_t rows(t - l) rows(t) over t from `before` on, by band matrices."""
+    total = np.zeros(rows.shape[1])
+    lags = len(r) - 1
+    band = np.zeros((_ROWS, _ROWS + lags))
+    for i in range(_ROWS):
+        band[i, i : i + lags] = r[:0:-1]
+    for first in range(before, len(rows), _ROWS):
+        own = rows[first : first + _ROWS]
+        early = rows[first - lags : first + len(own)]
+        total += np.einsum("tk,tk->k", band[: len(own), : len(early)] @ early, own)
+    return total
+
+
+# What an estimator is given.
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """y = W beta + rho, row for row those of an observation; c columns.
+
+    Attributes:
+        observation: says which row is which joint and sample, and holds the motion.
+        given: (rows, c) W; None: that of the observation.
+        y: (rows,) N m or N.
+        counted: (rows,) rows to fit; the others are of joints without a torque.
+        names: (c,) base parameters first, then those of loads.
+        units: (c,).
+        data: the counted rows, compressed.
+        model: the compiled robot; None where nobody gave it.
+    """
+
+    observation: Observation
+    given: np.ndarray | None
+    y: np.ndarray
+    counted: np.ndarray
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    data: Compressed
+    model: "CompiledModel | None" = None
+
+    @property
+    def W(self) -> np.ndarray:
+        """(rows, c)."""
+        return self.observation.W if self.given is None else self.given
+
+    @property
+    def streamed(self) -> bool:
+        """True if W is better not asked for: it is large."""
+        return self.given is None and is_streamed(self.observation)
+
+    @property
+    def joint(self) -> np.ndarray:
+        """(rows,) index of the joint of each row."""
+        return self.observation.row_joint
+
+    def robot(self, method: str) -> "CompiledModel":
+        """The compiled robot, for an estimator that cannot do without it.
+
+        Raises:
+            DataError: it was not given, or there are loads beside it.
+        """
+        if self.model is None:
+            raise DataError(
+                f'method "{method}" evaluates the robot; got no compiled model; give it as '
+                "identify(observation, method, model)"
+            )
+        if len(self.names) != len(self.observation.names):
+            extra = ", ".join(self.names[len(self.observation.names) :])
+            raise DataError(
+                f'method "{method}" knows the columns of the bare robot only; got {extra} besides; '
+                'fit logs without a load, or use method "weighted"'
+            )
+        return self.model

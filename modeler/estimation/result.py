@@ -1,0 +1,602 @@
+"""What a fit hands back: values, how sure they are, and how much they leave unexplained."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.core.errors import DataError, ManifestError
+from modeler.core.json import nulled
+from modeler.core.manifest import ModuleSpec
+from modeler.core.result import Presented
+from modeler.core.table import POOLED, errors_by_unit, told_by_unit
+from modeler.estimation.essential import Reduced, reduced_from_json
+from modeler.estimation.parameter import ParameterEstimate, parameter_lines, read_parameter
+from modeler.observation.processing import Processing, processing_from_json
+
+# The energy model beside the torque model of the same data: figures, and what they come to.
+
+
+SURE = 10.0
+"""%sigma below which a parameter counts as known."""
+
+_FELT = 0.5  # sigmas: a bias that is no longer small beside the noise
+_WORTH = 1.2  # ratio of two uncertainties that is told as a difference
+
+
+@dataclass(frozen=True)
+class ModelFigures(Brief):
+    """One model fitted to the data.
+
+    Attributes:
+        model: "torque", "energy, Simpson" or "energy, trapezoid".
+        rows: of its W.
+        condition_scaled: of W with columns of length one.
+        known: parameters with a sigma below 10 % of their value.
+        torque_error: ||tau - W beta|| / ||tau|| with its beta, on the rows of the torque model.
+        torque_sigma: sqrt(tr(W C W^T)) / ||tau||: what its covariance C comes to in the same
+            torques. Noise of the torques themselves is not in it.
+        imbalance: share of the energy that integrals and derivatives miss: the work of inertia by
+            the rule against the difference of kinetic energy; None for the torque model.
+        bias: what that moves the parameter that it moves most, in sigmas; None for the torque
+            model.
+        joint_sigma: by joint, the root mean square of what the covariance comes to in its torques,
+            N m or N.
+    """
+
+    model: str
+    rows: int
+    condition_scaled: float
+    known: int
+    torque_error: float
+    torque_sigma: float
+    imbalance: float | None = None
+    bias: float | None = None
+    joint_sigma: Mapping[str, float] = field(default_factory=dict)
+
+    def cells(self) -> tuple[str, ...]:
+        """Its line of the table."""
+        return (
+            f"{self.rows}",
+            f"{self.condition_scaled:.4g}",
+            f"{self.known}",
+            f"{100.0 * self.torque_error:.3g} %",
+            f"{100.0 * self.torque_sigma:.2g} %",
+            "-" if self.imbalance is None else f"{self.imbalance:.1e}",
+            "-" if self.bias is None else f"{self.bias:.2g} sigma",
+        )
+
+
+def _line(name: str, cells: Sequence[str]) -> str:
+    widths = (7, 10, 7, 10, 10, 9, 13)
+    return f"{name:<18}" + "".join(f"{c:>{w}}" for c, w in zip(cells, widths, strict=True))
+
+
+@dataclass(frozen=True)
+class EnergyReport(Brief):
+    """How the rows of energy were made, and how they compare.
+
+    Attributes:
+        window: s.
+        relative_error: ||y - W beta|| / ||y|| of the energies.
+        figures: torque model, energy by Simpson's rule, energy by the trapezoid.
+        parameters: estimated ones.
+    """
+
+    window: float
+    relative_error: float
+    figures: tuple[ModelFigures, ...]
+    parameters: int
+
+    @property
+    def ratio(self) -> float:
+        """Uncertainty of the torques over that of the torque model, at the joint where it is most.
+
+        Of all joints together the largest torques alone would speak.
+        """
+        return self._worst()[1]
+
+    def _worst(self) -> tuple[str, float]:
+        torque, energy, _ = self.figures
+        pairs = {
+            f"joint {name}": (sigma, torque.joint_sigma.get(name, 0.0))
+            for name, sigma in energy.joint_sigma.items()
+        } or {"all joints": (energy.torque_sigma, torque.torque_sigma)}  # a file from before
+        ratios = {name: own / first if first > 0.0 else 1.0 for name, (own, first) in pairs.items()}
+        return max(ratios.items(), key=lambda item: item[1])
+
+    def lines(self) -> list[str]:
+        """Lines of text."""
+        head = ("rows", "cond", "known", "error", "sigma", "missed", "bias")
+        lines = [
+            f"energy model: windows of {self.window:.4g} s, energies met to "
+            f"{100.0 * self.relative_error:.3g} %; beside the torque model on the same data:",
+            _line("model", head),
+            *(_line(item.model, item.cells()) for item in self.figures),
+        ]
+        return [
+            *lines,
+            "cond: columns of length one; known: sigma below 10 %; error, sigma: of the predicted "
+            "torques; missed: share of the energy that integrals and derivatives miss; bias: what "
+            "that moves at most",
+            *self.sentences(),
+        ]
+
+    def sentences(self) -> list[str]:
+        """Which of the two models to take, and what the rule of integration does."""
+        torque, energy, _ = self.figures
+        where, ratio = self._worst()
+        knows = (
+            f"knows {energy.known} parameters where that knows {torque.known}, of {self.parameters}"
+        )
+        first = (
+            f"the energy model predicts the torques of {where} {ratio:.3g} times less surely than "
+            f"the torque model on the same data and {knows}: one equation a window in place of one "
+            "a joint; for torques and values take --model torque"
+            if ratio > _WORTH
+            else "the energy model is about as sure as the torque model (at most "
+            f"{ratio:.3g} times its sigma of the torques, {where}), {knows}, and needs no "
+            "acceleration"
+        )
+        simpson, trapezoid = (item.bias or 0.0 for item in self.figures[1:])
+        second = (
+            f"integrals by Simpson's rule, and derivatives, move no parameter by more than "
+            f"{simpson:.2g} sigma; with the trapezoid {trapezoid:.2g}"
+        )
+        if simpson > _FELT:
+            second += "; log faster, or move more slowly"
+        return [first, second]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "window": self.window,
+            "relative_error": self.relative_error,
+            "parameters": self.parameters,
+            "ratio": self.ratio,
+            "figures": [vars(item) for item in self.figures],
+            "sentences": self.sentences(),
+        }
+
+
+def energy_report_from_json(raw: Mapping[str, Any] | None) -> EnergyReport | None:
+    """Read `EnergyReport.to_json` back; None for a fit of the torque model."""
+    if raw is None:
+        return None
+    return EnergyReport(
+        window=float(raw["window"]),
+        relative_error=float(raw["relative_error"]),
+        figures=tuple(ModelFigures(**entry) for entry in raw["figures"]),
+        parameters=int(raw["parameters"]),
+    )
+
+
+# Friction by direction: what viscous, Coulomb, their asymmetry and the offset come to.
+
+
+_LAW = (
+    ("Fv", "+", (("viscous", 1.0), ("asymmetric_viscous", 1.0))),
+    ("Fs", "+", (("coulomb", 1.0), ("offset", 1.0))),
+    ("Fv", "-", (("viscous", 1.0), ("asymmetric_viscous", -1.0))),
+    ("Fs", "-", (("coulomb", 1.0), ("offset", -1.0))),
+)
+
+
+class Fitted(Protocol):
+    """What of a fit enters here."""
+
+    @property
+    def parameters(self) -> tuple[ParameterEstimate, ...]:
+        """(c,) base parameters."""
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """(c, c) of their values."""
+
+
+@dataclass(frozen=True)
+class Directed:
+    """Friction of one joint in one direction of its motion, a sum of base parameters.
+
+    Attributes:
+        name: "Fv1+", "Fs1+" for qd > 0, "Fv1-", "Fs1-" for qd < 0.
+        unit: SI.
+        value: its estimate.
+        sigma: standard deviation.
+        relation: "Fv1+ = Fv1 + Fva1".
+    """
+
+    name: str
+    unit: str
+    value: float
+    sigma: float
+    relation: str
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        share = 100.0 * self.sigma / abs(self.value) if self.value else None
+        return vars(self) | {"relative_sigma_percent": share}
+
+
+def directed_from_json(raw: Mapping[str, Any]) -> Directed:
+    """Read `Directed.to_json` back."""
+    return Directed(**{k: v for k, v in raw.items() if k != "relative_sigma_percent"})
+
+
+def friction_by_direction(spec: ModuleSpec, fit: Fitted) -> tuple[Directed, ...]:
+    """Friction by direction of the joints whose viscous friction differs between the directions.
+
+    The law of the columns qd, |qd|, sign(qd), 1 is that of two slopes and two levels,
+
+        Fv qd + Fva |qd| + Fs sign(qd) + Off = Fv+ qd + Fs+ (qd > 0),  Fv- qd - Fs- (qd < 0),
+        Fv+- = Fv +- Fva,  Fs+- = Fs +- Off
+
+    (Fv1, Fs1 and Fv2, Fs2 of Houda et al., Table 1). A base parameter that carries others, such as
+    a constant weight in OffR, carries them here too; its name in the relation says so.
+
+    Args:
+        spec: the robot.
+        fit: its c base parameters, and the (c, c) covariance of their values.
+    """
+    parameters, covariance = fit.parameters, fit.covariance
+    kinds = {parameter.name: parameter for parameter in spec.standard}
+    column = {
+        (kinds[base.column_of].effect, kinds[base.column_of].joint): i
+        for i, base in enumerate(spec.base)
+        if base.column_of in kinds and parameters[i].sigma is not None
+    }
+    found = []
+    for joint in spec.joints:
+        if ("asymmetric_viscous", joint.name) not in column:
+            continue
+        for prefix, sign, parts in _LAW:
+            used = [(column[key, joint.name], c) for key, c in parts if (key, joint.name) in column]
+            if (parts[0][0], joint.name) not in column:  # another carries it
+                continue
+            found.append(_sum(f"{prefix}{joint.name}{sign}", used, parameters, covariance))
+    return tuple(found)
+
+
+def _sum(
+    name: str,
+    used: list[tuple[int, float]],
+    parameters: tuple[ParameterEstimate, ...],
+    covariance: np.ndarray,
+) -> Directed:
+    at, c = [i for i, _ in used], np.array([factor for _, factor in used])
+    variance = float(c @ covariance[np.ix_(at, at)] @ c)
+    terms = " ".join(f"{'+' if f > 0 else '-'} {parameters[i].name}" for i, f in used)
+    return Directed(
+        name=name,
+        unit=parameters[at[0]].unit,
+        value=float(c @ [parameters[i].value for i in at]),
+        sigma=max(variance, 0.0) ** 0.5,
+        relation=f"{name} = {terms.removeprefix('+ ')}",
+    )
+
+
+def direction_lines(directions: tuple[Directed, ...]) -> list[str]:
+    """A table; nothing without one."""
+    if not directions:
+        return []
+    width = max(9, *(len(item.name) for item in directions))
+    lines = [f"{'direction':<{width}} {'value':>13} {'sigma':>10}  unit"]
+    lines += [
+        f"{item.name:<{width}} {item.value:>13.6g} {item.sigma:>10.3g}  {item.unit:<10} "
+        f"{item.relation}"
+        for item in directions
+    ]
+    return lines
+
+
+_ROUND = "{:.4g}".format
+
+
+@dataclass(frozen=True)
+class JointFit:
+    """One joint.
+
+    Attributes:
+        name: joint.
+        unit: "N m" or "N".
+        rows: used.
+        relative_error: ||tau - W chi|| / ||tau||, filtered; None without rows or torque.
+        rms: of the residual.
+        sigma: standard deviation of its rows, the inverse of their weight.
+    """
+
+    name: str
+    unit: str
+    rows: int
+    relative_error: float | None
+    rms: float
+    sigma: float
+
+
+@dataclass(frozen=True)
+class Verdict(Brief):
+    """How a fit ends.
+
+    Attributes:
+        usable: True if it predicts the torques of motion like that of its logs.
+        usable_for: "physics" (its values are those of a machine: simulation, control, other
+            motion), "like motion" (torques of motion like that of its logs), "nothing".
+        line: for people: usable or not, why, what to do.
+        doubts: all that speaks against it.
+    """
+
+    usable: bool
+    usable_for: str
+    line: str
+    doubts: tuple[str, ...]
+
+    def warning(self) -> list[str]:
+        """A line for whoever uses a model that is not usable; none for one that is."""
+        return [] if self.usable else [f"the fit of this model is {self.line}"]
+
+
+@dataclass(frozen=True, eq=False)
+class FitResult(Presented):
+    """A fitted model.
+
+    Attributes:
+        robot: name.
+        method: id of the estimator, see `core.estimators`.
+        status: "ok" | "rank deficient" | "not settled".
+        samples: after decimation.
+        rows: of W.
+        condition_number: of W, parameters set aside left out.
+        condition_scaled: with columns of length one.
+        relative_error: ||y - W beta|| / ||y||, after the same filter on both sides.
+        essential_error: the same with the essential parameters only.
+        joints: in the order of the manifest.
+        parameters: (c,) base parameters in the order of the manifest.
+        covariance: (c, c) of their values; 0 for those set aside.
+        loads: parameters of payloads, named `M6_load`; empty without payloads.
+        sentences: what a reader must know, plain text.
+        processing: with all choices filled in; use it for held-out logs.
+        verdict: usable or not; None if nobody has judged it.
+        standard: all standard parameters by name, SI, of an estimator that ends in them.
+        own: those of the sentences that the estimator says of itself; not kept in model files.
+        essential: the reduced model; None if it has no parameter, or in files that lack it.
+        directions: friction by direction, of joints whose viscous friction differs.
+        energy: how it compares with the torque model; None for the torque model itself.
+        gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
+        singular_values: that tell the gains apart, descending; 1 is noise (see `estimate.tls`).
+        reading: of long logs: passes, chunks, rows, windows, rows_in_windows; empty of others.
+        by_load: the joints on the "bare" and on the "loaded" logs; empty without payloads.
+    """
+
+    robot: str
+    method: str
+    status: str
+    samples: int
+    rows: int
+    condition_number: float
+    condition_scaled: float
+    relative_error: float
+    essential_error: float
+    joints: tuple[JointFit, ...]
+    parameters: tuple[ParameterEstimate, ...]
+    covariance: np.ndarray
+    loads: tuple[ParameterEstimate, ...]
+    sentences: tuple[str, ...]
+    processing: Processing
+    verdict: Verdict | None = None
+    standard: Mapping[str, float] = field(default_factory=dict)
+    own: tuple[str, ...] = ()
+    essential: Reduced | None = None
+    directions: tuple[Directed, ...] = ()
+    energy: EnergyReport | None = None
+    gains: tuple[ParameterEstimate, ...] = ()
+    singular_values: tuple[float, ...] = ()
+    reading: Mapping[str, int] = field(default_factory=dict)
+    by_load: Mapping[str, tuple[JointFit, ...]] = field(default_factory=dict)
+
+    @property
+    def beta(self) -> np.ndarray:
+        """(c,) values of the base parameters, manifest order, SI units."""
+        return np.array([parameter.value for parameter in self.parameters])
+
+    @property
+    def by_unit(self) -> dict[str, float]:
+        """Relative error over the joints of one unit, by unit; NaN without torque."""
+        return errors_by_unit(
+            (joint.unit, left, left / joint.relative_error**2 if joint.relative_error else 0.0)
+            for joint in self.joints
+            for left in [joint.rows * joint.rms**2]
+        )
+
+    def error_told(self, form: str = "{:.3f} %") -> str:
+        """The relative error as text; of torques and forces apart where the robot has both."""
+        if self.energy is None and len(self.by_unit) > 1:
+            return told_by_unit(self.by_unit, form)
+        return form.format(100.0 * self.relative_error)
+
+    def lines(self) -> list[str]:
+        """Lines of text: parameters, joints, remarks, the verdict last."""
+
+        def share(joint: JointFit) -> str:
+            error = joint.relative_error
+            return "-" if error is None else f"{100.0 * error:.2f} %"
+
+        alone = self.essential.parameters if self.essential and self.essential.dropped else ()
+        lines = parameter_lines((*self.gains, *self.parameters, *self.loads), alone)
+        lines += direction_lines(self.directions)
+        lines += [
+            f"{self.rows} rows of {self.samples} samples, condition number "
+            f"{self.condition_number:.4g} ({self.condition_scaled:.4g} with columns of length one)",
+            f"relative error {self.error_told()}",
+        ]
+        for k, joint in enumerate(self.joints):
+            apart = "".join(f", {name} {share(own[k])}" for name, own in self.by_load.items())
+            lines.append(
+                f"  joint {joint.name}: {share(joint)}{apart}, rms {joint.rms:.4g} {joint.unit}"
+            )
+        lines += [*bodies_told(self.standard), *self.sentences]
+        lines += self.essential.lines() if self.essential is not None else []
+        lines += self.energy.lines() if self.energy is not None else []
+        if self.verdict is not None:
+            others = (line for line in self.verdict.doubts if line not in self.verdict.line)
+            lines += [*(f"doubt: {line}" for line in others), self.verdict.line]
+        return lines
+
+    def to_json(self) -> dict[str, Any]:
+        """The `fit` object that scripts read; numbers that mean nothing are null."""
+        return nulled({
+            "robot": self.robot,
+            "method": self.method,
+            "status": self.status,
+            "samples": self.samples,
+            "rows": self.rows,
+            "condition_number": self.condition_number,
+            "condition_scaled": self.condition_scaled,
+            "relative_error": self.relative_error,
+            "relative_error_pools": POOLED,
+            "by_unit": self.by_unit,
+            "essential_error": self.essential_error,
+            "joints": _joints_to_json(self.joints),
+            "by_load": {
+                name: {"relative_error": pooled(own), "joints": _joints_to_json(own)}
+                for name, own in self.by_load.items()
+            },
+            "parameters": [parameter.to_json() for parameter in self.parameters],
+            "loads": [parameter.to_json() for parameter in self.loads],
+            "gains": [parameter.to_json() for parameter in self.gains],
+            "singular_values": list(self.singular_values),
+            "sentences": list(self.sentences),
+            "processing": self.processing.to_json(),
+            "standard": dict(self.standard),
+            "essential": None if self.essential is None else self.essential.to_json(),
+            "directions": [item.to_json() for item in self.directions],
+            "model": "torque" if self.energy is None else "energy",
+            "energy": None if self.energy is None else self.energy.to_json(),
+            **_verdict_to_json(self.verdict),
+            **({"reading": dict(self.reading)} if self.reading else {}),
+        })  # fmt: skip
+
+
+def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
+    """Read `FitResult.to_json` back; the covariance is stored beside it.
+
+    Raises:
+        ManifestError: an entry is missing or of the wrong kind; names it.
+    """
+    try:
+        return FitResult(
+            robot=raw["robot"],
+            method=raw["method"],
+            status=raw["status"],
+            samples=int(raw["samples"]),
+            rows=int(raw["rows"]),
+            condition_number=_number(raw["condition_number"]),
+            condition_scaled=_number(raw["condition_scaled"]),
+            relative_error=_number(raw["relative_error"], float("nan")),
+            essential_error=_number(raw["essential_error"], float("nan")),
+            joints=_joints_from_json(raw["joints"]),
+            parameters=tuple(read_parameter(entry) for entry in raw["parameters"]),
+            covariance=covariance,
+            loads=tuple(read_parameter(entry) for entry in raw["loads"]),
+            sentences=tuple(raw["sentences"]),
+            processing=processing_from_json(raw["processing"]),
+            verdict=_verdict_from_json(raw),
+            standard={str(k): float(v) for k, v in raw.get("standard", {}).items()},
+            essential=reduced_from_json(raw.get("essential")),
+            directions=tuple(directed_from_json(item) for item in raw.get("directions", ())),
+            energy=energy_report_from_json(raw.get("energy")),
+            gains=tuple(read_parameter(entry) for entry in raw.get("gains", [])),
+            singular_values=tuple(map(float, raw.get("singular_values", []))),
+            reading={str(k): int(v) for k, v in raw.get("reading", {}).items()},
+            by_load={
+                str(name): _joints_from_json(own["joints"])
+                for name, own in raw.get("by_load", {}).items()
+            },
+        )
+    except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
+        raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None
+
+
+def pooled(joints: Sequence[JointFit]) -> float:
+    """||y - W beta|| / ||y|| over joints; NaN without torque."""
+    seen = [joint for joint in joints if joint.relative_error]
+    left = sum(joint.rows * joint.rms**2 for joint in seen)
+    total = sum(j.rows * (j.rms / j.relative_error) ** 2 for j in seen if j.relative_error)
+    return float(np.sqrt(left / total)) if total else float("nan")
+
+
+def _joints_to_json(joints: Sequence[JointFit]) -> dict[str, Any]:
+    return {
+        joint.name: {
+            "relative_error": joint.relative_error,
+            "rms": joint.rms,
+            "sigma": joint.sigma,
+            "rows": joint.rows,
+            "unit": joint.unit,
+        }
+        for joint in joints
+    }
+
+
+def _joints_from_json(raw: Mapping[str, Any]) -> tuple[JointFit, ...]:
+    return tuple(JointFit(name=name, **entry) for name, entry in raw.items())
+
+
+def _verdict_to_json(verdict: Verdict | None) -> dict[str, Any]:
+    if verdict is None:
+        return {"usable": None, "usable_for": None, "verdict": None, "doubts": []}
+    return {
+        "usable": verdict.usable,
+        "usable_for": verdict.usable_for,
+        "verdict": verdict.line,
+        "doubts": list(verdict.doubts),
+    }
+
+
+def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
+    """None where nobody has judged the fit, as in files of earlier versions."""
+    usable, line, doubts = raw.get("usable"), raw.get("verdict"), raw.get("doubts", [])
+    if usable is None:
+        return None
+    if not (isinstance(usable, bool) and isinstance(line, str) and isinstance(doubts, list)):
+        raise ValueError("its verdict is not as saved")
+    return Verdict(usable, str(raw["usable_for"]), line, tuple(map(str, doubts)))
+
+
+def _number(value: float | None, unknown: float = float("inf")) -> float:
+    return unknown if value is None else float(value)
+
+
+def bodies_told(standard: Mapping[str, float]) -> list[str]:
+    """A line per link: mass, mass centre in its frame, principal moments about the mass centre.
+
+    Args:
+        standard: standard parameters by name; links of which one of the ten is missing are left
+            out.
+    """
+    lines = []
+    for link in [
+        name[1:] for name in standard if name.startswith("M") and _is_link(name, standard)
+    ]:
+        mass, centre, moments = _body(link, standard)
+        lines.append(
+            f"link {link}: {_ROUND(mass)} kg, centre ({', '.join(map(_ROUND, centre))}) m, "
+            f"principal moments {', '.join(map(_ROUND, moments))} kg m2"
+        )
+    return lines
+
+
+def _is_link(name: str, standard: Mapping[str, float]) -> bool:
+    prefixes = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ")
+    return standard[name] > 0.0 and all(f"{p}{name[1:]}" in standard for p in prefixes)
+
+
+def _body(link: str, standard: Mapping[str, float]) -> tuple[float, np.ndarray, np.ndarray]:
+    xx, xy, xz, yy, yz, zz, mx, my, mz, mass = (
+        standard[f"{p}{link}"] for p in ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
+    )
+    centre = np.array([mx, my, mz]) / mass
+    origin = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    about = origin - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
+    return mass, centre, np.linalg.eigvalsh(about)

@@ -1,0 +1,141 @@
+"""Ridge: what the data leave open is drawn towards 0, or towards the robot's nominal values."""
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.estimation.least_squares import Estimate, least_squares
+from modeler.estimation.problem import Problem
+from modeler.numerics.least_squares import Rank, triangle
+
+_RANGE = (-6.0, 9.0)
+"""log10 of the width of the prior, in standard deviations of the noise of a column alone."""
+
+_WIDTHS = 601  # tried within it
+_WITHIN = 2.0  # log-probability from the best, as of the 95 % interval
+
+
+@dataclass(frozen=True, eq=False)
+class _Posterior:
+    """Of the deviations from the prior, columns scaled to length one."""
+
+    mean: np.ndarray
+    covariance: np.ndarray
+    width: float
+    told: float  # directions that the data decide, sum of s^2 t^2 / (1 + s^2 t^2)
+
+
+def ridge(problem: Problem) -> Estimate:
+    """min |S^-1/2 (y - W beta)|^2 + lambda |D (beta - beta_0)|^2.
+
+    S = diag sigma_j^2 of the weighted fit, D the lengths of the columns of S^-1/2 W, beta_0 the
+    nominal values of the robot file where every standard parameter of a base parameter has one,
+    else 0. lambda = 1 / t^2 by the probability of the data where D (beta - beta_0) is Gaussian of
+    standard deviation t (MacKay 1992, Neural Computation 4(3)); the covariance is that of the
+    posterior, (W^T S^-1 W + lambda D^2)^-1 averaged over what the data leave open of lambda. It
+    holds if the values scatter about beta_0 as that says; of the bias of one that lies elsewhere
+    it says nothing.
+
+    Columns that the data cannot tell apart share their effect; columns of zeros are set aside.
+
+    Args:
+        problem: beta in the units of its columns, y N m or N.
+    """
+    data = problem.data
+    start = least_squares(data, "weighted")
+    whole = data.whole(start.sigma)
+    lengths = np.linalg.norm(whole[:, :-1], axis=0)
+    idle = {tangle.name for tangle in start.rank.aside if not tangle.into}
+    kept = np.array([i for i, name in enumerate(data.names) if name not in idle], dtype=int)
+    prior, known = prior_values(problem)
+    X = whole[:, kept] / lengths[kept]
+    left = whole[:, -1] - whole[:, kept] @ prior[kept]
+    found = _posterior(X, left)
+    beta, covariance = np.zeros(len(prior)), np.zeros((len(prior), len(prior)))
+    beta[kept] = prior[kept] + found.mean / lengths[kept]
+    covariance[np.ix_(kept, kept)] = found.covariance / np.outer(lengths[kept], lengths[kept])
+    aside = tuple(tangle for tangle in start.rank.aside if not tangle.into)
+    return dataclasses.replace(
+        start,
+        beta=beta,
+        covariance=covariance,
+        rank=Rank(tuple(map(int, kept)), aside, start.rank.last_kept, start.rank.first_dropped),
+        condition_scaled=float(np.sqrt(np.linalg.cond(found.covariance))),
+        sentences=_told(problem, start, found, known),
+        whole=_augmented(whole, lengths, prior, kept, found.width),
+    )
+
+
+def prior_values(problem: Problem) -> tuple[np.ndarray, tuple[str, ...]]:
+    """(c,) nominal values of the columns, 0 where the robot file gives none; and who has one."""
+    values, known = np.zeros(len(problem.names)), []
+    if problem.model is not None:
+        spec = problem.model.spec
+        nominal = {parameter.name: parameter.nominal for parameter in spec.standard}
+        for i, base in enumerate(spec.base):
+            terms = [(term.value, nominal.get(term.parameter)) for term in base.terms]
+            given = [factor * value for factor, value in terms if value is not None]
+            if terms and len(given) == len(terms):
+                values[i] = sum(given)
+                known.append(base.name)
+    return values, tuple(known)
+
+
+def _posterior(X: np.ndarray, y: np.ndarray) -> _Posterior:
+    """Of X g = y + white noise of variance 1, g Gaussian of a width t that the data say.
+
+    X = U S V^T and a = U^T y: a_k is Gaussian of variance 1 + s_k^2 t^2, which is all that t
+    changes of the probability of the data. Few columns say little of t: mean and covariance are
+    those of the mixture over all t whose log-probability is within 2 of the best, by weight.
+    """
+    U, s, Vt = np.linalg.svd(X, full_matrices=False)
+    a = U.T @ y
+    widths = np.logspace(*_RANGE, _WIDTHS)
+    variance = 1.0 + np.outer(widths**2, s**2)
+    likely = -0.5 * np.sum(np.log(variance) + a**2 / variance, axis=1)
+    near = likely > likely.max() - _WITHIN
+    weight = np.exp(likely[near] - likely.max())
+    weight = weight / weight.sum()
+    spread = widths[near, None] ** 2 / variance[near]  # of each direction at each width
+    means = spread * s * a
+    mean = weight @ means
+    away = means - mean
+    within = np.diag(weight @ spread) + (away * weight[:, None]).T @ away
+    return _Posterior(
+        mean=Vt.T @ mean,
+        covariance=Vt.T @ within @ Vt,
+        width=float(np.exp(weight @ np.log(widths[near]))),
+        told=float(weight @ (s**2 * spread).sum(axis=1)),
+    )
+
+
+def _augmented(
+    whole: np.ndarray, lengths: np.ndarray, prior: np.ndarray, kept: np.ndarray, width: float
+) -> np.ndarray:
+    """The triangle of the data with the prior as further rows, D / t (beta - beta_0) = 0."""
+    rows = np.zeros((len(kept), whole.shape[1]))
+    rows[np.arange(len(kept)), kept] = lengths[kept] / width
+    rows[:, -1] = rows[:, :-1] @ prior
+    return triangle(np.vstack([whole, rows]))
+
+
+def _told(
+    problem: Problem, start: Estimate, found: _Posterior, known: tuple[str, ...]
+) -> tuple[str, ...]:
+    towards = "0"
+    if known:
+        rest = len(problem.names) - len(known)
+        towards = "the nominal values of the robot file" + (f" ({rest} have none: 0)" * bool(rest))
+    said = [
+        f"ridge towards {towards}: lambda = {found.width**-2:.3g} with columns of length one; the "
+        f"data decide {found.told:.1f} of {len(found.mean)} directions, the prior the others; the "
+        "sigmas hold if the values scatter about it as wide as these data say, and know no bias"
+    ]
+    for tangle in start.rank.aside:
+        if tangle.into:
+            said.append(
+                f"{tangle.name} cannot be told from {', '.join(tangle.into)} on these data: ridge "
+                "shares their effect out by the prior"
+            )
+    return tuple(said)

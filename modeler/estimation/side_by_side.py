@@ -1,0 +1,141 @@
+"""All estimators on the same rows: values, errors, time, and what each says of itself."""
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.core.errors import Method, ModelerError
+from modeler.core.result import Presented
+from modeler.estimation.identify import identify
+from modeler.estimation.least_squares import ABOUT
+from modeler.estimation.result import FitResult
+from modeler.observation.observation import Observation
+from modeler.runtime.model import CompiledModel
+
+FIRST: Method = "weighted"
+"""The method that the others are compared with."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tried(Brief):
+    """One estimator.
+
+    Attributes:
+        method: id.
+        fit: None where it was refused.
+        refusal: why; empty if it was not.
+        seconds: of the fit.
+        held_out: ||y - W beta|| / ||y|| of other logs, processed alike; None without any.
+        farthest: parameter whose value is farthest from that of the weighted fit, and by how many
+            of the larger sigma; None for the weighted fit itself.
+        remarks: what this fit says of itself; else when not to use it.
+    """
+
+    method: Method
+    fit: FitResult | None
+    refusal: str
+    seconds: float
+    held_out: float | None
+    farthest: tuple[str, float] | None
+    remarks: tuple[str, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "method": self.method,
+            "title": ABOUT[self.method].title,
+            "avoid": ABOUT[self.method].avoid,
+            "refusal": self.refusal or None,
+            "seconds": self.seconds,
+            "held_out_error": self.held_out,
+            "farthest": self.farthest,
+            "remarks": list(self.remarks),
+            "fit": None if self.fit is None else self.fit.to_json(),
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class SideBySide(Presented):
+    """Estimators on the same logs.
+
+    Attributes:
+        robot: name.
+        tried: one each.
+        data: what was done with the logs, lines of text.
+    """
+
+    robot: str
+    tried: tuple[Tried, ...]
+    data: tuple[str, ...]
+
+
+def side_by_side(
+    observation: Observation,
+    model: CompiledModel,
+    held_out: Observation | None = None,
+    methods: Sequence[Method] = tuple(ABOUT),
+    progress: Callable[[float], None] | None = None,
+) -> tuple[Tried, ...]:
+    """Every method on the same rows.
+
+    Args:
+        observation: of the training logs.
+        model: the compiled robot.
+        held_out: of other logs, with the processing of the training ones.
+        methods: ids; the weighted fit is made besides, as the others are compared with it.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        DataError: what the weighted fit raises. What another method refuses stands in its row.
+    """
+    first = identify(observation, FIRST, model)
+    return tuple(_each(observation, model, held_out, methods, first, progress))
+
+
+def held_out_error(observation: Observation, beta: np.ndarray) -> float:
+    """||y - W beta|| / ||y|| over the rows of joints that have a torque."""
+    y, rest = observation.y, observation.y - observation.W @ beta
+    norms = [np.linalg.norm(y[observation.row_joint == j]) for j in range(len(observation.joints))]
+    seen = (np.array(norms) > 0.0)[observation.row_joint]
+    return float(np.linalg.norm(rest[seen]) / max(float(np.linalg.norm(y)), 1e-300))
+
+
+def _each(
+    observation: Observation,
+    model: CompiledModel,
+    held_out: Observation | None,
+    methods: Sequence[Method],
+    first: FitResult,
+    progress: Callable[[float], None] | None,
+) -> Iterator[Tried]:
+    for count, method in enumerate(methods, start=1):
+        start, refusal, fit = time.perf_counter(), "", None
+        try:
+            fit = identify(observation, method, model)
+        except ModelerError as error:
+            refusal = str(error)
+        seconds = time.perf_counter() - start
+        yield Tried(
+            method=method,
+            fit=fit,
+            refusal=refusal,
+            seconds=seconds,
+            held_out=held_out_error(held_out, fit.beta) if fit and held_out else None,
+            farthest=_farthest(fit, first) if fit and method != FIRST else None,
+            remarks=fit.own if fit and fit.own else (f"not {ABOUT[method].avoid}",),
+        )
+        if progress is not None:
+            progress(count / len(methods))
+
+
+def _farthest(fit: FitResult, first: FitResult) -> tuple[str, float] | None:
+    pairs = [
+        (own.name, abs(own.value - other.value) / max(own.sigma, other.sigma))
+        for own, other in zip(fit.parameters, first.parameters, strict=True)
+        if own.sigma and other.sigma
+    ]
+    return max(pairs, key=lambda pair: pair[1]) if pairs else None

@@ -1,0 +1,439 @@
+"""Two-step identification: first what is felt while one joint moves alone, then the parameters.
+
+Step 1: at each configuration of the others, joint i moves alone, and least squares of its torque on
+[qdd, sin q, cos q, sign qd] give its inertia J_ii, gravity and friction there; those of the other
+joints give J_ki and S_kii wherever their motors turn, or have no dry friction. Step 2: all these
+coefficients are linear in the base parameters, theta = Phi beta, with Phi from the model, and beta
+is the least squares of them, weighted by the covariance of step 1 (Hanssen, Hovland and Brogardh
+2000, section 5, with Phi of the closed form; here it is that of the emitted base regressor).
+"""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import cholesky, solve_triangular
+
+from modeler.core.errors import DataError
+from modeler.estimation.along import Alone, Along, along
+from modeler.estimation.covariance import autocorrelation
+from modeler.estimation.least_squares import Estimate, least_squares
+from modeler.numerics.filters import LEAST_WEIGHT
+from modeler.numerics.least_squares import Compressed, compress
+from modeler.observation.motion import Segment
+from modeler.observation.observation import Observation
+from modeler.runtime.model import CompiledModel
+
+# Where one joint moves and the others stand: the pieces of logs that a two-step fit uses.
+
+
+STANDS = 0.02
+"""A joint stands below this share of the top speed of the fastest joint of its unit."""
+
+_TOP = 0.98  # quantile of the speeds that is the top speed
+_SEVERAL, _NONE = -2, -1
+
+
+class Directions:
+    """How the coordinates move with each joint: q = a D, a the positions of the joints.
+
+    For logs of the joints D is the identity; for logs of motors its rows are the columns of G,
+    q_m = G q_a (Hanssen, Hovland and Brogardh 2000, section 5).
+
+    Attributes:
+        names: (n,) of the joints.
+        rows: (n, n) D; row i is the speed of the coordinates at speed 1 of joint i alone.
+    """
+
+    def __init__(self, ways: Mapping[str, tuple[float, ...]]) -> None:
+        self.names = tuple(ways)
+        self.rows = np.array([*ways.values()])
+        self._inverse = np.linalg.inv(self.rows)
+
+    def joints(self, coordinates: np.ndarray) -> np.ndarray:
+        """(..., n) positions, speeds or accelerations of the joints."""
+        return coordinates @ self._inverse
+
+
+@dataclass(frozen=True)
+class Move:
+    """A piece of motion of one joint alone.
+
+    Attributes:
+        joint: its index.
+        part: index of the stretch of the observation.
+        window: samples of that stretch.
+    """
+
+    joint: int
+    part: int
+    window: slice
+
+
+@dataclass(frozen=True)
+class Moves:
+    """What the logs hold.
+
+    Attributes:
+        alone: pieces in which one joint moves, in order of time.
+        several: s, motion of several joints at a time.
+        total: s, of all pieces.
+    """
+
+    alone: tuple[Move, ...]
+    several: float
+    total: float
+
+
+def moves_alone(observation: Observation, directions: Directions) -> Moves:
+    """All pieces in which one joint moves and the others stand.
+
+    A joint stands while its speed is below `STANDS` times the top speed of the fastest joint of
+    its unit. A piece begins and ends at standstill of all; its joint may pause and turn back in
+    between, and any motion of another one ends it.
+
+    Args:
+        observation: of the logs.
+        directions: of its joints.
+    """
+    segments = [part.segment for part in observation.stretches]
+    floors = _floors(observation, segments, directions)
+    found: list[Move] = []
+    several = total = 0.0
+    for number, segment in enumerate(segments):
+        labels = _labels(segment, floors, directions)
+        several += segment.step * float(np.sum((labels == _SEVERAL) & segment.whole))
+        total += segment.step * float(np.sum(segment.whole))
+        found += [Move(i, number, window) for i, window in _merged(_episodes(labels))]
+    return Moves(tuple(found), several, total)
+
+
+def _episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
+    """(joint, samples) from standstill to standstill; several where they move at any time of it.
+
+    Joints that come to rest together do so one after the other, and the last is not alone.
+    """
+    moving = np.flatnonzero(labels != _NONE)
+    cuts = np.flatnonzero(np.diff(moving) > 1) + 1
+    found = []
+    for run in np.split(moving, cuts) if moving.size else []:
+        joint = int(labels[run[0]]) if np.ptp(labels[run]) == 0 else _SEVERAL
+        found.append((joint, slice(int(run[0]), int(run[-1]) + 1)))
+    return found
+
+
+def _merged(episodes: list[tuple[int, slice]]) -> list[tuple[int, slice]]:
+    """Episodes of one joint alone, those that follow each other as one."""
+    found: list[tuple[int, slice]] = []
+    before = _SEVERAL
+    for joint, window in episodes:
+        if joint != _SEVERAL and joint == before:
+            found[-1] = (joint, slice(found[-1][1].start, window.stop))
+        elif joint != _SEVERAL:
+            found.append((joint, window))
+        before = joint
+    return found
+
+
+def _floors(
+    observation: Observation, segments: list[Segment], directions: Directions
+) -> np.ndarray:
+    """(n,) speed below which each joint stands."""
+    speeds = np.concatenate([directions.joints(s.qd[s.whole]) for s in segments])
+    tops = np.quantile(np.abs(speeds), _TOP, axis=0) if speeds.size else np.ones(speeds.shape[1])
+    main = np.argmax(np.abs(directions.rows), axis=1)
+    units = np.array([observation.joints[k].unit for k in main])
+    return STANDS * np.array([tops[units == unit].max() for unit in units])
+
+
+def _labels(segment: Segment, floors: np.ndarray, directions: Directions) -> np.ndarray:
+    """(samples,) index of the joint that moves alone, or that none or several do."""
+    moves = np.abs(directions.joints(segment.qd)) > floors
+    count = moves.sum(axis=1)
+    labels = np.where(count == 0, _NONE, np.where(count == 1, np.argmax(moves, axis=1), _SEVERAL))
+    return np.where(segment.whole, labels, _SEVERAL)
+
+
+_ROWS_PER_COLUMN = 3
+_WHOLE = 1.0 - 1e-9
+_SINGULAR = 1e-8  # of the scaled columns of step 1
+_LEAST = 1e-12  # of the coefficients: exact data would otherwise divide by zero
+_CORRELATED = 1.0 - 1e-6  # so that exact data leave a matrix that has an inverse
+_SEEN = 0.9  # of the rows of the joint that moves
+
+
+@dataclass(frozen=True, eq=False)
+class Felt:
+    """Step 1 for the torque of one joint: y = Q R theta + residual; p coefficients.
+
+    Attributes:
+        joint: index.
+        along: the functions and what they weigh.
+        Q: (rows, p) orthonormal.
+        R: (p, p).
+        projected: (p,) Q^T y.
+        residual: (rows,) N m or N.
+        variance: of the residuals' noise, its memory counted.
+    """
+
+    joint: int
+    along: Along
+    Q: np.ndarray
+    R: np.ndarray
+    projected: np.ndarray
+    residual: np.ndarray
+    variance: float = 1.0
+
+    @property
+    def theta(self) -> np.ndarray:
+        """(p,) coefficients."""
+        return np.linalg.solve(self.R, self.projected)
+
+    @property
+    def sigma(self) -> np.ndarray:
+        """(p,) their standard deviations."""
+        return np.linalg.norm(np.linalg.inv(self.R), axis=1) * float(np.sqrt(self.variance))
+
+
+@dataclass(frozen=True, eq=False)
+class Configuration:
+    """Step 1 at one configuration of the joints that stand.
+
+    Attributes:
+        log: name.
+        start, end: s.
+        joint: index of the joint that moves.
+        pose: (n,) positions of all joints, its own in the middle of its motion.
+        felt: its own torque first, then those of other joints.
+    """
+
+    log: str
+    start: float
+    end: float
+    joint: int
+    pose: np.ndarray
+    felt: tuple[Felt, ...]
+
+    @property
+    def key(self) -> tuple[int, ...]:
+        """The joint that moves and those whose torque is used."""
+        return (self.joint, *(f.joint for f in self.felt))
+
+
+@dataclass(frozen=True, eq=False)
+class TwoStep:
+    """Both steps.
+
+    Attributes:
+        directions: how the coordinates move with each joint.
+        configurations: step 1.
+        left_out: pieces that were not used: reason -> how many.
+        several: s, motion of several joints at a time.
+        data: step 2, rows of standard deviation 1.
+        estimate: of the base parameters.
+    """
+
+    directions: Directions
+    configurations: tuple[Configuration, ...]
+    left_out: dict[str, int]
+    several: float
+    data: Compressed
+    estimate: Estimate
+
+
+def two_steps(model: CompiledModel, observation: Observation, directions: Directions) -> TwoStep:
+    """The two-step estimate.
+
+    Args:
+        model: the robot.
+        observation: of logs in which joints move one at a time.
+        directions: how the coordinates move with each joint.
+
+    Raises:
+        DataError: no piece in which one joint moves and the others stand, or none that tells it.
+    """
+    moves = moves_alone(observation, directions)
+    found: list[Configuration] = []
+    left_out: dict[str, int] = {}
+    for move in moves.alone:
+        step = _first_step(model, observation, directions, move)
+        if isinstance(step, str):
+            left_out[step] = left_out.get(step, 0) + 1
+        else:
+            found.append(step)
+    if not found:
+        raise DataError(_nothing(observation, moves, left_out))
+    configurations, rows, values = [], [], []
+    for key in dict.fromkeys(c.key for c in found):
+        alike, noise = _with_noise([c for c in found if c.key == key])
+        configurations += alike
+        for configuration in alike:
+            W, y = _whitened(configuration, noise)
+            rows.append(W)
+            values.append(y)
+    data, estimate = _second_step(observation, configurations, np.vstack(rows), np.hstack(values))
+    return TwoStep(
+        directions,
+        tuple(sorted(configurations, key=_order)),
+        left_out,
+        moves.several,
+        data,
+        estimate,
+    )
+
+
+def _order(configuration: Configuration) -> tuple[int, str, float]:
+    return configuration.joint, configuration.log, configuration.start
+
+
+def _second_step(
+    observation: Observation, configurations: list[Configuration], W: np.ndarray, y: np.ndarray
+) -> tuple[Compressed, Estimate]:
+    """The base parameters from rows of standard deviation 1, and their covariance.
+
+    Its scale is 1 as far as the residuals of step 1 tell, which stand in the data as one row. It
+    is raised where the configurations contradict each other by more.
+    """
+    spare = sum(len(f.residual) - len(f.projected) for c in configurations for f in c.felt)
+    last = np.zeros((1, W.shape[1]))
+    every, where = np.append(y, np.sqrt(spare)), np.zeros(len(y) + 1, dtype=int)
+    data = compress(np.vstack([W, last]), every, where, 1, observation.names)
+    data = dataclasses.replace(data, rows=np.array([len(y) + spare]))
+    estimate = least_squares(data, "ordinary")
+    degrees = len(y) - len(estimate.rank.kept)
+    misfit = float(np.sum((y - W @ estimate.beta) ** 2)) / max(1, degrees)
+    raised = max(1.0, misfit / float(estimate.sigma[0] ** 2))
+    return data, dataclasses.replace(estimate, covariance=raised * estimate.covariance)
+
+
+def _nothing(observation: Observation, moves: Moves, left_out: dict[str, int]) -> str:
+    why = "".join(f"; {count} left out: {reason}" for reason, count in left_out.items())
+    return (
+        f"{', '.join(observation.logs)}: no piece in which one joint moves and the others stand "
+        f"({moves.several:.3g} of {moves.total:.3g} s are motion of several){why}; expected joints "
+        "that move one after the other, at several configurations of the others, as `modeler "
+        "simulate --motion one-joint` makes them; use --method weighted for these logs"
+    )
+
+
+def _first_step(
+    model: CompiledModel, observation: Observation, directions: Directions, move: Move
+) -> Configuration | str:
+    """Least squares of the torques while one joint moves; a text where that cannot be."""
+    part, i = observation.stretches[move.part], move.joint
+    segment, window, way = part.segment, move.window, directions.rows[move.joint]
+    if not all(observation.joints[k].actuated for k in np.flatnonzero(way)):
+        return "the joint has no motor"
+    inside = np.zeros((segment.samples, 1), dtype=bool)
+    inside[window] = True
+    numbers = np.flatnonzero(part.rows.share(inside)[:, 0] >= _WHOLE)
+    if not numbers.size:
+        return "too short for the parallel filter"
+    a, v, u = (directions.joints(x[window]) for x in (segment.q, segment.qd, segment.qdd))
+    pose = np.median(a, axis=0)
+    alone = Alone(pose @ directions.rows, pose[i], way, (a[:, i].min(), a[:, i].max()))
+    rows = part.rows.part(slice(int(numbers[0]), int(numbers[-1]) + 1), window)
+    usable, others = _usable(part.usable[window], directions, i)
+    used = rows.share(usable[:, None])[:, 0] >= LEAST_WEIGHT
+    order = [i, *others]
+    felt: list[Felt] = []
+    for k, found in zip(order, along(model, alone, directions.rows[order]), strict=True):
+        if found is not None:
+            columns = found.columns(a[:, i], v[:, i], u[:, i])
+            values = np.column_stack([columns, segment.tau[window] @ directions.rows[k]])
+            filtered = rows.means(values, usable)[used]
+            if (solved := _solved(k, found, filtered)) is not None:
+                felt.append(solved)
+        if k == i and not felt:
+            return (
+                "other functions than those of one body that turns"
+                if found is None
+                else "too short to tell inertia, gravity and friction apart"
+            )
+    return Configuration(
+        observation.logs[segment.run], float(segment.time[window][0]),
+        float(segment.time[window][-1]), i, pose, tuple(felt),
+    )  # fmt: skip
+
+
+def _usable(usable: np.ndarray, directions: Directions, i: int) -> tuple[np.ndarray, list[int]]:
+    """(samples,) at which the torques count, and the other joints whose torques do then too.
+
+    The torque of a joint is made of those of some motors. A motor with dry friction that stands
+    says nothing: its samples are not usable.
+    """
+    own = np.all(usable[:, directions.rows[i] != 0], axis=1)
+    count = max(1, int(own.sum()))
+    others: list[int] = []
+    for k, way in enumerate(directions.rows):
+        both = np.logical_and(own, np.all(usable[:, way != 0], axis=1))
+        if k != i and both.sum() >= _SEEN * count:
+            own = both
+            others.append(k)
+    return own, others
+
+
+def _solved(joint: int, found: Along, filtered: np.ndarray) -> Felt | None:
+    """Step 1 from its columns and torque; None where the rows do not tell the coefficients."""
+    X, y = filtered[:, :-1], filtered[:, -1]
+    rows, count = X.shape
+    if not count or rows < _ROWS_PER_COLUMN * count:
+        return None
+    lengths = np.linalg.norm(X, axis=0)
+    if not lengths.all():
+        return None
+    values = np.linalg.svd(X / lengths, compute_uv=False)
+    if values[-1] < _SINGULAR * values[0]:
+        return None
+    Q, R = np.linalg.qr(X)
+    projected = Q.T @ y
+    return Felt(joint, found, Q, R, projected, y - Q @ projected)
+
+
+def _with_noise(alike: list[Configuration]) -> tuple[list[Configuration], np.ndarray]:
+    """Configurations in which the same torques were used, with the covariance of their noise.
+
+    Of one motion of the same joint the noise of its torques is the same at every configuration;
+    torques that are made of the same motors share theirs.
+    """
+    count = len(alike[0].felt)
+    products, degrees = np.zeros((count, count)), np.zeros(count)
+    for c in alike:
+        residual = np.column_stack([f.residual for f in c.felt])
+        products += residual.T @ residual
+        degrees += [len(f.residual) - len(f.projected) for f in c.felt]
+    noise = products / np.sqrt(np.outer(degrees, degrees))
+    noise[~np.eye(count, dtype=bool)] *= _CORRELATED
+    pieces = np.repeat(np.arange(len(alike)), [len(c.felt[0].residual) for c in alike])
+    for k in range(count):
+        least = _LEAST * max(np.abs(c.felt[k].projected).max() for c in alike)
+        noise[k, k] = max(noise[k, k], least**2)
+        every = np.concatenate([c.felt[k].residual for c in alike])
+        r = autocorrelation(every, np.arange(len(every)), pieces)
+        longer = np.sqrt(max(1.0, 1.0 + 2.0 * float(np.sum(r[1:]))))
+        noise[k] *= longer
+        noise[:, k] *= longer
+    return [
+        dataclasses.replace(
+            c,
+            felt=tuple(
+                dataclasses.replace(f, variance=float(noise[k, k])) for k, f in enumerate(c.felt)
+            ),
+        )
+        for c in alike
+    ], noise
+
+
+def _whitened(configuration: Configuration, noise: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of step 2 of standard deviation 1: R V beta = Q^T y, their covariance taken out."""
+    felt = configuration.felt
+    scale = np.sqrt(np.diag(noise))
+    joined = np.hstack([f.Q for f in felt])
+    which = np.repeat(np.arange(len(felt)), [len(f.projected) for f in felt])
+    correlation = noise / np.outer(scale, scale)
+    C = joined.T @ joined * correlation[np.ix_(which, which)]
+    root = cholesky(C, lower=True)
+    W = np.vstack([f.R @ f.along.weights / s for f, s in zip(felt, scale, strict=True)])
+    y = np.concatenate([f.projected / s for f, s in zip(felt, scale, strict=True)])
+    return solve_triangular(root, W, lower=True), solve_triangular(root, y, lower=True)

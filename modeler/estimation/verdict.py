@@ -1,0 +1,382 @@
+"""Usable or not, what for, why, and what to do: how a fit ends."""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import chdtri
+
+from modeler.core.errors import LoopError
+from modeler.core.manifest import ModuleSpec
+from modeler.estimation.covariance import autocorrelation
+from modeler.estimation.doubts import (
+    LITTLE,
+    WIDE,
+    Doubt,
+    Told,
+    negative,
+    scarce,
+    systematic,
+    undescribed,
+    undetermined,
+    unshown,
+)
+from modeler.estimation.identify import (
+    Crossed,
+    Equations,
+    alive_rows,
+    all_rows,
+    base_equations,
+    crossed,
+)
+from modeler.estimation.least_squares import solve_by_qr
+from modeler.estimation.nearest_body import Nearest, carried_by, machine_of, nearest_possible
+from modeler.estimation.result import FitResult, JointFit, Verdict, friction_by_direction
+from modeler.numerics.least_squares import Compressed, independent_columns, triangle
+from modeler.observation.observation import Observation
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+
+# Is the time of the logs in seconds? The clock that a robot carries with it is gravity.
+
+
+SLOW = 0.2
+"""s; with fewer than five rows a second neither accelerations nor reversals are seen."""
+
+ABSURD = 100.0
+"""Length of the pendulum that a joint and its links swing like, over the reach of the robot."""
+
+LOADED = 0.1
+"""Gravity over torque of a joint, from which on it swings."""
+
+_GRAVITY = 9.81  # m/s^2
+_POSES = 40
+_UNITS = (("milliseconds", 1e-3), ("microseconds", 1e-6), ("nanoseconds", 1e-9), ("minutes", 60.0),
+          ("hours", 3600.0))  # fmt: skip
+_USUAL = (20.0, 2e4)  # Hz; rates at which robots are logged
+
+
+def time_doubts(model: "CompiledModel", observation: Observation, result: FitResult) -> list[Doubt]:
+    """Time steps that no log of a robot has, and inertias that belong to another unit of time.
+
+    Accelerations scale with 1/time^2, gravity does not. With the time in milliseconds inertias
+    come out a million times too large beside first moments: a joint with its links, inertia J and
+    greatest gravity torque m, is a pendulum as long as J g / m, which is about as long as the
+    links are, counterweights and rotors included. A hundred times the robot's reach, on all joints
+    that gravity loads, is another unit of time.
+    """
+    found = [
+        doubt for log in observation.report.logs for doubt in _odd_step(log.name, 1.0 / log.rate)
+    ]
+    ratio = _pendulum(model, observation, result)
+    if not found and ratio > ABSURD:
+        found.append(
+            Doubt(
+                f"the inertias are {ratio:.2g} times those of links of this reach under this "
+                f"gravity: the time of the logs runs about {ratio**0.5:.2g} times too slowly, or "
+                "the lengths of the table are not in metres; give seconds and metres",
+                certain=True,
+            )
+        )
+    return found
+
+
+def _odd_step(name: str, step: float) -> list[Doubt]:
+    if step > SLOW:
+        what = "with which neither accelerations nor reversals are seen"
+        return [Doubt(f"{name}: median time step {step:.3g} s, {what}: {_unit(step)}", True)]
+    if step < 1.0 / _USUAL[1]:
+        what = "faster than robots are logged"
+        line = f"{name}: median time step {step:.3g} s, {what}: {_unit(step)}"
+        return [Doubt(line, values=True)]
+    return []
+
+
+def _unit(step: float) -> str:
+    """What the unit may be, and what to do."""
+    for name, seconds in _UNITS:
+        rate = 1.0 / (step * seconds)
+        if _USUAL[0] <= rate <= _USUAL[1]:
+            return (
+                f"were the column time in {name}, the rows came at {rate:.4g} Hz; multiply it by "
+                f"{seconds:g} if they are"
+            )
+    return "is the column time in seconds, or a count of rows? give seconds"
+
+
+def _pendulum(model: "CompiledModel", observation: Observation, result: FitResult) -> float:
+    """Least J g / m over the reach, over the joints that turn and that gravity loads; 0 if none."""
+    q = _poses(model, observation)
+    kinds = np.array([base.kind for base in model.spec.base])
+    links = np.where(kinds == "inertial", result.beta, 0.0)
+    if not len(q):
+        return 0.0
+    reach = _reach(model.forward_kinematics(q)[..., 3])
+    weight = np.abs(model.gravity(q, links)).max(axis=0)
+    inertia = np.median(
+        np.abs(np.diagonal(model.inertia_matrix(q, result.beta), axis1=1, axis2=2)), axis=0
+    )
+    torque = np.sqrt(np.mean(observation.torque**2, axis=0))
+    turns = np.array([joint.unit == "rad" and joint.actuated for joint in model.spec.joints])
+    loaded = turns & (weight > LOADED * torque) & (weight > 0.0)
+    if reach == 0.0 or not loaded.any():
+        return 0.0
+    return float(np.min(inertia[loaded] * _GRAVITY / weight[loaded]) / reach)
+
+
+def _poses(model: "CompiledModel", observation: Observation) -> np.ndarray:
+    """(n, joints) logged poses, at most 40 of them; those in which the loops close."""
+    q = observation.q[:: max(1, len(observation.q) // _POSES)]
+    if model.spec.closure is None:
+        return q
+    return np.array([pose for pose in q if _closes(model, pose)]).reshape(-1, q.shape[1])
+
+
+def _closes(model: "CompiledModel", pose: np.ndarray) -> bool:
+    try:
+        model.coupling(pose[None])
+    except LoopError:
+        return False
+    return True
+
+
+def _reach(origins: np.ndarray) -> float:
+    """m; the largest distance of two frames in any of the poses (n, rows, 3)."""
+    return float(np.linalg.norm(origins[:, :, None] - origins[:, None], axis=-1).max())
+
+
+CHANCE = 1e-3
+"""Probability with which the machine that was measured lies outside of its confidence region."""
+
+_FELT = 1.1  # ratio of errors that is worth a word
+
+
+def with_verdict(
+    model: "CompiledModel",
+    observation: Observation,
+    result: FitResult,
+    told: Sequence[Told] = (),
+    equations: Equations | None = None,
+    refit: Callable[[np.ndarray], np.ndarray] | None = None,
+    data: Compressed | None = None,
+) -> FitResult:
+    """The fit with its verdict.
+
+    A fit is usable if it predicts the torques of motion like that of its logs: it describes every
+    joint, foretells stretches that are left out, the time runs in seconds, and a machine that
+    could be built describes the joints as well. Its values are usable as those of the machine if,
+    beyond that, one such machine lies in their confidence region, the logs tell the values
+    apart, and what is left of the torques is small or noise.
+
+    Args:
+        model: the robot.
+        observation: that was fitted.
+        result: of the fit.
+        told: findings of other stages about the logs; one that is certain makes the fit unusable.
+        equations: that were fitted; None: those of the bare robot.
+        refit: how the fit is made without some samples; None: by least squares of the torques.
+        data: all rows that were fitted, where the observation has a part of them only.
+    """
+    equations = equations or base_equations(observation)
+    rows = alive_rows(observation)
+    part, data = data is not None, data or equations.compressed(rows)
+    seen = crossed(equations, rows, np.array([joint.sigma for joint in result.joints]), refit)
+    found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
+    found += time_doubts(model, observation, result)
+    found = _with_poor(found, [*scarce(result, seen), *undescribed(result)])
+    if part:
+        found += unshown(result, seen, _scale(data, observation, rows))
+    found += systematic(result, _lasting(equations, rows, result))
+    found += undetermined(model.spec, result, _spread(data, result))
+    found += [*_impossible(model.spec, result, data), *negative(model.spec, result)]
+    verdict = _verdict(found, _predicts(equations, rows, result, seen))
+    directions = friction_by_direction(model.spec, result)
+    return dataclasses.replace(result, verdict=verdict, directions=directions)
+
+
+def _predicts(equations: Equations, rows: np.ndarray, result: FitResult, seen: Crossed) -> str:
+    """What for a usable fit is good for; no better than it does where it was fitted."""
+
+    def largest(errors: np.ndarray, joints: Sequence[JointFit]) -> str:
+        own = [np.nan if j.relative_error is None else j.relative_error for j in joints]
+        return f"{100.0 * float(np.fmax(np.nan_to_num(errors), np.nan_to_num(own)).max()):.2g} %"
+
+    told = {
+        name: largest(seen.on(equations, own), result.by_load[name])
+        for name, own in equations.conditions(rows).items()
+        if name in result.by_load
+    }
+    errors = " and ".join(f"{error} {name}" for name, error in told.items())
+    return (
+        f"predicts torques of motion like that of its logs to "
+        f"{errors or largest(seen.errors, result.joints)} on every joint (stretches left out)"
+    )
+
+
+def _scale(data: Compressed, observation: Observation, rows: np.ndarray) -> np.ndarray:
+    """(n,) rms torque of all rows over that of the observation's; 1 where either has none."""
+    count = len(data.rows)
+    joint, y = observation.row_joint[rows], observation.y[rows]
+    here = np.sqrt(np.bincount(joint, y**2, count) / np.fmax(np.bincount(joint, None, count), 1))
+    there = data.torque_norms() / np.sqrt(np.fmax(data.rows, 1))
+    both = (here > 0.0) & (there > 0.0)
+    return np.where(both, there / np.where(both, here, 1.0), 1.0)
+
+
+def contradictions(
+    model: "CompiledModel",
+    observation: Observation,
+    result: FitResult,
+    told: Sequence[Told] = (),
+    data: Compressed | None = None,
+) -> list[str]:
+    """Why a fit is certainly not usable, other than for want of data.
+
+    A log that is too short for a fit of its own may still say something beside others.
+
+    Args:
+        model: the robot.
+        observation: that was fitted.
+        result: of the fit.
+        told: findings of other stages about the logs.
+        data: all rows that were fitted; None: those of the observation.
+    """
+    data = data or all_rows(observation)
+    found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
+    found = _with_poor([*found, *time_doubts(model, observation, result)], undescribed(result))
+    found += _impossible(model.spec, result, data)
+    return list(dict.fromkeys(doubt.line for doubt in found if doubt.certain))
+
+
+def _with_poor(found: list[Doubt], poor: list[Doubt]) -> list[Doubt]:
+    """With torques that are badly described; where it is known why, that stands in their place."""
+    if not any(doubt.explains for doubt in found):
+        return [*found, *poor]
+    fatal = any(doubt.certain for doubt in poor)
+    return [
+        dataclasses.replace(doubt, certain=doubt.certain or (doubt.explains and fatal))
+        for doubt in found
+    ]
+
+
+def _lasting(equations: Equations, rows: np.ndarray, result: FitResult) -> np.ndarray:
+    """(n,) e_j sqrt(r_j(1)): relative error, and autocorrelation of the residual over one row."""
+    observation, every = equations.observation, np.ones(len(rows), dtype=bool)
+    residual = equations.residual(_values(result), every)
+    found = np.zeros(len(result.joints))
+    for j, joint in enumerate(result.joints):
+        own = rows & (observation.row_joint == j)
+        if joint.relative_error is None or not own.any():
+            continue
+        r = autocorrelation(residual[own], observation.row_sample[own], observation.segment)
+        found[j] = joint.relative_error * max(float(r[1]), 0.0) ** 0.5 if len(r) > 1 else 0.0
+    return found
+
+
+def _values(result: FitResult) -> np.ndarray:
+    """(c + loads,) of all columns that were fitted."""
+    return np.append(result.beta, [load.value for load in result.loads])
+
+
+def _spread(data: Compressed, result: FitResult) -> np.ndarray:
+    """(c,) ||W_jc|| sigma_c / ||y_j|| of the joint where it is largest."""
+    sigma = np.sqrt(np.diag(result.covariance))
+    column = np.linalg.norm(data.triangles[:, :, : len(sigma)], axis=1)
+    torque = data.torque_norms()
+    driven = torque > 0.0
+    share = column[driven] * sigma / torque[driven, None]
+    return np.asarray(share.max(axis=0, initial=0.0))
+
+
+def _impossible(spec: ModuleSpec, result: FitResult, data: Compressed) -> list[Doubt]:
+    """Values that no completion makes those of a machine that could be built."""
+    machine = machine_of(spec)
+    white = _told_of_robot(data, result)
+    root = white / _colour(white, result)
+    nearest = nearest_possible(machine, result.beta, root)
+    limit = float(chdtri(max(1, np.linalg.matrix_rank(root)), CHANCE)) ** 0.5
+    if nearest is None or nearest.distance <= limit:
+        return []
+    blamed = carried_by(machine, result.beta, root, nearest.distance)
+    names = [name if name in machine.positive else f"the mass of link {name}" for name in blamed]
+    cost = _cost(result, data, nearest)
+    return [
+        Doubt(
+            f"no machine that could be built has these values: {nearest.distance:.3g} sigmas from "
+            f"any, where {limit:.2g} are chance; carried by {', '.join(names) or 'no single link'}"
+            f"{cost.told()}; check signs, order and units of those channels, and let `modeler "
+            "diagnose` look for an effect that they stand in for",
+            certain=cost.after > max(LITTLE, WIDE * cost.before),
+            values=True,
+        )
+    ]
+
+
+def _told_of_robot(data: Compressed, result: FitResult) -> np.ndarray:
+    """(., c) root of what the rows tell of the robot's parameters, whatever those of loads are."""
+    whole, c = data.whole(np.array([joint.sigma for joint in result.joints])), len(result.beta)
+    loads = whole.shape[1] - 1 - c
+    return triangle(np.hstack([whole[:, c:-1], whole[:, :c]]))[loads:, loads:]
+
+
+def _colour(white: np.ndarray, result: FitResult) -> np.ndarray:
+    """(c,) factors of the standard deviations over those of white residuals, 1 and more.
+
+    All are the largest if columns were set aside: others carry their effect, and must go on to.
+    """
+    raised = np.sqrt(np.diag(result.covariance))
+    names = [parameter.name for parameter in result.parameters]
+    kept = np.intersect1d(np.flatnonzero(raised), independent_columns(white, names).kept)
+    factors = np.ones(len(raised))
+    if kept.size:
+        _, root = solve_by_qr(white[:, kept], np.zeros(len(white)))
+        factors[kept] = np.maximum(raised[kept] / np.linalg.norm(root, axis=1), 1.0)
+    return factors if kept.size == len(factors) else np.full(len(factors), factors.max())
+
+
+@dataclass(frozen=True)
+class _Cost:
+    """Relative error of the joint where a possible machine costs most, with the fit and with it."""
+
+    joint: str
+    before: float
+    after: float
+
+    def told(self) -> str:
+        """What goes behind the sentence."""
+        if self.after < _FELT * self.before:
+            return ""
+        return (
+            f"; the nearest possible one leaves {100.0 * self.after:.3g} % of the torque of joint "
+            f"{self.joint}, not {100.0 * self.before:.3g} %"
+        )
+
+
+def _cost(result: FitResult, data: Compressed, nearest: Nearest) -> _Cost:
+    torque = data.torque_norms()
+    driven = np.flatnonzero(torque > 0.0)
+    values = _values(result)
+    moved = np.append(nearest.beta, values[len(nearest.beta) :])
+    after = data.residual_norms(moved)[driven] / torque[driven]
+    before = data.residual_norms(values)[driven] / torque[driven]
+    worst = int(np.argmax(after - before))
+    return _Cost(result.joints[driven[worst]].name, float(before[worst]), float(after[worst]))
+
+
+def _verdict(found: Sequence[Doubt], good: str) -> Verdict:
+    lines = tuple(dict.fromkeys(doubt.line for doubt in found))
+    fatal = [doubt for doubt in found if doubt.certain]
+    if fatal:
+        return Verdict(False, "nothing", f"not usable: {fatal[0].line}", lines)
+    values = [doubt for doubt in found if doubt.values]
+    if values:
+        line = (
+            f"usable for torques of like motion only: {good}; not for its values: {values[0].line}"
+        )
+        return Verdict(True, "like motion", line, lines)
+    rest = f"; {found[0].line}" if found else "; a machine with these values could be built"
+    return Verdict(True, "physics", f"usable: {good}{rest}", lines)

@@ -1,0 +1,227 @@
+"""The columns of a model along a motion, smooth where speeds change sign, and their slopes."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.core.manifest import ModuleSpec
+from modeler.observation.low_speed import bristle
+from modeler.runtime.model import CompiledModel
+
+NEAR_REST = 1e-7
+"""Of the top speed: so slow that dry friction alone is left of what speeds do."""
+
+_STEP = 1e-5  # of positions, in half ranges; of speeds, in top speeds
+_STATES = 3
+_ALIKE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """phi of tau = phi beta along motions of a robot.
+
+    Attributes:
+        compiled: the robot.
+        half: (J,) half of the range of each joint, rad or m.
+        speed: (J,) its top speed.
+        flips: (J, J, c) half the jump of phi where the speed of a joint (first index) changes sign.
+        soft: of the top speed, over which `smooth` spreads a jump.
+    """
+
+    compiled: CompiledModel
+    half: np.ndarray
+    speed: np.ndarray
+    flips: np.ndarray
+    soft: float = 0.03
+
+    def read(self, q: np.ndarray, time: np.ndarray) -> np.ndarray | None:
+        """(n, m) what effects of the model read besides the motion."""
+        return signals(self.compiled.spec, q, time)
+
+    def exact(
+        self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
+    ) -> np.ndarray:
+        """(n, J, c) phi as it is."""
+        return self.compiled.base_regressor(q, qd, qdd, s)
+
+    def smooth(
+        self,
+        q: np.ndarray,
+        qd: np.ndarray,
+        qdd: np.ndarray,
+        s: np.ndarray | None,
+        out: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """(n, J, c) phi with every jump at rest made a slope; in `out`, (n J, c), if given."""
+        phi = self.compiled.observation(q, qd, qdd, out, s).reshape(*q.shape, -1)
+        for j in np.flatnonzero(self.flips.any(axis=(1, 2))):
+            v = qd[:, j] / (self.soft * self.speed[j])
+            rest = np.flatnonzero(np.abs(v) < 20.0)
+            over = (np.sign(v) - np.tanh(v))[rest]
+            for row, column in np.argwhere(self.flips[j]):
+                phi[rest, row, column] -= over * self.flips[j, row, column]
+        return phi
+
+    def pulled_back(
+        self,
+        motion: tuple[np.ndarray, np.ndarray, np.ndarray],
+        s: np.ndarray | None,
+        pull: np.ndarray,
+    ) -> list[np.ndarray]:
+        """(n, J) derivatives by q, qd and qdd of a number whose derivative by phi is `pull`.
+
+        By differences: central ones, one-sided where loops are closed for each.
+        """
+        n, joints = motion[0].shape
+        central = self.compiled.spec.closure is None
+        sides = (1.0, -1.0) if central else (1.0,)
+        sizes = (_STEP * self.half, _STEP * self.speed, np.ones(joints))
+        count = 3 * len(sides)
+        told = None if s is None else np.vstack([s] * count)
+        # One place for all of phi: fresh memory takes longer than what is written into it.
+        place = np.empty((count * n * joints, pull.shape[2]))
+        here = 0.0
+        if not central:
+            here = np.einsum("njc,njc->n", self.smooth(*motion, s, place[: n * joints]), pull)
+        slopes = [np.empty((n, joints)) for _ in range(3)]
+        for j in range(joints):
+            moved = [np.vstack([values] * count) for values in motion]
+            for k in range(count):
+                order, sign = divmod(k, len(sides))
+                moved[order][k * n : (k + 1) * n, j] += sides[sign] * sizes[order][j]
+            phi = self.smooth(moved[0], moved[1], moved[2], told, place)
+            along = np.einsum("knjc,njc->kn", phi.reshape(count, *pull.shape), pull)
+            for order in range(3):
+                if central:
+                    change = 0.5 * (along[2 * order] - along[2 * order + 1])
+                else:
+                    change = along[order] - here
+                slopes[order][:, j] = change / sizes[order][j]
+        return slopes
+
+
+def columns_of(
+    compiled: CompiledModel, middle: np.ndarray, half: np.ndarray, speed: np.ndarray
+) -> Columns:
+    """The columns of a robot, with the jumps found by looking at both sides of rest."""
+    joints, wide = len(half), len(compiled.spec.base)
+    rng = np.random.default_rng(0)
+    near = middle + 0.1 * half * rng.uniform(-1, 1, (_STATES, joints))
+    flips = np.zeros((joints, joints, wide))
+    read = signals(compiled.spec, near, np.zeros(_STATES))
+    for j in range(joints):
+        qd = 0.5 * speed * rng.uniform(0.2, 1.0, (_STATES, joints))
+        sides = []
+        for sign in (1.0, -1.0):
+            qd[:, j] = sign * NEAR_REST * speed[j]
+            sides.append(compiled.base_regressor(near, qd, np.zeros_like(qd), read))
+        jump = 0.5 * (sides[0] - sides[1])
+        # A jump that hangs on the posture, as of joints without motor, is left as it is.
+        if np.ptp(jump, axis=0).max() < _ALIKE:
+            flips[j] = np.where(np.abs(jump[0]) > _ALIKE, jump[0], 0.0)
+    return Columns(compiled, half, speed, flips)
+
+
+def signals(spec: ModuleSpec, q: np.ndarray, time: np.ndarray) -> np.ndarray | None:
+    """(n, m) what effects read besides the motion, at the temperature of their reference.
+
+    Raises:
+        DataError: one reads what no motion tells.
+    """
+    if not spec.signals:
+        return None
+    names = [joint.name for joint in spec.joints]
+    found = []
+    for signal in spec.signals:
+        if signal.kind == "time":
+            found.append(time)
+        elif signal.kind == "slip":
+            found.append(bristle(q[:, names.index(signal.joint)], signal.value))
+        elif signal.kind == "temperature":
+            found.append(np.zeros(len(q)))
+        else:
+            raise DataError(
+                f"{spec.robot}: an effect reads {signal.kind}; expected what a motion tells"
+            )
+    return np.column_stack(found)
+
+
+# What makes an observation matrix good, as a number to minimise, and its slope by the matrix.
+
+
+Criterion = Callable[[np.ndarray], tuple[float, np.ndarray]]
+"""From W (rows, c) to a value and its derivative by W; infinite if W lacks rank."""
+
+_SHARP = 8  # power of the norm that stands for the largest singular value
+_RANK = 1e-13
+
+
+def log_condition(W: np.ndarray) -> tuple[float, np.ndarray]:
+    """About log cond(W) with columns of length one; smooth.
+
+    The p-norms of the singular values and of their inverses, p = 8, stand for the largest and the
+    inverse of the smallest: log cond <= value <= log cond + log(c) / 4.
+    """
+    lengths = np.linalg.norm(W, axis=0)
+    if len(W) < W.shape[1] or not lengths.min() > 0.0:
+        return np.inf, W
+    scaled = W / lengths
+    sizes, turn = _sizes(scaled)
+    if not sizes[-1] > _RANK * sizes[0]:
+        return np.inf, W
+    large = np.sum(sizes**_SHARP)
+    small = np.sum((sizes[-1] / sizes) ** _SHARP)
+    value = (np.log(large) + np.log(small)) / _SHARP - np.log(sizes[-1])
+    slope = sizes ** (_SHARP - 1) / large - (sizes[-1] / sizes) ** _SHARP / (sizes * small)
+    pull = scaled @ (turn * (slope / sizes)) @ turn.T
+    # Lengths are one whatever W is: what changes them has no effect.
+    return value, (pull - scaled * np.sum(pull * scaled, axis=0)) / lengths
+
+
+def lost_information(W: np.ndarray) -> tuple[float, np.ndarray]:
+    """-log det(W^T W) / (2 c): the mean log of the standard deviations, but for a constant."""
+    columns = W.shape[1]
+    if len(W) < columns:
+        return np.inf, W
+    R = np.linalg.qr(W, mode="r")
+    diagonal = np.abs(np.diagonal(R))
+    if not diagonal.min() > _RANK * diagonal.max():
+        return np.inf, W
+    inverse = np.linalg.solve(R, np.eye(columns))
+    value = -float(np.sum(np.log(diagonal))) / columns
+    return value, -(W @ inverse) @ inverse.T / columns
+
+
+def balanced(W: np.ndarray) -> tuple[float, np.ndarray]:
+    """The sum of both: well conditioned, and not by moving little."""
+    (first, pull), (second, more) = log_condition(W), lost_information(W)
+    return first + second, pull + more
+
+
+CRITERIA: dict[str, Criterion] = {
+    "both": balanced, "condition": log_condition, "information": lost_information,
+}  # fmt: skip
+"""By the name that a user gives."""
+
+
+def condition(W: np.ndarray, scaled: bool = True) -> float:
+    """cond(W), with columns of length one if `scaled`."""
+    lengths = np.linalg.norm(W, axis=0) if scaled else np.ones(W.shape[1])
+    if len(W) < W.shape[1] or not lengths.min() > 0.0:
+        return float("inf")
+    sizes = np.linalg.svd(np.linalg.qr(W, mode="r") / lengths, compute_uv=False)
+    return float(sizes[0] / sizes[-1]) if sizes[-1] > 0.0 else float("inf")
+
+
+def log_det(W: np.ndarray) -> float:
+    """log det(W^T W), of the information matrix where rows are divided by their sigma."""
+    with np.errstate(divide="ignore"):
+        return 2.0 * float(np.sum(np.log(np.abs(np.diagonal(np.linalg.qr(W, mode="r"))))))
+
+
+def _sizes(W: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Singular values and right singular vectors, as columns."""
+    _, sizes, turned = np.linalg.svd(np.linalg.qr(W, mode="r"))
+    return sizes, turned.T

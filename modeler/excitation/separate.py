@@ -1,0 +1,324 @@
+"""The motion that tells two effects apart."""
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.diagnosis.candidates import Candidate, JointScale, over_grid
+from modeler.diagnosis.columns import all_columns
+from modeler.diagnosis.signals import Reference, Signals
+from modeler.effects.effect import Acts, Effect
+from modeler.excitation.criterion import condition
+from modeler.excitation.motion import Bounds
+from modeler.excitation.result import Exciting
+from modeler.excitation.search import Deadline, Wish, drawn_motions, finished, task_of
+from modeler.excitation.task import Task
+from modeler.numerics.optimize import evolve
+from modeler.observation.motion import Segment
+from modeler.runtime.model import CompiledModel
+
+_GENERATIONS = 150
+_FIRST = 0.15  # of the half ranges: size of the first steps
+_ENTRIES = 5  # shapes of an effect that are looked at, spread over its grid
+_NOTHING = 1e-14  # share of a column that is rounding
+
+Whose = tuple[Effect, str]
+"""An effect on a joint."""
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """Which of two effects is it?
+
+    Attributes:
+        effects: two effects, each with the name of its joint.
+        beta: (c,) base parameters of the model.
+        sigma: (J,) of the torques; None: all alike.
+    """
+
+    effects: tuple[Whose, Whose]
+    beta: np.ndarray
+    sigma: np.ndarray | None
+
+
+@dataclass(frozen=True)
+class Apart:
+    """How well a motion tells the two apart.
+
+    Attributes:
+        names: of the effects.
+        left: of the torque of each, the share (of its norm) that neither the model nor the other
+            effect can explain; for the shapes of the other that explain most.
+        random: the same of the best of the random motions.
+        gain: by how much the unexplained torque itself is larger than on that motion.
+    """
+
+    names: tuple[str, str]
+    left: tuple[float, float]
+    random: tuple[float, float]
+    gain: tuple[float, float]
+
+    def lines(self) -> list[str]:
+        """Lines of text."""
+        return [
+            f"{name}: {here:.1%} of its torque is explained by neither the model nor {other}; best "
+            f"of the random motions {there:.1%}; that part is {gain:.3g} times as large"
+            for name, other, here, there, gain in zip(
+                self.names, self.names[::-1], self.left, self.random, self.gain, strict=True
+            )
+        ]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            name: {"left": a, "left_random": b, "gain": c}
+            for name, a, b, c in zip(self.names, self.left, self.random, self.gain, strict=True)
+        }
+
+
+def tell_apart(
+    compiled: CompiledModel,
+    bounds: Bounds,
+    wish: Wish,
+    question: Question,
+    progress: Callable[[float], None] = lambda share: None,
+) -> tuple[Exciting, Apart]:
+    """The motion along which two effects are least alike.
+
+    Maximises what is left of each effect's columns after projection on the columns of the model
+    and of the other effect, for the shapes of the other that leave least: geometric mean over
+    both effects and their shapes. Of memory and time no slope is at hand, so by evolution.
+
+    Raises:
+        DataError: an effect that no columns on a joint describe, or what `excite` refuses.
+    """
+    on = Deadline(wish.time_limit)
+    task = task_of(compiled, bounds, wish, question.sigma, None, question.beta)
+    rng = np.random.default_rng([wish.seed, 7])
+    drawn = drawn_motions(task, rng, on)
+    columns = _Pair(task, question, [x for x, _ in drawn], wish.laps, on)
+    best = min(on.through(x for x, _ in drawn), key=columns.value)
+
+    def proceed(generation: int) -> bool:
+        progress(generation / _GENERATIONS)
+        return on()
+
+    motion = finished(task, _evolved(columns, best, rng, proceed), wish, drawn, on)
+    x = motion.x
+    (here, size), (there, before) = columns.left(x), columns.left(best)
+    names = tuple(f"{effect.id}@{joint}" for effect, joint in question.effects)
+    gain = tuple(a / b if b > 0.0 else float("inf") for a, b in zip(size, before, strict=True))
+    return motion, Apart((names[0], names[1]), here, there, (gain[0], gain[1]))
+
+
+def _evolved(
+    columns: "_Pair", x: np.ndarray, rng: np.random.Generator, on: Callable[[int], bool]
+) -> np.ndarray:
+    """The best motion that evolution finds from x; those beyond limits are drawn back in."""
+    task = columns.task
+    unit = task.bounds.half[:, None]
+
+    def pulled_in(flat: np.ndarray) -> np.ndarray:
+        return task.drawn_in(flat.reshape(x.shape) * unit)
+
+    found = evolve(
+        lambda flat: columns.value(pulled_in(flat)),
+        (x / unit).ravel(), _FIRST, _GENERATIONS, rng, on,
+    )  # fmt: skip
+    return pulled_in(found)
+
+
+class _Pair:
+    """The columns of two effects along motions."""
+
+    def __init__(
+        self, task: Task, question: Question, drawn: list[np.ndarray], laps: int, on: Deadline
+    ) -> None:
+        self.task, self._laps = task, laps
+        self._reference = Reference(task.columns.compiled, question.beta, 0.0, {})
+        loads = [self._signals(x).load for x in on.through(drawn[:5])]
+        load = np.sqrt(np.mean(np.concatenate(loads) ** 2, axis=0))
+        self._grids = [self._grid(whose, load) for whose in question.effects]
+        sizes = [self._blocks(x) for x in on.through(drawn)]
+        self._usual = [
+            np.mean([[np.sum(block**2) for block in blocks[k]] for blocks in sizes], axis=0)
+            for k in range(2)
+        ]
+
+    def _grid(self, whose: Whose, load: np.ndarray) -> list[Candidate]:
+        effect, joint = whose
+        bounds, spec = self.task.bounds, self.task.columns.compiled.spec
+        form = next((form for form in effect.forms if "T" not in form.names), None)
+        if form is None or effect.acts not in (Acts.JOINT, Acts.POSITION):
+            raise DataError(
+                f"between: {effect.id} is no torque of one joint that a motion determines; "
+                "expected two such effects"
+            )
+        j = bounds.joints.index(joint)
+        scale = JointScale(
+            float(bounds.speed[j]), float(2.0 * bounds.half[j]), float(load[j]) or 1.0,
+            spec.joints[j].unit == "rad", float(bounds.middle[j]),
+        )  # fmt: skip
+        every = list(over_grid(effect, form, joint, j, scale))
+        places = np.unique(np.linspace(0, len(every) - 1, _ENTRIES).astype(int))
+        return [every[k] for k in places]
+
+    def _signals(self, x: np.ndarray) -> Signals:
+        q, qd, qdd = (np.tile(part, (self._laps, 1)) for part in self.task.series.motion(x))
+        step = self.task.series.duration / len(self.task.series.time)
+        time = np.arange(len(q)) * step
+        nothing = np.zeros_like(q)
+        segment = Segment(
+            0, time, step, q, qd, qdd, nothing, {},
+            np.ones(len(q), dtype=bool), np.ones(q.shape, dtype=bool), {},
+        )  # fmt: skip
+        return Signals(segment, 1, q, qd, qdd, self._reference)
+
+    def _blocks(self, x: np.ndarray) -> list[list[np.ndarray]]:
+        """Weighted columns of both effects, one block (n J, k) for each shape."""
+        signals, weights = self._signals(x), self.task.weights[:, None]
+        return [
+            [
+                (block * weights).reshape(-1, block.shape[2])
+                for block in (all_columns(candidate, signals) for candidate in grid)
+            ]
+            for grid in self._grids
+        ]
+
+    def _beyond_model(self, x: np.ndarray) -> tuple[list[list[np.ndarray]], list[list[np.ndarray]]]:
+        """The blocks, and what the model leaves of them."""
+        W = self.task.rows(self.task.series.motion(x))
+        # Every lap has the same columns of the model: one lap of Q is that of all, scaled.
+        Q = np.tile(np.linalg.qr(W)[0], (self._laps, 1)) / np.sqrt(self._laps)
+        blocks = self._blocks(x)
+        return blocks, [[block - Q @ (Q.T @ block) for block in own] for own in blocks]
+
+    def _unexplained(self, x: np.ndarray) -> tuple[list[list[np.ndarray]], list[np.ndarray]]:
+        """The blocks; and of each effect and shape, the square that model and other leave."""
+        blocks, beyond = self._beyond_model(x)
+        bases = [[np.linalg.qr(block)[0] for block in own] for own in beyond]
+        squares = [
+            np.array([
+                min(np.sum((block - Q @ (Q.T @ block)) ** 2) for Q in bases[1 - k])
+                for block in beyond[k]
+            ])
+            for k in range(2)
+        ]  # fmt: skip
+        return blocks, squares
+
+    def value(self, x: np.ndarray) -> float:
+        """Small where both are well told apart."""
+        _, squares = self._unexplained(x)
+        shares = itertools.chain(*(s / u for s, u in zip(squares, self._usual, strict=True)))
+        return -float(np.mean([np.log(max(share, _NOTHING)) for share in shares]))
+
+    def left(self, x: np.ndarray) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Of each effect, the share of its columns that is left, and its size; means of shapes."""
+        blocks, squares = self._unexplained(x)
+        shares, sizes = [], []
+        for k in range(2):
+            whole = np.array([np.sum(block**2) for block in blocks[k]])
+            shares.append(float(np.mean(np.sqrt(squares[k] / np.maximum(whole, 1e-300)))))
+            sizes.append(float(np.mean(np.sqrt(squares[k]))))
+        return (shares[0], shares[1]), (sizes[0], sizes[1])
+
+
+# Which of given motions to take: the subset with the smallest condition number.
+
+
+_ALL = 20_000
+"""Subsets that are looked at one by one; of more, the best is built up and exchanged."""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A subset of motions.
+
+    Attributes:
+        places: of those chosen, in the order given.
+        condition: of their rows together, columns of length one.
+        whole: of all motions together.
+        alone: of each motion by itself.
+        exhaustive: True if every subset was looked at.
+    """
+
+    places: tuple[int, ...]
+    condition: float
+    whole: float
+    alone: tuple[float, ...]
+    exhaustive: bool
+
+
+def choose(rows: Sequence[np.ndarray], count: int) -> Choice:
+    """The `count` motions whose rows together have the smallest condition number.
+
+    How Guegan, Khalil and Lemoine 2003 (section 5) and Gautier and Khalil 1992 choose
+    trajectories. All subsets where there are at most 20 000, else one motion after the other and
+    then exchanges of one for one as long as they help.
+
+    Args:
+        rows: (rows, c) of each motion, weighted.
+        count: how many to take.
+
+    Raises:
+        DataError: more wanted than given, or no subset that determines all columns.
+    """
+    if not 1 <= count <= len(rows):
+        raise DataError(f"choose: got {count} of {len(rows)} motions; expected 1 to {len(rows)}")
+    triangles = [np.asarray(np.linalg.qr(W, mode="r")) for W in rows]
+
+    def value(places: Sequence[int]) -> float:
+        return condition(np.vstack([triangles[k] for k in places]))
+
+    exhaustive = math.comb(len(rows), count) <= _ALL
+    if exhaustive:
+        best = min(itertools.combinations(range(len(rows)), count), key=value)
+    else:
+        best = _exchanged(triangles, count)
+    if not math.isfinite(value(best)):
+        raise DataError(
+            f"choose: no {count} of these {len(rows)} motions excite all parameters; take more, or "
+            "motions that move other joints"
+        )
+    every = tuple(value([k]) for k in range(len(rows)))
+    return Choice(tuple(best), value(best), value(range(len(rows))), every, exhaustive)
+
+
+def _exchanged(triangles: list[np.ndarray], count: int) -> tuple[int, ...]:
+    """Greedy, then one for one: by the weakest singular value first, where columns lack."""
+    lengths = np.sqrt(sum(np.sum(R**2, axis=0) for R in triangles))
+    scaled = [R / np.where(lengths > 0.0, lengths, 1.0) for R in triangles]
+
+    def value(places: Sequence[int]) -> float:
+        sizes = np.linalg.svd(np.vstack([scaled[k] for k in places]), compute_uv=False)
+        full = np.zeros(scaled[0].shape[1])
+        full[: len(sizes)] = sizes
+        # Sum of 1/s^2, bounded so that what lacks rank can still be compared.
+        return float(np.sum(1.0 / (full**2 + 1e-12 * full[0] ** 2)))
+
+    chosen: list[int] = []
+    left = list(range(len(triangles)))
+    while len(chosen) < count:
+        chosen.append(min((k for k in left if k not in chosen), key=lambda k: value([*chosen, k])))
+    chosen.sort()
+
+    def measured(places: Sequence[int]) -> float:
+        return condition(np.vstack([triangles[k] for k in places]))
+
+    here = measured(chosen)
+    improving = True
+    while improving:
+        trials = [
+            sorted([*(c for c in chosen if c != out), into])
+            for out in chosen for into in left if into not in chosen
+        ]  # fmt: skip
+        best = min(trials, key=measured)
+        improving = measured(best) < here * (1.0 - 1e-12)
+        if improving:
+            chosen, here = best, measured(best)
+    return tuple(chosen)

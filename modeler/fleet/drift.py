@@ -1,0 +1,356 @@
+"""One quantity of one machine over its periods: does it stay, drift or jump?"""
+
+import datetime
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from scipy.special import digamma, ndtri, polygamma, stdtr, stdtrit
+
+from modeler.fleet.naming import natural
+from modeler.fleet.summary import LogSummary
+
+Shape = Literal["trend", "jump", "one period"]
+
+_KEPT = 0.8  # of the changes, the smaller ones, that the scatter is taken from
+_EFFICIENCY = 0.4  # degrees of freedom of a change, of those that share their periods and are cut
+_MOST_PRIOR = 12.0  # degrees of freedom that other quantities may stand for
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """Values of one quantity of one machine; p periods.
+
+    Attributes:
+        at: (p,) when, ascending.
+        values: (p,).
+        sigmas: (p,) standard deviations by the rows of each log.
+    """
+
+    at: np.ndarray
+    values: np.ndarray
+    sigmas: np.ndarray
+
+    @property
+    def changes(self) -> np.ndarray:
+        """From each period to the next, in standard deviations, the machine's usual one taken out.
+
+        With three periods, what a straight line leaves; with two, the change itself.
+        """
+        steps = np.diff(self.values) / np.hypot(self.sigmas[1:], self.sigmas[:-1])
+        if len(steps) < 2:
+            return steps
+        if len(steps) == 2:
+            return np.diff(steps) / np.sqrt(3.0)
+        apart: np.ndarray = steps - np.median(steps)
+        return apart * np.sqrt(len(steps) / (len(steps) - 1.0))
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """How much a quantity changes from one period to the next where nothing drifts.
+
+    Attributes:
+        extra: standard deviation beside that by the rows, in the unit of the quantity.
+        degrees: of freedom that it is known with.
+        factor: by which the sigmas rise, of a usual log.
+    """
+
+    extra: float
+    degrees: float
+    factor: float
+
+    def sigmas(self, series: Series) -> np.ndarray:
+        """(p,) standard deviations of the values of a series that stays."""
+        return np.hypot(series.sigmas, self.extra)
+
+
+def scatters(groups: Sequence[Sequence[Series]]) -> list[Scatter]:
+    """The scatter of each quantity, from all machines, moderated by all other quantities.
+
+    Few changes say little of a variance: that of each quantity is drawn to the usual one, the more
+    the less they differ (Smyth 2004, Stat. Appl. Genet. Mol. Biol. 3(1), section 6.2; trimmed
+    variances in place of plain ones, so that what drifts does not hide itself).
+
+    Args:
+        groups: the series of all machines, quantity by quantity.
+    """
+    changes = [np.concatenate([np.zeros(0), *(own.changes for own in group)]) for group in groups]
+    degrees = np.array([_EFFICIENCY * len(own) for own in changes])
+    squares = np.array([_trimmed(own) for own in changes])
+    usual, prior = _usual(squares[squares > 0.0], degrees[squares > 0.0])
+    found = []
+    for group, square, own in zip(groups, squares, degrees, strict=True):
+        variance = (own * square + prior * usual) / max(own + prior, 1e-9)
+        extra = max(0.0, variance - 1.0)
+        sigmas = np.concatenate([np.zeros(0), *(series.sigmas for series in group)])
+        size = float(np.sqrt(np.median(sigmas**2))) if sigmas.size else 0.0
+        found.append(Scatter(np.sqrt(extra) * size, max(1.0, own + prior), np.sqrt(1.0 + extra)))
+    return found
+
+
+def _trimmed(changes: np.ndarray) -> float:
+    """Variance of normal numbers of mean 0 from the smaller ones; 0 without any."""
+    count = len(changes)
+    if not count:
+        return 0.0
+    kept = int(np.ceil(_KEPT * count))
+    expected = ndtri(0.5 + 0.5 * (np.arange(1, kept + 1) - 0.375) / (count + 0.25))
+    return float(np.sum(np.sort(changes**2)[:kept]) / np.sum(expected**2))
+
+
+def _usual(squares: np.ndarray, degrees: np.ndarray) -> tuple[float, float]:
+    """Variance that quantities have, and the degrees of freedom that it stands for.
+
+    Moments of log s^2: mean log s0^2 + (digamma - log)(d / 2) - (digamma - log)(d0 / 2), variance
+    trigamma(d / 2) + trigamma(d0 / 2).
+    """
+    if len(squares) < 2:
+        return 1.0, 0.0
+    half = 0.5 * degrees
+    logs = np.log(squares) - digamma(half) + np.log(half)
+    spread = float(np.var(logs, ddof=1) - np.mean(polygamma(1, half)))
+    tried = np.geomspace(0.1, _MOST_PRIOR, 100)
+    prior = float(tried[np.argmin(np.abs(polygamma(1, 0.5 * tried) - max(spread, 0.0)))])
+    return float(np.exp(np.mean(logs) + digamma(0.5 * prior) - np.log(0.5 * prior))), prior
+
+
+@dataclass(frozen=True)
+class Move:
+    """The change that describes a series best.
+
+    Attributes:
+        shape: a straight line, a step that stays, or one period apart from all others.
+        begin: index of the first period that is different; 0 of a trend.
+        change: from the first to the last value of that line, or the height of the step.
+        sigma: of the change, scatter included.
+        level: of the line at its begin, or beside the step.
+        score: change in sigmas.
+        chance: that a series which stays shows as much, of any of these shapes.
+    """
+
+    shape: Shape
+    begin: int
+    change: float
+    sigma: float
+    level: float
+    score: float
+    chance: float
+
+
+def move_of(series: Series, scatter: Scatter) -> Move | None:
+    """The best description of what a series does; None for one period.
+
+    Weighted least squares of a constant and one shape, each shape in turn; the chance is that of
+    one shape, Student's t, times their number (Bonferroni).
+    """
+    if len(series.at) < 2:
+        return None
+    sigma = scatter.sigmas(series)
+    tried = [_moved(series, sigma, *shape) for shape in _shapes(series.at)]
+    best = max(tried, key=lambda move: abs(move.score))
+    chance = 2.0 * float(stdtr(scatter.degrees, -abs(best.score))) * len(tried)
+    return Move(best.shape, best.begin, best.change, best.sigma, best.level, best.score,
+                min(1.0, chance))  # fmt: skip
+
+
+def _shapes(at: np.ndarray) -> list[tuple[Shape, int, np.ndarray]]:
+    periods = len(at)
+    place = np.arange(periods)
+    found: list[tuple[Shape, int, np.ndarray]] = []
+    if periods > 2:
+        found.append(("trend", 0, (at - at[0]) / (at[-1] - at[0])))
+    found += [("jump", i, (place >= i).astype(float)) for i in range(1, periods)]
+    found += [("one period", i, (place == i).astype(float)) for i in range(1, periods - 1)]
+    return found
+
+
+def _moved(series: Series, sigma: np.ndarray, shape: Shape, begin: int, column: np.ndarray) -> Move:
+    weights = 1.0 / sigma**2
+    centre = np.sum(weights * column) / weights.sum()
+    spread = float(np.sum(weights * (column - centre) ** 2))
+    change = float(np.sum(weights * (column - centre) * series.values)) / spread
+    level = float(np.sum(weights * (series.values - change * column)) / weights.sum())
+    score = change * np.sqrt(spread)
+    return Move(shape, begin, change, float(1.0 / np.sqrt(spread)), level, float(score), 1.0)
+
+
+def line_of(move: Move, at: np.ndarray) -> np.ndarray:
+    """(p,) what a move adds to the level at each period."""
+    columns = {(shape, begin): column for shape, begin, column in _shapes(at)}
+    return move.change * columns[move.shape, move.begin]
+
+
+def least_told(series: Series, scatter: Scatter, level: float) -> float:
+    """The smallest straight drift over all periods that would be told at this chance.
+
+    Args:
+        series: of two periods and more.
+        scatter: of the quantity.
+        level: chance that one series may have.
+    """
+    shapes = _shapes(series.at)
+    move = _moved(series, scatter.sigmas(series), *shapes[0])
+    return move.sigma * quantile(scatter.degrees, level / len(shapes))
+
+
+def quantile(degrees: float, chance: float) -> float:
+    """|t| that Student's t exceeds with that chance, both sides together."""
+    return float(-stdtrit(degrees, 0.5 * chance))
+
+
+# When the periods of a fleet are: days by their names or clocks, or just their order.
+
+
+Unit = Literal["days", "periods"]
+
+_DATE = re.compile(
+    r"(?<!\d)(\d{4})[-_.]?(\d{2})[-_.]?(\d{2})(?:[T _-](\d{2})[-:_h]?(\d{2})(?:[-:_m]?(\d{2}))?)?"
+    r"(?!\d)"
+)
+_DAY = 86400.0  # s
+
+
+def in_time(summaries: Sequence[LogSummary]) -> tuple[list[LogSummary], np.ndarray, Unit]:
+    """The logs machine after machine in order of time, when each is, and in what that counts.
+
+    Dates in the names of all periods rule; else the clocks of the logs, where those of each machine
+    do not overlap (logs that each begin at 0 do); else the names in natural order.
+    """
+    dates = [date_of(each.named.period) for each in summaries]
+    if all(date is not None for date in dates):
+        days = np.array([0.0 if date is None else date.timestamp() for date in dates]) / _DAY
+        if _apart(summaries, days, days):
+            return _ordered(summaries, days, "days")
+    starts, ends = (np.array([each.span[k] for each in summaries]) / _DAY for k in (0, 1))
+    if _several(summaries) and _apart(summaries, starts, ends):
+        return _ordered(summaries, starts, "days")
+    keys = sorted({each.named.period for each in summaries}, key=natural)
+    places = np.array([float(keys.index(each.named.period)) for each in summaries])
+    return _ordered(summaries, places, "periods")
+
+
+def date_of(period: str) -> datetime.datetime | None:
+    """The day, and hour if it is there, that a name says, as 2026-03-01 or 20260301_0930."""
+    found = _DATE.search(period)
+    if found is None:
+        return None
+    parts = [int(part) for part in found.groups() if part is not None]
+    try:
+        year, month, day, hour, minute, second = (*parts, 0, 0, 0)[:6]
+        return datetime.datetime(year, month, day, hour, minute, second, tzinfo=datetime.UTC)
+    except ValueError:
+        return None
+
+
+def _several(summaries: Sequence[LogSummary]) -> bool:
+    machines = [each.named.machine for each in summaries]
+    return len(set(machines)) < len(machines)
+
+
+def _apart(summaries: Sequence[LogSummary], starts: np.ndarray, ends: np.ndarray) -> bool:
+    """True if no two logs of a machine overlap, or begin together."""
+    machines = np.array([each.named.machine for each in summaries])
+    for machine in set(machines):
+        own = np.flatnonzero(machines == machine)
+        order = own[np.argsort(starts[own], kind="stable")]
+        later, earlier = starts[order][1:], ends[order][:-1]
+        if np.any(later <= starts[order][:-1]) or np.any(later < earlier):
+            return False
+    return True
+
+
+def _ordered(
+    summaries: Sequence[LogSummary], at: np.ndarray, unit: Unit
+) -> tuple[list[LogSummary], np.ndarray, Unit]:
+    order = sorted(
+        range(len(summaries)), key=lambda k: (natural(summaries[k].named.machine), at[k])
+    )
+    return [summaries[k] for k in order], at[order] - at.min(), unit
+
+
+# The odd machine out: whose value of a quantity is apart from that of all others.
+
+
+LEAST = 5
+"""Machines from which an odd one can be told: with fewer, the others say too little of each other.
+"""
+
+_SHARE, _STEPS = 5, 3  # one of so many machines may be odd, and so many of a fleet
+
+
+@dataclass(frozen=True)
+class Odd:
+    """A machine apart.
+
+    Attributes:
+        machine: index.
+        difference: to the median of the others.
+        spread: standard deviation among the others.
+        score: difference in these.
+    """
+
+    machine: int
+    difference: float
+    spread: float
+    score: float
+
+
+def critical_deviate(count: int, step: int, chance: float) -> float:
+    """What the most extreme of `count` normal numbers less `step` - 1 exceeds with that chance.
+
+    (Rosner 1983, eq. 2.5), lambda = (n - i) t / sqrt((n - i - 1 + t^2) (n - i + 1)), t with
+    n - i - 1 degrees of freedom at chance / 2 (n - i + 1).
+
+    Args:
+        count: n.
+        step: i, from 1.
+        chance: of the larger of both sides.
+    """
+    left = count - step
+    t = quantile(left - 1, chance / (left + 1))
+    return float(left * t / np.sqrt((left - 1 + t**2) * (left + 1)))
+
+
+def odd_ones(values: np.ndarray, sigmas: np.ndarray, chance: float) -> tuple[Odd, ...]:
+    """Machines apart, by the generalized extreme Studentized deviate.
+
+    The most extreme machine is taken away, then the next, up to three and every fifth; the odd ones
+    are all up to the last whose deviate exceeds its critical value, so that two do not hide each
+    other (Rosner 1983, Technometrics 25(2), eqs. 2.2 and 2.5). The chance is shared among these
+    steps: far out in the tails, Rosner's values alone are too small. Machines must besides differ
+    by more than their own standard deviations explain.
+
+    Args:
+        values: (m,) one of each machine; NaN where it is not known.
+        sigmas: (m,) standard deviations of them.
+        chance: that any machine of a fleet of alike machines comes out.
+    """
+    left = [int(k) for k in np.flatnonzero(np.isfinite(values))]
+    count = len(left)
+    if count < LEAST:
+        return ()
+    taken: list[int] = []
+    last = 0
+    steps = min(_STEPS, count // _SHARE)
+    for i in range(1, steps + 1):
+        rest = values[left]
+        spread = float(np.std(rest, ddof=1))
+        if spread <= 0.0:
+            break
+        most = left[int(np.argmax(np.abs(rest - rest.mean())))]
+        deviate = abs(values[most] - rest.mean()) / spread
+        left.remove(most)
+        taken.append(most)
+        last = i if deviate > critical_deviate(count, i, chance / steps) else last
+    others = [k for k in np.flatnonzero(np.isfinite(values)) if k not in taken[:last]]
+    middle, spread = float(np.median(values[others])), float(np.std(values[others], ddof=1))
+    beyond = quantile(1e9, chance / count)
+    return tuple(
+        Odd(int(k), difference, spread, difference / spread)
+        for k in taken[:last]
+        for difference in [float(values[k]) - middle]
+        if abs(difference) > beyond * sigmas[k]
+    )

@@ -1,0 +1,202 @@
+"""The fit of a fleet, its judgement, and what is handed back."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.core.manifest import ModuleSpec
+from modeler.fleet.drift import LEAST, in_time, line_of
+from modeler.fleet.joint_fit import joint_fit, layout_of
+from modeler.fleet.judge import FALSE_ALARM, Judged, judged
+from modeler.fleet.result import Finding, Fleet, Followed, Values
+from modeler.fleet.summary import Left, LogSummary, of_another_robot
+from modeler.fleet.unseen import not_seen, scatter_known
+from modeler.fleet.warmth import warmth_of
+
+
+def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
+    """What drifts where, from the summaries of all logs.
+
+    Each log k and joint j obeys y_kj = W_j (theta + D phi_k) + gamma_kj W_j theta with theta of the
+    whole fleet; phi_k (friction, offset) and gamma_k (gain) of a machine over its periods are then
+    tested for a straight line, a step and one period apart, and their means against those of the
+    other machines. Chances are shared among all that is tested (Bonferroni): a fleet in which
+    nothing drifts, its values scattering from period to period without memory and its machines
+    differing as normal numbers do, has any finding with chance `FALSE_ALARM` at most.
+
+    Args:
+        spec: of the robot.
+        given: from `reduce_log`, all with one processing.
+
+    Raises:
+        DataError: no usable logs, too few to compare, rows given twice, nothing that may drift.
+    """
+    used = [each for each in given if isinstance(each, LogSummary)]
+    used, foreign, said = of_another_robot(used)
+    apart = [*(each for each in given if isinstance(each, Left)), *foreign]
+    left = tuple((each.named.place, each.why) for each in apart)
+    _check(used, left)
+    logs, at, unit = in_time(used)
+    layout = layout_of(spec)
+    fit = joint_fit(layout, logs)
+    found = judged(layout, fit, logs, at)
+    findings = [*_drifting(found, logs), *_apart(found, logs)]
+    machines = _machines(logs)
+    return Fleet(
+        robot=spec.robot,
+        unit=unit,
+        machines=machines,
+        findings=tuple(sorted(findings, key=lambda one: (one.chance, -abs(one.score)))),
+        followed=_followed(found, logs),
+        false_alarm=FALSE_ALARM,
+        aside=fit.aside,
+        left=left,
+        doubts=tuple(f"{e.named.machine}, {e.named.period}: {d}" for e in logs for d in e.doubts),
+        notes=(*_processed(used[0]), *_notes(found, logs), *said, *_unseen(apart, machines)),
+    )
+
+
+def _check(used: Sequence[LogSummary], left: Sequence[tuple[str, str]]) -> None:
+    if not used:
+        raise DataError(f"fleet: none of {len(left)} logs can be used; the first: {left[0][1]}")
+    machines = sorted({each.named.machine for each in used})
+    gone = f" (left out: {len(left)}, the first: {left[0][1]})" if left else ""
+    if len(machines) == len(used) and len(machines) < LEAST:
+        raise DataError(
+            f"fleet: got one log each of {', '.join(machines)}{gone}; expected two periods of a "
+            f"machine, or {LEAST} machines; the folder of a log is its machine unless --name or "
+            "--list says otherwise"
+        )
+    for k, each in enumerate(used):
+        for other in used[:k]:
+            if (
+                each.content
+                and each.content == other.content
+                and (each.span[0] <= other.span[1] and other.span[0] <= each.span[1])
+            ):
+                raise DataError(
+                    f"{each.named.place}: got rows of {other.named.place} again; expected each row "
+                    "once; leave one of the two out"
+                )
+
+
+def _drifting(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
+    findings = []
+    for (m, i), move in found.moves.items():
+        own, quantity = found.known(m, i), found.quantities[i]
+        periods = [logs[k].named.period for k in own]
+        trend = move.shape == "trend"
+        both = [
+            ([logs[k] for k in found.known(other, i)], found.values[found.known(other, i), i])
+            for other in (m, *(o for o in range(found.machines) if o != m))
+        ]
+        line = line_of(move, found.at[own])
+        findings.append(
+            Finding(
+                machine=logs[own[0]].named.machine,
+                quantity=quantity,
+                shape=move.shape,
+                begin=periods[move.begin],
+                end=periods[-1] if trend else periods[move.begin],
+                length=float(found.at[own[-1]] - found.at[own[0]]) if trend else 0.0,
+                before=move.level,
+                change=move.change,
+                sigma=move.sigma,
+                score=move.score,
+                chance=move.chance,
+                warmth=warmth_of(both[0], quantity.joint, line, both[1:]),
+                since=len(own) - move.begin,
+            )
+        )
+    return findings
+
+
+def _apart(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
+    findings = []
+    for (m, i), odd in found.odd.items():
+        own, quantity = found.known(m, i), found.quantities[i]
+        mean = float(np.average(found.values[own, i], weights=found.sigmas[own, i] ** -2.0))
+        findings.append(
+            Finding(
+                machine=logs[own[0]].named.machine,
+                quantity=quantity,
+                shape="odd machine",
+                begin=logs[own[0]].named.period,
+                end=logs[own[-1]].named.period,
+                length=float(found.at[own[-1]] - found.at[own[0]]),
+                before=mean - odd.difference,
+                change=odd.difference,
+                sigma=odd.spread,
+                score=odd.score,
+                chance=0.5 * FALSE_ALARM,
+                warmth=None,
+                since=len(own),
+            )
+        )
+    return findings
+
+
+def _followed(found: Judged, logs: Sequence[LogSummary]) -> tuple[Followed, ...]:
+    followed = []
+    for i, quantity in enumerate(found.quantities):
+        machines, scores = {}, {}
+        for m in range(found.machines):
+            own = found.known(m, i)
+            if (m, i) in found.scores:
+                scores[logs[own[0]].named.machine] = found.scores[m, i]
+            if len(own):
+                sigmas = found.scatters[i].sigmas(found.series(m, i))
+                names = tuple(logs[k].named.period for k in own)
+                values = Values(found.at[own], names, found.values[own, i], sigmas)
+                machines[logs[own[0]].named.machine] = values
+        known = found.values[np.isfinite(found.values[:, i]), i]
+        level = float(np.median(known)) if known.size else float("nan")
+        factor = found.scatters[i].factor
+        followed.append(Followed(quantity, level, factor, found.told(i), machines, scores))
+    return tuple(followed)
+
+
+def _processed(first: LogSummary) -> list[str]:
+    chosen = first.processing
+    if chosen is None or chosen.parallel_cutoff is None:
+        return []
+    position = chosen.position_cutoff or 0.0
+    return [
+        f"all logs are filtered alike, as chosen from {first.named.place}: positions below "
+        f"{position:.4g} Hz, torques and columns below {chosen.parallel_cutoff:.4g} Hz"
+    ]
+
+
+def _unseen(left: Sequence[Left], machines: dict[str, tuple[str, ...]]) -> list[str]:
+    """Machines of which no log was used."""
+    gone = dict.fromkeys(e.named.machine for e in left if e.named.machine not in machines)
+    return [f"{name}: none of its logs could be used: nothing is known of it" for name in gone]
+
+
+def _machines(logs: Sequence[LogSummary]) -> dict[str, tuple[str, ...]]:
+    """Periods by machine."""
+    machines: dict[str, tuple[str, ...]] = {}
+    for each in logs:
+        machines[each.named.machine] = (*machines.get(each.named.machine, ()), each.named.period)
+    return machines
+
+
+def _notes(found: Judged, logs: Sequence[LogSummary]) -> list[str]:
+    machines = _machines(logs)
+    said = [*not_seen(found, logs), *scatter_known(found, len(logs))]
+    single = [name for name, periods in machines.items() if len(periods) < 2]
+    if single:
+        said.append(
+            f"{', '.join(single)}: one period, so a drift of its own cannot be seen; record another"
+        )
+    if len(machines) < LEAST:
+        said.append(
+            f"{len(machines)} machine{'s' * (len(machines) > 1)}: an odd one among fewer than "
+            f"{LEAST} is not told"
+        )
+    blind = [q.parameter for i, q in enumerate(found.quantities)
+             if not np.isfinite(found.values[:, i]).any()]  # fmt: skip
+    if blind:
+        said.append(f"{', '.join(blind)}: no log tells it from the other parameters")
+    return said

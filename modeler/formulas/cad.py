@@ -1,0 +1,335 @@
+"""Known parameters and CAD values against what a fit says."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from statistics import NormalDist
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.formulas.physical_system import PhysicalSystem
+from modeler.formulas.solve import ClosedSolution, solve
+from modeler.formulas.values import Numbers, derive_values
+
+FALSE_ALARM = 0.01  # of a whole table
+_ROUNDS = 30
+_GROUPS = 100  # of CAD entries that are fitted
+_SETTLED = 1e-9
+
+
+def limit(tests: int) -> float:
+    """|z| above which one of so many tests is significant: normal, family-wise (Bonferroni)."""
+    return NormalDist().inv_cdf(1.0 - FALSE_ALARM / (2.0 * max(tests, 1)))
+
+
+def chi_squared_limit(freedom: int) -> float:
+    """What chi^2 exceeds in one table of `1 / FALSE_ALARM` (Wilson and Hilferty 1931)."""
+    if freedom <= 0:
+        return 0.0
+    part = 2.0 / (9.0 * freedom)
+    z = NormalDist().inv_cdf(1.0 - FALSE_ALARM)
+    return float(freedom * (1.0 - part + z * math.sqrt(part)) ** 3)
+
+
+@dataclass(frozen=True)
+class KnownAgainstFit:
+    """A given value against what data and the other known parameters say.
+
+    Attributes:
+        letter: parameter.
+        given, given_sigma: as known.
+        implied, implied_sigma: as it follows.
+        z: (given - implied) / standard deviation of the difference.
+        contradicts: True if |z| is significant.
+    """
+
+    letter: str
+    given: float
+    given_sigma: float
+    implied: float
+    implied_sigma: float
+    z: float
+    contradicts: bool
+
+
+def test_known(
+    solution: ClosedSolution,
+    data: Sequence[float],
+    covariance: np.ndarray,
+    known: Mapping[str, float],
+    sigmas: Mapping[str, float],
+) -> tuple[KnownAgainstFit, ...]:
+    """Every known parameter that would follow, were it not known, against what would follow.
+
+    Without a surplus of relations there is none. A parameter whose formula cannot be evaluated is
+    left out.
+    """
+    if not solution.surplus:
+        return ()
+    found = []
+    for letter in solution.known:
+        others = [x for x in solution.known if x != letter]
+        other = solve(solution.system, others)
+        if letter not in other.follows:
+            continue
+        given = {x: known[x] for x in others}
+        try:
+            derived = derive_values(other, data, covariance, given, sigmas)
+        except DataError:
+            continue
+        if letter in derived.doubtful:
+            continue
+        value, sigma = derived.value(letter), derived.sigma(letter)
+        own = sigmas.get(letter, 0.0)
+        spread = math.hypot(sigma, own)
+        found.append((letter, known[letter], own, value, sigma, _z(known[letter] - value, spread)))
+    bound = limit(len(found))
+    return tuple(KnownAgainstFit(*row, abs(row[-1]) > bound) for row in found)
+
+
+def _z(difference: float, sigma: float) -> float:
+    if sigma > 0.0:
+        return difference / sigma
+    return 0.0 if abs(difference) < 1e-12 else math.copysign(math.inf, difference)
+
+
+@dataclass(frozen=True)
+class CadRow:
+    """One identified quantity against CAD.
+
+    Attributes:
+        name: base parameter or coefficient.
+        identified, sigma: of the fit.
+        cad, cad_sigma: from the CAD values and their tolerances.
+        z: (identified - cad) / standard deviation of the difference.
+        suspicious: |z| is significant.
+        letters: parameters that it depends on.
+    """
+
+    name: str
+    identified: float
+    sigma: float
+    cad: float
+    cad_sigma: float
+    z: float
+    suspicious: bool
+    letters: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """CAD entries that, changed alone, agree better with the fit.
+
+    Attributes:
+        letters: one or two parameters.
+        cad: their CAD values.
+        fitted: the values that agree best with the fit.
+        chi_squared: what is left, in as many degrees of freedom as rows less letters.
+        enough: chi^2 left is what noise leaves.
+    """
+
+    letters: tuple[str, ...]
+    cad: tuple[float, ...]
+    fitted: tuple[float, ...]
+    chi_squared: float
+    enough: bool
+
+
+@dataclass(frozen=True)
+class CadComparison:
+    """Identified against CAD.
+
+    Attributes:
+        rows: all quantities that can be compared, most significant first.
+        limit: |z| from which a row is suspicious.
+        chi_squared: of all rows, correlations counted.
+        left_out: {quantity: why it is not compared}.
+        implicated: parameters that enter suspicious rows and no good one.
+        explanations: best first; if no change of one or two entries is enough, the best single
+            one; empty if nothing is suspicious.
+    """
+
+    rows: tuple[CadRow, ...]
+    limit: float
+    chi_squared: float
+    left_out: Mapping[str, str]
+    implicated: tuple[str, ...]
+    explanations: tuple[Explanation, ...]
+
+    @property
+    def suspicious(self) -> tuple[CadRow, ...]:
+        """Rows that do not agree."""
+        return tuple(row for row in self.rows if row.suspicious)
+
+
+def compare_cad(
+    system: PhysicalSystem,
+    data: Sequence[float],
+    covariance: np.ndarray,
+    cad: Mapping[str, float],
+    sigmas: Mapping[str, float] | None = None,
+    unknown_data: Mapping[str, str] | None = None,
+) -> CadComparison:
+    """Which identified quantities do not agree with CAD, and which CAD entry would explain it.
+
+    z = (d - p(cad)) / sqrt(C_ii + (J S J')_ii); an explanation changes one entry, or two where
+    one is not enough, so that chi^2 = r' (C + J S J')^-1 r is least; enough is a chi^2 below its
+    limit.
+
+    Args:
+        system: data as polynomials p of the parameters, J their Jacobian.
+        data: identified values d.
+        covariance: of them, C.
+        cad: values of parameters; a quantity is compared if all its parameters have one.
+        sigmas: tolerances of CAD values, S their squares.
+        unknown_data: {quantity: why it has no value}; these are left out.
+    """
+    depends = {d: _letters(system, d) for d in system.data}
+    missing = {d: [x for x in letters if x not in cad] for d, letters in depends.items()}
+    left_out = {d: f"no CAD value of {', '.join(some)}" for d, some in missing.items() if some}
+    left_out |= unknown_data or {}
+    kept = [i for i, name in enumerate(system.data) if name not in left_out]
+    problem = _Problem(system, kept, np.asarray(data), covariance, cad, sigmas or {})
+    rows = problem.rows(covariance, depends)
+    bad = {x for row in rows if row.suspicious for x in row.letters}
+    good = {x for row in rows if not row.suspicious for x in row.letters}
+    return CadComparison(
+        tuple(rows),
+        limit(len(kept)),
+        problem.chi(problem.start),
+        left_out,
+        tuple(x for x in system.letters if x in bad - good),
+        _explanations(problem, [x for x in system.letters if x in bad]),
+    )
+
+
+def _letters(system: PhysicalSystem, name: str) -> tuple[str, ...]:
+    used = {system.names[i] for at in system.definitions[name] for i, e in enumerate(at) if e}
+    return tuple(x for x in system.letters if x in used)
+
+
+class _Problem:
+    """Residuals of the compared quantities for any values of the parameters."""
+
+    def __init__(
+        self, system: PhysicalSystem, kept: Sequence[int], data: np.ndarray,
+        covariance: np.ndarray, cad: Mapping[str, float], sigmas: Mapping[str, float],
+    ) -> None:  # fmt: skip
+        self.system, self.kept = system, list(kept)
+        self.data = data[self.kept]
+        self.polys = [Numbers(system.definitions[system.data[i]]) for i in self.kept]
+        self.start = np.zeros(len(system.names))
+        for name, value in (*system.constants.items(), *cad.items()):
+            if name in system.place:
+                self.start[system.place[name]] = value
+        J = self.jacobian(self.start)
+        S = np.zeros(len(system.names))
+        for name, value in sigmas.items():
+            if name in system.place:
+                S[system.place[name]] = value**2
+        from_cad = (J * S) @ J.T
+        self.cad = self.values(self.start)
+        self.cad_sigma = np.sqrt(np.diag(from_cad)) if self.kept else np.zeros(0)
+        total = covariance[np.ix_(self.kept, self.kept)] + from_cad
+        self.sigma = np.sqrt(np.diag(total)) if self.kept else np.zeros(0)
+        self.weight = _inverse_root(total)
+
+    def rows(self, covariance: np.ndarray, depends: Mapping[str, tuple[str, ...]]) -> list[CadRow]:
+        """The table, most significant first."""
+        z, bound = self.z(self.start), limit(len(self.kept))
+        rows = []
+        for k, i in enumerate(self.kept):
+            name, sigma = self.system.data[i], math.sqrt(max(covariance[i, i], 0.0))
+            both = float(self.cad[k]), float(self.cad_sigma[k])
+            suspicious = bool(abs(z[k]) > bound)
+            row = CadRow(
+                name, float(self.data[k]), sigma, *both, float(z[k]), suspicious, depends[name]
+            )
+            rows.append(row)
+        return sorted(rows, key=lambda row: -abs(row.z))
+
+    def values(self, point: np.ndarray) -> np.ndarray:
+        """Quantities from parameters."""
+        return np.array([poly.value(point) for poly in self.polys])
+
+    def jacobian(self, point: np.ndarray) -> np.ndarray:
+        """(quantities, generators)."""
+        return np.array([poly.slopes(point) for poly in self.polys]).reshape(-1, len(point))
+
+    def z(self, point: np.ndarray) -> np.ndarray:
+        """Differences by their standard deviations."""
+        difference = self.data - self.values(point)
+        return np.array([_z(a, b) for a, b in zip(difference, self.sigma, strict=True)])
+
+    def chi(self, point: np.ndarray) -> float:
+        """Weighted sum of squares, correlations counted."""
+        r = self.weight @ (self.data - self.values(point))
+        return float(r @ r)
+
+    def promising(self, letters: Sequence[str], size: int) -> list[tuple[str, ...]]:
+        """Groups of that size that explain most to first order; all, if they are few."""
+        groups = list(combinations(letters, size))
+        if len(groups) <= _GROUPS:
+            return groups
+        r = self.weight @ (self.data - self.values(self.start))
+        J = self.weight @ self.jacobian(self.start)
+        left = []
+        for group in groups:
+            columns = J[:, [self.system.place[x] for x in group]]
+            rest = r - columns @ np.linalg.lstsq(columns, r, rcond=None)[0]
+            left.append((float(rest @ rest), group))
+        return [group for _, group in sorted(left)[:_GROUPS]]
+
+    def fitted(self, letters: Sequence[str]) -> np.ndarray:
+        """The point with those letters changed for the least sum of squares (Gauss-Newton)."""
+        at = [self.system.place[x] for x in letters]
+        point = self.start.copy()
+        best = self.chi(point)
+        for _ in range(_ROUNDS):
+            r = self.weight @ (self.data - self.values(point))
+            J = self.weight @ self.jacobian(point)[:, at]
+            step = np.linalg.lstsq(J, r, rcond=None)[0]
+            for _ in range(_ROUNDS):
+                trial = point.copy()
+                trial[at] += step
+                if (chi := self.chi(trial)) <= best:
+                    break
+                step = step / 2.0
+            else:
+                break
+            done = best - chi <= _SETTLED * best
+            point, best = trial, chi
+            if done:
+                break
+        return point
+
+
+def _inverse_root(covariance: np.ndarray) -> np.ndarray:
+    """W with W' W = covariance^-1 where it has variance (its pseudo-inverse elsewhere)."""
+    if not len(covariance):
+        return np.zeros((0, 0))
+    scale = np.sqrt(np.diag(covariance))
+    scale[scale == 0.0] = 1.0
+    values, vectors = np.linalg.eigh(covariance / np.outer(scale, scale))
+    keep = values > 1e-12 * values[-1] if values[-1] > 0 else values > 0
+    return (vectors[:, keep] / np.sqrt(values[keep])).T / scale
+
+
+def _explanations(
+    problem: _Problem, letters: Sequence[str], most: int = 6
+) -> tuple[Explanation, ...]:
+    found: list[Explanation] = []
+    for size in (1, 2):
+        bound = chi_squared_limit(len(problem.weight) - size)
+        for group in problem.promising(letters, size):
+            at = [problem.system.place[x] for x in group]
+            point = problem.fitted(group)
+            chi = problem.chi(point)
+            cad, new = tuple(problem.start[at].tolist()), tuple(point[at].tolist())
+            found.append(Explanation(group, cad, new, chi, chi <= bound))
+        found.sort(key=lambda e: (not e.enough, len(e.letters), e.chi_squared, e.letters))
+        if found and found[0].enough:
+            return tuple(e for e in found if e.enough)[:most]
+    return tuple(found[:1])

@@ -1,0 +1,611 @@
+"""Inertia matrix, Christoffel coefficients and gravity by composite bodies, each quantity once.
+
+Let I_k be the inertia of link k and of all that it carries, held together, in frame k (mass,
+first moments, inertia at the origin), S_i the screw of joint i in frame k (rotation e_i, velocity
+m_i of the origin, for unit speed). For joints i <= j <= k of one chain
+
+    J_ik = S_i . I_k S_k,
+    A_ijk = dJ_ij/dq_k = S_i . (dI_k/dq_k) S_j,    B_ijk = dJ_ik/dq_j = -(S_j x S_i) . I_k S_k,
+    dJ_jk/dq_i = 0,
+
+because J_ij changes with q_k only where I_k turns about axis k, J_ik with q_j only where all
+behind j turns against axis i, and what is behind i does not see q_i. So of the three Christoffel
+symbols of three joints two are independent, with the full coefficients
+
+    S_ijk = A + B,    S_jik = A - B = -S_kij    (i < j < k),
+    S_iik = A_iik = -2 S_kii,                   S_ijj = B_ijj,    S_jij = 0.
+
+Composite bodies: Walker and Orin 1982, Khalil and Dombre 2002, 9.7.2. Joints that follow others
+by q = E u + constant give J_u = E' J E, and the Christoffel symbols of u likewise.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations, combinations_with_replacement
+from typing import TypeAlias
+
+import sympy
+
+from modeler.core.errors import RobotError
+from modeler.derivation.columns import ShaftColumn, effect_entries, in_block
+from modeler.derivation.geometry import Geometry, Row
+from modeler.derivation.graph import Expr, Graph, GraphAlgebra
+from modeler.derivation.kinematics import Screw, Vector, cross, dot, gravity_in_frames, plus, screws
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.newton_euler import Composite
+from modeler.derivation.result import BaseParameters
+from modeler.effects.effect import EnergyBlock
+from modeler.formulas.energy import Entries, dynamics
+from modeler.formulas.function_sheet import Sheet, SheetWriter
+from modeler.formulas.ring import Poly, TrigRing, without_squares
+from modeler.robot.robot import Robot
+
+# A model on a graph of its own, prepared for formulas that people read; torques of its effects.
+
+
+def fresh_model(model: SymbolicModel) -> SymbolicModel:
+    """The same model on another graph, which knows the sines of sums over parallel axes.
+
+    Lengths, gravity, speeds times these sines are known too: the recursions multiply by them first.
+    The graph of `model` is left as it is: emitted code would read these sines otherwise.
+    """
+    found = replace(model, graph=Graph())
+    graph, geometry = found.graph, found.geometry
+    lengths = {x for row in geometry.rows for x in (row.b, row.d, row.r)} | {*geometry.gravity}
+    factors = [found.algebra.static(x) for x in sorted(lengths, key=str) if not x.is_Number]
+    factors += found.inputs("qd") + found.inputs("qdd")
+    for angle in _angles(geometry, found.algebra):
+        for turned in (graph.call("cos", angle), graph.call("sin", angle)):
+            for factor in factors:
+                graph.lift(factor * turned)
+    return found
+
+
+def letters_of(model: SymbolicModel, parameters: Mapping[int, str]) -> dict[str, str]:
+    """{symbol of the graph: how it is written}: positions, speeds, signals, named columns."""
+    found = {name: name for name in model.geometry.values}
+    for k, joint in enumerate(model.robot.free):
+        found |= {f"{kind}[{k}]": f"{kind}{joint.name}" for kind in ("q", "qd", "qdd")}
+    found |= {f"beta[{column}]": name for column, name in parameters.items()}
+    return found | {f"s[{k}]": letter for k, letter in enumerate(signal_letters(model))}
+
+
+def signal_letters(model: SymbolicModel) -> list[str]:
+    """How the signals are written that effects read besides the motion: t1, T2, z3."""
+    kinds = {"time": "t", "temperature": "T", "slip": "z"}
+    return [f"{kinds[signal.kind]}{k + 1}" for k, signal in enumerate(model.signals)]
+
+
+def named_columns(base: BaseParameters) -> dict[int, str]:
+    """{column: the base parameter that has it}."""
+    return {parameter.column: parameter.name for parameter in base.parameters}
+
+
+def effects_sheet(model: SymbolicModel, parameters: Mapping[int, str]) -> Sheet:
+    """The results of `write_effects` alone, for the parameters of those columns."""
+    model = fresh_model(model)
+    writer = SheetWriter(model.graph, letters_of(model, parameters))
+    write_effects(model, parameters, writer)
+    return writer.finished()
+
+
+def symbols_of(model: SymbolicModel, columns: Iterable[int]) -> dict[int, Expr]:
+    """{column: the symbol of its parameter}."""
+    return {column: model.graph.symbol(f"beta[{column}]") for column in columns}
+
+
+def write_effects(model: SymbolicModel, columns: Iterable[int], writer: SheetWriter) -> None:
+    """Results e<i>, torques that effects take along the free variables; rotor inertias are in J."""
+    total = [model.graph.constant(0)] * len(model.robot.free)
+    for place, value in symbols_of(model, columns).items():
+        for part in model.columns[place].parts:
+            if isinstance(part, ShaftColumn) and not in_block(part, EnergyBlock.KINETIC):
+                for k, entry in effect_entries(model, part).items():
+                    total[k] = total[k] + value * entry
+    writer.section("friction, offsets and other effects")
+    for joint, entry in zip(model.robot.free, total, strict=True):
+        writer.result(f"e{joint.name}", entry)
+
+
+def _angles(geometry: Geometry, algebra: GraphAlgebra) -> list[Expr]:
+    """Angles of the rows that turn, and those between frames whose z axes are parallel."""
+    found: list[Expr] = []
+    for k, row in enumerate(geometry.rows):
+        angle = _turn(row, algebra)
+        found.append(angle)
+        at, sign = k, _flip(row)
+        while sign and (parent := geometry.rows[at].parent) is not None:
+            at = parent
+            before = _turn(geometry.rows[at], algebra)
+            angle = angle + (before if sign > 0 else -before)
+            found.append(angle)
+            sign *= _flip(geometry.rows[at])
+    return found
+
+
+def _flip(row: Row) -> int:
+    """1 if z is parallel to that of the antecedent, -1 if opposite, 0 if neither."""
+    quarters = row.alpha / (sympy.pi / 2)
+    return {0: 1, 2: -1}.get(int(quarters) % 4, 0) if quarters.is_Integer else 0
+
+
+def _turn(row: Row, algebra: GraphAlgebra) -> Expr:
+    """Rate * q and constant of a row that turns, right angles left out."""
+    angle = algebra.graph.constant(0)
+    if row.index is not None and row.joint.angular:
+        q = algebra.combined("q", row)
+        angle = q if row.rate > 0 else -q
+    for constant in (row.theta, row.gamma):
+        if not (constant / (sympy.pi / 2)).is_Integer:
+            angle = angle + algebra.static(constant)
+    return angle
+
+
+# The dynamics as formulas with as few trigonometric monomials as we find.
+
+
+Exponents: TypeAlias = tuple[int, ...]
+Form: TypeAlias = Mapping[int, Poly]
+"""Linear form of standard parameters: {column: factor, a polynomial of the geometry}."""
+
+KINDS = {"g": "gravity", "J": "inertia", "S": "christoffel"}
+_EXHAUSTIVE = 4  # joints with squares up to which every combination is tried
+
+
+@dataclass(frozen=True)
+class Function:
+    """One function of the configuration.
+
+    Attributes:
+        name: "g1", "J12", "S213"; joints with longer names are joined as in "J1_12".
+        kind: "gravity" (N m per unit of the factored-out letter), "inertia" or "christoffel".
+        joints: indices of the joint variables.
+        terms: {exponents of the motion generators: linear form of the parameters}, in the order
+            in which they are printed.
+    """
+
+    name: str
+    kind: str
+    joints: tuple[int, ...]
+    terms: Mapping[Exponents, Form]
+
+
+@dataclass(frozen=True)
+class ClosedForm:
+    """tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k + g_i + e_i, where they are not zero.
+
+    J is the inertia matrix, S_ijk the full coefficient of qd_j qd_k, e what effects take.
+
+    Attributes:
+        robot: its description.
+        parameters: names of the parameters by column: the standard ones, or the base parameters at
+            the columns that they have.
+        algebra: the generators of the functions.
+        gravity_factor: name of the letter taken out of all gravity functions, "" if there is none:
+            the gravity torque of joint i is that letter times g_i.
+        functions: g, J, S in order of their indices.
+        effects: e, which is no polynomial.
+    """
+
+    robot: Robot
+    parameters: tuple[str, ...]
+    algebra: TrigRing
+    gravity_factor: str
+    functions: tuple[Function, ...]
+    effects: Sheet
+
+    @cached_property
+    def by_name(self) -> Mapping[str, Function]:
+        """Functions by name."""
+        return {function.name: function for function in self.functions}
+
+    @property
+    def monomials(self) -> int:
+        """Number of monomials of all functions."""
+        return sum(len(function.terms) for function in self.functions)
+
+
+def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> ClosedForm:
+    """The dynamics of a robot as polynomials in sines and cosines of its joints.
+
+    Per function and per joint, either squares of the sine or squares of the cosine are eliminated,
+    whichever leaves fewer monomials; where both leave as many, squares of cosines are kept. All
+    choices are tried for up to four joints, beyond that one joint after the other. A robot file may
+    fix the choice: the functions of `[terms] keep_sine_squares` keep squares of sines, all others
+    squares of cosines.
+
+    Args:
+        model: any serial or tree-structured robot; joints may follow others by linear relations.
+            Of a robot with loops, the opened tree: torques are those along its free variables.
+        base: write it in the base parameters: factors of their columns only.
+
+    Raises:
+        DerivationError: too many joints to be printed; lengths that are not polynomials.
+        RobotError: `keep_sine_squares` names a function that is not there.
+    """
+    algebra = TrigRing(model.geometry)
+    everything: Sequence[int] = range(len(model.columns))
+    columns = everything if base is None else [p.column for p in base.parameters]
+    found = dynamics(model, algebra, columns)
+    factor = _gravity_factor(algebra)
+    names = [joint.name for joint in model.robot.free]
+    keep = _kept_by_paper(model.robot)
+    functions = [
+        _function("g", names, at, _divided(entry, factor, algebra), algebra, keep)
+        for at, entry in found.gravity.items()
+    ]
+    for letter, entries in (("J", found.inertia), ("S", found.christoffel)):
+        functions += _functions(letter, names, entries, algebra, keep)
+    _check_names(model.robot, keep, functions)
+    letter = str(algebra.ring.symbols[factor]) if factor is not None else ""
+    parameters = list(model.names)
+    for parameter in base.parameters if base is not None else ():
+        parameters[parameter.column] = parameter.name
+    effects = effects_sheet(model, {column: parameters[column] for column in columns})
+    return ClosedForm(model.robot, tuple(parameters), algebra, letter, tuple(functions), effects)
+
+
+def function_name(letter: str, joints: Sequence[str]) -> str:
+    """Name of a function: "J12"; "J1_12" where a joint's name has several characters."""
+    return letter + ("" if all(len(name) == 1 for name in joints) else "_").join(joints)
+
+
+def _functions(
+    letter: str,
+    names: Sequence[str],
+    entries: Entries,
+    algebra: TrigRing,
+    keep: frozenset[str] | None,
+) -> list[Function]:
+    return [_function(letter, names, at, entry, algebra, keep) for at, entry in entries.items()]
+
+
+def _function(
+    letter: str,
+    names: Sequence[str],
+    at: tuple[int, ...],
+    entry: Form,
+    algebra: TrigRing,
+    keep: frozenset[str] | None,
+) -> Function:
+    name = function_name(letter, [names[i] for i in at])
+    if keep is None:
+        entry = _fewest(entry, algebra)
+    elif name in keep:
+        entry = _all_sines(entry, algebra)
+    terms = collect(entry, algebra)
+    order = sorted(terms, reverse=True)
+    return Function(name, KINDS[letter], at, {exponents: terms[exponents] for exponents in order})
+
+
+def collect(entry: Form, algebra: TrigRing) -> dict[Exponents, dict[int, Poly]]:
+    """{parameter: polynomial} sorted by monomials: {monomial: {parameter: factor}}."""
+    terms: dict[Exponents, dict[int, Poly]] = {}
+    for column, poly in entry.items():
+        for exponents, factor in algebra.split(poly).items():
+            terms.setdefault(exponents, {})[column] = factor
+    return terms
+
+
+def _fewest(entry: Form, algebra: TrigRing) -> Form:
+    """The same function with the squares of sines kept where that saves monomials."""
+    squared = [
+        index
+        for index, motion in enumerate(algebra.motions)
+        if motion.cosine is not None
+        and any(exponents[motion.cosine] > 1 for poly in entry.values() for exponents in poly)
+    ]
+    if len(squared) <= _EXHAUSTIVE:
+        sets = [c for n in range(len(squared) + 1) for c in combinations(squared, n)]
+        choices = [_with_sines(entry, algebra, chosen) for chosen in sets]
+        return min(choices, key=lambda choice: _count(choice, algebra))
+    best, count = entry, _count(entry, algebra)
+    for index in squared:
+        other = _with_sines(best, algebra, (index,))
+        if (fewer := _count(other, algebra)) < count:
+            best, count = other, fewer
+    return best
+
+
+def _all_sines(entry: Form, algebra: TrigRing) -> Form:
+    turning = [i for i, motion in enumerate(algebra.motions) if motion.sine is not None]
+    return _with_sines(entry, algebra, turning)
+
+
+def _with_sines(entry: Form, algebra: TrigRing, joints: Sequence[int]) -> Form:
+    for index in joints:
+        motion = algebra.motions[index]
+        assert motion.sine is not None and motion.cosine is not None
+        entry = {
+            column: without_squares(poly, motion.cosine, motion.sine)
+            for column, poly in entry.items()
+        }
+    return entry
+
+
+def _count(entry: Form, algebra: TrigRing) -> int:
+    return len({exponents[: algebra.moving] for poly in entry.values() for exponents in poly})
+
+
+def _gravity_factor(algebra: TrigRing) -> int | None:
+    """Place of the first letter that divides every component of gravity."""
+    entries = [algebra.static(entry) for entry in algebra.geometry.gravity]
+    terms = [exponents for entry in entries for exponents in entry]
+    places = range(algebra.moving, len(algebra.ring.symbols))
+    if not terms:
+        return None
+    return next((place for place in places if all(t[place] for t in terms)), None)
+
+
+def _divided(entry: Form, place: int | None, algebra: TrigRing) -> Form:
+    if place is None:
+        return entry
+    return {column: poly.exquo(algebra.ring.gens[place]) for column, poly in entry.items()}
+
+
+def _kept_by_paper(robot: Robot) -> frozenset[str] | None:
+    names = robot.terms.get("keep_sine_squares")
+    if names is None:
+        return None
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        raise RobotError(
+            f"robot {robot.name}, [terms], keep_sine_squares: got {names!r}; expected a list of "
+            'functions such as ["J11", "J12"]'
+        )
+    return frozenset(names)
+
+
+def _check_names(robot: Robot, keep: frozenset[str] | None, functions: Sequence[Function]) -> None:
+    known = [function.name for function in functions]
+    for name in sorted((keep or set()) - set(known)):
+        raise RobotError(
+            f"robot {robot.name}, [terms], keep_sine_squares: got {name}, which is zero or no "
+            f"function of this robot; expected names among {', '.join(known)}"
+        )
+
+
+_INERTIA = (("XX", 0, 0), ("XY", 0, 1), ("XZ", 0, 2), ("YY", 1, 1), ("YZ", 1, 2), ("ZZ", 2, 2))
+_AXES = "xyz"
+
+Triple = tuple[int, int, int]
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """Tree quantities by the index of the row's variable, zeros left out.
+
+    Attributes:
+        inertia: {(i, k): J_ik}, i <= k.
+        turned: {(i, j, k): A_ijk}, i <= j <= k.
+        carried: {(i, j, k): B_ijk}.
+        gravity: {i: g_i}.
+    """
+
+    inertia: Mapping[tuple[int, int], Expr]
+    turned: Mapping[Triple, Expr]
+    carried: Mapping[Triple, Expr]
+    gravity: Mapping[int, Expr]
+
+
+def write_short_form(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) -> None:
+    """Results J_ij (i <= j), S_ijk (j <= k), g_i, e_i by composite bodies, and what they need.
+
+    Where all joints are free, S_kij = -S_jik and S_kii = -S_iik/2 spare their lines.
+    """
+    beta = symbols_of(model, named_columns(base))
+    bodies = _composites(model, beta, writer)
+    rows = _rows(model, bodies, writer)
+    names = [joint.name for joint in model.robot.free]
+    shafts = _shafts(model, beta)
+    if model.geometry.tied:
+        _name_rows(model, rows, writer)
+        _write_tied(model, rows, shafts, names, writer)
+    else:
+        _write_chain(rows, shafts, names, writer)
+    write_effects(model, beta, writer)
+
+
+def _composites(
+    model: SymbolicModel, beta: Mapping[int, Expr], writer: SheetWriter
+) -> list[Composite]:
+    """Every link with all that it carries, in its frame."""
+    zero = model.graph.constant(0)
+    links = [Composite(p, zero) for p in model.link_parameters(beta)]
+    rows = model.geometry.rows
+    for k in reversed(range(len(links))):
+        body, name = links[k], rows[k].joint.name
+        writer.section(f"link {name} and all that it carries, in frame {name}")
+        writer.propose(f"M{name}c", body.M)
+        for axis, moment in zip("XYZ", body.MS, strict=True):
+            writer.propose(f"M{axis}{name}c", moment)
+        for prefix, i, j in _INERTIA:
+            writer.propose(f"{prefix}{name}c", body.J[i][j])
+        parent = rows[k].parent
+        if parent is not None:
+            links[parent].carry(body, model.frames[k])
+    return links
+
+
+def _rows(model: SymbolicModel, bodies: Sequence[Composite], writer: SheetWriter) -> _Rows:
+    """J, A, B and g of the rows that move."""
+    geometry = model.geometry
+    down = gravity_in_frames(geometry, model.frames, model.algebra)
+    inertia: dict[tuple[int, int], Expr] = {}
+    turned: dict[Triple, Expr] = {}
+    carried: dict[Triple, Expr] = {}
+    gravity: dict[int, Expr] = {}
+    everything = screws(geometry, model.frames, model.algebra)
+    for row, body, g, chain in zip(geometry.rows, bodies, down, everything, strict=True):
+        name, k = row.joint.name, row.index
+        if k is None:
+            continue
+        writer.section(f"axes and gravity in frame {name}")
+        for i, screw in sorted(chain.items()):
+            other = geometry.robot.moving[i].name
+            _name_vector(writer, f"e{other}{{}}_{name}", screw.e)
+            _name_vector(writer, f"m{other}{{}}_{name}", screw.m)
+        _name_vector(writer, f"g{{}}_{name}", g)
+        n, f = _momentum(body, row.joint.angular, row.rate)
+        gravity[k] = -_along(chain[k], [*cross(body.MS, g)], [x * body.M for x in g])
+        for i, j in combinations_with_replacement(sorted(chain), 2):
+            turned[i, j, k] = _turned(body, chain[i], chain[j], row.joint.angular) * row.rate
+            if j == k:
+                inertia[i, k] = _along(chain[i], n, f)
+            if i < j:
+                carried[i, j, k] = -_along(_moved(chain[j], chain[i]), n, f)
+    return _Rows(inertia, turned, carried, gravity)
+
+
+def _name_vector(writer: SheetWriter, pattern: str, vector: Vector) -> None:
+    for axis, entry in zip(_AXES, vector, strict=True):
+        writer.propose(pattern.format(axis), entry)
+
+
+def _momentum(body: Composite, angular: bool, rate: int) -> tuple[Vector, Vector]:
+    """(angular, linear) momentum of a composite body for unit speed of its own joint."""
+    zero = body.M * 0
+    if angular:
+        n = [line[2] * rate for line in body.J]
+        return n, [-body.MS[1] * rate, body.MS[0] * rate, zero]
+    return [body.MS[1] * rate, -body.MS[0] * rate, zero], [zero, zero, body.M * rate]
+
+
+def _along(screw: Screw, n: Vector, f: Vector) -> Expr:
+    total: Expr = dot(screw.e, n) + dot(screw.m, f)
+    return total
+
+
+def _moved(a: Screw, b: Screw) -> Screw:
+    """A x b: how screw b changes while all turns by a."""
+    return Screw(cross(a.e, b.e), plus(cross(a.e, b.m), cross(a.m, b.e)))
+
+
+def _turned(body: Composite, a: Screw, b: Screw, angular: bool) -> Expr:
+    """a . (dI/dq) b, where the body turns about z or moves along it."""
+    zero = body.M * 0
+    x, y, z = body.MS
+    J = body.J
+    if angular:
+        moments = [-y, x, zero]
+        slope = [
+            [-2 * J[0][1], J[0][0] - J[1][1], -J[1][2]],
+            [J[0][0] - J[1][1], 2 * J[0][1], J[0][2]],
+            [-J[1][2], J[0][2], zero],
+        ]
+    else:
+        moments = [zero, zero, body.M]
+        slope = [[2 * z, zero, -x], [zero, 2 * z, -y], [-x, -y, zero]]
+    total: Expr = dot(a.e, [dot(line, b.e) for line in slope])
+    return total + dot(moments, plus(cross(a.m, b.e), cross(b.m, a.e)))
+
+
+def _shafts(model: SymbolicModel, beta: Mapping[int, Expr]) -> dict[tuple[int, int], Expr]:
+    """Inertia that turns with shafts: {(i, j): value}, i <= j, of free variables."""
+    found: dict[tuple[int, int], Expr] = {}
+    for place, value in beta.items():
+        for part in model.columns[place].parts:
+            if in_block(part, EnergyBlock.KINETIC):
+                for i, j in combinations_with_replacement(sorted(part.shaft), 2):
+                    added = value * (part.shaft[i] * part.shaft[j])
+                    found[i, j] = found.get((i, j), model.graph.constant(0)) + added
+    return found
+
+
+def _write_chain(
+    rows: _Rows,
+    shafts: Mapping[tuple[int, int], Expr],
+    names: Sequence[str],
+    writer: SheetWriter,
+) -> None:
+    """Results where every joint is free."""
+    writer.section("inertia matrix, J_ji = J_ij")
+    for (i, k), value in sorted(rows.inertia.items()):
+        total = value + shafts[i, k] if (i, k) in shafts else value
+        writer.result(function_name("J", [names[i], names[k]]), total)
+    writer.section("Christoffel coefficients; S_kij = -S_jik and S_kii = -S_iik/2 for i <= j <= k")
+    for i, j, k in sorted(rows.turned):
+        A, B = rows.turned[i, j, k], rows.carried.get((i, j, k))
+        x, y, z = names[i], names[j], names[k]
+        if B is None or j == k:
+            writer.result(function_name("S", [x, y, z]), A)
+            continue
+        writer.propose(function_name("A", [x, y, z]), A)
+        writer.propose(function_name("B", [x, y, z]), B)
+        writer.result(function_name("S", [x, y, z]), A + B)
+        writer.result(function_name("S", [y, x, z]), A - B)
+    writer.section("gravity")
+    for i, value in sorted(rows.gravity.items()):
+        writer.result(function_name("g", [names[i]]), value)
+
+
+def _name_rows(model: SymbolicModel, rows: _Rows, writer: SheetWriter) -> None:
+    """Proposals for the tree's entries, whose rows follow the free joints."""
+    names = [joint.name for joint in model.robot.moving]
+    writer.section("as if every joint were free")
+    for letter, entries in (("T", rows.inertia), ("A", rows.turned), ("B", rows.carried)):
+        for at, value in sorted(entries.items()):
+            writer.propose(function_name(letter, [names[i] for i in at]), value)
+
+
+def _write_tied(
+    model: SymbolicModel,
+    rows: _Rows,
+    shafts: Mapping[tuple[int, int], Expr],
+    names: Sequence[str],
+    writer: SheetWriter,
+) -> None:
+    """Results along the free joints: J_u = E' J E, and so on."""
+    forms, zero = model.geometry.forms, model.graph.constant(0)
+    inertia: dict[tuple[int, int], Expr] = dict(shafts)
+    for (i, k), value in rows.inertia.items():
+        for at in [(i, k)] if i == k else [(i, k), (k, i)]:
+            for (a, x), (b, y) in _pairs(forms, at):
+                if a <= b:
+                    inertia[a, b] = inertia.get((a, b), zero) + value * (x * y)
+    writer.section("inertia matrix, J_ji = J_ij")
+    for at, value in sorted(inertia.items()):
+        writer.result(function_name("J", [names[i] for i in at]), value)
+    writer.section("Christoffel coefficients")
+    for triple, value in sorted(_tied_christoffel(model, rows).items()):
+        writer.result(function_name("S", [names[i] for i in triple]), value)
+    writer.section("gravity")
+    for a, name in enumerate(names):
+        total = zero
+        for i, value in rows.gravity.items():
+            total = total + value * forms[i].get(a, Fraction(0))
+        writer.result(function_name("g", [name]), total)
+
+
+def _pairs(
+    forms: Sequence[Mapping[int, Fraction]], at: tuple[int, int]
+) -> list[tuple[tuple[int, Fraction], tuple[int, Fraction]]]:
+    return [(x, y) for x in forms[at[0]].items() for y in forms[at[1]].items()]
+
+
+def _tied_christoffel(model: SymbolicModel, rows: _Rows) -> dict[Triple, Expr]:
+    """S_abc, b <= c: sums over the rows of half the tree's coefficients, both orders of b, c."""
+    forms, zero = model.geometry.forms, model.graph.constant(0)
+    found: dict[Triple, Expr] = {}
+    for (i, j, k), value in _symbols(rows).items():
+        for a, x in forms[i].items():
+            for (b, y), (c, z) in _pairs(forms, (j, k)):
+                if b <= c:
+                    twice = 1 if b == c else 2
+                    at = (a, b, c)
+                    found[at] = found.get(at, zero) + value * (x * y * z * twice)
+    return found
+
+
+def _symbols(rows: _Rows) -> dict[Triple, Expr]:
+    """Christoffel symbols of the tree, {(i, j, k): [jk, i]}, both orders of j and k."""
+    found: dict[Triple, Expr] = {}
+    half = Fraction(1, 2)
+    for (i, j, k), A in rows.turned.items():
+        B = rows.carried.get((i, j, k))
+        plus_, minus = (A * half, A * half) if B is None else ((A + B) * half, (A - B) * half)
+        for at, value in (((i, j, k), plus_), ((j, i, k), minus), ((k, i, j), -minus)):
+            found[at] = value
+            found[at[0], at[2], at[1]] = value
+    return found

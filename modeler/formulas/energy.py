@@ -1,0 +1,246 @@
+"""Inertia matrix, Christoffel coefficients and gravity as trigonometric polynomials.
+
+Everything is linear in the standard parameters; what is computed here is the factor of each
+parameter. With the screws (e_i, m_i) of a link (rotation, and velocity of the frame's origin, for
+unit speed of joint i) the kinetic energy qd' M qd / 2 and the power of gravity give
+
+    M_ij = e_i.J e_j + MS.(m_i x e_j + m_j x e_i) + M m_i.m_j,    g_i = -MS.(gv x e_i) - M m_i.gv
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import sympy
+from sympy.polys.domains import QQ
+
+from modeler.core.errors import DerivationError
+from modeler.derivation.columns import LinkColumn, StandardColumn, in_block
+from modeler.derivation.geometry import Geometry
+from modeler.derivation.kinematics import (
+    Pose,
+    Screw,
+    Vector,
+    dot,
+    gravity_in_frames,
+    plus,
+    poses,
+    screws,
+    times,
+)
+from modeler.derivation.model import SymbolicModel
+from modeler.effects.effect import EnergyBlock
+from modeler.formulas.ring import Poly, TrigRing
+
+MOST_PRODUCTS = 500_000
+"""Products of two monomials that the inertia matrix may take: 10,186 for a PUMA 560 (1 s), 252,027
+for 5R with general angles and lengths (6 s)."""
+
+Entries = Mapping[tuple[int, ...], Mapping[int, Poly]]
+"""{indices: {column of the standard parameter: factor}}, in normal form; zeros left out."""
+
+_INERTIA = {"XX": (0, 0), "XY": (0, 1), "XZ": (0, 2), "YY": (1, 1), "YZ": (1, 2), "ZZ": (2, 2)}
+_MOMENTS = {"MX": 0, "MY": 1, "MZ": 2}
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """tau_i = sum_j M_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k + g_i.
+
+    Attributes:
+        inertia: (i, j), i <= j.
+        christoffel: (i, j, k), j <= k: the full coefficient of qd_j qd_k in the torque of joint i.
+        gravity: (i,).
+    """
+
+    inertia: Entries
+    christoffel: Entries
+    gravity: Entries
+
+
+def dynamics(model: SymbolicModel, ring: TrigRing, columns: Sequence[int]) -> Dynamics:
+    """The entries of the dynamics for those columns; friction and offsets have none.
+
+    Raises:
+        DerivationError: more than `MOST_PRODUCTS` products; says how many.
+    """
+    frames = poses(model.geometry, ring)
+    carried = carried_screws(model.geometry, frames, ring)
+    wanted = [(place, part) for place in columns for part in model.columns[place].parts]
+    _check_size(model, carried, wanted)
+    inertia = _inertia(carried, wanted, ring)
+    _add_rotors(inertia, wanted, ring)
+    down = [ring_vector(v, ring) for v in gravity_in_frames(model.geometry, frames, ring)]
+    return Dynamics(
+        _without_zeros(inertia),
+        _without_zeros(_christoffel(inertia, model.geometry.coordinates, ring)),
+        _without_zeros(_gravity(carried, down, wanted, ring)),
+    )
+
+
+def carried_screws(
+    geometry: Geometry, frames: Sequence[Pose], ring: TrigRing
+) -> list[dict[int, Screw]]:
+    """For every row, the screw of each free variable that moves it, in normal form.
+
+    A row that follows others passes its screw on to them, times its coefficients.
+    """
+    found: list[dict[int, Screw]] = []
+    for rows in screws(geometry, frames, ring):
+        total: dict[int, Screw] = {}
+        for index, screw in rows.items():
+            for k, coefficient in geometry.forms[index].items():
+                factor = QQ(coefficient.numerator, coefficient.denominator)
+                e, m = times(factor, screw.e), times(factor, screw.m)
+                if k in total:
+                    e, m = plus(total[k].e, e), plus(total[k].m, m)
+                total[k] = Screw(e, m)
+        normal = {
+            k: Screw(ring_vector(x.e, ring), ring_vector(x.m, ring)) for k, x in total.items()
+        }
+        found.append({k: x for k, x in normal.items() if any(x.e) or any(x.m)})
+    return found
+
+
+def ring_vector(vector: Vector, ring: TrigRing) -> Vector:
+    """The vector in normal form."""
+    return [ring.normal(ring.ring(x)) for x in vector]
+
+
+def _check_size(
+    model: SymbolicModel,
+    carried: Sequence[Mapping[int, Screw]],
+    wanted: Sequence[tuple[int, StandardColumn]],
+) -> None:
+    products = 0
+    for k in {column.row for _, column in wanted if isinstance(column, LinkColumn)}:
+        sizes = {i: (_size(screw.e), _size(screw.m)) for i, screw in carried[k].items()}
+        for i, j in _pairs(sizes):
+            (e, m), (f, n) = sizes[i], sizes[j]
+            products += e * f + e * n + m * f + m * n
+    if products > MOST_PRODUCTS:
+        raise DerivationError(
+            f"robot {model.robot.name}: its closed form takes about {products:,} products of "
+            f"monomials, at most {MOST_PRODUCTS:,} are worth printing; use the generated code, "
+            "or cut the robot to the joints of interest"
+        )
+
+
+def _size(vector: Vector) -> int:
+    return sum(len(x) for x in vector)
+
+
+def _pairs(found: Mapping[int, object]) -> Iterator[tuple[int, int]]:
+    order = sorted(found)
+    return ((i, j) for i in order for j in order if i <= j)
+
+
+def _inertia(
+    carried: Sequence[Mapping[int, Screw]],
+    wanted: Sequence[tuple[int, StandardColumn]],
+    ring: TrigRing,
+) -> dict[tuple[int, ...], dict[int, Poly]]:
+    entries: dict[tuple[int, ...], dict[int, Poly]] = {}
+    for place, column in wanted:
+        if not isinstance(column, LinkColumn):
+            continue
+        link = carried[column.row]
+        for i, j in _pairs(link):
+            factor = ring.normal(_kinetic_factor(column.prefix, link[i], link[j], ring))
+            _add(entries, (i, j), place, factor)
+    return entries
+
+
+def _add(
+    entries: dict[tuple[int, ...], dict[int, Poly]], at: tuple[int, ...], place: int, factor: Poly
+) -> None:
+    """Parts of one parameter add up: similar legs share theirs."""
+    entry = entries.setdefault(at, {})
+    entry[place] = entry[place] + factor if place in entry else factor
+
+
+def _kinetic_factor(prefix: str, a: Screw, b: Screw, ring: TrigRing) -> Poly:
+    if prefix in _INERTIA:
+        x, y = _INERTIA[prefix]
+        product = a.e[x] * b.e[y]
+        return product if x == y else product + a.e[y] * b.e[x]
+    if prefix in _MOMENTS:
+        x = _MOMENTS[prefix]
+        return _cross_entry(a.m, b.e, x) + _cross_entry(b.m, a.e, x)
+    return dot(a.m, b.m)
+
+
+def _cross_entry(a: Vector, b: Vector, x: int) -> Poly:
+    y, z = (x + 1) % 3, (x + 2) % 3
+    return a[y] * b[z] - a[z] * b[y]
+
+
+def _add_rotors(
+    entries: dict[tuple[int, ...], dict[int, Poly]],
+    wanted: Sequence[tuple[int, StandardColumn]],
+    ring: TrigRing,
+) -> None:
+    """Inertia that turns with a shaft: constant entries c_i c_j."""
+    for place, column in wanted:
+        if not in_block(column, EnergyBlock.KINETIC):
+            continue
+        for i, j in _pairs(column.shaft):
+            value = column.shaft[i] * column.shaft[j]
+            factor = ring.static(sympy.Rational(value.numerator, value.denominator))
+            _add(entries, (i, j), place, factor)
+
+
+def _gravity(
+    carried: Sequence[Mapping[int, Screw]],
+    down: Sequence[Vector],
+    wanted: Sequence[tuple[int, StandardColumn]],
+    ring: TrigRing,
+) -> dict[tuple[int, ...], dict[int, Poly]]:
+    entries: dict[tuple[int, ...], dict[int, Poly]] = {}
+    for place, column in wanted:
+        if isinstance(column, LinkColumn) and column.prefix in (*_MOMENTS, "M"):
+            g = down[column.row]
+            for i, screw in carried[column.row].items():
+                if column.prefix == "M":
+                    factor = -dot(screw.m, g)
+                else:
+                    factor = -_cross_entry(g, screw.e, _MOMENTS[column.prefix])
+                _add(entries, (i,), place, ring.normal(factor))
+    return entries
+
+
+def _christoffel(
+    inertia: Entries, joints: int, ring: TrigRing
+) -> dict[tuple[int, ...], dict[int, Poly]]:
+    """S_ijk = dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i for j < k, half of that for j = k."""
+    slopes: dict[tuple[int, int, int], dict[int, Poly]] = {}
+    for (i, j), entry in inertia.items():
+        for k in range(joints):
+            slope = {place: ring.derivative(factor, k) for place, factor in entry.items()}
+            slopes[i, j, k] = slopes[j, i, k] = {p: f for p, f in slope.items() if f}
+    entries: dict[tuple[int, ...], dict[int, Poly]] = {}
+    for i in range(joints):
+        for j in range(joints):
+            for k in range(j, joints):
+                parts = [(slopes.get((i, j, k), {}), 1), (slopes.get((j, k, i), {}), -1)]
+                if j < k:
+                    parts.append((slopes.get((i, k, j), {}), 1))
+                else:
+                    parts[1] = (parts[1][0], -ring.static(sympy.Rational(1, 2)))
+                entries[i, j, k] = _sum(parts)
+    return entries
+
+
+def _sum(parts: Sequence[tuple[Mapping[int, Poly], int | Poly]]) -> dict[int, Poly]:
+    total: dict[int, Poly] = {}
+    for entry, factor in parts:
+        for place, poly in entry.items():
+            term = poly if isinstance(factor, int) and factor == 1 else poly * factor
+            total[place] = total[place] + term if place in total else term
+    return total
+
+
+def _without_zeros(
+    entries: Mapping[tuple[int, ...], Mapping[int, Poly]],
+) -> dict[tuple[int, ...], dict[int, Poly]]:
+    kept = {at: {p: f for p, f in entry.items() if f} for at, entry in entries.items()}
+    return {at: kept[at] for at in sorted(kept) if kept[at]}

@@ -1,0 +1,599 @@
+"""Formulas with named intermediate quantities, each written once: a sheet.
+
+A sheet is filled from expressions of a graph. Quantities are proposed with a name, results are
+asked for; which of the proposed names are worth their line is decided by how often a quantity is
+read and by how long it is. What is read more than once and has no name gets one. The graph knows
+equal functions, so that c3*s2 + s3*c2 is sin(q2 + q3) wherever that angle is among its nodes.
+"""
+
+import re
+import textwrap
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+from modeler.core.formula import latex_name
+from modeler.core.latex_display import Equation, display
+from modeler.derivation.graph import Expr, Graph
+from modeler.formulas.text import LATEX, TEXT, Style, signed_sum
+
+SHORT = 7
+"""Characters up to which a quantity is written wherever it is read."""
+ONCE = 40
+"""Characters up to which a quantity that is read once is written where it is read."""
+UNNAMED = 14
+"""Characters from which a quantity without a proposed name, read more than once, gets one."""
+
+ATOMS = ("num", "pi", "sym", "sin", "cos")
+
+
+@dataclass(frozen=True)
+class Definition:
+    """One line: name = expression.
+
+    Attributes:
+        section: title under which it stands.
+        name: of the quantity.
+        ref: reference of its value in the graph.
+        result: True for what was asked for, False for an intermediate quantity.
+    """
+
+    section: str
+    name: str
+    ref: int
+    result: bool
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """Definitions in an order in which each reads only those before it.
+
+    Attributes:
+        graph: of the expressions.
+        letters: {symbol of the graph: how it is written}.
+        names: {node: (name, sign)}: the node's value is sign * name.
+        definitions: in order.
+        trig: {node of a sine or cosine: its name}.
+        angles: {label: reference of the angle}: s23 is the sine of the angle labelled 23.
+    """
+
+    graph: Graph
+    letters: Mapping[str, str]
+    names: Mapping[int, tuple[str, int]]
+    definitions: tuple[Definition, ...]
+    trig: Mapping[int, str]
+    angles: Mapping[str, int]
+
+    @property
+    def results(self) -> Mapping[str, Expr]:
+        """The results by name."""
+        return {d.name: Expr(self.graph, d.ref) for d in self.definitions if d.result}
+
+
+class SheetWriter:
+    """Collects proposals and results; `finished` decides which names stay."""
+
+    def __init__(self, graph: Graph, letters: Mapping[str, str]) -> None:
+        self.graph = graph
+        self.letters = dict(letters)
+        self._taken = set(self.letters.values())
+        self._own: set[str] = set()
+        self._section = ""
+        self._lines: list[Definition] = []
+        self._first: dict[int, Definition] = {}
+
+    def section(self, title: str) -> None:
+        """What follows stands under that title."""
+        self._section = title
+
+    def propose(self, name: str, value: Expr) -> None:
+        """A quantity that may get this name; the first name of a value stays."""
+        node = abs(value.ref)
+        if node not in self._first and not self._is_atom(node):
+            self._add(name, value, False)
+
+    def result(self, name: str, value: Expr) -> None:
+        """A quantity that is asked for; zeros are left out."""
+        if value.ref:
+            self._add(name, value, True)
+
+    def _add(self, name: str, value: Expr, result: bool) -> None:
+        while name in self._taken:
+            name += "_"
+        self._taken.add(name)
+        definition = Definition(self._section, name, value.ref, result)
+        self._lines.append(definition)
+        if not self._is_atom(abs(value.ref)):
+            self._first.setdefault(abs(value.ref), definition)
+
+    def finished(self) -> Sheet:
+        """The sheet of all results and of what they need."""
+        results = [Expr(self.graph, line.ref) for line in self._lines if line.result]
+        nodes = self.graph.reachable(results)
+        turning = [n for n in nodes if self.graph.nodes[n].op in ("sin", "cos")]
+        trig, angles = angle_names(self.graph, turning, self.letters, self._taken)
+        names = self._chosen(nodes, trig)
+        lines = self._ordered(names)
+        if self._replaced(lines):
+            names = self._chosen(nodes, trig)
+            lines = self._ordered(names)
+        new = self._renumbered(lines)
+        lines = tuple(replace(line, name=new.get(line.name, line.name)) for line in lines)
+        names = {node: (new.get(name, name), sign) for node, (name, sign) in names.items()}
+        return Sheet(self.graph, self.letters, names, lines, trig, angles)
+
+    def _renumbered(self, lines: Sequence[Definition]) -> dict[str, str]:
+        """Own names in the order in which they are read."""
+        given = [line.name for line in lines if line.name in self._own]
+        self._taken -= self._own
+        return {name: self._own_name() for name in given}
+
+    def _replaced(self, lines: Sequence[Definition]) -> bool:
+        """Another name for values that are read before the section of their name."""
+        homes = {line.name: line.section for line in self._lines}
+        early = [d for d in lines if d.section != homes.get(d.name, d.section)]
+        for line in early:
+            self._first[abs(line.ref)] = Definition("", self._own_name(), line.ref, False)
+        return bool(early)
+
+    def _is_atom(self, node: int) -> bool:
+        return node == 0 or self.graph.nodes[node].op in ATOMS
+
+    def _chosen(self, nodes: Sequence[int], trig: Mapping[int, str]) -> dict[int, tuple[str, int]]:
+        """Names that are worth their line, by node; arguments before their users."""
+        edges, length = self._edges(nodes), {0: 1}
+        chosen: dict[int, tuple[str, int]] = {}
+        for node in nodes:
+            length[node] = self._length(node, length, trig)
+            if self._is_atom(node):
+                continue
+            proposed = self._first.get(node)
+            if proposed is None and edges.get(node, 0) > 1 and length[node] > UNNAMED:
+                proposed = Definition("", self._own_name(), node, False)
+                self._first[node] = proposed
+            least = SHORT if edges.get(node, 0) > 1 else ONCE
+            if proposed is not None and (proposed.result or length[node] > least):
+                chosen[node] = (proposed.name, 1 if proposed.ref > 0 else -1)
+                length[node] = len(proposed.name)
+        return chosen
+
+    def _own_name(self) -> str:
+        count = 1
+        while f"k{count}" in self._taken:
+            count += 1
+        self._taken.add(f"k{count}")
+        self._own.add(f"k{count}")
+        return f"k{count}"
+
+    def _edges(self, nodes: Iterable[int]) -> dict[int, int]:
+        """How often each node is read, by others and as a result."""
+        read = [abs(arg) for node in nodes for arg in self._args(node)]
+        read += [abs(line.ref) for line in self._lines if line.result]
+        found: dict[int, int] = {}
+        for node in read:
+            found[node] = found.get(node, 0) + 1
+        return found
+
+    def _length(self, node: int, length: Mapping[int, int], trig: Mapping[int, str]) -> int:
+        """Characters that the node takes, about."""
+        found = self.graph.nodes[node]
+        if found.op == "num":
+            return len(str(found.args[0]))
+        if found.op == "sym":
+            return len(self.letters.get(found.args[0], found.args[0]))
+        if node in trig:
+            return len(trig[node])
+        return sum(length[abs(arg)] for arg in found.args) + (3 if found.op == "add" else 1)
+
+    def _ordered(self, names: Mapping[int, tuple[str, int]]) -> tuple[Definition, ...]:
+        """Definitions as they were proposed; what is read stands before who reads it."""
+        done: set[int] = set()
+        lines: list[Definition] = []
+
+        def write(node: int, section: str) -> None:
+            if node in done:
+                return
+            done.add(node)
+            for read in self._reads(node, names):
+                write(read, section)
+            lines.append(replace(self._first[node], section=section))
+
+        for line in self._lines:
+            node = abs(line.ref)
+            if self._first.get(node) is line:
+                if node in names:
+                    write(node, line.section)
+            elif line.result:
+                for read in [node] if node in names else self._reads(node, names):
+                    write(read, line.section)
+                lines.append(line)
+        return tuple(lines)
+
+    def _reads(self, node: int, names: Mapping[int, tuple[str, int]]) -> list[int]:
+        """Named nodes that the definition of a node reads, in order."""
+        found: set[int] = set()
+        stack = [abs(arg) for arg in self._args(node)]
+        while stack:
+            at = stack.pop()
+            if at in names:
+                found.add(at)
+            else:
+                stack += [abs(arg) for arg in self._args(at)]
+        return sorted(found)
+
+    def _args(self, node: int) -> tuple[int, ...]:
+        return () if self._is_atom(node) else self.graph.nodes[node].args
+
+
+def angle_names(
+    graph: Graph, nodes: Iterable[int], letters: Mapping[str, str], taken: set[str]
+) -> tuple[dict[int, str], dict[str, int]]:
+    """Names of sines and cosines, and the angles that they belong to.
+
+    Args:
+        graph: of the nodes.
+        nodes: of sines and cosines; those of constants keep their function.
+        letters: how symbols are written.
+        taken: names that are given away; those found are added.
+
+    Returns:
+        {node: name} and {label: reference of the angle}, the label being the name without s or c.
+    """
+    trig: dict[int, str] = {}
+    labels: dict[int, str] = {}
+    for node in nodes:
+        found = graph.nodes[node]
+        if found.static:
+            continue
+        angle = found.args[0]
+        if angle not in labels:
+            label = _label(graph, angle, letters)
+            while {f"s{label}", f"c{label}"} & taken:
+                label += "_"
+            labels[angle] = label
+            taken |= {f"s{label}", f"c{label}"}
+        trig[node] = found.op[0] + labels[angle]
+    order = sorted(labels, key=lambda ref: (len(labels[ref]), labels[ref]))
+    return trig, {labels[ref]: ref for ref in order}
+
+
+def _label(graph: Graph, angle: int, letters: Mapping[str, str]) -> str:
+    parts = sorted(_summed(graph, angle, letters), key=lambda part: part[0] < 0)
+    if all(sign > 0 and len(text) == 1 for sign, text in parts):
+        return "".join(sorted(text for _, text in parts))
+    return "".join(("m" if sign < 0 else "p") + text for sign, text in parts).removeprefix("p")
+
+
+def _summed(graph: Graph, ref: int, letters: Mapping[str, str]) -> list[tuple[int, str]]:
+    """The terms of an angle: (sign, letters)."""
+    node, sign = graph.nodes[abs(ref)], 1 if ref > 0 else -1
+    if node.op == "add":
+        return [(sign * s, t) for arg in node.args for s, t in _summed(graph, arg, letters)]
+    if node.op == "sym":
+        return [(sign, letters.get(node.args[0], node.args[0]).removeprefix("q"))]
+    if node.op == "mul" and graph.nodes[abs(node.args[0])].op == "num":
+        number = str(graph.nodes[abs(node.args[0])].args[0]).replace("/", "by")
+        return [(sign * s, f"{number}x{t}") for s, t in _summed(graph, node.args[1], letters)]
+    return [(sign, f"n{abs(ref)}")]
+
+
+# A sheet's formulas as text that Python understands, and as LaTeX.
+
+
+Factor = tuple[int, str, int]
+"""(where it stands in a product, text, node of a sum in brackets or 0)."""
+Term = tuple[Fraction, tuple[Factor, ...]]
+
+_LETTER, _NAMED, _TRIG, _BRACKET = range(4)
+_LATEX_NAMES = (
+    (r"qdd(\w+)", r"\\ddot{q}_{\1}"),
+    (r"qd(\w+)", r"\\dot{q}_{\1}"),
+    (r"q([A-Za-z]\w*)", r"q_{\1}"),
+    (r"w([xyz])_(\w+)", r"\\omega_{\1,\2}"),
+    (r"wd([xyz])_(\w+)", r"\\dot{\\omega}_{\1,\2}"),
+    (r"vd([xyz])_(\w+)", r"\\dot{v}_{\1,\2}"),
+    (r"([Ug])([xyz]+)_(\w+)", r"\1_{\2,\3}"),
+    (r"J([pt])(\w+)_(\w+)", r"J^{\1}_{\2,\3}"),
+    (r"J([A-Z][A-Za-z0-9]*)_([A-Za-z0-9]+)", r"J_{\1,\2}"),
+    (r"S([A-Z][A-Za-z0-9]*)_([A-Za-z0-9]+)_([A-Za-z0-9]+)", r"S_{\1,\2,\3}"),
+    (r"([Jgbe])([A-Z][A-Za-z0-9]*)", r"\1_{\2}"),
+)
+"""Names of speeds and of vectors, by frame."""
+
+
+@dataclass(frozen=True)
+class SheetStyle:
+    """How a sheet is written.
+
+    Attributes:
+        style: of products, powers and numbers.
+    """
+
+    style: Style
+
+    @property
+    def latex(self) -> bool:
+        """True for LaTeX."""
+        return self.style.latex
+
+    def name(self, name: str) -> str:
+        """A letter: q, qd, qdd with dots, an underscore as a comma of the index."""
+        if not self.latex:
+            return name
+        for pattern, latex in _LATEX_NAMES:
+            if re.fullmatch(pattern, name):
+                return re.sub(pattern, latex, name)
+        split = re.fullmatch(r"([A-Za-z]+)(\d\w*)", name)
+        if split:
+            return f"{latex_name(split[1])}_{{{_index(split[2])}}}"
+        return latex_name(name)
+
+    def trig(self, name: str) -> str:
+        """A sine or cosine, m and p of its angle as signs."""
+        if self.latex:
+            signs = re.sub(r"(?<=\d)p(?=\d)", "+", re.sub(r"(?<=\d)m(?=\d)", "-", name[1:]))
+            return f"{name[0]}_{{{signs}}}"
+        return name
+
+    def call(self, function: str, argument: str) -> str:
+        """A function of one argument."""
+        if not self.latex:
+            return f"{function}({argument})"
+        known = function in ("sin", "cos", "tan", "exp", "tanh")
+        head = f"\\{function}" if known else f"\\operatorname{{{function}}}"
+        if function == "sqrt":
+            return f"\\sqrt{{{argument}}}"
+        return f"{head}({argument})"
+
+    def bracket(self, text: str) -> str:
+        """A sum as a factor."""
+        return rf"\left({text}\right)" if self.latex else f"({text})"
+
+    def quotient(self, above: str, below: str) -> str:
+        """above / below."""
+        if self.latex:
+            return rf"\frac{{{above}}}{{{below}}}"
+        return f"{_closed(above)}/{_closed(below)}"
+
+    def power(self, base: str, exponent: int) -> str:
+        """base ** exponent."""
+        if exponent == 1:
+            return base
+        return f"{base}^{{{exponent}}}" if self.latex else f"{base}**{exponent}"
+
+
+def _index(text: str) -> str:
+    return text.replace("_", ",")
+
+
+def _closed(text: str) -> str:
+    return text if re.fullmatch(r"\w+(\([^()]*\))?", text) else f"({text})"
+
+
+def _collected(terms: Iterable[Term]) -> dict[tuple[Factor, ...], Term]:
+    """{factors in one order: term}, terms alike together."""
+    found: dict[tuple[Factor, ...], Term] = {}
+    for number, factors in terms:
+        before, first = found.get(key := tuple(sorted(factors)), (Fraction(0), factors))
+        found[key] = (before + number, first)
+    return found
+
+
+class SheetPrinter:
+    """Writes the values of one sheet in one style."""
+
+    def __init__(self, sheet: Sheet, style: Style = TEXT) -> None:
+        self.sheet = sheet
+        self.style = SheetStyle(style)
+
+    def name(self, definition: Definition) -> str:
+        """The left side."""
+        return self.style.name(definition.name)
+
+    def value(self, definition: Definition) -> str:
+        """The right side."""
+        node = abs(definition.ref)
+        own = self.sheet.names.get(node)
+        if own is not None and own[0] != definition.name:  # the same as another quantity
+            return self.sum(definition.ref)
+        return self.sum(definition.ref, opened=node)
+
+    def sum(self, ref: int, opened: int = 0) -> str:
+        """The value; the node `opened` is written out even if it has a name."""
+        terms = _collected(self._cancelled(self._terms(ref, Fraction(1), opened)))
+        kept = [(number, self._product(factors)) for number, factors in terms.values() if number]
+        kept.sort(key=lambda term: (term[0] < 0, not term[1]))
+        return signed_sum(kept, self.style.style)
+
+    def _cancelled(self, terms: list[Term]) -> list[Term]:
+        """Brackets are opened where what is in them cancels: a (x + y) - a (x - y) is 2 a y."""
+        opened = [self._opened(term) for term in terms]
+        total = _collected(term for each in opened for term in each)
+        gone = {key for key, (number, _) in total.items() if not number}
+        return [
+            term
+            for whole, each in zip(terms, opened, strict=True)
+            for term in (each if gone & {*_collected(each)} else [whole])
+        ]
+
+    def _opened(self, term: Term) -> list[Term]:
+        """The term multiplied out if it has one bracket."""
+        number, factors = term
+        brackets = [factor for factor in factors if factor[2]]
+        if len(brackets) != 1:
+            return [term]
+        rest = [factor for factor in factors if not factor[2]]
+        inside = self._terms(brackets[0][2], number, brackets[0][2])
+        return [(value, (*rest, *more)) for value, more in inside]
+
+    def _terms(self, ref: int, factor: Fraction, opened: int) -> list[Term]:
+        node, number = abs(ref), factor if ref > 0 else -factor
+        found = self.sheet.graph.nodes[node]
+        if node == 0:
+            return []
+        if node in self.sheet.names and node != opened:
+            name, sign = self.sheet.names[node]
+            return [(number * sign, ((_NAMED, self.style.name(name), 0),))]
+        if found.op == "add":
+            return [term for arg in found.args for term in self._terms(arg, number, opened)]
+        value, factors = self._factors(node, opened)
+        return [(number * value, tuple(factors))]
+
+    def _factors(self, node: int, opened: int) -> tuple[Fraction, list[Factor]]:
+        """(number, factors) of a value that is no sum."""
+        found = self.sheet.graph.nodes[node]
+        if node in self.sheet.names and node != opened:
+            name, sign = self.sheet.names[node]
+            return Fraction(sign), [(_NAMED, self.style.name(name), 0)]
+        if found.op == "num":
+            return found.args[0], []
+        if found.op == "mul":
+            parts = [self._factors(abs(arg), opened) for arg in found.args]
+            sign = 1 if (found.args[0] > 0) == (found.args[1] > 0) else -1
+            return sign * parts[0][0] * parts[1][0], parts[0][1] + parts[1][1]
+        if found.op == "div":
+            return self._quotient(found.args[0], found.args[1])
+        if found.op == "add":
+            return Fraction(1), [(_BRACKET, self.style.bracket(self.sum(node, opened)), node)]
+        rank = _LETTER if found.static else _TRIG if node in self.sheet.trig else _NAMED
+        return Fraction(1), [(rank, self._atom(node), 0)]
+
+    def _quotient(self, above: int, below: int) -> tuple[Fraction, list[Factor]]:
+        """A fraction with the number in front of its numerator taken out."""
+        number = Fraction(1 if above > 0 else -1)
+        is_sum = self.sheet.graph.nodes[abs(above)].op == "add" and (
+            abs(above) not in self.sheet.names
+        )
+        if is_sum:
+            text = self.sum(abs(above))
+        else:
+            value, factors = self._factors(abs(above), 0)
+            number, text = number * value, self._product(factors) or "1"
+        return number, [(_NAMED, self.style.quotient(text, self.sum(below)), 0)]
+
+    def _atom(self, node: int) -> str:
+        found = self.sheet.graph.nodes[node]
+        if found.op == "sym":
+            return self.style.name(self.sheet.letters.get(found.args[0], found.args[0]))
+        if node in self.sheet.trig:
+            return self.style.trig(self.sheet.trig[node])
+        if found.op == "pi":
+            return r"\pi" if self.style.latex else "pi"
+        if found.op == "pow":
+            base, exponent = (self.sum(arg) for arg in found.args)
+            if self.style.latex:
+                return f"{self.style.bracket(base)}^{{{exponent}}}"
+            return f"({base})**({exponent})"
+        return self.style.call(found.op, self.sum(found.args[0]))
+
+    def _product(self, factors: Sequence[Factor]) -> str:
+        order = sorted(Counter(factors).items(), key=lambda item: item[0][0])
+        return self.style.style.times.join(self.style.power(at[1], n) for at, n in order)
+
+
+# A sheet as text that Python runs, as LaTeX, as Markdown, as JSON.
+
+
+_WIDTH = 100
+
+
+def sheet_lines(sheet: Sheet) -> list[str]:
+    """The formulas as lines of Python, titles as comments."""
+    lines: list[str] = []
+    for title, formulas in _sections(sheet):
+        lines += ["", f"# {title}", *formulas] if lines else [f"# {title}", *formulas]
+    return lines
+
+
+def sheet_markdown(sheet: Sheet) -> str:
+    """The lines of Python under headings."""
+    parts = []
+    for title, formulas in _sections(sheet):
+        parts += [f"## {title}", "", "```python", *formulas, "```", ""]
+    return "\n".join(parts)
+
+
+def _sections(sheet: Sheet) -> list[tuple[str, list[str]]]:
+    """(title, lines of Python)."""
+    printer = SheetPrinter(sheet)
+    angles = _angle_lines(sheet)
+    found = [("sines and cosines", angles)] if angles else []
+    section = None
+    for definition in sheet.definitions:
+        if definition.section != section:
+            section = definition.section
+            found.append((section, []))
+        line = f"{printer.name(definition)} = {printer.value(definition)}"
+        found[-1][1].extend(_wrapped(line))
+    return found
+
+
+def _angle_lines(sheet: Sheet) -> list[str]:
+    printer, lines, line = SheetPrinter(sheet), list[str](), ""
+    known = set(sheet.trig.values())
+    for label, ref in sheet.angles.items():
+        for letter, function in (("s", "sin"), ("c", "cos")):
+            if letter + label in known:
+                piece = f"{letter}{label} = {function}({printer.sum(ref)})"
+                if line and len(line) + len(piece) + 2 > _WIDTH:
+                    lines.append(line)
+                    line = ""
+                line += f"; {piece}" if line else piece
+    return [*lines, line] if line else lines
+
+
+def _wrapped(line: str) -> list[str]:
+    if len(line) <= _WIDTH:
+        return [line]
+    head, right = line.split(" = ", 1)
+    return textwrap.wrap(
+        f"{head} = ({right})", _WIDTH, subsequent_indent="    ", break_on_hyphens=False
+    )
+
+
+def sheet_latex(sheet: Sheet, heading: Callable[[str], str] | None = None) -> str:
+    """One `align*` per section.
+
+    Args:
+        sheet: what to write.
+        heading: how titles are written; None for comments.
+    """
+    heading = heading or _comment
+    printer, known = SheetPrinter(sheet, LATEX), set(sheet.trig.values())
+    blocks: dict[str, list[Equation]] = {"sines and cosines": []}
+    for label, ref in sheet.angles.items():
+        for letter, function in (("s", r"\sin"), ("c", r"\cos")):
+            if letter + label in known:
+                name = printer.style.trig(letter + label)
+                right = f"{function}({printer.sum(ref)})"
+                blocks["sines and cosines"].append(Equation(name, (right,)))
+    for definition in sheet.definitions:
+        line = Equation(printer.name(definition), (printer.value(definition),))
+        blocks.setdefault(definition.section, []).append(line)
+    return "".join(
+        f"{heading(title)}\n{display(lines)}\n" for title, lines in blocks.items() if lines
+    )
+
+
+def _comment(title: str) -> str:
+    return f"% {title}"
+
+
+def sheet_json(sheet: Sheet) -> dict[str, Any]:
+    """{"angles", "definitions": [{"section", "name", "formula", "result"}]}."""
+    printer = SheetPrinter(sheet)
+
+    def entry(definition: Definition) -> dict[str, Any]:
+        return {
+            "section": definition.section,
+            "name": definition.name,
+            "formula": printer.value(definition),
+            "result": definition.result,
+        }
+
+    return {
+        "angles": {label: printer.sum(ref) for label, ref in sheet.angles.items()},
+        "definitions": [entry(definition) for definition in sheet.definitions],
+    }

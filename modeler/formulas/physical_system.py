@@ -1,0 +1,392 @@
+"""What a fit tells of physical parameters: base parameters, or coefficients, as polynomials."""
+
+import random
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import count
+from math import prod
+from typing import Any
+
+import numpy as np
+import sympy
+from sympy.polys.domains import QQ
+from sympy.polys.orderings import lex
+from sympy.polys.rings import PolyRing
+
+from modeler.core.brief import Brief
+from modeler.core.errors import DerivationError, RobotError
+from modeler.derivation.model import SymbolicModel
+from modeler.derivation.result import BaseParameters
+from modeler.formulas.coefficients import CoefficientTable, coefficient_table
+from modeler.formulas.evaluation import poly_value
+from modeler.formulas.identifiability import random_point, value_modulo
+from modeler.formulas.physical import PhysicalParameters, physical_parameters
+from modeler.formulas.relations import independent_modulo
+from modeler.formulas.render import forward_lines
+from modeler.formulas.ring import Poly, TrigRing
+
+_FEW = 3  # joints up to which the coefficients of the closed form are derived
+
+
+@dataclass(frozen=True)
+class PhysicalSystem(Brief):
+    """data = polynomials of the physical parameters.
+
+    Attributes:
+        robot: name.
+        source: "base" (data are base parameters, every length is known) or "coefficients" (data
+            are PG and PJ; lengths that no fit needs are parameters like the others).
+        ring: data, letters, then what is known of the geometry.
+        data: names of the identified quantities.
+        letters: physical parameters that the data depend on.
+        kinds: {letter: "mass", "centre", "inertia", "rotor inertia" or "length"}.
+        masses: letters that are the mass of a link.
+        moments: letters that are a moment of inertia, of a link or a rotor.
+        vanishing: physical parameters without effect on any torque.
+        alone: those that are identified by themselves, as rotor inertias that group with nothing.
+        constants: {generator of the geometry: value in the robot file}.
+        abbreviations: {generator: what it stands for}, "1/D41", for quotients of lengths.
+        inverse: {generator: the polynomial that it is the inverse of}.
+        definitions: {data: polynomial of letters and constants}.
+        base: names of the base parameters that the data follow from.
+        map_lines: "PG1 = MY2R": coefficients in base parameters, as text, lengths as in the fit.
+        to_data: (data, base), data = to_data @ base parameters, at the lengths of the robot file.
+    """
+
+    robot: str
+    source: str
+    ring: PolyRing
+    data: tuple[str, ...]
+    letters: tuple[str, ...]
+    kinds: Mapping[str, str]
+    masses: tuple[str, ...]
+    moments: tuple[str, ...]
+    vanishing: tuple[str, ...]
+    alone: tuple[str, ...]
+    constants: Mapping[str, float]
+    abbreviations: Mapping[str, str]
+    inverse: Mapping[str, Poly]
+    definitions: Mapping[str, Poly]
+    base: tuple[str, ...]
+    map_lines: tuple[str, ...]
+    to_data: np.ndarray
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the generators."""
+        return tuple(str(symbol) for symbol in self.ring.symbols)
+
+    @cached_property
+    def place(self) -> Mapping[str, int]:
+        """{generator: its place}."""
+        return {name: i for i, name in enumerate(self.names)}
+
+    @cached_property
+    def slopes(self) -> Mapping[str, tuple[Poly, ...]]:
+        """{letter: d data / d letter}."""
+        gens = self.ring.gens
+        return {
+            letter: tuple(self.definitions[d].diff(gens[self.place[letter]]) for d in self.data)
+            for letter in self.letters
+        }
+
+    def consistent(self, values: Mapping[str, Any]) -> list[Any]:
+        """Values of all generators: data follow from those of letters and constants."""
+        plain = [values.get(name, 0) for name in self.names]
+        for name, below in self.inverse.items():
+            plain[self.place[name]] = 1 / poly_value(below, plain)
+        told = {d: poly_value(self.definitions[d], plain) for d in self.data}
+        return [told.get(name, value) for name, value in zip(self.names, plain, strict=True)]
+
+    def modular_point(self, chance: random.Random) -> tuple[int, list[int]]:
+        """(prime, random values modulo it), data as they follow from the letters."""
+        prime, point = random_point(self.names, chance)
+        for name, below in self.inverse.items():
+            point[self.place[name]] = pow(value_modulo(below, point, prime), -1, prime)
+        for name in self.data:
+            point[self.place[name]] = value_modulo(self.definitions[name], point, prime)
+        return prime, point
+
+    def normal(self, poly: Poly) -> Poly:
+        """The same function without products of a length and its inverse."""
+        gens = self.ring.gens
+        ones = [gens[self.place[name]] * below - 1 for name, below in self.inverse.items()]
+        return poly.rem(ones) if ones else poly
+
+    def jacobian_modulo(self, chance: random.Random) -> tuple[int, dict[str, dict[int, int]]]:
+        """(prime, {letter: column of d data / d letter at a random point})."""
+        prime, point = self.modular_point(chance)
+        columns = {
+            letter: {i: value_modulo(poly, point, prime) for i, poly in enumerate(slopes) if poly}
+            for letter, slopes in self.slopes.items()
+        }
+        return prime, columns
+
+    def rank(self, letters: Sequence[str], seed: int = 2000, points: int = 2) -> int:
+        """Generic rank of d data / d those letters, the highest of some random points."""
+        chance, ranks = random.Random(seed), [0]
+        for _ in range(points):
+            prime, columns = self.jacobian_modulo(chance)
+            ranks.append(len(independent_modulo([columns[x] for x in letters], prime)))
+        return max(ranks)
+
+
+def physical_system(
+    model: SymbolicModel, base: BaseParameters, source: str | None = None
+) -> PhysicalSystem:
+    """The identified quantities of a robot as polynomials of its physical parameters.
+
+    chi = (m, m c, J_c + m (c.c 1 - c c')) per link; beta = grouped chi; PG, PJ = map * beta.
+
+    Args:
+        model: of any robot; coefficients need one without loops and relations.
+        base: its base parameters; those of friction and offsets are left out.
+        source: "base" or "coefficients"; None: coefficients where a fit leaves a length free
+            (robots of up to 3 joints are looked at), base parameters otherwise.
+
+    Raises:
+        DerivationError, RobotError: no closed form, where coefficients are wanted; `[physical]` is
+            wrong, or has a letter of the name of a base parameter.
+    """
+    tied = bool(model.robot.relations or model.robot.loops)
+    if source == "coefficients" and tied:
+        raise RobotError(
+            f"{model.robot.name}: coefficients are written for serial and tree robots; leave out "
+            "--from, or write --from base"
+        )
+    if source == "base" or tied or (source is None and len(model.robot.coordinates) > _FEW):
+        return _of_base(model, base)
+    try:
+        table = coefficient_table(model, base)
+    except DerivationError:
+        if source is not None:
+            raise
+        return _of_base(model, base)
+    free = free_lengths(table)
+    if source is None and not free:
+        return _of_base(model, base)
+    return _of_coefficients(model, table, free)
+
+
+def free_lengths(table: CoefficientTable) -> tuple[str, ...]:
+    """Lengths whose value a fit does not need: base columns span the same functions for any.
+
+    The coefficients are A(length) beta; A reduced to its independent rows must not depend on the
+    length. A length that is an angle counts as known.
+    """
+    ring = table.closed.algebra.static_ring
+    names = [str(symbol) for symbol in ring.symbols]
+    if not table.map.determinant:
+        return ()
+    letters = [x for x in table.physical.letters if table.physical.kinds[x] == "length"]
+    chance = random.Random(2000)
+    prime, point = random_point(names, chance)
+    before = _reduced(table, point, prime)
+    free = []
+    for letter in letters:
+        if letter in names and letter in table.identifiability.appearing:
+            other = list(point)
+            other[names.index(letter)] = chance.randrange(1, prime)
+            if _reduced(table, other, prime) == before:
+                free.append(letter)
+    return tuple(free)
+
+
+def _reduced(table: CoefficientTable, point: Sequence[int], prime: int) -> list[list[int]]:
+    """A B^-1 modulo the prime: all coefficients by the independent ones."""
+    used = sorted({k for c in table.coefficients for k in c.base})
+    rows = {
+        c.name: [value_modulo(c.base[k], point, prime) if k in c.base else 0 for k in used]
+        for c in table.coefficients
+    }
+    inverse = _inverse_modulo([rows[name] for name in table.map.rows], prime)
+    return [
+        [sum(a * b for a, b in zip(row, column, strict=True)) % prime for column in inverse]
+        for row in rows.values()
+    ]
+
+
+def _inverse_modulo(matrix: list[list[int]], prime: int) -> list[list[int]]:
+    """Columns of the inverse."""
+    n = len(matrix)
+    work = [[*row, *(int(i == k) for k in range(n))] for i, row in enumerate(matrix)]
+    for k in range(n):
+        at = next((i for i in range(k, n) if work[i][k]), None)
+        if at is None:
+            raise DerivationError("the map to the base parameters is singular at a random point")
+        work[k], work[at] = work[at], work[k]
+        factor = pow(work[k][k], -1, prime)
+        work[k] = [x * factor % prime for x in work[k]]
+        for i in range(n):
+            if i != k and work[i][k]:
+                f = work[i][k]
+                work[i] = [(x - f * y) % prime for x, y in zip(work[i], work[k], strict=True)]
+    return [[work[i][n + k] for i in range(n)] for k in range(n)]
+
+
+def _of_coefficients(
+    model: SymbolicModel, table: CoefficientTable, free: Sequence[str]
+) -> PhysicalSystem:
+    physical, algebra = table.physical, table.closed.algebra
+    definitions = {name: table.by_name[name].physical for name in table.map.rows}
+    static = algebra.static_values(model.robot.symbol_values())
+    to_data = np.zeros((len(table.map.rows), len(table.map.columns)))
+    for at, factor in table.map.entries.items():
+        to_data[at] = float(poly_value(factor, static))
+    geometry = _Geometry(algebra, physical, model.robot.symbol_values())
+    base = table.map.columns, tuple(forward_lines(table))
+    return _system(model.robot.name, geometry, definitions, free, base, to_data)
+
+
+@dataclass
+class _Geometry:
+    """What is known of the geometry, as generators; quotients of lengths get names of their own."""
+
+    algebra: TrigRing
+    physical: PhysicalParameters
+    given: Mapping[str, float]
+    quotients: dict[str, str] = field(default_factory=dict)
+    below: dict[str, Poly] = field(default_factory=dict)
+    values: dict[str, float] = field(default_factory=dict)
+
+    def factor(self, value: sympy.Expr) -> tuple[Poly, tuple[str, ...]]:
+        """(polynomial of the geometry, names of further factors).
+
+        A quotient of lengths is a polynomial times the inverse of each factor below, so that
+        quotients that depend on each other are told from those that do not.
+        """
+        above, below = sympy.fraction(sympy.together(value))
+        number, factors = sympy.factor_list(below)
+        try:
+            lower = [(x, self._polynomial(x)) for x, power in factors for _ in range(power)]
+            return self._polynomial(above / number), tuple(self._named(1 / x, p) for x, p in lower)
+        except DerivationError:
+            number, rest = sympy.sympify(value).as_coeff_Mul()
+            return self._polynomial(number), (self._named(rest, None),)
+
+    def _polynomial(self, value: sympy.Expr) -> Poly:
+        static = self.algebra.split(self.algebra.static(sympy.sympify(value)))
+        return self.physical.lifted(static[(0,) * self.algebra.moving])
+
+    def _named(self, value: sympy.Expr, below: Poly | None) -> str:
+        told = {text: name for name, text in self.quotients.items()}
+        taken = {*self.physical.names, *self.given, *self.quotients}
+        fresh = next(name for k in count(1) if (name := f"k{k}") not in taken)
+        name = told.get(str(value), fresh)
+        self.quotients[name] = str(value)
+        if below is not None:
+            self.below[name] = below
+        self.values[name] = float(value.subs({x: self.given[x.name] for x in value.free_symbols}))
+        return name
+
+
+def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
+    algebra = TrigRing(model.geometry)
+    physical = physical_parameters(model, algebra)
+    geometry = _Geometry(algebra, physical, model.robot.symbol_values())
+    columns = {column.name: i for i, column in enumerate(base.columns)}
+    alone = []
+    parts: dict[str, list[tuple[Poly, tuple[str, ...], Poly]]] = {}
+    for parameter in base.parameters:
+        places = [columns[term.parameter] for term in parameter.terms]
+        if [str(physical.standard.get(place)) for place in places] == [parameter.name]:
+            alone.append(parameter.name)
+        elif all(place in physical.standard for place in places):
+            parts[parameter.name] = [
+                (*geometry.factor(term.coefficient), physical.standard[place])
+                for term, place in zip(parameter.terms, places, strict=True)
+            ]
+    ring = PolyRing([*physical.names, *geometry.quotients], QQ, lex)
+    lift = _lift(physical.ring, ring)
+    gens = dict(zip((str(s) for s in ring.symbols), ring.gens, strict=True))
+    definitions = {}
+    for name, terms in parts.items():
+        total = ring.zero
+        for factor, quotients, standard in terms:
+            total = total + prod([gens[x] for x in quotients], start=lift(factor) * lift(standard))
+        if total:
+            definitions[name] = total
+    used = tuple(definitions)
+    return _system(
+        model.robot.name, geometry, definitions, None, (used, ()), np.eye(len(used)), tuple(alone)
+    )
+
+
+def _lift(old: PolyRing, new: PolyRing) -> Callable[[Poly], Poly]:
+    """Polynomials of one ring in another that has all its generators."""
+    places = {str(symbol): i for i, symbol in enumerate(new.symbols)}
+    at = [places.get(str(symbol)) for symbol in old.symbols]
+
+    def lifted(poly: Poly) -> Poly:
+        found = {}
+        for exponents, value in poly.items():
+            key = [0] * new.ngens
+            for place, exponent in zip(at, exponents, strict=True):
+                if exponent:
+                    assert place is not None
+                    key[place] = exponent
+            found[tuple(key)] = value
+        return new.zero.new(found)
+
+    return lifted
+
+
+def _system(
+    robot: str,
+    geometry: _Geometry,
+    definitions: Mapping[str, Poly],
+    free: Sequence[str] | None,
+    base: tuple[tuple[str, ...], tuple[str, ...]],
+    to_data: np.ndarray,
+    alone: tuple[str, ...] = (),
+) -> PhysicalSystem:
+    """The ring with what the definitions use, and all of them in it; None: of base parameters."""
+    physical = geometry.physical
+    some = next(iter(definitions.values()), physical.ring.zero).ring
+    used = _used(definitions.values(), [str(symbol) for symbol in some.symbols])
+    used |= _used(geometry.below.values(), physical.names)
+    candidates = [x for x in physical.letters if physical.kinds[x] != "length" or x in (free or ())]
+    letters = tuple(x for x in candidates if x in used)
+    static = geometry.algebra.static_values(geometry.given)
+    names = map(str, geometry.algebra.static_ring.symbols)
+    known = dict(zip(names, static, strict=True)) | geometry.values
+    constants = {x: v for x, v in known.items() if x in used and x not in letters}
+    for name in {*letters, *constants} & set(definitions):
+        raise RobotError(
+            f"robot {robot}: the letter {name} is also the name of an identified quantity; rename "
+            "it in [physical] or [symbols]"
+        )
+    ring = PolyRing([*definitions, *letters, *constants], QQ, lex)
+    lift, lower = _lift(some, ring), _lift(physical.ring, ring)
+    return PhysicalSystem(
+        robot,
+        "base" if free is None else "coefficients",
+        ring, tuple(definitions), letters,
+        {x: physical.kinds[x] for x in letters},
+        tuple(x for x in physical.masses if x in letters),
+        tuple(x for x in physical.moments if x in letters),
+        tuple(x for x in physical.letters if x not in {*used, *alone} and _stands(x, physical)),
+        alone,
+        constants,
+        geometry.quotients,
+        {name: lower(poly) for name, poly in geometry.below.items()},
+        {name: lift(poly) for name, poly in definitions.items()},
+        *base,
+        to_data,
+    )  # fmt: skip
+
+
+def _used(polys: Iterable[Poly], names: Sequence[str]) -> set[str]:
+    """Generators that occur, an angle with both its cosine and its sine."""
+    used = {names[i] for poly in polys for at in poly for i, e in enumerate(at) if e}
+    used |= {"sin" + x[3:] for x in used if x.startswith("cos(")}
+    return used | {"cos" + x[3:] for x in used if x.startswith("sin(")}
+
+
+def _stands(letter: str, physical: PhysicalParameters) -> bool:
+    """True of letters of links that have a body, and of lengths."""
+    if physical.kinds[letter] == "length":
+        return True
+    at = physical.names.index(letter)
+    return any(e[at] for poly in physical.standard.values() for e in poly)

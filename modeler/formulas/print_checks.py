@@ -1,0 +1,334 @@
+"""A paper's print against the derived model: every claim is computed, none believed."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+from sympy.polys.domains import QQ
+from sympy.polys.orderings import lex
+from sympy.polys.polyerrors import ExactQuotientFailed
+from sympy.polys.rings import PolyRing
+
+from modeler.core.errors import RobotError
+from modeler.core.expression import Expression
+from modeler.derivation.kinematics import poses, screws
+from modeler.derivation.model import SymbolicModel
+from modeler.formulas.closed_form import Exponents, function_name
+from modeler.formulas.coefficients import CoefficientTable, vector_of
+from modeler.formulas.evaluation import poly_value
+from modeler.formulas.power import exact_state, example_values, power_balance
+from modeler.formulas.relations import combination_of, relations
+from modeler.formulas.ring import Poly, TrigRing
+from modeler.formulas.text import combination_text, monomial_text, polynomial_text
+
+
+@dataclass(frozen=True)
+class FunctionCheck:
+    """A printed function that is not the derived one.
+
+    Attributes:
+        name: "S213".
+        printed: as the robot file quotes it.
+        difference: {monomial: derived minus printed, in independent coefficients}.
+        power_defect: what the printed function alone adds to qd'S - qd' (dM/dt) qd / 2, which is 0
+            for any mechanism, at the test state [W]; None for gravity and inertia functions.
+    """
+
+    name: str
+    printed: str
+    difference: Mapping[str, str]
+    power_defect: Fraction | None
+
+
+@dataclass(frozen=True)
+class DefinitionCheck:
+    """A printed definition that is not the derived one: derived minus printed, as text."""
+
+    name: str
+    printed: str
+    difference: str
+
+
+@dataclass(frozen=True)
+class SolutionCheck:
+    """A printed solution with the derived coefficients put in.
+
+    Attributes:
+        letter: the physical parameter.
+        printed: as the robot file quotes it.
+        verdict: "right", "divides by 0", "0/0", "returns -<letter>" or "wrong".
+        numerator: after substitution, as text.
+        denominator: after substitution, as text.
+    """
+
+    letter: str
+    printed: str
+    verdict: str
+    numerator: str
+    denominator: str
+
+
+@dataclass(frozen=True)
+class TwinCheck:
+    """Two sets of physical parameters.
+
+    Attributes:
+        equal: number of coefficients that are exactly equal.
+        different: names of the others.
+        changed: letters with different values.
+    """
+
+    equal: int
+    different: tuple[str, ...]
+    changed: tuple[str, ...]
+
+
+def wrong_functions(table: CoefficientTable) -> list[FunctionCheck]:
+    """Printed functions that differ from the derived ones.
+
+    Raises:
+        RobotError: a printed function that is not a sum of coefficients times monomials.
+    """
+    found = []
+    for name, printed in table.printed.functions.items():
+        joints = _joints(table, name)
+        difference = _difference(table, name, printed)
+        if difference:
+            texts = {
+                _monomial(table, at): _in_coefficients(table, vector)
+                for at, vector in sorted(difference.items(), reverse=True)
+            }
+            power = _power_defect(table, joints, difference)
+            found.append(FunctionCheck(name, printed.text, texts, power))
+    return found
+
+
+def _monomial(table: CoefficientTable, at: Exponents) -> str:
+    algebra = table.closed.algebra
+    return monomial_text(at, algebra.names[: algebra.moving])
+
+
+def _in_coefficients(table: CoefficientTable, vector: Mapping[Any, Any]) -> str:
+    independent = {
+        name: vector_of(table.by_name[name].standard) for name in table.relations.independent
+    }
+    combination = combination_of(independent, vector)
+    assert combination is not None, "a difference of coefficients is a combination of coefficients"
+    return combination_text(combination)
+
+
+def _difference(
+    table: CoefficientTable, name: str, printed: Expression
+) -> dict[Exponents, dict[Any, Any]]:
+    """Derived minus printed as {monomial: vector over Q}, both in normal form."""
+    total: dict[int, dict[Any, Any]] = {}
+    for coefficient in table.coefficients:
+        if coefficient.function == name:
+            _add(total, coefficient.name, coefficient.exponents, QQ(1))
+    for coefficient_name, at, value in _printed_terms(table, name, printed):
+        _add(total, coefficient_name, at, -value)
+    return _expanded(table, total)
+
+
+def _add(total: dict[Any, dict[Any, Any]], name: str, at: Exponents, value: Any) -> None:
+    part = total.setdefault(name, {})
+    part[at] = part.get(at, 0) + value
+
+
+def _expanded(
+    table: CoefficientTable, total: Mapping[Any, Mapping[Exponents, Any]]
+) -> dict[Exponents, dict[Any, Any]]:
+    algebra = table.closed.algebra
+    rest = (0,) * algebra.static_ring.ngens
+    found: dict[Exponents, dict[Any, Any]] = {}
+    for name, part in total.items():
+        poly = algebra.normal(algebra.ring.zero.new({at + rest: v for at, v in part.items() if v}))
+        vector = vector_of(table.by_name[name].standard)
+        for at, value in poly.items():
+            sums = found.setdefault(at[: algebra.moving], {})
+            for place, factor in vector.items():
+                sums[place] = sums.get(place, 0) + value * factor
+    kept = {at: {p: v for p, v in sums.items() if v} for at, sums in found.items()}
+    return {at: sums for at, sums in kept.items() if sums}
+
+
+def _printed_terms(
+    table: CoefficientTable, name: str, printed: Expression
+) -> list[tuple[str, Exponents, Any]]:
+    algebra = table.closed.algebra
+    motion = list(algebra.names[: algebra.moving])
+    names = list(table.by_name)
+    ring = PolyRing(motion + names, QQ, lex)
+    poly = _evaluated(table, _generators(ring), ring, printed, f"functions, {name}")
+    found = []
+    for exponents, value in poly.items():
+        which = exponents[len(motion) :]
+        if sum(which) != 1:
+            raise RobotError(
+                f"robot {table.closed.robot.name}, [terms], printed, functions, {name}: got "
+                f'"{printed.text}"; expected a sum of coefficients times monomials'
+            )
+        found.append((names[which.index(1)], exponents[: len(motion)], value))
+    return found
+
+
+def _generators(ring: PolyRing) -> dict[str, Poly]:
+    return {str(symbol): x for symbol, x in zip(ring.symbols, ring.gens, strict=True)}
+
+
+def _evaluated(
+    table: CoefficientTable, values: Mapping[str, Any], ring: PolyRing, text: Expression, where: str
+) -> Poly:
+    try:
+        return ring(text.fold(values, {}, None, lambda x: QQ(x.numerator, x.denominator)))
+    except (KeyError, TypeError, ValueError, ZeroDivisionError, ExactQuotientFailed):
+        unknown = ", ".join(sorted(text.names - set(values)))
+        raise RobotError(
+            f'robot {table.closed.robot.name}, [terms], printed, {where}: got "{text.text}"'
+            + (f", where {unknown} is unknown" if unknown else "")
+            + "; expected a polynomial of this robot's coefficients, sines, cosines and parameters"
+        ) from None
+
+
+def _power_defect(
+    table: CoefficientTable,
+    joints: tuple[int, ...],
+    difference: Mapping[Exponents, Mapping[Any, Any]],
+) -> Fraction | None:
+    if not table.printed.example or len(joints) != 3:
+        return None
+    state = exact_state(table)
+    balance = power_balance(table, state)
+    assert balance == 0, "the derived model keeps the power balance"
+    added = -sum(state.value(at, vector) for at, vector in difference.items())
+    return balance + added * state.speed_product(joints)
+
+
+def _joints(table: CoefficientTable, name: str) -> tuple[int, ...]:
+    """Indices of the joints of a function, of one that is zero too."""
+    order = [joint.name for joint in table.closed.robot.free]
+    for letter, count in (("g", 1), ("J", 2), ("S", 3)):
+        for at in product(range(len(order)), repeat=count):
+            if function_name(letter, [order[i] for i in at]) == name:
+                return at
+    raise RobotError(
+        f"robot {table.closed.robot.name}, [terms], printed, functions: there is no function "
+        f"{name}; expected names such as {', '.join(list(table.closed.by_name)[:3])}"
+    )
+
+
+def wrong_definitions(table: CoefficientTable) -> list[DefinitionCheck]:
+    """Printed definitions that differ from the derived ones."""
+    ring, found = table.physical.ring, []
+    for name, printed in table.printed.definitions.items():
+        _known(table, name, "definitions")
+        poly = _evaluated(table, _generators(ring), ring, printed, f"definitions, {name}")
+        rest = table.by_name[name].physical - poly
+        if rest:
+            text = polynomial_text(rest, table.physical.names)
+            found.append(DefinitionCheck(name, printed.text, text))
+    return found
+
+
+def _known(table: CoefficientTable, name: str, key: str) -> None:
+    if name not in table.by_name:
+        raise RobotError(
+            f"robot {table.closed.robot.name}, [terms], printed, {key}: there is no coefficient "
+            f"{name}; there are {len(table.coefficients)}, such as {table.coefficients[0].name}"
+        )
+
+
+def check_solutions(table: CoefficientTable, as_printed: bool = False) -> list[SolutionCheck]:
+    """Every printed solution with the coefficients put in, exactly.
+
+    Args:
+        table: of the robot.
+        as_printed: put in the printed definitions of the coefficients, where there are some.
+    """
+    ring = table.physical.ring
+    letters = _generators(ring)
+    values = {name: c.physical for name, c in table.by_name.items()} | letters
+    for name, text in table.printed.definitions.items() if as_printed else ():
+        values[name] = _evaluated(table, letters, ring, text, f"definitions, {name}")
+    found = []
+    for letter, (above, below) in table.printed.solutions.items():
+        numerator = _evaluated(table, values, ring, above, f"solutions, {letter}")
+        denominator = _evaluated(table, values, ring, below, f"solutions, {letter}")
+        if letter not in letters:
+            raise RobotError(
+                f"robot {table.closed.robot.name}, [terms], printed, solutions: {letter} is no "
+                f"physical parameter; expected one of {', '.join(table.physical.letters)}"
+            )
+        quoted = above.text if below.text == "1" else f"({above.text}) / ({below.text})"
+        found.append(
+            SolutionCheck(
+                letter,
+                quoted,
+                _verdict(letter, numerator, denominator, letters[letter]),
+                polynomial_text(numerator, table.physical.names),
+                polynomial_text(denominator, table.physical.names),
+            )
+        )
+    return found
+
+
+def _verdict(letter: str, numerator: Poly, denominator: Poly, value: Poly) -> str:
+    if not denominator:
+        return "divides by 0" if numerator else "0/0"
+    if numerator == denominator * value:
+        return "right"
+    return f"returns -{letter}" if numerator == -denominator * value else "wrong"
+
+
+def check_independent(table: CoefficientTable) -> dict[str, str]:
+    """Coefficients printed as independent that depend on the others: {name: combination}."""
+    for name in table.printed.independent:
+        _known(table, name, "independent")
+    found = relations(
+        {name: vector_of(table.by_name[name].standard) for name in table.printed.independent}
+    )
+    return {
+        name: combination_text(combination)
+        for name, combination in found.combinations.items()
+        if name not in found.independent
+    }
+
+
+def check_twin(table: CoefficientTable) -> TwinCheck:
+    """All coefficients at the example and at its twin, exactly."""
+    first, second = example_values(table), example_values(table, twin=True)
+    points = [
+        [values.get(name, Fraction(0)) for name in table.physical.names]
+        for values in (first, second)
+    ]
+    different = tuple(
+        c.name
+        for c in table.coefficients
+        if poly_value(c.physical, points[0]) != poly_value(c.physical, points[1])
+    )
+    changed = tuple(name for name in second if second[name] != first.get(name))
+    return TwinCheck(len(table.coefficients) - len(different), different, changed)
+
+
+def projected_motor_torques(model: SymbolicModel) -> list[str]:
+    """Generalised forces if every motor torque acted on its own link only, without reaction.
+
+    F_i = sum_j tau_j (z_j . w_i(j)), w_i(j) the angular velocity of link j for unit speed of joint
+    i; with the reactions on the links below it would be F_i = tau_i.
+    """
+    algebra = TrigRing(model.geometry)
+    carried = screws(model.geometry, poses(model.geometry, algebra), algebra)
+    forces: list[list[str]] = [[] for _ in range(model.geometry.joints)]
+    for row, links in zip(model.geometry.rows, carried, strict=True):
+        if row.index is None:
+            continue
+        tau = f"tau{row.joint.name}"
+        for i, screw in sorted(links.items()):
+            along = (screw.e if row.joint.angular else screw.m)[2] * row.rate
+            if along:
+                text = polynomial_text(along, algebra.names)
+                text = f"({text})" if len(along) > 1 else text
+                forces[i].append(tau if text == "1" else f"{text}*{tau}")
+    return [" + ".join(parts) or "0" for parts in forces]

@@ -1,0 +1,282 @@
+"""The table of coefficients as text, LaTeX, Markdown and JSON."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from modeler.core.json import nulled
+from modeler.core.latex_display import Equation, display
+from modeler.formulas.closed_form import ClosedForm, Function
+from modeler.formulas.coefficients import Coefficient, CoefficientTable
+from modeler.formulas.function_sheet import sheet_json, sheet_latex, sheet_lines, sheet_markdown
+from modeler.formulas.relations import inverse_map
+from modeler.formulas.text import (
+    LATEX,
+    TEXT,
+    Style,
+    combination_text,
+    form_text,
+    monomial_text,
+    physical_text,
+    polynomial_text,
+    signed_sum,
+)
+
+# A closed form as text, LaTeX, Markdown and JSON.
+
+
+EQUATION = "tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k"
+
+
+def closed_form_text(closed: ClosedForm) -> str:
+    """Every function as a sum, one monomial per line."""
+    lines = [f"{closed.robot.name}: {equation(closed)}"]
+    for function in closed.functions:
+        lines += ["", f"{function.name} ="]
+        for sign, coefficient, monomial in _signed(closed, function, TEXT):
+            lines.append(f"  {sign} {_product(coefficient, monomial, TEXT)}")
+    return "\n".join([*lines, "", *sheet_lines(closed.effects)]).rstrip() + "\n"
+
+
+def closed_form_latex(closed: ClosedForm) -> str:
+    """Every function in an `align*` of LaTeX, each monomial on a line of its own."""
+    out = []
+    for function in closed.functions:
+        lines = [
+            f"{sign} {_product(coefficient, monomial, LATEX)}"
+            for sign, coefficient, monomial in _signed(closed, function, LATEX)
+        ]
+        out.append(display([Equation(latex_function(function.name), tuple(lines))]) + "\n")
+    return "".join(out) + sheet_latex(closed.effects)
+
+
+def _signed(closed: ClosedForm, function: Function, style: Style) -> list[tuple[str, str, str]]:
+    """(sign, coefficient, monomial); sums stand in brackets behind a plus."""
+    found = []
+    for form, monomial in _terms(closed, function, style):
+        if " + " in form or " - " in form:
+            bracket = rf"\left({form}\right)" if style.latex else f"({form})"
+            found.append(("+", bracket, monomial))
+        else:
+            found.append(("-" if form.startswith("-") else "+", form.lstrip("-"), monomial))
+    return found
+
+
+def _product(coefficient: str, monomial: str, style: Style) -> str:
+    return coefficient if monomial == "1" else f"{coefficient}{style.times}{monomial}"
+
+
+def closed_form_markdown(closed: ClosedForm) -> str:
+    """One table per function: monomial and its coefficient."""
+    lines = [f"# Closed form of {closed.robot.title}", "", f"`{equation(closed)}`", ""]
+    for function in closed.functions:
+        lines += [f"## {function.name}", "", "| monomial | coefficient |", "|---|---|"]
+        lines += [f"| `{m}` | `{form}` |" for form, m in _terms(closed, function, TEXT)] + [""]
+    return "\n".join([*lines, sheet_markdown(closed.effects)])
+
+
+def closed_form_json(closed: ClosedForm) -> str:
+    """{"robot", "equation", "gravity_factor", "functions": [{"name", "kind", "terms"}]}."""
+    functions = [
+        {
+            "name": function.name,
+            "kind": function.kind,
+            "terms": [
+                {"monomial": monomial, "coefficient": form}
+                for form, monomial in _terms(closed, function, TEXT)
+            ],
+        }
+        for function in closed.functions
+    ]
+    content = {
+        "robot": closed.robot.name,
+        "equation": equation(closed),
+        "gravity_factor": closed.gravity_factor,
+        "functions": functions,
+        "effects": sheet_json(closed.effects),
+    }
+    return json.dumps(nulled(content), indent=1, allow_nan=False) + "\n"
+
+
+def equation(closed: ClosedForm) -> str:
+    """What the functions mean: the equation of motion."""
+    factor = f"{closed.gravity_factor}*" if closed.gravity_factor else ""
+    return f"{EQUATION} + {factor}g_i" + (" + e_i" if closed.effects.definitions else "")
+
+
+def _terms(closed: ClosedForm, function: Function, style: Style) -> list[tuple[str, str]]:
+    algebra = closed.algebra
+    motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
+    return [
+        (form_text(form, closed.parameters, static, style), monomial_text(at, motion, style))
+        for at, form in function.terms.items()
+    ]
+
+
+def latex_function(name: str) -> str:
+    """`S1_12` as `S_{1,12}`."""
+    return f"{name[0]}_{{{name[1:].strip('_').replace('_', ',')}}}"
+
+
+@dataclass(frozen=True)
+class Line:
+    """One coefficient, printed but not yet laid out."""
+
+    name: str
+    function: str
+    monomial: str
+    relation: str
+    base: str
+    physical: str
+
+
+def table_lines(table: CoefficientTable, style: Style = TEXT) -> list[Line]:
+    """All coefficients as strings, in order."""
+    return [_line(table, coefficient, style) for coefficient in table.coefficients]
+
+
+def _line(table: CoefficientTable, coefficient: Coefficient, style: Style) -> Line:
+    algebra = table.closed.algebra
+    motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
+    combination = table.relations.combinations[coefficient.name]
+    return Line(
+        style.name(coefficient.name),
+        coefficient.function,
+        monomial_text(coefficient.exponents, motion, style),
+        combination_text(combination, style),
+        form_text(coefficient.base, table.base_names, static, style),
+        physical_text(coefficient.physical, table.physical.names, table.physical.masses, style),
+    )
+
+
+def coefficients_text(table: CoefficientTable) -> str:
+    """Aligned columns for a terminal."""
+    rows = [("name", "in", "monomial", "relation", "base parameters", "physical parameters")]
+    rows += [
+        (x.name, x.function, x.monomial, x.relation, x.base, x.physical) for x in table_lines(table)
+    ]
+    widths = [max(len(row[i]) for row in rows) for i in range(5)]
+    lines = [
+        "  ".join([*(cell.ljust(w) for cell, w in zip(row, widths, strict=False)), row[5]]).rstrip()
+        for row in rows
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def coefficients_markdown(table: CoefficientTable) -> str:
+    """A Markdown table."""
+    lines = [
+        "| name | function | monomial | relation | base parameters | physical parameters |",
+        "|---|---|---|---|---|---|",
+    ]
+    lines += [
+        f"| {x.name} | {x.function} | `{x.monomial}` | "
+        f"{'independent' if x.relation == x.name else f'`{x.relation}`'} | `{x.base}` | "
+        f"`{x.physical}` |"
+        for x in table_lines(table)
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def coefficients_latex(table: CoefficientTable) -> str:
+    """An `align*` of LaTeX: every coefficient, of which monomial in which function it is."""
+    equations = [
+        Equation(
+            x.name,
+            (
+                f"{x.relation if x.relation != x.name else x.physical}"
+                rf" \quad \text{{of }} {x.monomial} \text{{ in }} {latex_function(x.function)}",
+            ),
+        )
+        for x in table_lines(table, LATEX)
+    ]
+    return display(equations) + "\n" if equations else ""
+
+
+def coefficients_json(table: CoefficientTable) -> str:
+    """{"robot", "equation", "coefficients", "rank", "independent", "physical", "map"}."""
+    found = table.identifiability
+    static = table.closed.algebra.names[table.closed.algebra.moving :]
+    determinant = table.map.determinant
+    content = {
+        "robot": table.closed.robot.name,
+        "equation": equation(table.closed),
+        "gravity_factor": table.closed.gravity_factor,
+        "coefficients": [
+            {
+                "name": line.name,
+                "function": line.function,
+                "monomial": line.monomial,
+                "combination": {
+                    k: str(v) for k, v in table.relations.combinations[line.name].items()
+                },
+                "base": line.base,
+                "physical": line.physical,
+            }
+            for line in table_lines(table)
+        ],
+        "rank": table.relations.rank,
+        "independent": list(table.relations.independent),
+        "independent_known_geometry": list(table.known_geometry),
+        "physical": {
+            "parameters": list(found.letters),
+            "vanishing": list(found.vanishing),
+            "only_together": [dict(group) for group in found.sums],
+            "jacobian_rank": found.jacobian_rank,
+        },
+        "map": {
+            "rows": list(table.map.rows),
+            "columns": list(table.map.columns),
+            "determinant": None if determinant is None else polynomial_text(determinant, static),
+        },
+    }
+    return json.dumps(nulled(content), indent=1, allow_nan=False) + "\n"
+
+
+# The map between independent coefficients and base parameters, as lines of text.
+
+
+def _static(table: CoefficientTable) -> tuple[str, ...]:
+    return tuple(table.closed.algebra.names[table.closed.algebra.moving :])
+
+
+def forward_lines(table: CoefficientTable) -> list[str]:
+    """`PJ3 = XX2R + XX3R - ZZ3`, one line per coefficient that is independent."""
+    names = table.base_names
+    return [
+        f"{name} = {form_text(table.by_name[name].base, names, _static(table))}"
+        for name in table.map.rows
+    ]
+
+
+def determinant_text(table: CoefficientTable) -> str | None:
+    """Determinant of the map; None if it is not square."""
+    if table.map.determinant is None:
+        return None
+    return polynomial_text(table.map.determinant, _static(table))
+
+
+def backward_lines(table: CoefficientTable) -> list[str]:
+    """`ZZ1R = PJ7 - PJ16`, one line per base parameter; none if the map has no inverse."""
+    inverse = inverse_map(table.map, table.closed.algebra.static_ring) or {}
+    return [f"{name} = {_row_text(row, _static(table))}" for name, row in inverse.items()]
+
+
+def _row_text(row: Mapping[str, Any], static: tuple[str, ...]) -> str:
+    """A row of the inverse: each factor is a quotient of polynomials of the geometry."""
+    terms: list[tuple[Fraction, str]] = []
+    for name, factor in row.items():
+        above, below = factor.numer, factor.denom
+        if len(above) == 1 and below.is_ground:
+            number = Fraction(int(above.LC.numerator), int(above.LC.denominator))
+            number /= Fraction(int(below.LC.numerator), int(below.LC.denominator))
+            letters = polynomial_text(above.monic(), static)
+            terms.append((number, name if letters == "1" else f"{letters}*{name}"))
+        else:
+            quotient = f"({polynomial_text(above, static)})"
+            if below != 1:
+                quotient += f"/({polynomial_text(below, static)})"
+            terms.append((Fraction(1), f"{quotient}*{name}"))
+    return signed_sum(terms)

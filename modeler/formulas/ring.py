@@ -1,0 +1,378 @@
+"""Polynomials in the sines and cosines of the joints: an algebra for the recursions, exact over Q.
+
+Generators, in this order: for every free joint its motion (`s1`, `c1` of a revolute joint, `q4` of
+a prismatic one), then what the geometry is made of: letters of lengths and of gravity, sine and
+cosine of every general constant angle, square roots of numbers. Normal form: no square of a sine.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from math import comb, lcm
+from typing import Any, TypeAlias
+
+import sympy
+from sympy.polys.domains import QQ
+from sympy.polys.orderings import lex
+from sympy.polys.rings import PolyElement, PolyRing
+
+from modeler.core.errors import DerivationError
+from modeler.derivation.geometry import Geometry, Row
+
+# Which sines, cosines and travels the configuration of a robot is written in.
+#
+# The free variables u of the table, or of a robot whose joints follow others by linear relations,
+# move every row: q_row = sum of coefficient * u[k] + constant. A *motion* is one angle, or one
+# travel, of which functions are polynomials. The angle of a free joint is its own motion; a row
+# that follows others is a sum of whole multiples of such angles, and the addition theorem says
+# the rest.
+
+
+_MOST_TURNS = 4
+"""Whole multiples of angles in a sum; a longer sum is an angle of its own."""
+
+_FINEST = 4
+"""Parts of a free angle that a row may turn by: q2/2, q2/3, q2/4. Finer ones are angles of their
+own: gear ratios are not worth multiplying out."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """One angle with the places of its sine and cosine, or one travel with its place.
+
+    Attributes:
+        joint: whose variable it is, or the row that turns by it: the letter after s, c, q.
+        sine: place of its sine among the generators; None for a travel.
+        cosine: likewise.
+        variable: place of the travel; None for an angle.
+        form: {k: coefficient}: the angle or travel as a sum of coefficient * u[k].
+    """
+
+    joint: str
+    sine: int | None
+    cosine: int | None
+    variable: int | None
+    form: Mapping[int, Fraction]
+
+
+@dataclass(frozen=True)
+class Motions:
+    """The motions of a geometry, and every row in them.
+
+    Attributes:
+        names: of the generators.
+        each: the motions.
+        turns: {index of a row that turns: {place of a motion: whole multiple}}.
+    """
+
+    names: tuple[str, ...]
+    each: tuple[Motion, ...]
+    turns: Mapping[int, Mapping[int, int]]
+
+    def travel(self, k: int) -> int:
+        """Place of the generator of the free variable u[k]."""
+        return next(
+            m.variable for m in self.each if m.variable is not None and m.form == {k: Fraction(1)}
+        )
+
+
+def motions_of(geometry: Geometry) -> Motions:
+    """The motions of all rows, in table order."""
+    parts = _parts(geometry)
+    names: list[str] = []
+    each: list[Motion] = []
+    turns: dict[int, Mapping[int, int]] = {}
+    for row in sorted(geometry.rows, key=lambda row: not _is_free(row, geometry)):
+        if row.index is None:
+            continue
+        form = geometry.forms[row.index]
+        if not row.joint.angular:
+            _add_travels(form, geometry, names, each)
+            continue
+        found = _in_known(form, each)
+        if found is None:
+            divided = {k: c / parts.get(k, 1) if len(form) == 1 else c for k, c in form.items()}
+            free = _is_free(row, geometry)
+            whose = row.joint.name
+            if free and parts.get(min(form), 1) > 1:
+                whose, form = f"{whose}_{parts[min(form)]}", divided
+            each.append(Motion(whose, len(names), len(names) + 1, None, form))
+            names += [f"s{whose}", f"c{whose}"]
+            found = _in_known(geometry.forms[row.index], each)
+            assert found is not None, "an angle is a multiple of itself"
+        turns[row.index] = found
+    return Motions(tuple(names), tuple(each), turns)
+
+
+def _is_free(row: Row, geometry: Geometry) -> bool:
+    return row.joint.name not in geometry.robot.relations
+
+
+def _add_travels(
+    form: Mapping[int, Fraction], geometry: Geometry, names: list[str], each: list[Motion]
+) -> None:
+    """The free variables themselves, for rows that travel by them."""
+    known = [motion.form for motion in each if motion.variable is not None]
+    for k in form:
+        if {k: Fraction(1)} not in known:
+            joint = geometry.robot.free[k].name
+            each.append(Motion(joint, None, None, len(names), {k: Fraction(1)}))
+            names.append(f"q{joint}")
+
+
+def _parts(geometry: Geometry) -> dict[int, int]:
+    """{k: n}: rows turn by whole multiples of u[k] / n."""
+    found: dict[int, int] = {}
+    for row in geometry.rows:
+        if row.index is not None and row.joint.angular:
+            for k, coefficient in geometry.forms[row.index].items():
+                if coefficient.denominator <= _FINEST:
+                    found[k] = lcm(found.get(k, 1), coefficient.denominator)
+    return found
+
+
+def _in_known(form: Mapping[int, Fraction], each: list[Motion]) -> dict[int, int] | None:
+    """The angle as whole multiples of known motions; None if it is none, or too many."""
+    for place, motion in enumerate(each):
+        if motion.sine is not None and motion.form == form:
+            return {place: 1}
+    found: dict[int, int] = {}
+    for k, coefficient in form.items():
+        single = [i for i, m in enumerate(each) if m.sine is not None and set(m.form) == {k}]
+        ratios = {i: coefficient / each[i].form[k] for i in single}
+        place = next((i for i, x in ratios.items() if x.denominator == 1), -1)
+        if place < 0:
+            return None
+        found[place] = int(ratios[place])
+    return found if sum(map(abs, found.values())) <= _MOST_TURNS else None
+
+
+Poly: TypeAlias = PolyElement
+"""Sparse polynomial: {exponents: rational number}."""
+
+
+class TrigRing:
+    """Trigonometric polynomials of one geometry (`modeler.derivation.graph.Algebra`).
+
+    Attributes:
+        ring: all generators.
+        motions: angles and travels, with their generators.
+        moving: number of generators that depend on q; they stand first.
+        static_ring: the others alone.
+        squares: {place of a constant sine: place of its cosine}, in `ring`.
+        roots: {place of a square root: the number under it}, in `ring`.
+    """
+
+    def __init__(self, geometry: Geometry) -> None:
+        self.geometry = geometry
+        self._found = motions_of(geometry)
+        self.motions = self._found.each
+        names = list(self._found.names)
+        self.moving = len(names)
+        atoms = _atoms(geometry)
+        static = [str(atom) for atom in atoms]
+        for name in static:
+            if name in names:
+                raise DerivationError(
+                    f"robot {geometry.robot.name}: the symbol {name} reads like the sine, cosine "
+                    f"or variable of a joint; rename it in [symbols] to print closed forms"
+                )
+        self.ring = PolyRing(names + static, QQ, lex)
+        self.static_ring = PolyRing(static, QQ, lex)
+        self._place = {atom: self.moving + i for i, atom in enumerate(atoms)}
+        self.squares = {
+            self._place[atom]: self._place[sympy.cos(atom.args[0])]
+            for atom in atoms
+            if isinstance(atom, sympy.sin)
+        }
+        self.roots = {
+            place: QQ(int(atom.base.p), int(atom.base.q))
+            for atom, place in self._place.items()
+            if atom.is_Pow
+        }
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the generators, motion first."""
+        return tuple(str(symbol) for symbol in self.ring.symbols)
+
+    def static(self, value: sympy.Expr) -> Poly:
+        """A geometric constant.
+
+        Raises:
+            DerivationError: not a polynomial of symbols, sines, cosines and roots of numbers.
+        """
+        return self.normal(_polynomial(sympy.expand_trig(value), self.ring, self._place))
+
+    def variable(self, row: Row) -> Poly:
+        """Rate * q + offset of a prismatic joint."""
+        assert row.index is not None
+        total = self.static(row.r)
+        for k, coefficient in self.geometry.forms[row.index].items():
+            factor = QQ(coefficient.numerator, coefficient.denominator) * row.rate
+            total = total + self.ring.gens[self._found.travel(k)] * factor
+        return total
+
+    def cos_sin(self, row: Row) -> tuple[Poly, Poly]:
+        """Cosine and sine of theta = rate * q + offset, by the addition theorem."""
+        c, s = self.static(sympy.cos(row.theta)), self.static(sympy.sin(row.theta))
+        if row.index is None or not row.joint.angular:
+            return c, s
+        for place, turns in self._found.turns[row.index].items():
+            motion = self.motions[place]
+            assert motion.sine is not None and motion.cosine is not None
+            turn = self.ring.gens[motion.sine] * (row.rate if turns > 0 else -row.rate)
+            for _ in range(abs(turns)):
+                cosine = self.ring.gens[motion.cosine]
+                c, s = c * cosine - s * turn, s * cosine + c * turn
+        return self.normal(c), self.normal(s)
+
+    def normal(self, poly: Poly) -> Poly:
+        """The same function without squares of sines and of roots."""
+        for motion in self.motions:
+            if motion.sine is not None and motion.cosine is not None:
+                poly = without_squares(poly, motion.sine, motion.cosine)
+        for sine, cosine in self.squares.items():
+            poly = without_squares(poly, sine, cosine)
+        for place, number in self.roots.items():
+            poly = _without_roots(poly, place, number)
+        return poly
+
+    def derivative(self, poly: Poly, index: int) -> Poly:
+        """d poly / d u of the free variable `index`, in normal form."""
+        total = self.ring.zero
+        for motion in self.motions:
+            rate = motion.form.get(index)
+            if rate:
+                slope = self._slope(poly, motion)
+                total = total + (
+                    slope if rate == 1 else slope * QQ(rate.numerator, rate.denominator)
+                )
+        return total
+
+    def _slope(self, poly: Poly, motion: Motion) -> Poly:
+        """The derivative by the angle or travel of one motion."""
+        if motion.variable is not None:
+            return poly.diff(self.ring.gens[motion.variable])
+        s, c = motion.sine, motion.cosine
+        assert s is not None and c is not None
+        found: dict[tuple[int, ...], Any] = {}
+        for exponents, value in poly.items():
+            for down, up, sign in ((s, c, 1), (c, s, -1)):
+                if exponents[down]:
+                    at = list(exponents)
+                    at[down] -= 1
+                    at[up] += 1
+                    key = tuple(at)
+                    found[key] = found.get(key, 0) + sign * exponents[down] * value
+        return without_squares(_clean(self.ring, found), s, c)
+
+    def split(self, poly: Poly) -> dict[tuple[int, ...], Poly]:
+        """{exponents of the motion generators: factor from the geometry}."""
+        found: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
+        for exponents, value in poly.items():
+            found.setdefault(exponents[: self.moving], {})[exponents[self.moving :]] = value
+        return {key: _clean(self.static_ring, part) for key, part in found.items()}
+
+    def static_values(self, values: Mapping[str, float]) -> list[float]:
+        """Numbers of the static generators."""
+        used = {symbol for atom in self._place for symbol in atom.free_symbols} - {_PI}
+        numbers = {symbol: values[symbol.name] for symbol in used} | {_PI: sympy.pi}
+        return [float(atom.subs(numbers)) for atom in self._place]
+
+    @property
+    def static_atoms(self) -> tuple[sympy.Expr, ...]:
+        """What the static generators stand for."""
+        return tuple(self._place)
+
+
+def without_squares(poly: Poly, square: int, other: int) -> Poly:
+    """x**2 -> 1 - y**2 for the generators x, y of sine and cosine, or cosine and sine."""
+    if all(exponents[square] < 2 for exponents in poly):
+        return poly
+    found: dict[tuple[int, ...], Any] = {}
+    for exponents, value in poly.items():
+        half, rest = divmod(exponents[square], 2)
+        for k in range(half + 1):
+            at = list(exponents)
+            at[square] = rest
+            at[other] += 2 * k
+            key = tuple(at)
+            found[key] = found.get(key, 0) + (-1) ** k * comb(half, k) * value
+    return _clean(poly.ring, found)
+
+
+def _without_roots(poly: Poly, place: int, number: Any) -> Poly:
+    if all(exponents[place] < 2 for exponents in poly):
+        return poly
+    found: dict[tuple[int, ...], Any] = {}
+    for exponents, value in poly.items():
+        half, rest = divmod(exponents[place], 2)
+        key = (*exponents[:place], rest, *exponents[place + 1 :])
+        found[key] = found.get(key, 0) + value * number**half
+    return _clean(poly.ring, found)
+
+
+def _clean(ring: PolyRing, found: Mapping[tuple[int, ...], Any]) -> Poly:
+    return ring.zero.new({key: QQ.convert(value) for key, value in found.items() if value})
+
+
+def _atoms(geometry: Geometry) -> list[sympy.Expr]:
+    """Generators of the geometry: letters in the order of the file, then angles, then roots."""
+    values: list[sympy.Expr] = list(geometry.gravity)
+    for row in geometry.rows:
+        values += [row.b, row.d, row.r]
+        for angle in (row.gamma, row.alpha, row.theta):
+            values += [sympy.expand_trig(sympy.cos(angle)), sympy.expand_trig(sympy.sin(angle))]
+    letters: set[sympy.Expr] = set()
+    angles: dict[str, sympy.Expr] = {}
+    roots: dict[str, sympy.Expr] = {}
+    for value in values:
+        _collect(sympy.expand_trig(value), letters, angles, roots)
+    order = {name: i for i, name in enumerate(geometry.robot.symbols)}
+    found = sorted(letters, key=lambda x: (order.get(x.name, len(order)), str(x)))
+    for angle in angles.values():
+        found += [sympy.cos(angle), sympy.sin(angle)]
+    return found + list(roots.values())
+
+
+def _collect(
+    value: sympy.Expr, letters: set, angles: dict[str, sympy.Expr], roots: dict[str, sympy.Expr]
+) -> None:
+    if value.is_Symbol or value is sympy.pi:
+        letters.add(value if value.is_Symbol else _PI)
+    elif isinstance(value, sympy.cos | sympy.sin):
+        angles.setdefault(str(value.args[0]), value.args[0])
+    elif _is_root(value):
+        roots.setdefault(str(value), sympy.sqrt(value.base))
+    elif not value.is_Rational:
+        for arg in value.args:
+            _collect(arg, letters, angles, roots)
+
+
+_PI = sympy.Symbol("pi", real=True)
+
+
+def _is_root(value: sympy.Expr) -> bool:
+    return bool(value.is_Pow and value.exp == sympy.Rational(1, 2) and value.base.is_Rational)
+
+
+def _polynomial(value: sympy.Expr, ring: PolyRing, place: Mapping[sympy.Expr, int]) -> Poly:
+    if value.is_Rational:
+        return ring.ground_new(QQ(int(value.p), int(value.q)))
+    if value is sympy.pi:
+        value = _PI
+    if value in place:
+        return ring.gens[place[value]]
+    if value.is_Add or value.is_Mul:
+        parts = [_polynomial(arg, ring, place) for arg in value.args]
+        total = parts[0]
+        for part in parts[1:]:
+            total = total + part if value.is_Add else total * part
+        return total
+    if value.is_Pow and value.exp.is_Integer and value.exp > 0:
+        return _polynomial(value.base, ring, place) ** int(value.exp)
+    raise DerivationError(
+        f"got {value} in the table; closed forms need lengths and angles whose sines are "
+        "polynomials of the symbols: declare a symbol for it"
+    )

@@ -1,0 +1,521 @@
+"""Physical parameters in closed form: given which are known, which others follow, and how.
+
+Elimination over Q: a quantity with one unknown gives it; where none is left, an unknown that
+stands linearly in a quantity is taken out of the others. A factor that is zero, or that cannot be
+zero, is told by its value at a consistent random point modulo a prime: so no quotient is 0/0.
+"""
+
+import random
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from modeler.core.errors import ModelerError
+from modeler.core.formula import latex_name, latex_text
+from modeler.core.latex_display import Equation, display
+from modeler.formulas.identifiability import SEED, value_modulo
+from modeler.formulas.physical_system import PhysicalSystem
+from modeler.formulas.relations import independent_modulo
+from modeler.formulas.ring import Poly
+from modeler.formulas.sufficient_sets import EASE
+from modeler.formulas.text import LATEX, TEXT, Style, physical_text, polynomial_text
+
+_EASY = ("mass", "length", "centre", "inertia", "rotor inertia")
+_LARGEST = 400  # terms of a polynomial that is worth factoring
+
+
+@dataclass(frozen=True)
+class Step:
+    """One parameter that follows.
+
+    Attributes:
+        letter: its name.
+        numerator, denominator: letter = numerator / denominator, polynomials of data, constants,
+            known letters and letters of earlier steps.
+        equation: a polynomial of degree 2 or more in the letter that is zero, where there is no
+            quotient; None otherwise.
+    """
+
+    letter: str
+    numerator: Poly
+    denominator: Poly
+    equation: Poly | None = None
+
+
+@dataclass(frozen=True)
+class ClosedSolution:
+    """What follows from the data and the known parameters.
+
+    Attributes:
+        system: data and parameters.
+        known: parameters that are given.
+        steps: in an order in which each can be computed.
+        undetermined: parameters that do not follow: adding any one of them to the known ones makes
+            `missing` one less.
+        without_formula: parameters that the data determine, in equations that were not brought to
+            one unknown.
+        missing: how many parameters more must be known that all follow.
+        surplus: number of relations that known parameters and data must satisfy by themselves.
+    """
+
+    system: PhysicalSystem
+    known: tuple[str, ...]
+    steps: tuple[Step, ...]
+    undetermined: tuple[str, ...]
+    without_formula: tuple[str, ...]
+    missing: int
+    surplus: int
+
+    @property
+    def follows(self) -> tuple[str, ...]:
+        """Parameters with a formula, in order."""
+        return tuple(step.letter for step in self.steps)
+
+
+def determined(
+    system: PhysicalSystem, known: Iterable[str], seed: int = SEED
+) -> tuple[list[str], int]:
+    """(parameters that the data determine, rank of their Jacobian): generic, locally unique.
+
+    An unknown x follows if its column of d data / d unknowns is no combination of the others.
+    """
+    given = set(known)
+    unknown = [x for x in system.letters if x not in given]
+    prime, columns = system.jacobian_modulo(random.Random(seed))
+    vectors = [columns[x] for x in unknown]
+    rank = len(independent_modulo(vectors, prime))
+    if rank == len(unknown):
+        return unknown, rank
+    found = []
+    for i, x in enumerate(unknown):
+        others = vectors[:i] + vectors[i + 1 :]
+        if len(independent_modulo(others, prime)) < rank:
+            found.append(x)
+    return found, rank
+
+
+def solve(system: PhysicalSystem, known: Iterable[str], seed: int = SEED) -> ClosedSolution:
+    """The parameters that follow from data and known parameters, in closed form.
+
+    Args:
+        system: data as polynomials of the parameters.
+        known: names of parameters of it.
+        seed: of the random points.
+    """
+    given = tuple(x for x in system.letters if x in set(known))
+    follow, rank = determined(system, given, seed)
+    unknown = [x for x in system.letters if x not in given]
+    steps = _Elimination(system, unknown, follow, random.Random(seed)).run()
+    have = {step.letter for step in steps}
+    return ClosedSolution(
+        system,
+        given,
+        tuple(steps),
+        tuple(x for x in unknown if x not in follow),
+        tuple(x for x in follow if x not in have),
+        len(unknown) - rank,
+        len(system.data) - rank,
+    )
+
+
+class _Elimination:
+    """Unknowns get formulas one by one; each has the equations as defined to begin with.
+
+    An unknown with a formula counts as known for the others: so formulas stay short.
+    """
+
+    def __init__(
+        self, system: PhysicalSystem, unknown: Sequence[str], follow: Sequence[str],
+        chance: random.Random,
+    ) -> None:  # fmt: skip
+        self.system = system
+        self.place = system.place
+        self.prime, self.point = system.modular_point(chance)
+        gens = system.ring.gens
+        self.defined = [p - gens[self.place[d]] for d, p in system.definitions.items()]
+        self.equations = self.defined
+        self.open, self.wanted = set(unknown), set(follow)
+
+    def run(self) -> list[Step]:
+        """The steps, in order."""
+        steps: list[Step] = []
+        while self.wanted:
+            step = self._direct(self.wanted) or self._from_several()
+            if step is None:
+                break
+            steps.append(step)
+            self.open.discard(step.letter)
+            self.wanted.discard(step.letter)
+        return steps
+
+    def _from_several(self) -> Step | None:
+        """The unknown that the fewest equations tell, by elimination in these."""
+        unsolved = set(self.open)
+        for letter, needed in self._needed():
+            self.equations, self.open = [self.defined[i] for i in needed], set(unsolved)
+            step = self._direct({letter})
+            while step is None and self._eliminate(letter):
+                step = self._direct({letter})
+            step = step or self._root(letter)
+            self.equations, self.open = self.defined, set(unsolved)
+            if step is not None:
+                return step
+        return None
+
+    def _needed(self) -> list[tuple[str, list[int]]]:
+        """(letter, equations that tell it, none of them too many), the fewest first.
+
+        They tell x if the unit vector of x is a combination of their rows of the Jacobian.
+        """
+        letters = [x for x in self.system.letters if x in self.open]
+        rows = [
+            {k: value_modulo(self.system.slopes[x][i], self.point, self.prime)
+             for k, x in enumerate(letters) if self.system.slopes[x][i]}
+            for i in range(len(self.defined))
+        ]  # fmt: skip
+        order = sorted(range(len(rows)), key=lambda i: -len(self.defined[i]))
+        found = []
+        for letter in sorted(self.wanted):
+            at = letters.index(letter)
+            keep = [i for i in order if rows[i]]
+            for i in list(keep):
+                fewer = [k for k in keep if k != i]
+                if self._told([rows[k] for k in fewer], at):
+                    keep = fewer
+            kind = _EASY.index(self.system.kinds[letter])
+            found.append((len(keep), kind, letter, sorted(keep)))
+        return [(letter, keep) for _, _, letter, keep in sorted(found)]
+
+    def _told(self, rows: Sequence[Mapping[int, int]], at: int) -> bool:
+        """Is the unit vector of that place a combination of the rows?"""
+        rank = len(independent_modulo(rows, self.prime))
+        return len(independent_modulo([*rows, {at: 1}], self.prime)) == rank
+
+    def _used(self, poly: Poly) -> set[str]:
+        names = self.system.names
+        return {names[i] for at in poly for i, e in enumerate(at) if e}
+
+    def _unknowns(self, poly: Poly) -> set[str]:
+        """Unknowns in it that have no formula yet."""
+        return self._used(poly) & self.open
+
+    def _zero(self, poly: Poly) -> bool:
+        """Is it zero for every robot, as far as a consistent random point tells?"""
+        return value_modulo(poly, self.point, self.prime) == 0
+
+    def _direct(self, wanted: set[str]) -> Step | None:
+        """A quotient for an unknown that stands alone in an equation, the shortest first."""
+        for poly in sorted(self.equations, key=len):
+            letters = self._unknowns(poly)
+            if len(letters) == 1 and letters <= wanted:
+                step = self._quotient(poly, next(iter(letters)))
+                if step is not None:
+                    return step
+        return None
+
+    def _root(self, letter: str) -> Step | None:
+        """A polynomial of the one unknown, of the lowest degree."""
+        alone = [p for p in self.equations if self._unknowns(p) == {letter}]
+        if not alone:
+            return None
+        ring = self.system.ring
+        best = min(alone, key=lambda p: (_degree(p, self.place[letter]), len(p)))
+        return Step(letter, ring.zero, ring.one, best)
+
+    def _quotient(self, poly: Poly, letter: str) -> Step | None:
+        """The letter from a linear equation; None if it is not linear or tells nothing."""
+        place = self.place[letter]
+        if _degree(poly, place) != 1:
+            return None
+        slope, rest = _split(poly, place)[1], _split(poly, place)[0]
+        if self._zero(slope):
+            return None
+        numerator, denominator = _reduced(-rest, slope)
+        return Step(letter, numerator, denominator)
+
+    def _eliminate(self, wanted: str) -> bool:
+        """Take an unknown out of all equations but one, where that is linear in it."""
+        choices = []
+        for at, poly in enumerate(self.equations):
+            letters = self._unknowns(poly)
+            for letter in letters - {wanted}:
+                if _degree(poly, self.place[letter]) == 1:
+                    choices.append((self._cost(poly, letter), at, letter))
+        for _, at, letter in sorted(choices):
+            step = self._quotient(self.equations[at], letter)
+            if step is None:
+                continue
+            others = self.equations[:at] + self.equations[at + 1 :]
+            self.open.discard(letter)
+            self.equations = [self._without(poly, step) for poly in others]
+            self.equations = [poly for poly in self.equations if poly]
+            return all(len(poly) <= _LARGEST for poly in self.equations)
+        return False
+
+    def _cost(self, poly: Poly, letter: str) -> tuple[int, ...]:
+        """Small for what is quickly done: few other unknowns, few other places."""
+        place = self.place[letter]
+        slope = _split(poly, place)[1]
+        return (
+            len(self._unknowns(poly)),
+            len(self._unknowns(slope)),
+            sum(_degree(other, place) for other in self.equations),
+            -_EASY.index(self.system.kinds[letter]),
+            len(poly),
+        )
+
+    def _without(self, poly: Poly, step: Step) -> Poly:
+        """The equation with the step put in, and only its factor that is zero."""
+        place = self.place[step.letter]
+        top = _degree(poly, place)
+        if top == 0:
+            return poly
+        parts = _split(poly, place)
+        total = poly.ring.zero
+        for degree, part in parts.items():
+            total += part * step.numerator**degree * step.denominator ** (top - degree)
+        total = self.system.normal(total)
+        if not self._unknowns(total):
+            return poly.ring.zero
+        if len(total) > _LARGEST:
+            return total
+        for factor, _ in total.factor_list()[1]:
+            if self._zero(factor):
+                return factor
+        raise ModelerError(
+            f"{self.system.robot}: no factor of {total} is zero at a random point; another seed"
+        )
+
+
+def _degree(poly: Poly, place: int) -> int:
+    return max((at[place] for at in poly), default=0)
+
+
+def _split(poly: Poly, place: int) -> dict[int, Poly]:
+    """{degree in a generator: factor}; degrees 0 and 1 always."""
+    found: dict[int, dict[tuple[int, ...], object]] = {0: {}, 1: {}}
+    for at, value in poly.items():
+        found.setdefault(at[place], {})[(*at[:place], 0, *at[place + 1 :])] = value
+    return {degree: poly.ring.zero.new(part) for degree, part in found.items()}
+
+
+def _reduced(numerator: Poly, denominator: Poly) -> tuple[Poly, Poly]:
+    """The quotient in lowest terms, the denominator with whole numbers and a positive lead."""
+    if denominator.is_ground:
+        return numerator.quo_ground(denominator.LC), denominator.ring.one
+    _, top, bottom = _cofactors(numerator, denominator)
+    content, bottom = bottom.primitive()
+    if bottom.LC < 0:
+        content, bottom = -content, -bottom
+    return top.quo_ground(content), bottom
+
+
+def _cofactors(a: Poly, b: Poly) -> tuple[Poly, Poly, Poly]:
+    return a.cofactors(b) if a else (b, a, b.ring.one)
+
+
+# A closed solution as text, LaTeX and Python, in an order that a person can check.
+
+
+SolutionForm = Literal["text", "latex", "python"]
+"""How formulas are printed."""
+
+
+def formula(step: Step, system: PhysicalSystem, style: Style = TEXT) -> str:
+    """The right side of a step's formula; the polynomial that is zero where there is none."""
+    if step.equation is not None:
+        return _by_powers(step, system, style)
+    top = physical_text(step.numerator, system.names, system.masses, style)
+    if step.denominator == system.ring.one:
+        return top
+    bottom = physical_text(step.denominator, system.names, system.masses, style)
+    if style.latex:
+        return rf"\frac{{{top}}}{{{bottom}}}"
+    return f"{_bracketed(top)}/{_bracketed(bottom, factors=True)}"
+
+
+def _bracketed(text: str, factors: bool = False) -> str:
+    """In brackets if it is a sum, or, below a line, a product."""
+    inside = text.removeprefix("-")
+    plain = " + " not in inside and " - " not in inside
+    if plain and not (factors and any(sign in text for sign in "*/-")):
+        return text
+    return f"({text})"
+
+
+def _by_powers(step: Step, system: PhysicalSystem, style: Style) -> str:
+    """A polynomial in one letter, highest power first."""
+    assert step.equation is not None
+    at = system.place[step.letter]
+    by_power: dict[int, dict[tuple[int, ...], Any]] = {}
+    for exponents, value in step.equation.items():
+        rest = (*exponents[:at], 0, *exponents[at + 1 :])
+        by_power.setdefault(exponents[at], {})[rest] = value
+    parts = []
+    for power in sorted(by_power, reverse=True):
+        factor: Poly = step.equation.ring.zero.new(by_power[power])
+        text = polynomial_text(factor, system.names, style)
+        text = text if power == 0 else rf"\left({text}\right)" if style.latex else f"({text})"
+        parts.append(text if power == 0 else text + style.times + style.power(step.letter, power))
+    return " + ".join(parts)
+
+
+def solution_lines(solution: ClosedSolution, form: SolutionForm = "text") -> list[str]:
+    """All formulas, one a line, each from data, known parameters and those before."""
+    return {"text": _text, "latex": _latex, "python": _python}[form](solution)
+
+
+def _text(solution: ClosedSolution) -> list[str]:
+    system = solution.system
+    lines = [f"{name} = {text}" for name, text in system.abbreviations.items()]
+    for step in solution.steps:
+        right = formula(step, system)
+        if step.equation is None:
+            lines.append(f"{step.letter} = {right}")
+        else:
+            lines.append(f"{step.letter}: root of {right} = 0")
+    return lines
+
+
+def _latex(solution: ClosedSolution) -> list[str]:
+    system = solution.system
+    rows = [
+        Equation(latex_name(name), (_latex_quotient(name, text, system),))
+        for name, text in system.abbreviations.items()
+    ]
+    for step in solution.steps:
+        left = latex_name(step.letter) if step.equation is None else "0"
+        rows.append(Equation(left, (formula(step, system, LATEX),)))
+    lines = display(rows).splitlines() if rows else []
+    return [r"\begingroup\allowdisplaybreaks", *lines, r"\endgroup"]
+
+
+def _latex_quotient(name: str, text: str, system: PhysicalSystem) -> str:
+    if name not in system.inverse:
+        return rf"\text{{{latex_text(text)}}}"
+    return rf"\frac{{1}}{{{polynomial_text(system.inverse[name], system.names, LATEX)}}}"
+
+
+_ROOTS = """def real_roots(factors, positive=False):
+    found = [x for x in roots(factors) if abs(x.imag) <= 1e-6*abs(x)]
+    return [float(x.real) for x in found if x.real > 0 or not positive]"""
+
+
+def _python(solution: ClosedSolution) -> list[str]:
+    """A function of data and known parameters that returns a dict, with roots a list of them."""
+    system = solution.system
+    rooted = any(step.equation is not None for step in solution.steps)
+    arguments = [*_used_data(solution), *solution.known, *_lengths(system)]
+    where = "base parameters" if system.source == "base" else "coefficients PG, PJ"
+    more = ": a list, every robot that fits" if rooted else ""
+    lines = [f"def physical_parameters({', '.join(arguments)}):"]
+    lines += [f'    """Physical parameters of {system.robot} from {where}, SI units{more}."""']
+    lines += [f"    {name} = {text}" for name, text in system.abbreviations.items()]
+    lines += ["    found = []"] if rooted else []
+    indent = "    "
+    for step in solution.steps:
+        if step.equation is None:
+            lines.append(f"{indent}{step.letter} = {formula(step, system)}")
+        else:
+            lines.append(f"{indent}for {step.letter} in {_python_roots(step, system)}:")
+            indent += "    "
+    told = "{" + ", ".join(f'"{x}": {x}' for x in solution.follows) + "}"
+    lines += [f"{indent}found.append({told})", "    return found"] if rooted else [
+        f"    return {told}"
+    ]  # fmt: skip
+    used = set(_letters_of("\n".join(lines), functions=True))
+    some = [name for name in ("cos", "pi", "sin", "sqrt") if name in used]
+    head = [f"from math import {', '.join(some)}"] if some else []
+    head += ["from numpy import roots", "", "", _ROOTS] if rooted else []
+    return [*head, "", "", *lines] if head else lines
+
+
+def _python_roots(step: Step, system: PhysicalSystem) -> str:
+    assert step.equation is not None
+    at = system.place[step.letter]
+    top = max(exponents[at] for exponents in step.equation)
+    factors = []
+    for power in range(top, -1, -1):
+        part = {(*e[:at], 0, *e[at + 1 :]): v for e, v in step.equation.items() if e[at] == power}
+        factors.append(polynomial_text(step.equation.ring.zero.new(part), system.names))
+    positive = ", positive=True" if step.letter in system.masses else ""
+    return f"real_roots([{', '.join(factors)}]{positive})"
+
+
+def _used_data(solution: ClosedSolution) -> list[str]:
+    """Data that some formula reads."""
+    system = solution.system
+    polys = [p for s in solution.steps for p in (s.numerator, s.denominator, s.equation) if p]
+    used = {i for poly in polys for at in poly for i, e in enumerate(at) if e}
+    return [name for name in system.data if system.place[name] in used]
+
+
+def _lengths(system: PhysicalSystem) -> list[str]:
+    """Letters that the constants are made of."""
+    found: dict[str, None] = {}
+    for name in [*system.constants, *system.abbreviations.values()]:
+        for letter in _letters_of(name):
+            if letter not in system.abbreviations:
+                found.setdefault(letter)
+    return list(found)
+
+
+def _letters_of(text: str, functions: bool = False) -> list[str]:
+    """Names in a text, those of functions and of pi only if they are wanted."""
+    word = "".join(c if c.isalnum() or c == "_" else " " for c in text).split()
+    known = () if functions else ("cos", "sin", "sqrt", "pi")
+    return [w for w in word if not w[0].isdigit() and w not in known]
+
+
+def definition_lines(system: PhysicalSystem) -> list[str]:
+    """What the data are made of."""
+    return [
+        f"{name} = {physical_text(poly, system.names, system.masses)}"
+        for name, poly in system.definitions.items()
+    ]
+
+
+def missing_lines(solution: ClosedSolution) -> list[str]:
+    """What does not follow, and what to add; empty if all follows."""
+    lines = []
+    if solution.undetermined:
+        easy = sorted(solution.undetermined, key=lambda x: EASE[solution.system.kinds[x]])
+        lines = [
+            f"undetermined: {', '.join(solution.undetermined)}",
+            f"to determine them, {solution.missing} more must be known: one of "
+            f"{', '.join(easy)} (easiest first)"
+            + ("" if solution.missing == 1 else ", then one of those that are left"),
+        ]
+    if solution.without_formula:
+        lines.append(
+            f"determined, but in equations of high degree, without a formula: "
+            f"{', '.join(solution.without_formula)}; add one of them to the known parameters"
+        )
+    return lines
+
+
+def solution_json(solution: ClosedSolution, verified: Mapping[str, int] | None = None) -> Any:
+    """Plain data: formulas as text, what is known, what does not follow."""
+    system = solution.system
+    return {
+        "robot": system.robot,
+        "from": system.source,
+        "coefficients": list(system.map_lines),
+        "known": list(solution.known),
+        "lengths": dict(system.constants),
+        "abbreviations": dict(system.abbreviations),
+        "formulas": [
+            {
+                "parameter": step.letter,
+                "kind": system.kinds[step.letter],
+                "quotient" if step.equation is None else "zero": formula(step, system),
+            }
+            for step in solution.steps
+        ],
+        "undetermined": list(solution.undetermined),
+        "without_formula": list(solution.without_formula),
+        "missing": solution.missing,
+        "surplus": solution.surplus,
+        "without_effect": list(system.vanishing),
+        "verified": dict(verified) if verified else None,
+    }

@@ -1,0 +1,160 @@
+"""Monomials, polynomials and linear forms as text and LaTeX."""
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from modeler.core.formula import latex_name
+from modeler.formulas.ring import Poly
+
+
+@dataclass(frozen=True)
+class Style:
+    """How signs of operation look.
+
+    Attributes:
+        times: between factors.
+        latex: True to write names and powers as LaTeX.
+    """
+
+    times: str
+    latex: bool
+
+    def name(self, name: str) -> str:
+        """One letter."""
+        return latex_letter(name) if self.latex else name
+
+    def power(self, name: str, exponent: int) -> str:
+        """name ** exponent."""
+        base = self.name(name)
+        if exponent == 1:
+            return base
+        if not self.latex:
+            return f"{base}**{exponent}"
+        function = re.fullmatch(r"\\(cos|sin)\{\((.*)\)\}", base)
+        if function:
+            return f"\\{function[1]}^{{{exponent}}}{{({function[2]})}}"
+        return f"{base}^{{{exponent}}}"
+
+    def fraction(self, value: Fraction) -> str:
+        """A positive number."""
+        if self.latex and value.denominator != 1:
+            return f"\\tfrac{{{value.numerator}}}{{{value.denominator}}}"
+        return str(value)
+
+
+TEXT = Style("*", False)
+LATEX = Style(r"\,", True)
+
+
+def latex_letter(name: str) -> str:
+    """LaTeX of a letter; sines, cosines and roots as functions."""
+    function = re.fullmatch(r"(cos|sin|sqrt)\((.*)\)", name)
+    if function:
+        return f"\\{function[1]}{{({latex_letter(function[2])})}}"
+    return r"\pi" if name == "pi" else latex_name(name)
+
+
+def monomial_text(exponents: Sequence[int], names: Sequence[str], style: Style = TEXT) -> str:
+    """The monomial, as "c2*s1**2"; cosines before sines, "1" for the empty product."""
+    factors = [(name, e) for name, e in zip(names, exponents, strict=True) if e]
+    return style.times.join(style.power(name, e) for name, e in sorted(factors)) or "1"
+
+
+def polynomial_text(poly: Poly, names: Sequence[str], style: Style = TEXT) -> str:
+    """A polynomial, highest monomial first; "0" if it has none."""
+    return signed_sum(
+        ((as_fraction(value), _plain(at, names, style)) for at, value in poly.terms()), style
+    )
+
+
+def form_text(form: Mapping[int, Poly], parameters: Sequence[str], names: Sequence[str],
+              style: Style = TEXT) -> str:  # fmt: skip
+    """A linear form of parameters, e.g. "2*XZ3 - 2*bl1*MX3"."""
+    terms: list[tuple[Fraction, str]] = []
+    for column, factor in form.items():
+        letter = style.name(parameters[column])
+        if len(factor) == 1:
+            ((at, value),) = factor.items()
+            plain = _plain(at, names, style)
+            terms.append((as_fraction(value), f"{plain}{style.times}{letter}" if plain else letter))
+        else:
+            inside = polynomial_text(factor, names, style)
+            terms.append((Fraction(1), f"({inside}){style.times}{letter}"))
+    return signed_sum(terms, style)
+
+
+def physical_text(poly: Poly, names: Sequence[str], masses: Iterable[str],
+                  style: Style = TEXT) -> str:  # fmt: skip
+    """A polynomial of physical parameters with each mass in front of its own bracket."""
+    wanted = [i for i, name in enumerate(names) if name in set(masses)]
+    loose: dict[tuple[int, ...], Any] = {}
+    brackets: dict[int, dict[tuple[int, ...], Any]] = {}
+    for at, value in poly.terms():
+        mass = next((i for i in wanted if at[i] == 1), None)
+        if mass is None:
+            loose[at] = value
+        else:
+            rest = (*at[:mass], 0, *at[mass + 1 :])
+            brackets.setdefault(mass, {})[rest] = value
+    terms = [(as_fraction(v), _plain(at, names, style)) for at, v in loose.items()]
+    for mass, inside in sorted(brackets.items()):
+        letter = style.name(names[mass])
+        if len(inside) == 1:
+            ((at, value),) = inside.items()
+            plain = _plain(at, names, style)
+            terms.append((as_fraction(value), f"{letter}{style.times}{plain}" if plain else letter))
+        else:
+            content = _content([as_fraction(value) for value in inside.values()])
+            parts = [
+                (as_fraction(v) / content, _plain(at, names, style)) for at, v in inside.items()
+            ]
+            terms.append((content, f"{letter}{style.times}({signed_sum(parts, style)})"))
+    return signed_sum(terms, style)
+
+
+def combination_text(combination: Mapping[str, Fraction], style: Style = TEXT) -> str:
+    """A combination of named coefficients: "2*PJ1 + 2*PJ3", "-PJ5/2"."""
+    return signed_sum(((value, style.name(name)) for name, value in combination.items()), style)
+
+
+def signed_sum(terms: Iterable[tuple[Fraction, str]], style: Style = TEXT) -> str:
+    """Sum of number * text with the signs pulled out; an empty text is 1."""
+    out = ""
+    for value, text in terms:
+        size = abs(value)
+        if not text:
+            piece = style.fraction(size)
+        elif size == 1:
+            piece = text
+        elif size.denominator == 1 or style.latex:
+            piece = f"{style.fraction(size)}{style.times}{text}"
+        elif size.numerator == 1:
+            piece = f"{text}/{size.denominator}"
+        else:
+            piece = f"{size.numerator}{style.times}{text}/{size.denominator}"
+        if out:
+            out += f" - {piece}" if value < 0 else f" + {piece}"
+        else:
+            out = f"-{piece}" if value < 0 else piece
+    return out or "0"
+
+
+def as_fraction(value: Any) -> Fraction:
+    """A coefficient of a polynomial as a `Fraction`."""
+    return Fraction(int(value.numerator), int(value.denominator))
+
+
+def _plain(at: Sequence[int], names: Sequence[str], style: Style) -> str:
+    """The monomial in the order of its generators; empty for 1."""
+    return style.times.join(style.power(name, e) for name, e in zip(names, at, strict=True) if e)
+
+
+def _content(values: Sequence[Fraction]) -> Fraction:
+    """Common factor with the sign of the first value, if all are multiples of the smallest."""
+    smallest = min(abs(value) for value in values)
+    if any((value / smallest).denominator != 1 for value in values):
+        smallest = Fraction(1)
+    return smallest if any(value > 0 for value in values) else -smallest

@@ -1,0 +1,426 @@
+"""A closed solution in numbers: exactly, to verify it, and with standard deviations of a fit."""
+
+import math
+import random
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from modeler.core.errors import DataError, RobotError
+from modeler.core.files import read_text
+from modeler.core.json import parse_toml
+from modeler.formulas.evaluation import poly_value
+from modeler.formulas.identifiability import SEED, value_modulo
+from modeler.formulas.physical_system import PhysicalSystem
+from modeler.formulas.printed import read_print
+from modeler.formulas.ring import Poly
+from modeler.formulas.solve import ClosedSolution, Step
+from modeler.robot.robot import Robot, near
+
+_REAL = 1e-6  # imaginary parts below this share of a root are rounding
+_SURE = 3.0  # standard deviations that a denominator, or what is below zero, must be away from it
+VERIFIED = 20
+
+
+@dataclass(frozen=True, eq=False)
+class Derived:
+    """Physical parameters with values.
+
+    Attributes:
+        letters: in the order of the steps.
+        values: (n,) SI units.
+        sigmas: (n,) standard deviations, to first order.
+        inputs: names of data, then of known parameters.
+        slopes: (n, inputs) d letter / d input.
+        shares: (n, inputs) part of the variance that the uncertainty of each input brings;
+            correlated data share their covariance by halves, so rows add up to 1.
+        doubtful: {letter: why its quotient may be one by zero}.
+    """
+
+    letters: tuple[str, ...]
+    values: np.ndarray
+    sigmas: np.ndarray
+    inputs: tuple[str, ...]
+    slopes: np.ndarray
+    shares: np.ndarray
+    doubtful: Mapping[str, str]
+
+    def value(self, letter: str) -> float:
+        """Of one parameter."""
+        return float(self.values[self.letters.index(letter)])
+
+    def sigma(self, letter: str) -> float:
+        """Of one parameter."""
+        return float(self.sigmas[self.letters.index(letter)])
+
+
+def verify(solution: ClosedSolution, times: int = VERIFIED, seed: int = SEED) -> int:
+    """Number of random robots, of `times`, for which every formula gives back the parameter.
+
+    Exact: over Q; modulo a prime where the geometry has roots of numbers.
+    """
+    system, chance = solution.system, random.Random(seed)
+    good = 0
+    for _ in range(times):
+        if any(name.startswith("sqrt(") for name in system.names):
+            prime, at = system.modular_point(chance)
+            good += all(_holds_modulo(step, at, prime, system) for step in solution.steps)
+        else:
+            point = system.consistent(random_rationals(system, chance))
+            good += all(_holds(step, point, system) for step in solution.steps)
+    return good
+
+
+def random_rationals(system: PhysicalSystem, chance: random.Random) -> dict[str, Fraction]:
+    """Letters and constants by chance; cosine and sine on the circle."""
+    values: dict[str, Fraction] = {}
+    for name in (*system.letters, *system.constants):
+        if name.startswith("cos("):
+            t = Fraction(chance.randint(2, 40), chance.randint(41, 90))
+            values[name] = (1 - t * t) / (1 + t * t)
+            values["sin" + name[3:]] = 2 * t / (1 + t * t)
+        elif name not in values:
+            sign = 1 if name in system.masses else chance.choice((-1, 1))
+            values[name] = sign * Fraction(chance.randint(1, 99), chance.randint(1, 99))
+    return values
+
+
+def _holds(step: Step, point: Sequence[Any], system: PhysicalSystem) -> bool:
+    if step.equation is not None:
+        return bool(poly_value(step.equation, point) == 0)
+    down = poly_value(step.denominator, point)
+    truth = point[system.place[step.letter]]
+    return bool(down != 0 and poly_value(step.numerator, point) == truth * down)
+
+
+def _holds_modulo(step: Step, point: list[int], prime: int, system: PhysicalSystem) -> bool:
+    if step.equation is not None:
+        return value_modulo(step.equation, point, prime) == 0
+    down = value_modulo(step.denominator, point, prime)
+    up = value_modulo(step.numerator, point, prime)
+    return down != 0 and (up - down * point[system.place[step.letter]]) % prime == 0
+
+
+class Numbers:
+    """Polynomials of a system as arrays: values and slopes quickly."""
+
+    def __init__(self, poly: Poly) -> None:
+        self.powers = np.array(list(poly), dtype=int).reshape(len(poly), poly.ring.ngens)
+        self.factors = np.array([float(Fraction(int(v.numerator), int(v.denominator)))
+                                 for v in poly.values()])  # fmt: skip
+
+    def value(self, point: np.ndarray) -> float:
+        """At a point of all generators."""
+        return float(self.factors @ np.prod(point**self.powers, axis=1))
+
+    def slopes(self, point: np.ndarray) -> np.ndarray:
+        """(generators,) derivatives at a point."""
+        found = np.zeros(len(point))
+        for k in np.flatnonzero(self.powers.any(axis=0)):
+            lower = self.powers.copy()
+            lower[:, k] = np.maximum(lower[:, k] - 1, 0)
+            terms = self.factors * self.powers[:, k] * np.prod(point**lower, axis=1)
+            found[k] = terms.sum()
+        return found
+
+
+def derive_values(
+    solution: ClosedSolution,
+    data: Sequence[float],
+    covariance: np.ndarray,
+    known: Mapping[str, float],
+    sigmas: Mapping[str, float] | None = None,
+    near: Mapping[str, float] | None = None,
+) -> Derived:
+    """The parameters that follow, with sigma.
+
+    x = g(data, known); var x = G_d C G_d' + sum (G_k sigma_k)^2, G = dg along the steps.
+
+    Args:
+        solution: formulas.
+        data: (data,) identified values, in the order of `solution.system.data`.
+        covariance: (data, data) of them.
+        known: values of the known parameters, SI units.
+        sigmas: their standard deviations, 0 where not given; all errors are independent.
+        near: about what value a parameter has, to choose between roots.
+
+    Raises:
+        DataError: a quotient by exactly 0, or an equation without a root or with several.
+    """
+    system = solution.system
+    inputs = (*system.data, *solution.known)
+    spread = [(sigmas or {}).get(name, 0.0) ** 2 for name in solution.known]
+    C = np.diag([0.0] * len(data) + spread)
+    C[: len(data), : len(data)] = covariance
+    point, gradient = _start(solution, data, known, inputs)
+    doubtful: dict[str, str] = {}
+    for step in solution.steps:
+        _advance(step, solution, point, gradient, C, doubtful, near or {})
+    at = [system.place[letter] for letter in solution.follows]
+    slopes = gradient[at]
+    parts = slopes * (slopes @ C)
+    variance = np.maximum(parts.sum(axis=1), 0.0)
+    shares = np.divide(
+        parts, variance[:, None], out=np.zeros_like(parts), where=variance[:, None] > 0
+    )
+    return Derived(solution.follows, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful)
+
+
+def impossible(derived: Derived, system: PhysicalSystem) -> dict[str, str]:
+    """Why a value is that of no body: a mass that is not above 0, a moment of inertia below it.
+
+    A moment may be 0; it is told if it is below by more than 3 sigma.
+    """
+    found = {}
+    for k, letter in enumerate(derived.letters):
+        value, sigma = derived.values[k], derived.sigmas[k]
+        if letter in system.masses and value <= 0.0:
+            found[letter] = "mass"
+        elif letter in system.moments and value < -_SURE * sigma:
+            found[letter] = "moment of inertia"
+    return {
+        letter: f"{letter} = {derived.value(letter):.4g} +- {derived.sigma(letter):.2g} is no "
+        f"{what}: a known value or the fit is wrong, or the fit is not sure enough"
+        for letter, what in found.items()
+    }
+
+
+def _start(
+    solution: ClosedSolution, data: Sequence[float], known: Mapping[str, float],
+    inputs: Sequence[str],
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+    """Values of all generators before the first step, and their slopes by the inputs."""
+    system = solution.system
+    point = np.zeros(len(system.names))
+    for name, value in (*system.constants.items(), *known.items()):
+        point[system.place[name]] = value
+    point[: len(data)] = data
+    gradient = np.zeros((len(point), len(inputs)))
+    for i, name in enumerate(inputs):
+        gradient[system.place[name], i] = 1.0
+    return point, gradient
+
+
+def _advance(
+    step: Step, solution: ClosedSolution, point: np.ndarray, gradient: np.ndarray, C: np.ndarray,
+    doubtful: dict[str, str], near: Mapping[str, float],
+) -> None:  # fmt: skip
+    """One step more: value and slopes of its letter."""
+    system = solution.system
+    at = system.place[step.letter]
+    if step.equation is not None:
+        point[at] = _one_root(step, system, point, near)
+        slopes = Numbers(step.equation).slopes(point)
+        own, slopes[at] = slopes[at], 0.0
+        gradient[at] = -(slopes @ gradient) / own
+        return
+    up, down = Numbers(step.numerator), Numbers(step.denominator)
+    bottom = down.value(point)
+    if bottom == 0.0:
+        raise DataError(
+            f"{system.robot}: {step.letter} is a quotient by {step.denominator}, which is 0 in "
+            f"this fit; {step.letter} cannot be told, add it to the known parameters"
+        )
+    spread = down.slopes(point) @ gradient
+    sigma = float(np.sqrt(max(spread @ C @ spread, 0.0)))
+    if abs(bottom) < _SURE * sigma:
+        doubtful[step.letter] = (
+            f"{step.letter} is a quotient by {step.denominator} = {bottom:.3g} +- {sigma:.2g}, "
+            "which may be 0: these data do not tell it"
+        )
+    point[at] = up.value(point) / bottom
+    slopes = (up.slopes(point) - point[at] * down.slopes(point)) / bottom
+    gradient[at] = slopes @ gradient
+
+
+def roots(step: Step, system: PhysicalSystem, point: np.ndarray) -> list[float]:
+    """The real roots of a step's equation at a point; only positive ones for a mass."""
+    assert step.equation is not None
+    at = system.place[step.letter]
+    by_degree: dict[int, float] = {}
+    for exponents, value in step.equation.items():
+        rest = np.array([*exponents[:at], 0, *exponents[at + 1 :]])
+        number = float(Fraction(int(value.numerator), int(value.denominator)))
+        by_degree[exponents[at]] = by_degree.get(exponents[at], 0.0) + number * float(
+            np.prod(point**rest)
+        )
+    top = max(by_degree)
+    found = np.roots([by_degree.get(k, 0.0) for k in range(top, -1, -1)])
+    real = [float(x.real) for x in found if abs(x.imag) <= _REAL * abs(x)]
+    return sorted(x for x in real if x > 0 or step.letter not in system.masses)
+
+
+def _one_root(
+    step: Step, system: PhysicalSystem, point: np.ndarray, near: Mapping[str, float]
+) -> float:
+    found = roots(step, system, point)
+    if found and step.letter in near:
+        return min(found, key=lambda x: abs(x - near[step.letter]))
+    if len(found) == 1:
+        return found[0]
+    kind = "positive " if step.letter in system.masses else ""
+    if not found:
+        raise DataError(
+            f"{system.robot}: the equation of {step.letter} has no {kind}root with these values; "
+            "a known value or the fit is wrong"
+        )
+    told = ", ".join(f"{x:.6g}" for x in found)
+    raise DataError(
+        f"{system.robot}: the equation of {step.letter} has {len(found)} {kind}roots ({told}); "
+        f"each fits the data; say which with --near {step.letter}={found[-1]:.3g}, or add a "
+        "parameter to the known ones"
+    )
+
+
+# Values of physical parameters as people give them: "am=12+-0.1,bm=6", or a CAD file.
+
+
+_CAD_KEY = "relative_sigma"
+
+
+@dataclass(frozen=True)
+class Given:
+    """Parameters that somebody knows.
+
+    Attributes:
+        names: in the order given.
+        values: of those that came with one, SI units.
+        sigmas: standard deviations of those that came with one.
+    """
+
+    names: tuple[str, ...]
+    values: Mapping[str, float]
+    sigmas: Mapping[str, float]
+
+
+def given_from_text(text: str, system: PhysicalSystem, where: str = "--known") -> Given:
+    """Reads "am=12,bm=6+-0.1,bl1".
+
+    Raises:
+        RobotError: an unknown or repeated name, no number, or that of no body.
+    """
+    values: dict[str, float] = {}
+    sigmas: dict[str, float] = {}
+    names: list[str] = []
+    for piece in filter(None, (part.strip() for part in text.split(","))):
+        name, equals, rest = (part.strip() for part in piece.partition("="))
+        check_letter(name, system, where)
+        if name in names:
+            raise RobotError(f"{where}: {name} is given twice; expected each parameter once")
+        names.append(name)
+        if equals:
+            value, spread, sigma = rest.replace("±", "+-").partition("+-")
+            values[name] = _possible(name, _number(value, f"{where}, {name}"), system, where)
+            if spread:
+                sigmas[name] = _sigma(sigma, f"{where}, {name}")
+    effective = tuple(name for name in names if name in system.letters)
+    return Given(
+        effective,
+        {name: values[name] for name in effective if name in values},
+        {name: sigmas[name] for name in effective if name in sigmas},
+    )
+
+
+def check_letter(name: str, system: PhysicalSystem, where: str) -> None:
+    """Refuse what is no physical parameter or length of the robot.
+
+    Raises:
+        RobotError: tells what it may have meant.
+    """
+    names = (*system.letters, *system.vanishing, *system.alone, *system.constants)
+    if name not in names:
+        raise RobotError(
+            f'{where}: got "{name}"{near(name, names)}; expected physical parameters of '
+            f"{system.robot}: {', '.join(system.letters)}"
+        )
+
+
+def _number(text: Any, where: str) -> float:
+    try:
+        value = float(text)
+    except (TypeError, ValueError):
+        value = math.nan
+    if isinstance(text, bool) or not math.isfinite(value):
+        raise RobotError(f"{where}: got {text!r}; expected a finite number, SI units")
+    return value
+
+
+def _possible(name: str, value: float, system: PhysicalSystem, where: str) -> float:
+    if name in system.masses and value <= 0.0:
+        raise RobotError(f"{where}, {name}: got the mass {value:g} kg; expected more than 0")
+    if name in system.moments and value < 0.0:
+        raise RobotError(f"{where}, {name}: got the moment {value:g} kg m^2; expected 0 or more")
+    return value
+
+
+def _sigma(text: Any, where: str) -> float:
+    value = _number(text, f"{where}, standard deviation")
+    if value < 0.0:
+        raise RobotError(f"{where}: got the standard deviation {value:g}; expected 0 or more")
+    return value
+
+
+def cad_from_file(path: Path, system: PhysicalSystem) -> Given:
+    """Reads a TOML file: `am = 12.0`, `bm = [6.0, 0.1]` with a standard deviation.
+
+    `relative_sigma = 0.02` gives every value without one that share of itself.
+
+    Raises:
+        RobotError: no such file, no TOML, an unknown name, no number.
+    """
+    try:
+        raw = parse_toml(read_text(path))
+    except OSError as error:
+        raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
+    except ValueError as error:
+        raise RobotError(f"{path}: no TOML ({error}); expected lines such as am = 12.0") from None
+    share = _sigma(raw.pop(_CAD_KEY, 0.0), f"{path}, {_CAD_KEY}")
+    values: dict[str, float] = {}
+    sigmas: dict[str, float] = {}
+    for name, cell in raw.items():
+        check_letter(name, system, str(path))
+        where = f"{path}, {name}"
+        if isinstance(cell, list):
+            if len(cell) != 2:
+                raise RobotError(f"{where}: got {cell}; expected [value, standard deviation]")
+            values[name], sigmas[name] = _number(cell[0], where), _sigma(cell[1], where)
+        else:
+            values[name] = _number(cell, where)
+            sigmas[name] = share * abs(values[name])
+    return _among(values, sigmas, system, str(path))
+
+
+def cad_from_robot(robot: Robot, system: PhysicalSystem, where: str) -> Given:
+    """The example of the robot file, `[terms.example]`; lengths that it leaves out are nominal.
+
+    Raises:
+        RobotError: it has none.
+    """
+    example = read_print(robot).example
+    if not example:
+        raise RobotError(
+            f"{where}: the robot file has no values of physical parameters ([terms.example]); "
+            "give a file, such as --cad cad.toml"
+        )
+    values = robot.symbol_values() | {name: float(value) for name, value in example.items()}
+    return _among(values, {}, system, where)
+
+
+def _among(
+    values: Mapping[str, float], sigmas: Mapping[str, float], system: PhysicalSystem, where: str
+) -> Given:
+    kept: Collection[str] = [name for name in values if name in system.letters]
+    if not kept:
+        raise RobotError(
+            f"{where}: no value of a parameter with an effect on the torques; expected some of "
+            f"{', '.join(system.letters)}"
+        )
+    return Given(
+        tuple(kept),
+        {name: values[name] for name in kept},
+        {name: sigmas[name] for name in kept if sigmas.get(name, 0.0) > 0.0},
+    )

@@ -1,0 +1,432 @@
+"""What is in a log: clock, channels, doubts; numbers only, whoever shows them."""
+
+import dataclasses
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.core.json import nulled
+from modeler.core.manifest import JointSpec
+from modeler.core.result import Presented
+from modeler.logs.columns import Stream
+from modeler.logs.guess import Guess, absent_roles, guesses, log_text, unlike_si
+from modeler.logs.mapping import LogMap, unit_named
+from modeler.logs.rates import moves, rate_doubts
+from modeler.logs.table import Table
+
+_GAP = 1.5  # of the median step
+_HELD = 3  # rows in a row at the extreme value that make it a limit
+_STUCK = 0.005  # share of the rows
+_SLOW = 0.2  # share of rows in such runs, at any value, from which on a channel is only slow
+_JITTER = 0.05
+_TOLD = (
+    "long log: all {} rows are read for ranges, missing values, limits, gaps and pictures, {} of "
+    "them, in windows, for rate, units, resolution and speeds"
+)
+
+
+@dataclass(frozen=True)
+class Clock:
+    """The time of the rows.
+
+    Attributes:
+        column: in the file.
+        rate: Hz, by the median step; NaN where most steps are 0.
+        jitter: standard deviation of the steps without gaps, as a share of the median.
+        gaps: steps of more than 1.5 medians; `lost` rows would fit into them.
+        largest: gap, s; `at`: s, where it begins, NaN without any.
+        repeated: steps of 0; `back`: steps to an earlier time.
+        duration: s.
+        tick: s; what the steps differ by at least, 0 if they lie on no grid.
+    """
+
+    column: str
+    rate: float
+    jitter: float
+    gaps: int
+    lost: int
+    largest: float
+    at: float
+    repeated: int
+    back: int
+    duration: float
+    tick: float
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One column with numbers.
+
+    Attributes:
+        name: as the user knows it: `pos[2] (q2)`.
+        unit: stated or guessed, "" if nobody knows; `guessed` says which.
+        low, high: of the values, in that unit; NaN without any.
+        missing: rows without value.
+        resolution: smallest step between values, 0 if there is no grid.
+        limits: values at which it stays, with the share of rows: saturation.
+        constant: True if it never changes.
+    """
+
+    name: str
+    unit: str
+    guessed: bool
+    low: float
+    high: float
+    missing: int
+    resolution: float
+    limits: tuple[tuple[float, float], ...]
+    constant: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Look(Presented):
+    """All that a log shows by itself.
+
+    Attributes:
+        name: of the file.
+        rows: of it.
+        clock: None if no column is a time.
+        channels: in the order of the file.
+        streams: topics or groups.
+        notes: of reading.
+        doubts: what contradicts itself or looks like another unit.
+        suggested: a [log] to paste, guessed; "" if a mapping is there already.
+        plain: the same without what ranges say of positions.
+        ranged: doubts about positions that rest on their range alone.
+        time: (n,) s, or row numbers without a clock; of a long log at the extremes of each block.
+        steps: (2, m) times, and steps of the clock up to them, s; of a long log the extremes.
+        values: (n,) of every channel, in its unit.
+    """
+
+    name: str
+
+    rows: int
+    clock: Clock | None
+    channels: tuple[Channel, ...]
+    streams: tuple[Stream, ...]
+    notes: tuple[str, ...]
+    doubts: tuple[str, ...]
+    suggested: str
+    plain: str
+    ranged: tuple[str, ...]
+    time: np.ndarray
+    steps: np.ndarray
+    values: Mapping[str, np.ndarray]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data, without the values; a number that is not there is null."""
+        return nulled({
+            "log": self.name,
+            "rows": self.rows,
+            "clock": None if self.clock is None else dataclasses.asdict(self.clock)
+            | {"tick": self.clock.tick or None},
+            "channels": [dataclasses.asdict(channel) | {"resolution": channel.resolution or None}
+                         for channel in self.channels],
+            "streams": [dataclasses.asdict(stream) for stream in self.streams],
+            "notes": list(self.notes),
+            "doubts": list(self.doubts),
+            "suggested": self.suggested,
+        })  # fmt: skip
+
+
+def look(
+    table: Table,
+    mapping: LogMap,
+    joints: Sequence[JointSpec] = (),
+    span: tuple[float | None, float | None] = (None, None),
+    every: Iterable[Table] | None = None,
+) -> Look:
+    """What is in a log.
+
+    Args:
+        table: of the file, read with `mapping`; of a long one of windows, by which rate, units,
+            resolution and speeds are judged.
+        mapping: stated by the user; what it leaves open is guessed.
+        joints: of the robot, if it is known.
+        span: only the rows from one time to another, s.
+        every: all rows of a long log, block after block; None: the table has them.
+
+    Raises:
+        DataError: no rows in that span, or a time column without values.
+    """
+    values = {name: table.measured(name) for name in table.names if table.is_numeric(name)}
+    blocks: Iterable[dict[str, np.ndarray]] = [values]
+    if every is not None:
+        blocks = (_numbers(block, values) for block in every)
+    if span != (None, None):
+        found = guesses(values, {}, joints)
+        values, every = _within(table, found, blocks, span), None
+        blocks = [values]
+    found = guesses(values, {n: table.unit(n) for n in values if table.unit(n)}, joints)
+    units = {n: u for one in found for n, u in zip(one.columns, one.units, strict=True) if u}
+    time, clock = _clock(table, values, found)
+    shown = {name: table.in_unit(name, v) for name, v in values.items()}
+    rows, clock, extents, drawn = _all_rows(table, blocks, found, clock, every is None)
+    channels = tuple(
+        _channel(table, name, v, units.get(name, ""), extents[name], rows)
+        for name, v in shown.items()
+    )
+    notes, pairs = table.notes, _pairs(found)
+    if every is not None:
+        notes = (*notes, _TOLD.format(rows, len(time)))
+    doubts = [*_of_clock(clock), *absent_roles(found), *unlike_si(found)]
+    doubts += [*rate_doubts(pairs, values, time), *_dead(channels, shown, values, pairs)]
+    bare = [one.without_range() if one.own in ("q", "qc") else one for one in found]
+    suggested, plain = ("" if mapping.layers else log_text(f, joints, tuple(values))
+                        for f in (found, bare))  # fmt: skip
+    ranged = tuple(line for line in unlike_si(found) if line not in unlike_si(bare))
+    return Look(
+        table.path.name, rows, clock, channels, table.found.streams, notes,
+        tuple(doubts), suggested, plain, ranged, *drawn,
+    )  # fmt: skip
+
+
+def _pairs(found: Sequence[Guess]) -> list[tuple[str, str]]:
+    """Columns of position and speed of the joints that have both."""
+    by = {one.own: dict(zip(one.labels, one.columns, strict=True)) for one in found}
+    positions, speeds = by.get("q", {}), by.get("qd", {})
+    return [(q, speeds[label]) for label, q in positions.items() if label in speeds]
+
+
+def _dead(
+    channels: Sequence[Channel], names: Iterable[str],
+    values: Mapping[str, np.ndarray], pairs: Sequence[tuple[str, str]],
+) -> list[str]:  # fmt: skip
+    """Channels that never change, but for the speed 0 of a joint that rests."""
+    rest = {speed for position, speed in pairs if not moves(values[position])}
+    return [
+        f"{channel.name} never changes: is it connected?"
+        for channel, name in zip(channels, names, strict=True)
+        if channel.constant and not (name in rest and channel.low == 0.0)
+    ]
+
+
+def _numbers(block: Table, names: Iterable[str]) -> dict[str, np.ndarray]:
+    """Columns of a block; one that turns out to hold text has no values there."""
+    none = np.full(block.rows, np.nan)
+    return {name: block.measured(name) if block.is_numeric(name) else none for name in names}
+
+
+def _within(
+    table: Table, found: Sequence[Guess], blocks: Iterable[dict[str, np.ndarray]],
+    span: tuple[float | None, float | None],
+) -> dict[str, np.ndarray]:  # fmt: skip
+    """The rows of a span of time."""
+    low = -np.inf if span[0] is None else span[0]
+    high = np.inf if span[1] is None else span[1]
+    kept, ends, clock = [], list[float](), None
+    for values in blocks:
+        time, clock = _clock(table, values, found)
+        kept.append({name: v[(time >= low) & (time < high)] for name, v in values.items()})
+        ends += [float(np.nanmin(time)), float(np.nanmax(time))]
+    inside = {name: np.concatenate([own[name] for own in kept]) for name in kept[0]}
+    if clock is None or len(next(iter(inside.values()))) < 2:
+        raise DataError(
+            f"{table.path}: fewer than two rows from {low:g} to {high:g} s; its times go from "
+            f"{min(ends):g} to {max(ends):g} s"
+        )
+    return inside
+
+
+@dataclass(frozen=True, eq=False)
+class _Extent:
+    """What the values of a channel in a block of rows take up.
+
+    Attributes:
+        missing: rows without a value.
+        ends, held: (5,) values at which it stays for some rows, and for how many rows: at the
+            first, the least, the largest, all others together, and the last.
+    """
+
+    missing: int
+    ends: np.ndarray
+    held: np.ndarray
+
+
+Drawn = tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]
+"""Time, steps and values of a `Look`."""
+
+
+def _all_rows(
+    table: Table, blocks: Iterable[dict[str, np.ndarray]], found: Sequence[Guess],
+    seen: Clock | None, whole: bool,
+) -> tuple[int, Clock | None, dict[str, list[_Extent]], Drawn]:  # fmt: skip
+    """Rows, clock, extents by channel, and what is drawn; `seen`: of the windows of a long log."""
+    counts, clocks, extents, drawn = list[int](), list[Clock](), list[dict](), list[Drawn]()
+    last: dict[str, np.ndarray] = {}  # a block knows the row before it: one step more
+    for values in blocks:
+        rows = {name: np.append(last.get(name, v[:0]), v) for name, v in values.items()}
+        time, clock = _clock(table, rows, found, None if whole else seen)
+        if clock is None:
+            time = time + sum(counts)
+        else:
+            clocks.append(clock)
+        own = time[1 if last else 0 :]
+        shown = {name: table.in_unit(name, v) for name, v in values.items()}
+        extents.append({name: _extent(v) for name, v in shown.items()})
+        part = own, np.stack([time[1:], np.diff(time)]), shown
+        drawn.append(part if whole else _extremes(*part))
+        last = {name: v[-1:] for name, v in values.items()}
+        counts.append(len(own))
+    times, steps, values_drawn = zip(*drawn, strict=True)
+    time = np.concatenate(times)
+    return (
+        sum(counts),
+        None if seen is None else _clock_over(seen, clocks, time),
+        {name: [own[name] for own in extents] for name in last},
+        (time, np.concatenate(steps, axis=1),
+         {name: np.concatenate([own[name] for own in values_drawn]) for name in last}),
+    )  # fmt: skip
+
+
+def _extremes(time: np.ndarray, steps: np.ndarray, values: Mapping[str, np.ndarray]) -> Drawn:
+    """The rows at which time and channels are least and largest, and such steps."""
+    ends = [
+        [find(x) for find in (np.nanargmin, np.nanargmax)]
+        for x in (time, steps[1], *values.values())
+        if np.isfinite(x).any()
+    ]
+    rows = np.unique([ends[0], *ends[2:]])
+    return time[rows], steps[:, ends[1]], {name: x[rows] for name, x in values.items()}
+
+
+def _clock_over(seen: Clock, clocks: Sequence[Clock], time: np.ndarray) -> Clock:
+    """The clock of consecutive blocks."""
+    duration = float(np.nanmax(time) - np.nanmin(time))
+    sums = {
+        name: sum(getattr(own, name) for own in clocks)
+        for name in ("gaps", "lost", "repeated", "back")
+    }
+    widest = max(clocks, key=lambda own: own.largest)
+    jitters = [own.jitter**2 for own in clocks if np.isfinite(own.jitter)] or [np.nan]
+    jitter = float(np.sqrt(np.mean(jitters)))
+    return dataclasses.replace(
+        widest, rate=seen.rate, tick=seen.tick, jitter=jitter, duration=duration, **sums
+    )
+
+
+def _clock(
+    table: Table, values: Mapping[str, np.ndarray], found: Sequence[Guess],
+    seen: Clock | None = None,
+) -> tuple[np.ndarray, Clock | None]:  # fmt: skip
+    """Times of rows, and their clock, by the usual step of `seen` or their own."""
+    guess = next((one for one in found if one.own == "time"), None)
+    name = guess.columns[0] if guess is not None else "time"
+    if name not in values:
+        return np.arange(len(next(iter(values.values()), ())), dtype=float), None
+    time = values[name]
+    if guess is not None and guess.units[0] and not table.unit(name):
+        time = time * unit_named(guess.units[0]).factor
+    known = time[np.isfinite(time)]
+    steps = np.diff(known)
+    if not len(steps):
+        raise DataError(f"{table.path}: column {name} has no values; expected the time of each row")
+    step = float(np.median(steps)) if seen is None else 1.0 / seen.rate
+    even = steps[(steps > 0.0) & (steps <= _GAP * step)]
+    gaps = np.flatnonzero(steps > _GAP * step) if step > 0.0 else np.array([], dtype=int)
+    widest = int(gaps[np.argmax(steps[gaps])]) if gaps.size else 0
+    return time, Clock(
+        column=table.called(name),
+        rate=1.0 / step if step > 0.0 else np.nan,
+        jitter=float(np.std(even)) / step if even.size and step > 0.0 else np.nan,
+        gaps=int(gaps.size),
+        lost=int(np.sum(np.round(steps[gaps] / step) - 1.0)) if gaps.size else 0,
+        largest=float(steps[widest]) if gaps.size else 0.0,
+        at=float(known[widest]) if gaps.size else np.nan,
+        repeated=int(np.sum(steps == 0.0)),
+        back=int(np.sum(steps < 0.0)),
+        duration=float(known.max() - known.min()),
+        tick=_tick(even, step),
+    )
+
+
+def _tick(steps: np.ndarray, step: float) -> float:
+    """What steps of a clock differ by, if they are whole multiples apart; else 0."""
+    off = np.abs(steps - step)
+    off = off[off > 1e-4 * step]
+    if not off.size:
+        return 0.0
+    tick = float(off.min())
+    return tick if np.quantile(np.abs(off / tick - np.round(off / tick)), 0.9) < 0.05 else 0.0
+
+
+def _channel(
+    table: Table, name: str, values: np.ndarray, guessed: str, parts: Sequence[_Extent], rows: int
+) -> Channel:
+    """Of values in windows, and extents of all rows."""
+    stated, missing = table.unit(name), sum(own.missing for own in parts)
+    ends, held = np.stack([own.ends for own in parts]), np.stack([own.held for own in parts])
+    low, high = float(np.fmin.reduce(ends[:, 1])), float(np.fmax.reduce(ends[:, 2]))
+    return Channel(
+        name=table.called(name),
+        unit=stated or guessed,
+        guessed=not stated and bool(guessed),
+        low=low,
+        high=high,
+        missing=missing,
+        resolution=_resolution(values[np.isfinite(values)]),
+        limits=_limits(ends.ravel()[1:-1], held.ravel()[1:-1], (low, high), rows - missing),
+        constant=low == high,
+    )
+
+
+def _resolution(values: np.ndarray) -> float:
+    """The step of the grid that the values lie on; 0 if they lie on none."""
+    levels = np.unique(values)
+    if len(levels) < 3:
+        return 0.0
+    steps = np.diff(levels)
+    steps = steps[steps > 1e-9 * (levels[-1] - levels[0])]  # what rounding parts is one level
+    step = float(np.quantile(steps, 0.01, method="lower"))
+    off = np.abs(steps / step - np.round(steps / step))
+    return step if float(np.quantile(off, 0.9)) < 0.05 else 0.0
+
+
+def _extent(values: np.ndarray) -> _Extent:
+    finite = values[np.isfinite(values)]
+    missing = values.size - finite.size
+    if not finite.size:
+        return _Extent(missing, np.full(5, np.nan), np.zeros(5, dtype=int))
+    starts = np.append(0, np.flatnonzero(np.diff(finite)) + 1)  # where another value begins
+    at, rows = finite[starts], np.diff(starts, append=finite.size)
+    rows[rows < _HELD] = 0
+    low, high, inner = finite.min(), finite.max(), rows[1:-1]
+    held = [inner[at[1:-1] == end].sum() for end in (low, high)]
+    held = [rows[0], *held, inner.sum() - sum(held), rows[-1] if rows.size > 1 else 0]
+    return _Extent(missing, np.array([at[0], low, high, np.nan, at[-1]]), np.array(held))
+
+
+def _limits(
+    ends: np.ndarray, held: np.ndarray, limits: tuple[float, float], rows: int
+) -> tuple[tuple[float, float], ...]:
+    """Ends of the range at which so many values stay for some rows, and for which share of all.
+
+    Not at the beginning or the end, where a robot stands still; and not of a channel that stays
+    anywhere, because it is slower than the log.
+    """
+    if not limits[0] < limits[1] or held.sum() > _SLOW * rows:
+        return ()
+    counts = [(end, int(held[ends == end].sum())) for end in limits]
+    return tuple((end, count / rows) for end, count in counts if count > _STUCK * rows)
+
+
+def _of_clock(clock: Clock | None) -> list[str]:
+    """What a clock should not do."""
+    if clock is None:
+        return ["no column looks like the time: name it with --map time=COLUMN, or give --map rate"]
+    lines = []
+    if clock.back:
+        lines.append(f"{clock.column} goes back in {clock.back} rows: sort or split the log")
+    if clock.repeated:
+        lines.append(f"{clock.column} repeats itself in {clock.repeated} rows: delete them")
+    if clock.gaps:
+        lines.append(
+            f"{clock.column} has {clock.gaps} gap{'s' * (clock.gaps > 1)}, the widest "
+            f"{clock.largest:.4g} s at {clock.at:.4g} s"
+        )
+    if clock.jitter > max(_JITTER, clock.tick * clock.rate):
+        lines.append(f"{clock.column} is uneven: its steps differ by {clock.jitter:.0%}")
+    return lines

@@ -1,0 +1,1 @@
+"""Least squares, ranks, filters, spectra, noise, splines and descent on plain arrays."""

@@ -1,0 +1,204 @@
+"""The parallel filter: one weighted mean for the torque and for every column of W."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg.lapack import dtbtrs
+from scipy.ndimage import gaussian_filter1d
+from scipy.sparse import csr_array
+
+from modeler.core.brief import Brief
+
+SPREAD = 0.1325
+"""Standard deviation of the Gaussian weights times the cut-off: its gain is -3 dB there."""
+
+RATE = 2.5
+"""Rows per period of the cut-off: neighbours then correlate by 0.1."""
+
+_REACH = 3.0  # standard deviations
+_UP = 1.0 + 1e-6  # a step may be off by so much where its clock counts from 1970
+_NONE = 0.02  # samples; neighbours' weights are 0 in double precision below
+LEAST_WEIGHT = 0.5
+"""A row is used if at least this share of its weights falls on usable samples."""
+
+
+@dataclass(frozen=True, eq=False)
+class RowFilter(Brief):
+    """F in F y = F W beta: row k is the Gaussian-weighted mean of the samples around one sample.
+
+    The equation holds for any F, so no choice of it biases beta. Weights are not negative and have
+    a finite reach; samples that may not be used get weight 0 and the others are scaled up to sum
+    one, so neither the ends of a segment nor a masked stretch smears into its neighbours.
+
+    Attributes:
+        weights: (rows, samples) sparse, each row sums to at most 1.
+        centres: (rows,) sample in the middle of each row.
+    """
+
+    weights: csr_array
+    centres: np.ndarray
+
+    def means(
+        self, values: np.ndarray, usable: np.ndarray,
+        used: np.ndarray | None = None, whole: np.ndarray | None = None,
+    ) -> np.ndarray:  # fmt: skip
+        """(rows, ...) of values (samples, ...) over usable (samples,); 0 where none is.
+
+        Rows that are not used (rows,), if that is given, are means over whole (samples,).
+        """
+        masked = only(self.weights, usable, used, whole)
+        total = masked @ np.ones(len(usable))
+        flat = masked @ values.reshape(len(values), -1)
+        flat = flat / np.where(total > 0.0, total, 1.0)[:, None]
+        return flat.reshape(len(self.centres), *values.shape[1:])
+
+    def window(self, rows: slice) -> slice:
+        """Samples that those rows reach."""
+        start, stop = self.weights.indptr[rows.start], self.weights.indptr[rows.stop]
+        reached = self.weights.indices[start:stop]
+        return slice(int(reached.min()), int(reached.max()) + 1)
+
+    def part(self, rows: slice, window: slice) -> "RowFilter":
+        """The same filter for a few rows, over a window of the samples."""
+        return RowFilter(self.weights[rows, window], self.centres[rows] - window.start)
+
+    def share(self, usable: np.ndarray) -> np.ndarray:
+        """(rows, joints) share of each row's weight on usable samples (samples, joints)."""
+        return (self.weights @ usable.astype(float)) / self.weights.sum(axis=1)[:, None]
+
+
+def only(
+    weights: csr_array, usable: np.ndarray,
+    used: np.ndarray | None = None, whole: np.ndarray | None = None,
+) -> csr_array:  # fmt: skip
+    """The weights (rows, samples) with 0 for samples that are not usable (samples,).
+
+    In rows that are not used (rows,) with 0 for samples that are not whole (samples,).
+    """
+    counts = usable[weights.indices]
+    if used is not None and whole is not None and not used.all():
+        row_used = np.repeat(used, np.diff(weights.indptr))
+        counts = np.where(row_used, counts, whole[weights.indices])
+    data = weights.data * counts
+    return csr_array((data, weights.indices, weights.indptr), shape=weights.shape)
+
+
+def row_filter(whole: np.ndarray, step: float, cutoff: float, decimation: int | None) -> RowFilter:
+    """The filter of one segment.
+
+    Args:
+        whole: (samples,) where rows may be centred and weights may lie.
+        step: s.
+        cutoff: Hz at -3 dB; 0 for none.
+        decimation: samples per row; None: `RATE` rows per period of the cut-off.
+    """
+    decimation = spacing(step, cutoff, decimation)
+    inside = np.flatnonzero(whole)
+    centres = inside[(len(inside) - 1) % decimation // 2 :: decimation]
+    return filter_at(centres, len(whole), step, cutoff)
+
+
+def spacing(step: float, cutoff: float, decimation: int | None) -> int:
+    """Samples from one row to the next; see `row_filter`. Halves go up, whatever their rounding."""
+    if decimation is None:
+        return max(1, round(_UP / (RATE * cutoff * step))) if cutoff > 0.0 else 1
+    return decimation
+
+
+def reach_of(step: float, cutoff: float) -> int:
+    """Samples to both sides of a row's centre that it is a mean over."""
+    spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
+    return int(np.ceil(_REACH * spread)) if spread > _NONE else 0
+
+
+def filter_at(centres: np.ndarray, samples: int, step: float, cutoff: float) -> RowFilter:
+    """The filter of a segment of so many samples, with rows centred on some of them (rows,)."""
+    spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0  # samples
+    reach = reach_of(step, cutoff)
+    offsets = np.arange(-reach, reach + 1)
+    bell = np.exp(-0.5 * (offsets / spread) ** 2) if reach else np.ones(1)
+    bell = bell / bell.sum()
+    places = centres[:, None] + offsets
+    there = (places >= 0) & (places < samples)
+    row, tap = np.nonzero(there)
+    weights = csr_array((bell[tap], (row, places[there])), shape=(len(centres), samples))
+    return RowFilter(weights, centres)
+
+
+def moving_means(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
+    """(samples, ...) what the rows of `row_filter` would hold, centred on every sample.
+
+    Outside the segment values count as 0: divide by the same means of ones.
+
+    Args:
+        values: (samples, ...).
+        step: s.
+        cutoff: Hz at -3 dB; 0 for none.
+    """
+    spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
+    if spread <= _NONE:
+        return values
+    reach = int(np.ceil(_REACH * spread))
+    return np.asarray(gaussian_filter1d(values, spread, axis=0, mode="constant", radius=reach))
+
+
+# The zero-phase Butterworth low-pass of order 4; scipy.signal takes long to load.
+#
+# Each of its two sections is the bilinear transform of 1 / (s^2 + 2 s cos(theta) + 1), theta = pi/8
+# and 3 pi/8, with K = tan(pi cutoff step):
+#
+#     y(n) + a1 y(n-1) + a2 y(n-2) = b (x(n) + 2 x(n-1) + x(n-2)),
+#     b = K^2 / c,  a1 = 2 (K^2 - 1) / c,  a2 = (1 - 2 K cos(theta) + K^2) / c,
+#     c = 1 + 2 K cos(theta) + K^2,
+#
+# which is a triangular system of equations with three diagonals, and LAPACK solves it.
+
+
+_ANGLES = (np.pi / 8.0, 3.0 * np.pi / 8.0)
+
+
+def forwards_and_backwards(
+    values: np.ndarray, step: float, cutoff: float, padding: int
+) -> np.ndarray:
+    """`values` (n, k) through the low-pass in time and then against it: twice 3 dB at the cut-off.
+
+    As scipy.signal.sosfiltfilt of butter(4, ...): both ends are extended, turned about the last
+    value, and the filter starts as if the first value of that had been there for ever.
+
+    Args:
+        values: (n, k).
+        step: s.
+        cutoff: Hz, below the Nyquist frequency.
+        padding: samples of the extensions, fewer than n.
+    """
+    before = 2.0 * values[0] - values[1 : padding + 1][::-1]
+    after = 2.0 * values[-1] - values[::-1][1 : padding + 1]
+    longer = np.concatenate([before, values, after])
+    there = _once(longer, step, cutoff)
+    back = _once(there[::-1], step, cutoff)[::-1]
+    return np.ascontiguousarray(back[padding : padding + len(values)])
+
+
+def _once(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
+    """Forwards, after the first value for ever: that is what all of it is measured from."""
+    start = values[0].copy()
+    y = np.asfortranarray(values - start)
+    K = np.tan(np.pi * cutoff * step)
+    diagonals = np.ones((3, len(values)), order="F")
+    for angle in _ANGLES:
+        damping = 2.0 * K * np.cos(angle)
+        whole = 1.0 + damping + K * K
+        diagonals[1] = 2.0 * (K * K - 1.0) / whole
+        diagonals[2] = (1.0 - damping + K * K) / whole
+        y, info = dtbtrs(diagonals, _driven(y, K * K / whole), uplo="L", diag="U", overwrite_b=1)
+        assert info == 0
+    return np.asarray(y + start)
+
+
+def _driven(x: np.ndarray, b: float) -> np.ndarray:
+    """b (x(n) + 2 x(n-1) + x(n-2)), 0 before the first."""
+    total = x.copy(order="F")
+    total[1:] += 2.0 * x[:-1]
+    total[2:] += x[:-2]
+    total *= b
+    return total

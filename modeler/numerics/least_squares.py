@@ -1,0 +1,308 @@
+"""Which columns the data can tell apart."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import qr, solve_triangular
+
+from modeler.core.brief import Brief
+
+TOLERANCE = 1e-8
+"""Pivots below this share of the first, columns scaled to length one, count as zero. Dependencies
+by structure or by a joint that stands still come out near 1e-15, weakly excited parameters on
+real logs above 1e-4."""
+
+_IDLE = 1e-12  # a column this short beside the longest one is zero
+_TOLD = 1e-3  # share of a column's length that another must carry to be named
+
+
+@dataclass(frozen=True)
+class Tangle:
+    """A column that was set aside.
+
+    Attributes:
+        name: its parameter.
+        into: kept parameters whose columns reproduce it; empty if the column is zero.
+        pivot: its pivot, as a share of the first.
+    """
+
+    name: str
+    into: tuple[str, ...]
+    pivot: float
+
+    def sentence(self) -> str:
+        """What happened and what to do."""
+        if not self.into:
+            return (
+                f"{self.name} is not excited: its column is zero on these data; it is set to 0; "
+                "move the joints it belongs to"
+            )
+        return (
+            f"{self.name} cannot be told from {', '.join(self.into)} on these data (pivot "
+            f"{self.pivot:.1g}, tolerance {TOLERANCE:g}): it is set to 0 and they carry its "
+            "effect; record a motion that moves all joints over a wide range"
+        )
+
+
+@dataclass(frozen=True)
+class Rank:
+    """Columns kept (indices, ascending), columns set aside, and the gap between them.
+
+    Attributes:
+        kept: indices.
+        aside: one entry per column set aside.
+        last_kept: smallest pivot kept, as a share of the first.
+        first_dropped: largest pivot dropped; 0 if none.
+    """
+
+    kept: tuple[int, ...]
+    aside: tuple[Tangle, ...]
+    last_kept: float
+    first_dropped: float
+
+
+def independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
+    """Independent columns of R (or W), by QR with column pivoting of the scaled columns.
+
+    Args:
+        R: (rows, c).
+        names: (c,).
+    """
+    lengths = np.linalg.norm(R, axis=0)
+    active = np.flatnonzero(lengths > _IDLE * lengths.max(initial=0.0))
+    aside = [Tangle(names[i], (), 0.0) for i in range(len(names)) if i not in set(active)]
+    if not active.size:
+        return Rank((), tuple(aside), 0.0, 0.0)
+    triangle, order = qr(R[:, active] / lengths[active], mode="r", pivoting=True)
+    pivots = np.abs(np.diag(triangle)) / abs(triangle[0, 0])
+    rank = int(np.sum(pivots > TOLERANCE))
+    kept, dropped = active[order[:rank]], active[order[rank:]]
+    if len(dropped):
+        shares = solve_triangular(triangle[:rank, :rank], triangle[:rank, rank:])
+        for position, column in enumerate(dropped):
+            share = shares[:, position]
+            into = tuple(names[kept[i]] for i in np.argsort(-np.abs(share))
+                         if abs(share[i]) > _TOLD)  # fmt: skip
+            pivot = pivots[rank + position] if rank + position < len(pivots) else 0.0
+            aside.append(Tangle(names[column], into[:6], float(pivot)))
+    return Rank(
+        kept=tuple(int(i) for i in sorted(kept)),
+        aside=tuple(aside),
+        last_kept=float(pivots[rank - 1]),
+        first_dropped=float(pivots[rank]) if rank < len(pivots) else 0.0,
+    )
+
+
+# The data of a fit as one small triangle per joint: everything else is computed from these.
+
+
+@dataclass(frozen=True, eq=False)
+class Compressed:
+    """R of [W_j y_j] = Q R for the rows of each joint; c columns, n joints.
+
+    For any beta, ||y_j - W_j beta|| = ||R_j [-beta; 1]||: no row is needed again.
+
+    Attributes:
+        names: (c,) columns.
+        triangles: (n, c + 1, c + 1).
+        rows: (n,) rows of each joint.
+        free: (n,) True for joints without a motor, whose torque is 0 by definition.
+    """
+
+    names: tuple[str, ...]
+    triangles: np.ndarray
+    rows: np.ndarray
+    free: np.ndarray
+
+    def residual_norms(self, beta: np.ndarray) -> np.ndarray:
+        """(n,) ||y_j - W_j beta||, N m or N."""
+        return np.linalg.norm(self.triangles @ np.append(-beta, 1.0), axis=1)
+
+    def torque_norms(self) -> np.ndarray:
+        """(n,) ||y_j||."""
+        return np.linalg.norm(self.triangles[:, :, -1], axis=1)
+
+    def whole(self, sigma: np.ndarray) -> np.ndarray:
+        """Triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j."""
+        weighted = self.triangles / sigma[:, None, None]
+        return triangle(weighted.reshape(-1, weighted.shape[2]))
+
+    def without(self, names: Sequence[str]) -> "Compressed":
+        """The same data without some columns."""
+        kept = [i for i, name in enumerate(self.names) if name not in set(names)]
+        return Compressed(
+            tuple(self.names[i] for i in kept),
+            self.triangles[:, :, [*kept, len(self.names)]],
+            self.rows,
+            self.free,
+        )
+
+
+def triangle(matrix: np.ndarray) -> np.ndarray:
+    """R of matrix = Q R, (min(rows, columns), columns)."""
+    return np.asarray(np.linalg.qr(matrix, mode="r"))
+
+
+def merged(first: Compressed, second: Compressed) -> Compressed:
+    """The rows of both: R of [R1; R2] per joint, as [W1 y1; W2 y2] has the same R^T R.
+
+    Each triangle errs backwards by rounding of its own rows only, so any order of merging is as
+    exact as one factorisation (Demmel, Grigori, Hoemmen and Langou 2012, SIAM J. Sci. Comput.
+    34(1)); take a fixed order where equal runs must give equal bits.
+
+    Args:
+        first: of some rows.
+        second: of other rows of the same columns and joints.
+    """
+    assert first.names == second.names and np.array_equal(first.free, second.free)
+    stacked = np.concatenate([first.triangles, second.triangles], axis=1)
+    triangles = np.stack([triangle(own) for own in stacked])
+    return Compressed(first.names, triangles, first.rows + second.rows, first.free)
+
+
+def compress(
+    W: np.ndarray,
+    y: np.ndarray,
+    joint: np.ndarray,
+    joints: int,
+    names: Sequence[str],
+    free: Sequence[int] = (),
+) -> Compressed:
+    """Compress y = W beta.
+
+    Args:
+        W: (rows, c).
+        y: (rows,).
+        joint: (rows,) index of the joint of each row.
+        joints: number of joints.
+        names: (c,).
+        free: indices of the joints without a motor.
+    """
+    size = W.shape[1] + 1
+    assert W.shape == (len(y), len(names)) and np.isfinite(W).all() and np.isfinite(y).all()
+    triangles = np.zeros((joints, size, size))
+    for j in range(joints):
+        own = joint == j
+        if own.any():
+            own_triangle = triangle(np.column_stack([W[own], y[own]]))
+            triangles[j, : len(own_triangle)] = own_triangle
+    rows = np.bincount(joint, minlength=joints)
+    return Compressed(tuple(names), triangles, rows, np.isin(np.arange(joints), free))
+
+
+# Least squares of many rows from few: the orthogonal part of a QR decomposition is left out.
+
+
+@dataclass(frozen=True, eq=False)
+class Reduced(Brief):
+    """As many rows as there are columns, with the same squares and products; J joints.
+
+    Attributes:
+        W: (few, c) by joint.
+        y: (few,) by joint.
+        count: (J,) rows that there were.
+    """
+
+    W: tuple[np.ndarray, ...]
+    y: tuple[np.ndarray, ...]
+    count: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Reduction(Brief):
+    """What takes rows to few, by joint: [W y] = Q R.
+
+    Attributes:
+        Q: (rows_j, few) orthonormal.
+        R: (few, c + 1).
+    """
+
+    Q: tuple[np.ndarray, ...]
+    R: tuple[np.ndarray, ...]
+
+    def beside(self, extra: Sequence[Sequence[np.ndarray | None]]) -> Reduced:
+        """The rows with further columns, (rows_j, k) each by joint; None where they are zero."""
+        sizes = [next(c.shape[1] for c in columns if c is not None) for columns in extra]
+        W, y = [], []
+        for j, (Q, R) in enumerate(zip(self.Q, self.R, strict=True)):
+            parts = [columns[j] for columns in extra]
+            more = _beside(Q, parts, sizes)
+            below = np.zeros((len(more) - len(R), R.shape[1]))
+            whole = np.hstack([np.vstack([R, below]), more])
+            W.append(np.delete(whole, R.shape[1] - 1, axis=1))
+            y.append(whole[:, R.shape[1] - 1])
+        return Reduced(tuple(W), tuple(y), np.array([len(Q) for Q in self.Q]))
+
+
+def reduction(W: Sequence[np.ndarray], y: Sequence[np.ndarray]) -> Reduction:
+    """Of the rows of every joint."""
+    every = [np.linalg.qr(np.column_stack([w, t])) for w, t in zip(W, y, strict=True)]
+    return Reduction(tuple(Q for Q, _ in every), tuple(R for _, R in every))
+
+
+def _beside(Q: np.ndarray, parts: Sequence[np.ndarray | None], sizes: Sequence[int]) -> np.ndarray:
+    """(few + more, k) further columns of one joint: within Q, and below it what Q lacks."""
+    inside = np.zeros((Q.shape[1], sum(sizes)))
+    ends = np.cumsum([0, *sizes])
+    shown = [k for k, part in enumerate(parts) if part is not None]
+    places = [i for k in shown for i in range(ends[k], ends[k + 1])]
+    if not places:
+        return inside
+    own = np.hstack([part for part in parts if part is not None])
+    inside[:, places] = Q.T @ own
+    rest = np.linalg.qr(own - Q @ inside[:, places], mode="r")
+    below = np.zeros((len(rest), sum(sizes)))
+    below[:, places] = rest
+    return np.vstack([inside, below])
+
+
+# Weighted columns made orthonormal over the rows of all joints at once.
+
+
+_PARALLEL = 1e-11
+"""Eigenvalue of their Gram matrix, over the largest, below which columns are dependent."""
+
+
+def orthonormal(
+    W: Sequence[np.ndarray], sigma: np.ndarray
+) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
+    """(rows_j, r) orthonormal columns by joint, and the turn (c, r): they are W turn / sigma.
+
+    Args:
+        W: (rows_j, c) by joint.
+        sigma: (J,) of each joint; the weights are its inverse.
+    """
+    turn = turn_of(W, sigma)
+    return tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True)), turn
+
+
+def turn_of(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
+    """(c, r) that makes weighted columns orthonormal: see `orthonormal`."""
+    gram = sum((w.T @ w) / s**2 for w, s in zip(W, sigma, strict=True))
+    length = np.sqrt(np.diag(gram))
+    safe = np.where(length > 0.0, length, 1.0)
+    values, vectors = np.linalg.eigh(gram / np.outer(safe, safe))
+    kept = values > _PARALLEL * float(values.max(initial=1e-300))
+    return np.asarray(vectors[:, kept] / np.sqrt(values[kept]) / safe[:, None])
+
+
+# The median of weighted values.
+
+
+_SAME = 1e-6  # of all weight; less is rounding
+
+
+def weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
+    """The smallest value up to which at least half of the weight lies.
+
+    Half but for `_SAME`: of equal weights whose last digits differ, every choice of these digits
+    (as that of a clock's zero) gives the same median.
+
+    Args:
+        values: (n,).
+        weights: (n,) 0 or more, not all 0.
+    """
+    order = np.argsort(values)
+    total = np.cumsum(weights[order])
+    return float(values[order][np.searchsorted(total, (0.5 - _SAME) * total[-1])])

@@ -1,0 +1,235 @@
+"""Values that stand alone: far above the noise of a channel and above all that happens nearby."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.ndimage import median_filter
+
+NOISES = 10.0
+"""Robust standard deviations (1.4826 median) that a lone value exceeds: among a million values of
+white noise the largest is 5 of them ..."""
+
+CROWD = 2.0
+"""... and this many times what the rarest values of its channel reach, so that whatever happens
+again and again, as every reversal and every impact does, is no lone value ..."""
+
+NEAR = 5.0
+"""... and this many times what its neighbourhood reaches: motion that is rough there is physics ...
+"""
+
+STEPS = 5.0
+"""... and this many resolution steps of the channel."""
+
+REACH = 30
+"""Samples of the neighbourhood to both sides."""
+
+FEW = 3
+"""Lone values that a neighbourhood may hold; one more, and it is rough."""
+
+LEAST_RARE = 8
+"""Values of a channel that may be lone in any case, however short the log."""
+
+END = 10
+"""Samples at both ends of a stretch that are not judged."""
+
+_HALF = 5  # samples: the median of 11 is not moved by a few that are wrong
+_AROUND = 2 * REACH  # samples around a value that tell whether it stands alone
+LEAST = 4 * _HALF
+"""Values below which nothing can be said."""
+
+
+def departures(values: np.ndarray) -> np.ndarray:
+    """(n,) values less their running median over 11 samples: of a smooth signal all but nothing."""
+    return np.asarray(values - running_median(values))
+
+
+def running_median(values: np.ndarray) -> np.ndarray:
+    """(n,) median over 11 samples; at the ends over those that there are, mirrored."""
+    return np.asarray(median_filter(values, 2 * _HALF + 1, mode="reflect"))
+
+
+def threshold(departed: np.ndarray, resolution: float, share: float) -> float:
+    """Departure below which no value of a channel is lone.
+
+    The largest of `NOISES` robust standard deviations, `CROWD` times what a share of the values
+    exceeds, and `STEPS` resolution steps.
+
+    Args:
+        departed: (n,) `departures` of the channel, of all its stretches.
+        resolution: its smallest step.
+        share: of the values that may be lone, 8 at least.
+    """
+    size = np.abs(departed)
+    if not size.size:
+        return float("inf")
+    rare = min(len(size) - 1, max(LEAST_RARE, round(share * len(size))))
+    common = float(np.partition(size, len(size) - 1 - rare)[len(size) - 1 - rare])
+    return max(NOISES * 1.4826 * float(np.median(size)), CROWD * common, STEPS * resolution)
+
+
+def spread(values: np.ndarray) -> np.ndarray:
+    """(n, ...) at least the largest departure that each value (n, ...) can have, n 11 or more.
+
+    The median of a window lies between its least and its largest value.
+    """
+    low, high = values, values
+    for step in (1, 2, 4, 3):  # windows of 2, 4, 8 and 11
+        low, high = np.minimum(low[:-step], low[step:]), np.maximum(high[:-step], high[step:])
+    width = high - low
+    return np.concatenate([np.repeat(width[:1], _HALF, axis=0), width,
+                           np.repeat(width[-1:], _HALF, axis=0)])  # fmt: skip
+
+
+def departures_near(values: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """(n, J) `departures` of channels (n, J) around some places, increasing; 0 elsewhere."""
+    found = np.zeros_like(values)
+    apart = np.flatnonzero(np.diff(places) > 2 * _AROUND)
+    for some in np.split(places, apart + 1) if places.size else ():
+        start, stop = max(0, some[0] - _AROUND), some[-1] + _AROUND + 1
+        low, high = max(0, start - _HALF), stop + _HALF
+        for j in range(values.shape[1]):
+            own = departures(values[low:high, j])
+            found[start:stop, j] = own[
+                start - low : len(own) - max(0, min(high, len(values)) - stop)
+            ]
+    return found
+
+
+def floor_here(departed: Sequence[np.ndarray], floor: float, share: float) -> float:
+    """The floor of a whole channel, or that of a part of it where many values exceed it.
+
+    What happens again and again in a part is no lone value there, however quiet the rest is.
+
+    Args:
+        departed: (n,) `departures` of the stretches of the part.
+        floor: `threshold` of the whole channel.
+        share: of the values that may be lone.
+    """
+    beyond = sum(int(np.count_nonzero(np.abs(own) > floor)) for own in departed)
+    if beyond <= LEAST_RARE:
+        return floor
+    return max(floor, threshold(np.concatenate(departed), 0.0, share))
+
+
+def lone(departed: np.ndarray, floor: float) -> np.ndarray:
+    """Places of the lone values of one stretch, increasing.
+
+    Args:
+        departed: (n,) `departures` of the stretch.
+        floor: what they exceed, besides `NEAR` times the fourth largest within 30 samples. The
+            first and the last ten are not judged: a machine that is just switched on leaps too, and
+            the start-up of the position filter costs these samples anyway.
+    """
+    size = np.abs(departed)
+    size[:END] = size[max(0, len(size) - END) :] = 0.0
+    found = [int(k) for k in np.flatnonzero(size > floor) if size[k] > NEAR * nearby(size, int(k))]
+    return np.array(found, dtype=int)
+
+
+def nearby(size: np.ndarray, place: int) -> float:
+    """The fourth largest of size (n,) within 30 samples of a place, the place included."""
+    window = size[max(0, place - REACH) : place + REACH + 1]
+    kept = max(0, len(window) - 1 - FEW)
+    return float(np.partition(window, kept)[kept])
+
+
+# What noise does not do: return in the next lap, last, come in outbursts.
+
+
+LATER = 0.2
+"""s after which noise has nothing to do with itself any more."""
+
+FORGOTTEN = 2.0
+"""Periods of the parallel filter's cut-off after which filtered noise has forgotten itself."""
+
+EVEN = 0.3
+"""Median energy of a block over the mean from which on noise is even: with and without
+encoder noise, at rest and at top speed, joints without any hidden effect have 0.4 to 1."""
+
+_FEW = 100  # rows below which nothing is said
+_FEW_OF_LOG = 20
+
+
+def forgotten(cutoff: float) -> float:
+    """s after which noise behind a parallel filter of a cut-off (Hz, 0: none) is forgotten.
+
+    Torque noise and quantisation are forgotten within a tenth of a second; a brake that drags, a
+    cable that pulls, a temperature are not. Rows of a narrow band remember longer by themselves.
+    """
+    return max(LATER, FORGOTTEN / cutoff) if cutoff else LATER
+
+
+def returning(
+    time: np.ndarray, r: np.ndarray, run: np.ndarray, later: Sequence[float]
+) -> float | None:
+    """Share of a residual's variance that is there some time later: it lasts, or comes back.
+
+    Args:
+        time: (n,) s, increasing within each log.
+        r: (n,) residual.
+        run: (n,) number of the log.
+        later: s by log: a lap, or what noise is forgotten in; 0 leaves a log out. None are left:
+            None.
+    """
+    product = square = 0.0
+    logs = [(run == k, step) for k, step in enumerate(later) if step]
+    logs = [(own, step) for own, step in logs if own.sum() >= _FEW_OF_LOG]
+    for own, step in logs:
+        second = at(time[own], r[own], time[own] + step)
+        both = np.isfinite(second)
+        first, second = r[own][both], second[both]
+        product += float(first @ second)
+        square += 0.5 * float(first @ first + second @ second)
+    if not logs:
+        return None
+    return max(0.0, product / square) if square > 0.0 else 0.0
+
+
+def at(time: np.ndarray, values: np.ndarray, then: np.ndarray) -> np.ndarray:
+    """(m,) values at other times, straight between neighbours; NaN outside, and in gaps.
+
+    Args:
+        time: (n,) s, increasing.
+        values: (n,).
+        then: (m,) s.
+    """
+    if time.size < 3:
+        return np.full(then.size, np.nan)
+    place = np.clip(np.searchsorted(time, then), 1, time.size - 1)
+    near = time[place] - time[place - 1] < 1.5 * float(np.median(np.diff(time)))
+    inside = (then >= time[0]) & (then <= time[-1]) & near
+    return np.where(inside, np.interp(then, time, values), np.nan)
+
+
+def outbursts(r: np.ndarray, block: np.ndarray) -> float:
+    """Share of a residual's energy in outbursts: 0 for noise that is even over time.
+
+    What exceeds the median energy of the blocks, if their mean is several times that. Blocks with
+    few rows do not count.
+
+    Args:
+        r: (n,) residual.
+        block: (n,) number of the block of time.
+    """
+    if r.size < _FEW:
+        return 0.0
+    rows = np.bincount(block)
+    full = rows > 0.5 * np.median(rows[rows > 0])
+    energy = np.bincount(block, r**2)[full] / rows[full]
+    mean = float(energy.mean())
+    even = float(np.median(energy)) / mean if mean > 0.0 else 1.0
+    return 1.0 - even if even < EVEN else 0.0
+
+
+# The smallest step of a channel.
+
+
+_ROUNDING = 1e-9  # of the largest value: smaller differences are those of the arithmetic
+
+
+def resolution(values: np.ndarray) -> float:
+    """Smallest step between two values (n,); 0 if there are no two."""
+    levels = np.unique(values[np.isfinite(values)])
+    gaps = np.diff(levels)
+    gaps = gaps[gaps > _ROUNDING * np.max(np.abs(levels), initial=0.0)]
+    return float(gaps.min()) if gaps.size else 0.0

@@ -1,0 +1,323 @@
+"""Memory and spectrum of a residual, never across a segment."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.brief import Brief
+
+_LONGEST = 1024  # samples of one Welch window
+_LAG = 2.0  # s, longest lag of the autocorrelation
+_FORGOTTEN = 0.2  # autocorrelation below which the past is called forgotten
+
+
+@dataclass(frozen=True, eq=False)
+class ResidualSpectrum(Brief):
+    """Autocorrelation and power spectral density of one residual."""
+
+    period: float  # s between samples
+    correlation: np.ndarray  # (lags,) autocorrelation at 0, 1, ... samples; correlation[0] = 1
+    memory: float  # s until the autocorrelation is below 0.2; one period for white noise
+    frequency: np.ndarray  # (m,) Hz, without 0
+    density: np.ndarray  # (m,) (N m)^2/Hz or N^2/Hz
+    peak: float  # Hz, of the largest density, weighted over two frequency steps either side
+    peak_share: float  # of the power, within two frequency steps of the peak
+
+
+def residual_spectrum(
+    time: np.ndarray, segment: np.ndarray, e: np.ndarray
+) -> ResidualSpectrum | None:
+    """Spectrum of one joint's residual; None when no segment is long enough (16 samples).
+
+    Rows that do not count enter as zeros and the result is scaled by the share that counts:
+    this keeps the power and blurs lines a little. Segments sampled at another rate than most
+    are left out.
+
+    Args:
+        time: (n,) s.
+        segment: (n,) number of the evenly sampled stretch of each row.
+        e: residual on all rows, (n,), NaN where the row does not count.
+    """
+    pieces, period = _pieces(time, segment, e)
+    if not pieces:
+        return None
+    correlation = _autocorrelation(pieces, round(_LAG / period))
+    frequency, density = _welch(pieces, period)
+    below = np.flatnonzero(correlation < _FORGOTTEN)
+    memory = int(below[0]) if below.size else correlation.size
+    top = int(np.argmax(density))
+    around = slice(max(top - 2, 0), top + 3)
+    near = float(density[around].sum())
+    total = float(density.sum())
+    return ResidualSpectrum(
+        period=period,
+        correlation=correlation,
+        memory=memory * period,
+        frequency=frequency,
+        density=density,
+        peak=float(frequency[around] @ density[around]) / near if near else 0.0,
+        peak_share=near / total if total else 0.0,
+    )
+
+
+def spans(segment: np.ndarray) -> list[slice]:
+    """The stretches of equal segment number, in row order."""
+    if segment.size == 0:
+        return []
+    edges = np.flatnonzero(np.diff(segment)) + 1
+    starts = [0, *edges.tolist()]
+    stops = [*edges.tolist(), int(segment.size)]
+    return [slice(a, b) for a, b in zip(starts, stops, strict=True)]
+
+
+def _pieces(time: np.ndarray, segment: np.ndarray, e: np.ndarray) -> tuple[list[np.ndarray], float]:
+    """Centred residual of each usable segment (NaN where it does not count), and the period."""
+    centred = e - np.nanmean(e)
+    found = []
+    for span in spans(segment):
+        rows = span.stop - span.start
+        if rows >= 16 and np.isfinite(e[span]).sum() >= 16:
+            found.append((centred[span], float(np.median(np.diff(time[span])))))
+    if not found:
+        return [], 0.0
+    steps = np.repeat([step for _, step in found], [piece.size for piece, _ in found])
+    period = float(np.median(steps))
+    return [piece for piece, step in found if abs(step - period) < 0.05 * period], period
+
+
+def _autocorrelation(pieces: list[np.ndarray], lags: int) -> np.ndarray:
+    """Mean product of pairs that both count and lie in one segment, over the mean square."""
+    lags = max(2, min(lags, max(piece.size for piece in pieces) // 2))
+    product, pairs = np.zeros(lags), np.zeros(lags)
+    for piece in pieces:
+        size = 1 << (2 * piece.size - 1).bit_length()
+        counts = np.isfinite(piece).astype(float)
+        reach = min(lags, piece.size)
+        for values, total in ((np.nan_to_num(piece), product), (counts, pairs)):
+            power = np.abs(np.fft.rfft(values, size)) ** 2
+            total[:reach] += np.fft.irfft(power, size)[:reach]
+    mean = product / np.maximum(pairs, 1.0)
+    return mean / mean[0] if mean[0] > 0.0 else np.eye(1, lags)[0]
+
+
+def _welch(pieces: list[np.ndarray], period: float) -> tuple[np.ndarray, np.ndarray]:
+    """Welch densities (Hann, half overlap) of the segments, averaged by samples that count."""
+    # a quarter of the longest segment: about seven windows to average over
+    window = min(_LONGEST, max(16, max(piece.size for piece in pieces) // 4))
+    total, weight = np.zeros(window // 2 + 1), 0.0
+    for piece in pieces:
+        counts = float(np.isfinite(piece).sum())
+        density = welch(np.nan_to_num(piece), min(window, piece.size), window, period)
+        total = total + density * piece.size  # = counts * (density scaled by size / counts)
+        weight += counts
+    return np.fft.rfftfreq(window, period)[1:], total[1:] / weight
+
+
+def welch(values: np.ndarray, length: int, size: int, period: float) -> np.ndarray:
+    """(size // 2 + 1,) one-sided power density, mean over half overlapping Hann windows.
+
+    That of scipy.signal.welch without detrending; scipy.signal takes long to load.
+
+    Args:
+        values: (n,).
+        length: of a window, at most n.
+        size: to which windows are filled with zeros.
+        period: s.
+    """
+    hann = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(length) / length)
+    frames = np.lib.stride_tricks.sliding_window_view(values, length)[:: length - length // 2]
+    power = np.mean(np.abs(np.fft.rfft(frames * hann, size)) ** 2, axis=0)
+    power *= 2.0 * period / np.sum(hann**2)
+    power[0] *= 0.5
+    if size % 2 == 0:
+        power[-1] *= 0.5
+    return np.asarray(power)
+
+
+# The order spectrum: waves of a residual per turn of a joint.
+
+
+LEAST_WAVES = 3.0
+"""In the stroke: slower waves cannot be told from gravity and springs."""
+
+_HIGHEST = 1200.0  # waves per unit of position
+_CELLS = 4  # per wave of the highest order
+_STANDS_OUT = 12.0  # power over the median around it
+_MOST = 3  # lines per joint
+_FEWEST = 100  # samples
+
+
+@dataclass(frozen=True, eq=False)
+class OrderSpectrum(Brief):
+    """Of one joint.
+
+    Attributes:
+        order: (m,) waves per 2 pi of position: rad, or m.
+        amplitude: (m,) of the residual, N m or N.
+        floor: (m,) median amplitude around each order.
+        peaks: orders that stand out, the strongest first.
+        power: mean squared residual, (N m)^2 or N^2.
+    """
+
+    order: np.ndarray
+    amplitude: np.ndarray
+    floor: np.ndarray
+    peaks: tuple[float, ...]
+    power: float
+
+
+def order_spectrum(q: np.ndarray, r: np.ndarray, unit: str, reached: float) -> OrderSpectrum | None:
+    """(2/n) |sum r exp(-i m q)| by order m; None if the joint rests.
+
+    A wave A cos(m q + phase) that is passed often gives A at m. Positions are sorted into cells,
+    four for each wave of the highest order, so one fast Fourier transform gives all orders.
+
+    Args:
+        q: (n,) positions of the samples that count, rad or m, at full rate.
+        r: (n,) residual there, its mean taken off, N m or N.
+        unit: of the position, "rad" or "m".
+        reached: highest order to look at; infinite for no limit.
+    """
+    stroke = float(np.ptp(q)) if q.size else 0.0
+    if stroke <= 0.0 or q.size < _FEWEST:
+        return None
+    highest = _HIGHEST if unit == "rad" else _HIGHEST * 2.0 * np.pi / max(stroke, 1e-6)
+    cells = int(min(2**19, max(1024, stroke * highest / (2 * np.pi) * _CELLS)))
+    place = np.minimum(((q - q.min()) / stroke * cells).astype(int), cells - 1)
+    total = np.bincount(place, r, cells)
+    length = 1 << int(np.ceil(np.log2(cells * 4)))
+    spectrum = np.fft.rfft(total, length) * 2.0 / q.size
+    order = np.arange(len(spectrum)) * (2.0 * np.pi / stroke) * cells / length
+    amplitude = np.abs(spectrum)
+    resolution = 2.0 * np.pi / stroke
+    kept = (order >= LEAST_WAVES * resolution) & (order <= highest) & (order <= reached)
+    order, amplitude = order[kept], amplitude[kept]
+    if order.size < 32:
+        return None
+    floor = _floor(amplitude)
+    peaks = _peaks(order, amplitude, floor, resolution)
+    return OrderSpectrum(order, amplitude, floor, peaks, float(r @ r) / r.size)
+
+
+def _floor(amplitude: np.ndarray) -> np.ndarray:
+    """Median over a wide neighbourhood."""
+    width = max(16, len(amplitude) // 40)
+    centres = np.arange(0, len(amplitude), width)
+    medians = [np.median(amplitude[max(0, c - 2 * width) : c + 2 * width]) for c in centres]
+    return np.interp(np.arange(len(amplitude)), centres, medians)
+
+
+def _peaks(
+    order: np.ndarray, amplitude: np.ndarray, floor: np.ndarray, resolution: float
+) -> tuple[float, ...]:
+    power = (amplitude / np.maximum(floor, 1e-300)) ** 2
+    found: list[float] = []
+    for place in np.argsort(-amplitude * (power > _STANDS_OUT)):
+        if power[place] < _STANDS_OUT or len(found) == _MOST:
+            break
+        if all(abs(order[place] - other) > 2.0 * resolution for other in found):
+            found.append(float(order[place]))
+    return tuple(found)
+
+
+# Motion that repeats itself within one log.
+
+
+ALIKE = 0.98
+"""Correlation of the motion with itself one period later from which on it repeats."""
+
+SHORTEST = 2.0
+"""s, of a lap."""
+
+
+def lap(since: np.ndarray, q: np.ndarray) -> float:
+    """Period of a motion that repeats at least once, s; 0 if it does not.
+
+    Args:
+        since: (s,) s, from 0.
+        q: (s, J) positions.
+    """
+    step = float(np.median(np.diff(since))) if len(since) > 2 else 0.0
+    count = int(since[-1] / step) + 1 if step > 0.0 else 0
+    if count < 8 or since[-1] < 2 * SHORTEST:
+        return 0.0
+    even = np.arange(count) * step
+    moved = [np.interp(even, since, q[:, j]) for j in range(q.shape[1]) if np.ptp(q[:, j]) > 0.0]
+    if not moved:
+        return 0.0
+    spread = [(x - x.mean()) / x.std() for x in moved]
+    return _first_peak(spread, step)
+
+
+def _first_peak(spread: Sequence[np.ndarray], step: float) -> float:
+    count = len(spread[0])
+    likeness = np.ones(count // 2 + 1)
+    for x in spread:
+        likeness = np.minimum(likeness, _likeness(x, count // 2 + 1))
+    first = int(SHORTEST / step)
+    high = np.flatnonzero(likeness[first:] > ALIKE) + first
+    low = np.flatnonzero(likeness < 0.8)
+    if not high.size or not low.size:
+        return 0.0
+    high = high[high > low[0]]
+    if not high.size:
+        return 0.0
+    near = high[high < high[0] * 1.1 + 2]
+    return float(near[np.argmax(likeness[near])] * step)
+
+
+def _likeness(x: np.ndarray, lags: int) -> np.ndarray:
+    """1 - mean squared difference of x(t + lag) and x(t) over twice its variance, by lag."""
+    count = len(x)
+    spectrum = np.fft.rfft(x, 2 * count)
+    product = np.fft.irfft(np.abs(spectrum) ** 2)[:lags]
+    power = np.concatenate([[0.0], np.cumsum(x**2)])
+    overlap = count - np.arange(lags)
+    head = power[overlap]
+    tail = power[count] - power[np.arange(lags)]
+    return 1.0 - (head + tail - 2.0 * product) / overlap / 2.0
+
+
+# How the positions of a piece are spread over frequencies.
+
+
+_NEVER = 5.0  # noise exceeds ln(n) + 5 means at none of n frequencies, in 99 of 100 spectra
+
+
+@dataclass(frozen=True, eq=False)
+class MotionSpectrum:
+    """Of positions; n frequencies, J joints.
+
+    Attributes:
+        frequency: (n,) Hz, from 0 on.
+        power: (n, J) variance of the positions at each frequency, rad^2 or m^2.
+        white: (J,) what white noise contributes to each, on average.
+    """
+
+    frequency: np.ndarray
+    power: np.ndarray
+    white: np.ndarray
+
+    @property
+    def above(self) -> np.ndarray:
+        """(n, J) power less the largest value that the white noise takes: 0 where it may be it."""
+        largest = self.white * (np.log(len(self.frequency)) + _NEVER)
+        return np.maximum(self.power - largest, 0.0)
+
+
+def motion_spectrum(positions: np.ndarray, step: float) -> MotionSpectrum:
+    """The periodogram of positions (samples, J): Hann window, trend removed.
+
+    The white noise is the median over the upper half of the frequencies, where measured positions
+    hold noise only, over ln 2: values of a periodogram of noise are exponentially distributed.
+    """
+    samples = len(positions)
+    ramp = np.linspace(0.0, 1.0, samples)[:, None]
+    # A straight line between the ends: the window would turn the trend into low frequencies.
+    detrended = positions - (1.0 - ramp) * positions[:1] - ramp * positions[-1:]
+    window = np.hanning(samples)
+    transform = np.fft.rfft(detrended * window[:, None], axis=0)
+    power = 2.0 * np.abs(transform) ** 2 / (samples * np.sum(window**2))
+    white = np.median(power[len(power) // 2 :], axis=0) / np.log(2.0)
+    return MotionSpectrum(np.fft.rfftfreq(samples, step), power, white)

@@ -1,0 +1,273 @@
+"""The flexible rival: how well do smooth functions of all that was measured predict a residual?"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import combinations_with_replacement
+
+import numpy as np
+from scipy.linalg.lapack import sposv
+from scipy.optimize import nnls
+
+LEAST = 100
+"""Rows below which nothing is predicted."""
+
+SURE = 2.0
+"""Share over its standard error that is more than chance."""
+
+_RIDGES = (0.1, 2.0)  # times the number of columns: noise over signal, variances
+_FOLDS = 8
+_PARTS = 40  # of the rows in order: what noise makes of one has nothing to do with the next
+
+
+@dataclass(frozen=True, eq=False)
+class Flexible:
+    """What the rival says of one joint.
+
+    Attributes:
+        prediction: (n,) of the residual, N m or N; each row by fits to other stretches of time.
+        share: of the residual's variance that it predicts, between 0 and 1.
+        sigma: standard error of the share.
+        alone: the share by each set of functions alone; without sets that are constant.
+    """
+
+    prediction: np.ndarray
+    share: float
+    sigma: float = 0.0
+    alone: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def sure(self) -> bool:
+        """True if the share is more than chance, also in noise that has a colour."""
+        return self.share > SURE * self.sigma
+
+
+def flexible(sets: Mapping[str, np.ndarray], residual: np.ndarray, fold: np.ndarray) -> Flexible:
+    """The residual as predicted by sets of functions where they were not fitted.
+
+    Each set is fitted by ridge regression; the sets and their ridges are added with weights that
+    are not negative (stacking, Wolpert 1992; Breiman 1996). Rows of one fold are predicted by what
+    the others say: fits, and weights, which come from fits without a second fold. So neither a
+    ridge nor a set is chosen by the rows that judge it, and noise, white or coloured, gives a
+    share near 0.
+
+    Args:
+        sets: by name, (n, p) values of functions.
+        residual: (n,), in order of time.
+        fold: (n,) whole numbers; a fold is made of stretches much longer than noise lasts.
+    """
+    mean = float(residual.mean()) if residual.size else 0.0
+    y = residual - mean
+    energy = float(y @ y)
+    usable = {name: _standard(values) for name, values in sets.items()}
+    usable = {name: values for name, values in usable.items() if values.shape[1]}
+    rows = [np.flatnonzero(fold == f) for f in np.unique(fold)]
+    if y.size < LEAST or len(rows) < 3 or energy == 0.0 or not usable:
+        return Flexible(np.full(y.size, mean), 0.0)
+    found = [_crossed(values, y, rows) for values in usable.values()]
+    left = [float(np.sum((y - _stacked(columns, y, rows)) ** 2)) for columns in found]
+    alone = {name: max(0.0, 1.0 - e / energy) for name, e in zip(usable, left, strict=True)}
+    predicted = _stacked(np.concatenate(found, axis=2), y, rows)
+    gain = y**2 - (y - predicted) ** 2
+    parts = np.add.reduceat(gain, np.arange(_PARTS) * y.size // _PARTS)
+    share, sigma = float(gain.sum()), float(np.sqrt(_PARTS) * parts.std(ddof=1))
+    return Flexible(predicted + mean, max(0.0, share / energy), sigma / energy, alone)
+
+
+def stretches(run: np.ndarray) -> np.ndarray:
+    """(n,) folds for rows in order of time, their log by number: each log in eight stretches."""
+    fold = np.zeros(run.size, dtype=int)
+    for log in np.unique(run):
+        own = np.flatnonzero(run == log)
+        fold[own] = (np.arange(own.size) * _FOLDS // own.size + log) % _FOLDS
+    return fold
+
+
+def _crossed(X: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.ndarray:
+    """(folds, n, ridges): at [f], rows of fold g by fits to all but f and g; g may be f."""
+    own = [X[r] for r in rows]
+    grams = [x.T @ x for x in own]
+    sides = [x.T @ y[r].astype(np.float32) for x, r in zip(own, rows, strict=True)]
+    G, u = sum(grams), sum(sides)
+    theta = np.zeros((len(rows), len(rows), len(_RIDGES), X.shape[1]), dtype=np.float32)
+    for f, g in combinations_with_replacement(range(len(rows)), 2):
+        gram, side = G - grams[f] - (f != g) * grams[g], u - sides[f] - (f != g) * sides[g]
+        for k, ridge in enumerate(_RIDGES):
+            theta[f, g, k] = theta[g, f, k] = _solved(gram, ridge * X.shape[1], side)
+    found = np.zeros((len(rows), len(X), len(_RIDGES)))
+    for g, x in enumerate(own):
+        said = x @ theta[:, g].reshape(-1, X.shape[1]).T
+        found[:, rows[g]] = said.reshape(len(x), len(rows), -1).swapaxes(0, 1)
+    return found
+
+
+def _stacked(columns: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.ndarray:
+    """(n,) sum of predictions (folds, n, c), the weights of a fold by what others say of others."""
+    predicted = np.zeros(y.size)
+    for f, own in enumerate(rows):
+        said = columns[f]
+        gram = said.T @ said - said[own].T @ said[own]
+        side = said.T @ y - said[own].T @ y[own]
+        scale = float(np.trace(gram)) / len(gram)
+        if scale > 0.0:
+            root = np.linalg.cholesky(gram + 1e-6 * scale * np.eye(len(gram)))
+            weights, _ = nnls(root.T, np.linalg.solve(root, side))
+            predicted[own] = said[own] @ weights
+    return predicted
+
+
+def _solved(gram: np.ndarray, ridge: float, side: np.ndarray) -> np.ndarray:
+    """x of (gram + ridge 1) x = side, for a symmetric gram."""
+    matrix = gram.copy().T  # in the order of LAPACK, which then copies nothing
+    matrix.flat[:: len(matrix) + 1] += ridge
+    _, x, failed = sposv(matrix, side, lower=1, overwrite_a=1)
+    assert failed == 0, "a ridge keeps the matrix positive"
+    return np.asarray(x)
+
+
+def _standard(values: np.ndarray) -> np.ndarray:
+    """Mean 0 and standard deviation 1, in single precision; without what is constant."""
+    if not len(values):
+        return values[:, :0]
+    centred = values - values.mean(axis=0)
+    size = np.sqrt(np.einsum("ij,ij->j", centred, centred) / len(centred))
+    seen = size > 1e-9
+    return np.asarray(centred[:, seen] / size[seen], dtype=np.float32)
+
+
+# Curves: columns whose sums are any smooth function of one coordinate.
+
+
+def curve(x: np.ndarray, knots: int = 16) -> np.ndarray:
+    """(n, p) hats over x (n,): straight between knots, half at quantiles, half evenly spread.
+
+    Quantiles put resolution where the data are (around zero velocity), even spacing covers the
+    sparse ends. The hats sum to one.
+    """
+    spread = np.linspace(x.min(), x.max(), knots - knots // 2)
+    dense = np.quantile(x, np.linspace(0.0, 1.0, knots // 2 + 2)[1:-1])
+    places = np.unique(np.concatenate((spread, dense)))
+    span = float(places[-1] - places[0])
+    if span <= 0.0:
+        return np.ones((x.size, 1))
+    # knots closer than 1 % of the range would be one column split in two
+    places = places[np.concatenate(([True], np.diff(places) > 0.01 * span))]
+    right = np.clip(np.searchsorted(places, x, side="right"), 1, places.size - 1)
+    weight = np.clip((x - places[right - 1]) / (places[right] - places[right - 1]), 0.0, 1.0)
+    columns = np.zeros((x.size, places.size))
+    rows = np.arange(x.size)
+    columns[rows, right - 1] = 1.0 - weight
+    columns[rows, right] = weight
+    return columns
+
+
+def friction_curve(v: np.ndarray) -> np.ndarray:
+    """(n, p) of a speed: smooth on either side of zero, with a step there."""
+    return np.column_stack((curve(v), np.sign(v)))
+
+
+def drift_curve(time: np.ndarray, run: np.ndarray, knots: int = 5) -> np.ndarray:
+    """(n, knots * logs) slow functions of time, each log its own."""
+    own = run[:, None] == np.unique(run)
+    return np.hstack([curve(time, knots) * rows[:, None] for rows in own.T])
+
+
+# What the flexible rival reads: functions of all that was measured, whatever their cause.
+
+
+SLIPS = (0.001, 0.01, 0.1)
+"""Ways in which the friction of a joint turns round, of its range of motion."""
+
+OWN = ("own", "surface")
+"""Sets of functions of the motion of the joint itself."""
+
+_KNOTS = {"q": 16, "v": 20, "a": 10, "load": 12, "torque": 12}
+_OTHER = {"q": 14, "v": 12, "a": 6}
+_SUM = 7  # knots
+_OWN, _BENT, _PAIR, _WIDE, _PAIRS = 60, 30, 30, 60, 150  # random features
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """What was measured beside the residual of a joint; n rows, J joints.
+
+    Attributes:
+        joint: index of the joint.
+        q, v, a: (n, J) motion.
+        load: (n, J) torque of the links, inertia and gravity, N m or N.
+        torque: (n, J) torque of the whole model.
+        direction: (n,) sign of the joint's speed, through the filter of the rows.
+        slips: (n, ...) bristle states of the joint.
+        further: (n, ...) sets of columns besides, by name: waves, what rings.
+    """
+
+    joint: int
+    q: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    load: np.ndarray
+    torque: np.ndarray
+    direction: np.ndarray
+    slips: np.ndarray
+    further: dict[str, np.ndarray]
+
+
+def functions(measured: Measured) -> dict[str, np.ndarray]:
+    """Sets of functions by name: "own" and "surface" of the joint, "0", "1", ... of others, "wide".
+
+    Curves are sums of hats over one coordinate, with and without the direction of the joint:
+    friction and other torques of any shape. Surfaces are random Fourier features (Rahimi and Recht
+    2007) of several coordinates.
+    """
+    generator = np.random.default_rng(5)
+    m, j = measured, measured.joint
+    way = m.direction[:, None]
+    own = np.column_stack([x[:, j] for x in (m.q, m.v, m.a, m.load)])
+    sets = {
+        "own": _own(m, way),
+        "surface": np.column_stack(
+            [_fourier(own, _OWN, generator), _fourier(own[:, :2], _BENT, generator) * way]
+        ),
+    }
+    for k in range(m.q.shape[1]):
+        if k != j:
+            sets[str(k)] = _other(m, k, way, generator)
+    near = np.column_stack([m.q, m.v])
+    sets["sum"] = np.hstack([curve(x, _SUM) for x in (*m.q.T, *m.v.T)])
+    sets["wide"] = np.column_stack([near, m.a, m.load, m.torque, _fourier(near, _WIDE, generator)])
+    sets["pairs"] = _fourier(near, _PAIRS, generator, few=2)
+    return sets | m.further
+
+
+def _own(m: Measured, way: np.ndarray) -> np.ndarray:
+    parts = [m.slips, way]
+    for name, knots in _KNOTS.items():
+        hats = curve(getattr(m, name)[:, m.joint], knots)
+        parts += [hats] if name == "v" else [hats, hats * way]
+    return np.hstack(parts)
+
+
+def _other(m: Measured, k: int, way: np.ndarray, generator: np.random.Generator) -> np.ndarray:
+    curves = [curve(getattr(m, name)[:, k], knots) for name, knots in _OTHER.items()]
+    plain = np.column_stack([x[:, k] for x in (m.v, m.a, m.load, m.torque)])
+    both = np.column_stack([m.q[:, k], m.v[:, k]])
+    return np.hstack([*curves, curves[0][:, ::2] * way, plain, np.abs(plain) * way,
+                      np.sign(m.v[:, [k]]), _fourier(both, _PAIR, generator)])  # fmt: skip
+
+
+def _fourier(x: np.ndarray, count: int, generator: np.random.Generator, few: int = 0) -> np.ndarray:
+    """(n, count) cosines of random directions, lengths of order one in standard deviations.
+
+    Args:
+        x: (n, d) coordinates.
+        count: of features.
+        generator: of directions.
+        few: coordinates that each feature reads; 0: all.
+    """
+    spread = x.std(axis=0)
+    scaled = x / np.where(spread > 0.0, spread, 1.0)
+    turn = generator.normal(size=(x.shape[1], count))
+    if few:
+        order = np.argsort(generator.uniform(size=turn.shape), axis=0)
+        turn = np.where(order < few, turn, 0.0)
+    width = generator.uniform(0.5, 3.0, count) / np.sqrt(few or x.shape[1])
+    return np.cos(scaled @ (turn * width) + generator.uniform(0.0, 2.0 * np.pi, count))

@@ -1,0 +1,198 @@
+"""Shafts with dry friction, and the samples at which they all but stand still."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.errors import DataError, LoopError
+from modeler.core.manifest import ModuleSpec, SignalSpec
+from modeler.observation.motion import Segment
+from modeler.observation.processing import Processing
+
+if TYPE_CHECKING:
+    from modeler.runtime.model import CompiledModel
+
+
+TOP = 0.98
+_CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
+_HALVED = 10  # times, from positions anywhere to 1e-3 of home
+IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as standing still
+
+
+@dataclass(frozen=True)
+class Shaft:
+    """A rotating part whose friction leaps when its speed changes sign.
+
+    Attributes:
+        name: "3", or "5+6" for a motor that turns with two joints.
+        coefficients: (joints,) its speed is coefficients . qd.
+        joints: rows whose torque leaps.
+        unit: "rad" or "m".
+    """
+
+    name: str
+    coefficients: tuple[float, ...]
+    joints: tuple[int, ...]
+    unit: str
+
+    def speed(self, qd: np.ndarray) -> np.ndarray:
+        """(n,) from joint velocities (n, joints)."""
+        return qd @ np.asarray(self.coefficients)
+
+
+def shafts(model: "CompiledModel") -> tuple[Shaft, ...]:
+    """The shafts whose columns leap at standstill, found by creeping both ways past it.
+
+    Each base column's leap is measured while one joint after the other creeps forwards and
+    backwards at 1e-9 rad/s: smooth columns do not leap, whatever effect they belong to. A column
+    leaps for the joints its shaft turns with, by the shaft's coefficient on the rows it acts on.
+    """
+    joints = len(model.spec.joints)
+    state = np.tile(_anywhere(model), (joints, 1))
+    creep = _CREEP * np.eye(joints)
+    still = np.zeros((joints, joints))
+    signals = np.full((joints, len(model.spec.signals)), 0.5) if model.spec.signals else None
+    forwards = model.base_regressor(state, creep, still, signals)
+    backwards = model.base_regressor(state, -creep, still, signals)
+    leap = 0.5 * (forwards - backwards)  # (moved, row, column)
+    found: dict[tuple[float, ...], Shaft] = {}
+    scale = np.max(np.abs(leap), axis=(0, 1))
+    for column in np.flatnonzero(scale > 1e-3):
+        share = leap[:, :, column] / scale[column]
+        rows = tuple(int(j) for j in np.flatnonzero(np.max(np.abs(share), axis=0) > 1e-6))
+        moved = np.flatnonzero(np.max(np.abs(share), axis=1) > 1e-6)
+        coefficients = np.zeros(joints)
+        if len(moved) == 1:
+            coefficients[moved] = 1.0
+        else:  # E^T sign(E qd): the leap on the rows is the shaft's coefficient
+            coefficients[moved] = share[moved[0], moved]
+        key = tuple(round(float(c), 9) for c in coefficients)
+        acted = rows if key not in found else tuple(sorted({*rows, *found[key].joints}))
+        names = "+".join(model.spec.joints[j].name for j in moved)
+        found[key] = Shaft(names, key, acted, model.spec.joints[moved[0]].unit)
+    return tuple(found.values())
+
+
+def _anywhere(model: "CompiledModel") -> np.ndarray:
+    """(joints,) positions, none of them special; of a robot with loops as near home as closes."""
+    joints, closure = len(model.spec.joints), model.spec.closure
+    state = np.random.default_rng(1).uniform(0.2, 1.0, joints)
+    if closure is None:
+        return state
+    home = np.asarray(closure.home)[list(closure.given)]
+    for halved in range(_HALVED):
+        near = home + 0.5**halved * (state - home)
+        try:
+            model.coupling(near[None])
+        except LoopError:
+            continue
+        return near
+    return home
+
+
+def with_every_joint(model: "CompiledModel") -> tuple[Shaft, ...]:
+    """The shafts, and every joint with a motor that is none of them.
+
+    For looking at dry friction that the model lacks.
+    """
+    found, joints = list(shafts(model)), model.spec.joints
+    names = {part.name for part in found}
+    for j, joint in enumerate(joints):
+        if joint.actuated and joint.name not in names:
+            own = tuple(float(i == j) for i in range(len(joints)))
+            found.append(Shaft(joint.name, own, (j,), joint.unit))
+    return tuple(found)
+
+
+def floors_of(
+    processing: Processing, parts: Sequence[Shaft], segments: Sequence[Segment]
+) -> dict[str, float]:
+    """Speed of each shaft below which its rows are masked; infinite for one that stands still.
+
+    `low_speed` times the shaft's top speed over all logs, which is its 98 % quantile: a short
+    transient (an axis that slams into its first position) must not mask the motion after it.
+    """
+    floors = {}
+    given: Mapping[str, float] = processing.speed_floors or {}
+    for part in parts:
+        if part.name in given:
+            floors[part.name] = given[part.name]
+            continue
+        speeds = np.concatenate([np.abs(part.speed(s.qd[s.whole])) for s in segments])
+        travel = np.concatenate([part.speed(s.q[s.whole]) for s in segments])
+        idle = not travel.size or np.ptp(travel) < IDLE_TRAVEL[part.unit]
+        top = float(np.quantile(speeds, TOP)) if speeds.size else 0.0
+        floors[part.name] = float("inf") if idle else processing.low_speed * top
+    return floors
+
+
+def moving(segment: Segment, parts: Sequence[Shaft], floors: Mapping[str, float]) -> np.ndarray:
+    """(n, joints) False where a shaft that acts on the joint is slower than its floor."""
+    fast = np.ones(segment.qd.shape, dtype=bool)
+    for part in parts:
+        slow = np.abs(part.speed(segment.qd)) < floors[part.name]
+        fast[np.ix_(slow, list(part.joints))] = False
+    return fast
+
+
+# The bristle of Dahl's friction along measured positions.
+
+
+def bristle(q: np.ndarray, distance: float) -> np.ndarray:
+    """(n,) the state z along positions q (n,), from z = sign v at the start.
+
+    z' = (v/d)(1 - z sign v): between reversals z = s + (z0 - s) exp(-travel/d), s = sign v.
+    """
+    step = np.diff(q)
+    if not step.any():
+        return np.zeros(len(q))
+    direction = _carried(np.sign(step))
+    begins = np.concatenate([[0], np.flatnonzero(np.diff(direction)) + 1])
+    lengths = np.diff(np.append(begins, len(step)))
+    travel = np.abs(q[1:] - np.repeat(q[begins], lengths))
+    left = np.exp(-travel / distance)
+    way, kept = direction[begins], left[begins + lengths - 1]
+    apart = np.empty(len(begins))  # z - s at each turn
+    before = float(direction[0])
+    for k, (s, share) in enumerate(zip(way.tolist(), kept.tolist(), strict=True)):
+        apart[k] = before - s
+        before = s + (before - s) * share
+    return np.concatenate([direction[:1], direction + np.repeat(apart, lengths) * left])
+
+
+def _carried(direction: np.ndarray) -> np.ndarray:
+    """Zeros replaced by the last direction before them, at the start by the first after."""
+    known = np.flatnonzero(direction)
+    place = np.searchsorted(known, np.arange(len(direction)), side="right") - 1
+    return direction[known[np.maximum(place, 0)]]
+
+
+# What effects of a model read besides the motion, over the samples of a segment.
+
+
+def signals_of(spec: ModuleSpec, segment: Segment) -> np.ndarray | None:
+    """(n, m) the input `s` of the model's functions; None if it has none.
+
+    Raises:
+        DataError: a temperature that an effect reads was not logged.
+    """
+    if not spec.signals:
+        return None
+    names = [joint.name for joint in spec.joints]
+    return np.column_stack([_signal(signal, segment, names) for signal in spec.signals])
+
+
+def _signal(signal: SignalSpec, segment: Segment, names: list[str]) -> np.ndarray:
+    if signal.kind == "time":
+        return segment.time
+    if signal.kind == "slip":
+        return bristle(segment.q[:, names.index(signal.joint)], signal.value)
+    for name in (f"temperature{signal.joint}", "temperature"):
+        if name in segment.extra:
+            return segment.extra[name]
+    raise DataError(
+        f"no column temperature{signal.joint} or temperature: an effect of the model on joint "
+        f"{signal.joint} depends on it; log it, or take that effect out of the robot file"
+    )

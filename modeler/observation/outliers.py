@@ -1,0 +1,601 @@
+"""What no robot does, in the channels of a log: found, told, and mended or left out."""
+
+import dataclasses
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from modeler.core.manifest import ModuleSpec
+from modeler.numerics.noise import (
+    LEAST,
+    NEAR,
+    STEPS,
+    departures,
+    floor_here,
+    lone,
+    nearby,
+    resolution,
+    running_median,
+    spread,
+    threshold,
+)
+from modeler.observation.log import Log
+from modeler.observation.segments import GAP
+from modeler.observation.spikes import TorqueNoise, glitch_floor, glitches, torque_glitches
+
+# Positions that leap from one sample to the next, as no joint can: wraps, spikes, new zeros.
+
+
+SPIKE = 10
+"""Samples between two leaps, at most, that are a spike; more are a stretch with another zero."""
+
+FROZEN = 3
+"""Equal samples before a leap, at least, that look like a logger that stood still."""
+
+_TURN = 2.0 * np.pi
+_TOP = 0.98  # quantile of the steps that is the top speed's
+_RUNS_OUT = 0.1  # of a leap: what is left of it in the steps beside it, at most
+_BACK = 0.3  # of the larger leap: what two leaps there and back may leave
+_MADE_UP = 0.5  # share to which a leap makes up for the way of the frozen samples, or lost rows
+_TURNED = 1e-3  # of a turn: what noise-free arithmetic may leave of a whole one
+
+RARE = 2e-2
+"""Share of a joint's steps that may be leaps."""
+
+Kind = Literal["wrap", "spike", "frozen", "zero", "lost"]
+
+
+@dataclass(frozen=True)
+class Leap:
+    """Something that happened to a position between two samples.
+
+    Attributes:
+        kind: "wrap" (by whole turns), "spike" (there and back), "frozen" (a value repeated while
+            the joint moved), "zero" (for good), "lost" (rows are missing, and the clock ran on).
+        start: first sample after it; of a spike or frozen values the first bad one.
+        stop: sample after the last bad one; `start` if none is bad.
+        size: rad or m.
+    """
+
+    kind: Kind
+    start: int
+    stop: int
+    size: float
+
+
+@dataclass(frozen=True, eq=False)
+class Walk:
+    """Steps of positions (n, J) with uniform time but for jitter, from each sample to the next.
+
+    Attributes:
+        q: (n, J).
+        turns: (n - 1, J) whole turns that a step has too much, by joint.
+        speed: (n - 1, J) running median of the slopes, per s.
+        excess: (n - 1, J) step less turns and less what the speed makes of it.
+    """
+
+    q: np.ndarray
+    turns: np.ndarray
+    speed: np.ndarray
+    excess: np.ndarray
+
+
+def walked(
+    time: np.ndarray, q: np.ndarray, revolute: np.ndarray, resolution: np.ndarray
+) -> Walk | None:
+    """The steps of one stretch without gaps; None if it is too short to tell.
+
+    Args:
+        time: (n,) s.
+        q: (n, J) rad or m, all finite.
+        revolute: (J,) joints that may wrap.
+        resolution: (J,) smallest step of each.
+    """
+    if len(time) <= LEAST:
+        return None
+    steps, dt = np.diff(q, axis=0), np.diff(time)
+    usual = float(np.median(dt))
+    turns, speed, excess = np.zeros_like(steps), np.zeros_like(steps), np.zeros_like(steps)
+    for j in range(q.shape[1]):
+        speed[:, j] = running_median(steps[:, j] / dt)
+        excess[:, j] = _excess(steps[:, j], speed[:, j], dt, usual)
+        if revolute[j]:
+            turns[:, j] = _whole_turns(excess[:, j], resolution[j])
+            if turns[:, j].any():
+                whole = steps[:, j] - _TURN * turns[:, j]
+                speed[:, j] = running_median(whole / dt)
+                excess[:, j] = _excess(whole, speed[:, j], dt, usual)
+    return Walk(q, turns, speed, excess)
+
+
+def floors(walks: Sequence[Walk], resolution: np.ndarray) -> np.ndarray:
+    """(J,) rad or m that a step must have too much to be a leap, over all stretches of a log.
+
+    What is lone, and more than the step that the joint makes at its top speed: a smaller leap is
+    no more than a sample too late or too early.
+    """
+    if not walks:
+        return np.full(len(resolution), np.inf)
+    excess = np.concatenate([walk.excess for walk in walks])
+    steps = np.concatenate([np.diff(walk.q, axis=0) - _TURN * walk.turns for walk in walks])
+    top = np.quantile(np.abs(steps), _TOP, axis=0)
+    lonely = [threshold(own, one, RARE) for own, one in zip(excess.T, resolution, strict=True)]
+    return np.maximum(lonely, top)
+
+
+def surely_none(time: np.ndarray, q: np.ndarray, known: np.ndarray) -> bool:
+    """True if no step of a stretch can be a leap, as its slopes hardly change over 11 samples.
+
+    Args:
+        time: (n,) s.
+        q: (n, J) rad or m, all finite.
+        known: (J,) `floors` of the whole log.
+    """
+    if len(time) <= LEAST:
+        return True
+    dt = np.diff(time)[:, None]
+    most = spread(np.diff(q, axis=0) / dt) * dt  # at least the excess of any step
+    return bool(np.all(most.max(axis=0) <= np.minimum(known, 0.5 * _TURN)))
+
+
+def floors_here(walks: Sequence[Walk], known: np.ndarray) -> np.ndarray:
+    """(J,) `floors` of a whole log for a part of it, higher where the part is rougher."""
+    if not walks:
+        return known
+    return np.array([
+        floor_here([walk.excess[:, j] for walk in walks], floor, RARE)
+        for j, floor in enumerate(known)
+    ])  # fmt: skip
+
+
+def _excess(step: np.ndarray, speed: np.ndarray, dt: np.ndarray, usual: float) -> np.ndarray:
+    """What a step has beyond speed x time; a stamp that came late or early excuses it.
+
+    The rows may have been sampled evenly and stamped unevenly, or the other way round.
+    """
+    stamped, even = speed * dt, speed * usual
+    low, high = np.minimum(stamped, even), np.maximum(stamped, even)
+    return np.asarray(step - np.minimum(np.maximum(step, low), high))
+
+
+def _whole_turns(excess: np.ndarray, resolution: float) -> np.ndarray:
+    """(n,) whole turns of each step, where they leave no more than its neighbours have."""
+    turns = np.round(excess / _TURN)
+    places = np.flatnonzero(turns)
+    left = np.abs(excess - _TURN * turns)
+    for k in places:
+        tolerated = max(NEAR * nearby(left, int(k)), STEPS * resolution, _TURNED * _TURN)
+        if left[k] > min(tolerated, 0.25 * _TURN):
+            turns[k] = 0.0
+    return np.asarray(turns)
+
+
+def leaps_of(walk: Walk, time: np.ndarray, j: int, floor: float) -> list[Leap]:
+    """The leaps of joint j, increasing in time.
+
+    Args:
+        walk: one stretch.
+        time: (n,) s.
+        j: index of the joint.
+        floor: of that joint.
+    """
+    wraps = [
+        Leap("wrap", int(k) + 1, int(k) + 1, float(_TURN * walk.turns[k, j]))
+        for k in np.flatnonzero(walk.turns[:, j])
+    ]
+    rest, places = [], _sudden(walk.excess[:, j], lone(walk.excess[:, j], floor))
+    while places:
+        k = places.pop(0)
+        held = _frozen_until(walk, time, j, k)
+        if held:
+            rest.append(Leap("frozen", k + 1 - held, k + 1, float(walk.excess[k, j])))
+            continue
+        there = _spike_leap(walk, j, k, places)
+        if there is not None:
+            places = [later for later in places if later > there.stop - 1]
+            rest.append(there)
+            continue
+        kind: Kind = "lost" if _loses_rows(walk, k) else "zero"
+        rest.append(Leap(kind, k + 1, k + 1, float(walk.excess[k, j])))
+    return sorted(wraps + rest, key=lambda leap: leap.start)
+
+
+def _sudden(excess: np.ndarray, places: np.ndarray) -> list[int]:
+    """The places whose neighbours, if they are no leaps themselves, go on as ever.
+
+    Mass has to be moved: a motion that is fast for its sampling leaps too, and runs out beside it.
+    """
+    found = []
+    for k in map(int, places):
+        beside = [abs(excess[i]) for i in (k - 1, k + 1) if i not in places]
+        tolerated = max(_RUNS_OUT * abs(excess[k]), NEAR * nearby(np.abs(excess), k) / 2.0)
+        if max(beside, default=0.0) < tolerated:
+            found.append(k)
+    return found
+
+
+def _frozen_until(walk: Walk, time: np.ndarray, j: int, k: int) -> int:
+    """Samples up to k that repeat the one before them, if the leap after k makes up for them."""
+    q = walk.q[:, j]
+    start = k
+    while start > 0 and q[start - 1] == q[k]:
+        start -= 1
+    held = k - start
+    if held < FROZEN or start < 2 or k + 3 > len(q):
+        return 0
+    dt = time[k + 1] - time[start]
+    before = (q[start] - q[start - 2]) / (time[start] - time[start - 2])
+    after = (q[k + 3] - q[k + 1]) / (time[k + 3] - time[k + 1]) if k + 3 < len(q) else before
+    way, leap = 0.5 * (before + after) * dt, q[k + 1] - q[k]
+    return held if way != 0.0 and abs(leap - way) < _MADE_UP * abs(way) else 0
+
+
+def _spike_leap(walk: Walk, j: int, k: int, later: list[int]) -> Leap | None:
+    """The samples after k that are elsewhere, if a leap leads back."""
+    size = float(walk.excess[k, j])
+    left, farthest = size, abs(size)
+    for place in later:
+        dropped = not np.ptp(walk.q[k + 1 : place + 1, j])  # one value all along: a dead channel
+        if place - k > SPIKE and not dropped:
+            break
+        left += float(walk.excess[place, j])
+        farthest = max(farthest, abs(float(walk.excess[place, j])))
+        if abs(left) <= _BACK * farthest:
+            return Leap("spike", k + 1, place + 1, size)
+    return None
+
+
+def _loses_rows(walk: Walk, k: int) -> bool:
+    """True if one and the same lost time explains the leaps of all joints between two samples."""
+    speed, excess = walk.speed[k], walk.excess[k]
+    size = float(np.linalg.norm(excess))
+    # Way is compared in each joint's own motion: a slider's metres and radians do not add.
+    typical = np.sqrt(np.mean(walk.speed**2, axis=0))
+    moving = typical > 0.0
+    if size == 0.0 or not moving.any():
+        return False
+    v, e = speed[moving] / typical[moving], excess[moving] / typical[moving]
+    lost = float(v @ e) / max(float(v @ v), 1e-300)
+    return lost > 0.0 and float(np.linalg.norm(e - lost * v)) < _MADE_UP * float(np.linalg.norm(e))
+
+
+@dataclass(frozen=True)
+class Damage:
+    """One kind of defect of one channel of a log.
+
+    Attributes:
+        column: of the log, "q2".
+        joint: its name.
+        kind: "wrap", "spike", "frozen", "zero" or "lost".
+        times: when each begins, s.
+        samples: that are not used for it.
+        size: the largest, in `unit`.
+        unit: of the channel.
+        line: what it is, where and when, what was done and what to do.
+    """
+
+    column: str
+    joint: str
+    kind: str
+    times: tuple[float, ...]
+    samples: int
+    size: float
+    unit: str
+    line: str
+
+
+@dataclass(frozen=True, eq=False)
+class _Channel:
+    column: str
+    joint: str
+    unit: str
+
+
+@dataclass(frozen=True)
+class Found:
+    """A defect of a channel, at rows of the log from `start` to before `stop`.
+
+    Attributes:
+        kind: as of a `Damage`.
+        start, stop: rows.
+        size: in the channel's unit.
+        time: of the first row, s.
+    """
+
+    kind: str
+    start: int
+    stop: int
+    size: float
+    time: float
+
+
+Defects = dict[str, list[list[Found]]]
+"""By channel, "q", "tau", "qd" or "qdd", and joint."""
+
+
+@dataclass(frozen=True, eq=False)
+class Usual:
+    """What is usual in the channels of a log, beside which a defect stands out; J joints.
+
+    Attributes:
+        steps: (J,) smallest step of each position.
+        leaps: (J,) what a step must have too much to be a leap.
+        torque: of the torques; None where none is measured.
+        rates: (J,) departure below which no value is a spike, of logged "qd" and "qdd".
+    """
+
+    steps: np.ndarray
+    leaps: np.ndarray
+    torque: TorqueNoise | None
+    rates: Mapping[str, np.ndarray]
+
+
+def repaired(log: Log, spec: ModuleSpec) -> tuple[Log, tuple[Damage, ...]]:
+    """The log without the values that no robot can have made, and what was found.
+
+    Wraps are counted on, and positions that begin to count from another zero are joined to the
+    longest stretch. Spikes and repeated values become missing ones. Where rows are missing and the
+    clock ran on, a new piece begins.
+
+    Args:
+        log: as it was read.
+        spec: the robot's manifest; it names the joints.
+    """
+    mended, found, _ = defects(log, spec)
+    return mended, damages(log, spec, found)
+
+
+def defects(log: Log, spec: ModuleSpec, usual: Usual | None = None) -> tuple[Log, Defects, Usual]:
+    """The mended log, what was found, and what is usual in it.
+
+    Args:
+        log: as it was read, or some consecutive rows of one.
+        spec: the robot's manifest; it names the joints.
+        usual: in the whole log of which this is a part; None: it is all of it.
+    """
+    q, segment, leaps, steps, least = _positions(log, spec, usual)
+    torques, noise = _torques(log, None if usual is None else usual.torque)
+    rates, levels = _rates(log, {} if usual is None else usual.rates)
+    others = {"tau": torques, **rates}
+    new = segment if (segment != _segments(log)).any() else log.segment
+    mended = dataclasses.replace(
+        log,
+        q=q,
+        segment=new,
+        tau=_without(log.tau, others["tau"]),
+        qd=None if log.qd is None else _without(log.qd, others["qd"]),
+        qdd=None if log.qdd is None else _without(log.qdd, others["qdd"]),
+    )
+    return mended, {"q": leaps, **others}, usual or Usual(steps, least, noise, levels)
+
+
+def _positions(
+    log: Log, spec: ModuleSpec, usual: Usual | None
+) -> tuple[np.ndarray, np.ndarray, list[list[Found]], np.ndarray, np.ndarray]:
+    """Mended positions, segments, what was found by joint; steps and floors of leaps."""
+    q, segment = log.q.copy(), _segments(log)
+    positions: list[list[Found]] = [[] for _ in spec.joints]
+    revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
+    steps = np.array([resolution(own) for own in log.q.T]) if usual is None else usual.steps
+    stretches = list(_stretches(log, np.isfinite(log.q).all(axis=1)))
+    if usual is not None and all(
+        surely_none(log.time[rows], log.q[rows], usual.leaps) for rows in stretches
+    ):
+        return q, segment, positions, steps, usual.leaps
+    walks = [walked(log.time[rows], log.q[rows], revolute, steps) for rows in stretches]
+    long = [walk for walk in walks if walk is not None]
+    least = floors(long, steps) if usual is None else floors_here(long, usual.leaps)
+    for rows, walk in zip(stretches, walks, strict=True):
+        for j in range(len(spec.joints) if walk is not None else 0):
+            assert walk is not None
+            leaps = leaps_of(walk, log.time[rows], j, least[j])
+            q[rows, j] = _mended(walk, j, leaps)
+            positions[j] += [_at(leap, rows, log) for leap in leaps]
+            for leap in leaps:
+                if leap.kind == "lost":
+                    segment[rows[leap.start] :] += 1
+    return q, segment, positions, steps, least
+
+
+def _segments(log: Log) -> np.ndarray:
+    """(n,) a number that grows where a piece begins."""
+    if log.segment is None:
+        return np.zeros(log.rows, dtype=int)
+    return np.concatenate([[0], np.cumsum(np.diff(log.segment) != 0)])
+
+
+def _stretches(log: Log, there: np.ndarray) -> Iterator[np.ndarray]:
+    """Rows (k,) of each stretch without a gap among those that are there (n,)."""
+    rows = np.flatnonzero(there)
+    cut = (np.diff(log.time[rows]) > GAP * log.step) | (np.diff(_segments(log)[rows]) != 0)
+    yield from np.split(rows, np.flatnonzero(cut) + 1)
+
+
+def _at(leap: Leap, rows: np.ndarray, log: Log) -> Found:
+    start = int(rows[leap.start])
+    stop = int(rows[leap.stop - 1]) + 1 if leap.stop > leap.start else start
+    return Found(leap.kind, start, stop, leap.size, float(log.time[start]))
+
+
+def _mended(walk: Walk, j: int, leaps: Sequence[Leap]) -> np.ndarray:
+    """(n,) the positions of joint j: counted on, joined, and NaN where they are wrong."""
+    q = walk.q[:, j].copy()
+    offset, edges = np.zeros(len(q)), [0]
+    for leap in leaps:
+        if leap.kind in ("wrap", "zero"):
+            offset[leap.start :] += leap.size
+            edges.append(leap.start)
+        q[leap.start : leap.stop] = np.nan
+    longest = edges[int(np.argmax(np.diff([*edges, len(q)])))]
+    return np.asarray(q - (offset - offset[longest]))
+
+
+def _torques(log: Log, usual: TorqueNoise | None) -> tuple[list[list[Found]], TorqueNoise | None]:
+    """Spikes of the measured torques by joint; and what is usual in them."""
+    there = np.isfinite(log.tau).all(axis=1) & np.isfinite(log.q).all(axis=1)
+    stretches = [rows for rows in _stretches(log, there) if len(rows) >= LEAST]
+    spikes, noise = torque_glitches(
+        [log.tau[rows] for rows in stretches],
+        lambda: [np.gradient(log.q[rows], log.time[rows], axis=0) for rows in stretches],
+        usual,
+    )
+    return [
+        [_spike(one, rows, log) for own, rows in zip(by_joint, stretches, strict=True)
+         for one in own]
+        for by_joint in spikes
+    ], noise  # fmt: skip
+
+
+def _rates(log: Log, usual: Mapping[str, np.ndarray]) -> tuple[Defects, dict[str, np.ndarray]]:
+    """Spikes of logged velocities and accelerations, by column and joint; and their floors."""
+    found: Defects = {}
+    levels: dict[str, np.ndarray] = {}
+    for name in ("qd", "qdd"):
+        values = getattr(log, name)
+        if values is None:
+            continue
+        floors_of_name = []
+        for j, channel in enumerate(values.T):
+            rows = [r for r in _stretches(log, np.isfinite(channel)) if len(r) >= LEAST]
+            stretches = [channel[r] for r in rows]
+            departed = [departures(own) for own in stretches]
+            floor = usual[name][j] if name in usual else glitch_floor(stretches, departed)
+            floors_of_name.append(floor)
+            spikes = glitches(stretches, departed, floor)
+            found.setdefault(name, []).append(
+                [_spike(one, r, log) for own, r in zip(spikes, rows, strict=True) for one in own]
+            )
+        levels[name] = np.array(floors_of_name)
+    return found, levels
+
+
+def _spike(spike: tuple[int, int, float], rows: np.ndarray, log: Log) -> Found:
+    start = int(rows[spike[0]])
+    return Found("spike", start, int(rows[spike[1] - 1]) + 1, spike[2], float(log.time[start]))
+
+
+def _without(values: np.ndarray, found: Sequence[Sequence[Found]]) -> np.ndarray:
+    kept = values.copy()
+    for j, own in enumerate(found):
+        for one in own:
+            kept[one.start : one.stop, j] = np.nan
+    return kept
+
+
+@dataclass(frozen=True)
+class Whose:
+    """The log that damages are told of; a `Log` is one.
+
+    Attributes:
+        name: of its file.
+        rows: of it.
+        torque_source: where each joint's torque comes from, in words.
+    """
+
+    name: str
+    rows: int
+    torque_source: tuple[str, ...]
+
+
+def damages(log: Log | Whose, spec: ModuleSpec, found: Defects) -> tuple[Damage, ...]:
+    """What was found in a log, in words."""
+    return tuple(_damages(log, spec, found))
+
+
+def _damages(log: Log | Whose, spec: ModuleSpec, found: Defects) -> Iterator[Damage]:
+    units = {"q": "{}", "qd": "{}/s", "qdd": "{}/s^2"}
+    for name, by_joint in found.items():
+        for j, own in enumerate(by_joint):
+            joint = spec.joints[j]
+            column, unit = f"{name}{joint.name}", joint.effort_unit
+            if name in units:
+                unit = units[name].format(joint.unit)
+            elif log.torque_source:
+                column = log.torque_source[j].split()[0]
+            for kind in dict.fromkeys(one.kind for one in own):
+                same = [one for one in own if one.kind == kind]
+                yield _damage(log, _Channel(column, joint.name, unit), kind, same)
+
+
+def _damage(log: Log | Whose, channel: _Channel, kind: str, same: Sequence[Found]) -> Damage:
+    largest = max(same, key=lambda one: abs(one.size))
+    words = _WORDS["torque" if kind == "spike" and channel.column[0] != "q" else kind]
+    return Damage(
+        column=channel.column,
+        joint=channel.joint,
+        kind=kind,
+        times=tuple(one.time for one in same),
+        samples=sum(one.stop - one.start for one in same),
+        size=abs(largest.size),
+        unit=channel.unit,
+        line=f"{channel.column}: {words(log, channel, same)}",
+    )
+
+
+def _when(log: Log | Whose, same: Sequence[Found]) -> str:
+    first = f"at {same[0].time:.6g} s"
+    return first if len(same) == 1 else f"{len(same)} times, first {first}"
+
+
+def _size(channel: _Channel, same: Sequence[Found]) -> str:
+    up_to = "" if len(same) == 1 else "up to "
+    return f"{up_to}{max(abs(one.size) for one in same):.3g} {channel.unit}"
+
+
+def _lost(log: Log | Whose, same: Sequence[Found]) -> str:
+    count = sum(one.stop - one.start for one in same)
+    samples = f"{count} sample{'s' if count > 1 else ''}"
+    return f"{samples} ({100.0 * count / log.rows:.2g} % of the rows) not used"
+
+
+def _wrap(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
+    return (
+        f"leaps by whole turns of 2 pi rad {_when(log, same)}; counted on from the longest "
+        "stretch between two leaps: only what does not repeat with every turn, as a spring or a "
+        "cable, is not served by that; log positions that do not wrap"
+    )
+
+
+def _position_spike(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
+    return (
+        f"leaps by {_size(channel, same)} and back {_when(log, same)}, which no joint can; "
+        f"{_lost(log, same)}; check the encoder and its cable"
+    )
+
+
+def _torque_spike(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
+    return (
+        f"a spike of {_size(channel, same)} {_when(log, same)}, far above the noise, which no "
+        f"other joint feels; {_lost(log, same)}; check the wiring of that channel"
+    )
+
+
+def _frozen(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
+    return (
+        f"repeats an old value while the joint moves, {_when(log, same)}; {_lost(log, same)}; "
+        "the logger or the bus was late: log fewer columns, or slower"
+    )
+
+
+def _zero(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
+    at = same[0].time
+    return (
+        f"leaps by {_size(channel, same)} {_when(log, same)} and goes on from there: the encoder "
+        "found another zero; joined to the longest stretch between two leaps, whose zero is kept; "
+        f"if another is right, use that part alone, as in {log.name}@{at:.6g}:"
+    )
+
+
+def _lost_rows(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
+    return (
+        f"leaps along its motion by {_size(channel, same)} {_when(log, same)}: rows are missing "
+        "there while the clock ran on; no filter runs across; log the true time of each row"
+    )
+
+
+_WORDS: dict[str, Callable[[Log | Whose, _Channel, Sequence[Found]], str]] = {
+    "wrap": _wrap, "spike": _position_spike, "torque": _torque_spike, "frozen": _frozen,
+    "zero": _zero, "lost": _lost_rows,
+}  # fmt: skip

@@ -1,0 +1,146 @@
+"""Rows of y = W beta that pass by: what is made of W where W would be large.
+
+Up to `KEPT` bytes W is built once and kept. Beyond, every stage asks for what it makes of the rows,
+and they are evaluated as often as that: cheaper than to write them to memory and read them back.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+
+import numpy as np
+
+from modeler.observation.motion import Segment
+from modeler.observation.observation import Evaluated, Observation, near
+from modeler.observation.stretch import Stretch
+from modeler.runtime.fused import Pattern, Triangles, no_rows, of_rows
+
+KEPT = 2**26
+"""Bytes of the filtered regressor up to which it is kept."""
+
+
+def is_streamed(observation: Observation) -> bool:
+    """True if W is not built: it would be large, and nobody has asked for it yet."""
+    if "columns" in vars(observation):
+        return False
+    return 8 * observation.used.size * len(observation.names) > KEPT
+
+
+def blocks(observation: Observation) -> Iterator[tuple[slice, np.ndarray]]:
+    """Samples (b of them) and their filtered regressor (b, n, c), in order."""
+    first = 0
+    for part in observation.stretches:
+        for rows, columns in part.blocks(partial(observation.regressor, part.segment)):
+            yield slice(first + rows.start, first + rows.stop), columns
+        first += len(part.rows.centres)
+
+
+def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
+    """(m, n, c) filtered regressor of some samples (m,), ascending."""
+    if not is_streamed(observation):
+        return np.asarray(observation.columns[places])
+    found = []
+    for part, own in _stretches(observation):
+        rows = places[(places >= own.start) & (places < own.stop)] - own.start
+        if is_plain(part):
+            found.append(observation.regressor(part.segment, part.rows.centres[rows]))
+            continue
+        for block, columns in part.blocks(partial(observation.regressor, part.segment)):
+            inside = rows[(rows >= block.start) & (rows < block.stop)]
+            found.append(columns[inside - block.start])
+    return np.concatenate(found)
+
+
+def explained(
+    observation: Observation, beta: np.ndarray, keep: np.ndarray | None = None
+) -> np.ndarray:
+    """(s, n) torque of the model, `columns beta`; 0 where keep (s, n) is given and False."""
+    regressor = observation.regressor
+    if not isinstance(regressor, Evaluated):
+        found = np.concatenate([columns @ beta for _, columns in blocks(observation)])
+        return found if keep is None else np.where(keep, found, 0.0)
+    found = np.zeros(observation.used.shape)
+    for part, own in _stretches(observation):
+        if keep is not None and not keep[own].any():
+            continue
+        if is_plain(part):
+            every = np.ones(len(part.used), dtype=bool) if keep is None else keep[own].any(axis=1)
+            some = near(np.flatnonzero(every))
+            found[own][some] = regressor.torque(part.segment, near(part.rows.centres[some]), beta)
+        else:
+            found[own] = part.filtered(partial(regressor.torque, part.segment, beta=beta))
+    return found if keep is None else np.where(keep, found, 0.0)
+
+
+def triangles(observation: Observation, keep: np.ndarray) -> Triangles:
+    """Triangles of [W_j y_j] over the rows keep (s, n) bool."""
+    regressor = observation.regressor
+    pattern = regressor.pattern if isinstance(regressor, Evaluated) else _every(observation)
+    state = no_rows(pattern)
+    for part, own in _stretches(observation):
+        state = with_stretch(regressor, part, observation.torque[own], keep[own], state)
+    return state
+
+
+def with_stretch(
+    regressor: Callable[[Segment, slice], np.ndarray],
+    part: Stretch,
+    torque: np.ndarray,
+    keep: np.ndarray,
+    state: Triangles,
+    samples: int = 4096,
+) -> Triangles:
+    """Triangles with the rows of a stretch added.
+
+    Args:
+        regressor: over its samples.
+        part: the stretch.
+        torque: (rows, n) filtered.
+        keep: (rows, n) bool.
+        state: before.
+        samples: whose regressor is evaluated at a time, where rows are filtered.
+    """
+    if not keep.any():
+        return state
+    if isinstance(regressor, Evaluated) and is_plain(part):
+        return regressor.triangles(part, keep, state)
+    for rows, columns in part.blocks(partial(regressor, part.segment), samples):
+        used = np.ascontiguousarray(keep[rows])
+        state = of_rows(state.pattern, columns, torque[rows], used, state)
+    return state
+
+
+def products(
+    observation: Observation, keep: np.ndarray, last: Sequence[int]
+) -> list[np.ndarray] | None:
+    """Sums over t of w_j(t - k) w_j(t)^T within segments, k = 1 .. last_j; None: ask for blocks.
+
+    (last_j, c_j, c_j) for each joint, over its columns of the pattern of the regressor.
+    """
+    regressor = observation.regressor
+    if not (isinstance(regressor, Evaluated) and regressor.multiplies):
+        return None
+    if not all(is_plain(part) for part in observation.stretches):
+        return None
+    total: list[np.ndarray] | None = None
+    for part, own in _stretches(observation):
+        found = [joint[:, :-1, :-1] for joint in regressor.products(part, keep[own].copy(), last)]
+        total = found if total is None else [a + b for a, b in zip(total, found, strict=True)]
+    return total
+
+
+def is_plain(part: Stretch) -> bool:
+    """True if the rows of a stretch are samples: no parallel filter, whatever the decimation."""
+    return len(part.rows.weights.data) == len(part.rows.centres)
+
+
+def _stretches(observation: Observation) -> Iterator[tuple[Stretch, slice]]:
+    first = 0
+    for part in observation.stretches:
+        count = len(part.rows.centres)
+        yield part, slice(first, first + count)
+        first += count
+
+
+def _every(observation: Observation) -> Pattern:
+    every = np.arange(len(observation.names), dtype=np.intc)
+    return Pattern((every,) * len(observation.joints), len(every))

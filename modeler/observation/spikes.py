@@ -1,0 +1,217 @@
+"""Spikes of one to three samples in torques, velocities and accelerations: of wires, not motion."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.numerics.noise import (
+    REACH,
+    departures,
+    departures_near,
+    floor_here,
+    lone,
+    nearby,
+    resolution,
+    spread,
+    threshold,
+)
+
+LONGEST = 3
+"""Samples of a spike, at most; what lasts longer may be a blow, which a diagnosis looks for."""
+
+SHARE = 0.2
+"""Of a channel's range (1 % to 99 % of its values) that a spike exceeds: a smaller one vanishes in
+the parallel filter."""
+
+RARE = 1e-3
+"""Share of a channel's values that may be spikes: a controller's kicks come again and again."""
+
+TOGETHER = 3.0
+"""Times its neighbourhood that another torque reaches when the machine itself was hit."""
+
+_BACK = 0.3  # of the spike: by what the values on both sides of it differ, at most
+_AROUND = 2  # samples between what two torques of one blow show
+_MEAN = 5  # samples before and after a spike over which the speed is taken
+_RARELY = 0.95  # quantile of the changes of the speed over that time
+_STARTS = 2.0  # times the changes just before: something began
+_SLOW = 0.05  # of the top speed: at a reversal and at rest, friction makes peaks of its own
+_FEW = 0.02  # of the values that may be spikes, or all are looked at
+
+Spike = tuple[int, int, float]
+"""First sample, the one after the last, and the largest departure with its sign."""
+
+
+def glitches(
+    stretches: Sequence[np.ndarray],
+    departed: Sequence[np.ndarray] | None = None,
+    floor: float | None = None,
+) -> list[list[Spike]]:
+    """By stretch, the lone departures of a channel from its running median, in runs of up to 3.
+
+    Args:
+        stretches: (n,) of values without gaps, all of one channel.
+        departed: (n,) `departures` of each; None: taken here.
+        floor: `glitch_floor` of the whole channel, of which these are a part; None: they are all.
+    """
+    if not stretches:
+        return []
+    if departed is None:
+        departed = [departures(values) for values in stretches]
+    if floor is None:
+        floor = glitch_floor(stretches, departed)
+    else:
+        floor = floor_here(departed, floor, RARE)
+    return [
+        _runs(values, own, lone(own, floor))
+        for values, own in zip(stretches, departed, strict=True)
+    ]
+
+
+def glitch_floor(stretches: Sequence[np.ndarray], departed: Sequence[np.ndarray]) -> float:
+    """Departure below which no value of a channel is a spike; infinite without values."""
+    if not stretches:
+        return float("inf")
+    whole = np.concatenate(stretches)
+    low, high = np.quantile(whole, [0.01, 0.99])
+    return max(
+        threshold(np.concatenate(departed), resolution(whole), RARE), SHARE * float(high - low)
+    )
+
+
+def _runs(values: np.ndarray, departed: np.ndarray, places: np.ndarray) -> list[Spike]:
+    """Runs of lone values that are gone as they came; what stays is a step, and no spike."""
+    found = []
+    for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1):
+        if not 0 < len(run) <= LONGEST:
+            continue
+        size = float(departed[run[int(np.argmax(np.abs(departed[run])))]])
+        start, stop = int(run[0]), int(run[-1]) + 1
+        beside = values[[k for k in (start - 1, stop) if 0 <= k < len(values)]]
+        if np.ptp(beside) < _BACK * abs(size):
+            found.append((start, stop, size))
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class TorqueNoise:
+    """What is usual in the torques of a log; J joints.
+
+    Attributes:
+        floors: (J,) `glitch_floor` of each.
+        range: (J,) between 1 % and 99 % of its values.
+        top: (J,) speed that 98 % of the samples stay below.
+    """
+
+    floors: np.ndarray
+    range: np.ndarray
+    top: np.ndarray
+
+
+def torque_noise(
+    stretches: Sequence[np.ndarray], speeds: Sequence[np.ndarray], departed: Sequence[np.ndarray]
+) -> TorqueNoise:
+    """What is usual in torques (n, J) without gaps, with the speeds and `departures` of each."""
+    low, high = np.quantile(np.concatenate(stretches), [0.01, 0.99], axis=0)
+    floors = [
+        glitch_floor([tau[:, j] for tau in stretches], [own[:, j] for own in departed])
+        for j in range(stretches[0].shape[1])
+    ]
+    top = np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0)
+    return TorqueNoise(np.array(floors), high - low, top)
+
+
+def torque_glitches(
+    stretches: Sequence[np.ndarray],
+    speeds_of: Callable[[], Sequence[np.ndarray]],
+    usual: TorqueNoise | None = None,
+) -> tuple[list[list[list[Spike]]], TorqueNoise | None]:
+    """By joint and stretch, the spikes of torques that no motion and no blow explains.
+
+    A torque that is real moves its joint, and a blow is felt in several joints. Where a joint
+    turns back or sticks, friction makes peaks of its own, which stay within the range of the
+    channel (1 % to 99 % of its values).
+
+    Args:
+        stretches: (n, J) torques without gaps; a joint without a measured torque is all 0.
+        speeds_of: gives the speeds (n, J) of the joints; asked for where they matter.
+        usual: in the whole log, of which these are a part; None: they are all of it.
+
+    Returns:
+        The spikes, and what is usual; None without stretches.
+    """
+    if not stretches:
+        return [], usual
+    departed = [_departed(tau, usual) for tau in stretches]
+    speeds = None if usual is not None else speeds_of()
+    if usual is None:
+        assert speeds is not None
+        usual = torque_noise(stretches, speeds, departed)
+    found = [
+        glitches(
+            [tau[:, j] for tau in stretches], [own[:, j] for own in departed],
+            float(usual.floors[j]),
+        )
+        for j in range(stretches[0].shape[1])
+    ]  # fmt: skip
+    if any(spikes for by_joint in found for spikes in by_joint):
+        found = _unexplained(found, departed, speeds or speeds_of(), usual)
+    return found, usual
+
+
+def _unexplained(
+    found: Sequence[Sequence[Sequence[Spike]]],
+    departed: Sequence[np.ndarray],
+    speeds: Sequence[np.ndarray],
+    usual: TorqueNoise,
+) -> list[list[list[Spike]]]:
+    """The spikes that no motion and no blow explains."""
+    sizes = [np.abs(own) for own in departed]
+    return [
+        [
+            [spike for spike in spikes
+             if not _blow(size, j, spike) and not _answered(speed[:, j], spike)
+             and (abs(spike[2]) > usual.range[j]
+                  or _moves(speed[:, j], spike, _SLOW * usual.top[j]))]
+            for spikes, size, speed in zip(own, sizes, speeds, strict=True)
+        ]
+        for j, own in enumerate(found)
+    ]  # fmt: skip
+
+
+def _departed(tau: np.ndarray, usual: TorqueNoise | None) -> np.ndarray:
+    """(n, J) departures of the torques of a stretch; 0 where they are surely no spikes."""
+    if usual is not None:
+        places = np.flatnonzero((spread(tau) > usual.floors).any(axis=1))
+        if len(places) < _FEW * len(tau):
+            return departures_near(tau, places)
+    return np.column_stack([departures(own) for own in tau.T])
+
+
+def _blow(sizes: np.ndarray, j: int, spike: Spike) -> bool:
+    """True if another torque departs too, around the same time."""
+    first, last = max(0, spike[0] - _AROUND), spike[1] + _AROUND
+    for k in range(sizes.shape[1]):
+        if k == j:
+            continue
+        place = first + int(np.argmax(sizes[first:last, k]))
+        if sizes[place, k] > TOGETHER * nearby(sizes[:, k], place):
+            return True
+    return False
+
+
+def _answered(speed: np.ndarray, spike: Spike) -> bool:
+    """True if the speed changes across a spike as it rarely does, or did not before."""
+    mean = np.convolve(speed, np.ones(_MEAN) / _MEAN, mode="valid")
+    change = np.abs(mean[_MEAN + 1 :] - mean[: -_MEAN - 1])  # centred on sample _MEAN + k
+    first, last = spike[0] - _AROUND - _MEAN, spike[1] + _AROUND - _MEAN
+    across = float(np.max(change[max(0, first) : last], initial=0.0))
+    earlier = change[max(0, first - REACH) : max(0, first - _MEAN)]
+    before = float(np.max(earlier, initial=0.0)) if earlier.size else np.inf
+    return across > float(np.quantile(change, _RARELY)) or across > _STARTS * before > 0.0
+
+
+def _moves(speed: np.ndarray, spike: Spike, least: float) -> bool:
+    """True if a joint moves one way, and not slowly, around a spike."""
+    around = speed[max(0, spike[0] - _AROUND) : spike[1] + _AROUND]
+    return bool(np.min(around) > least or np.max(around) < -least)

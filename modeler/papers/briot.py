@@ -1,0 +1,182 @@
+"""Briot and Gautier 2012, section 3: drive gains from a bare run and a weighed load.
+
+The simulated Orthoglide has the drive gains, slides and motors of the paper's Table 3, light bars,
+a platform of 0.75 kg, and no friction where it has no motor: 41 base parameters, none left out.
+"""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from modeler.codegen.derivation import derive, generate
+from modeler.estimation.drive_gains import GainFit, identify_gains
+from modeler.estimation.payload import Payload, identify_with_payloads
+from modeler.observation.log import Log
+from modeler.observation.observation import observe
+from modeler.papers import Paper
+from modeler.papers.method_report import (
+    MethodTable,
+    Outcome,
+    Row,
+    figures,
+    judged,
+    quoted,
+    recovered,
+)
+from modeler.robot.edit import with_drive_gains
+from modeler.robot.library import builtin_text
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import Limits, Robot
+from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import load as load_compiled
+from modeler.simulation import SimulatedLog, SimulationSettings, hidden_from_text, simulate
+
+ROBOT = "orthoglide-2012"
+SECONDS, RATE, NOISE = 15.0, 400.0, 0.02
+LIMITS = Limits(0.02, 0.32, 0.8, 8.0)
+JOINTS = ("11", "12", "13")
+BAR, SLIDE, PLATFORM = 0.2, 1.0, 0.75
+"""kg: a bar with its centre in the middle, a slide of legs 1 and 2, the platform."""
+
+SETTING = (
+    "simulated: gains, slides and motors of Table 3; bars of 0.2 kg, a platform of 0.75 kg;",
+    "moves between random points, 15 s at 2.5 ms, encoders of 1 um, currents with 2 % noise",
+)
+
+
+def briot_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
+    """Gains, slides and motors of Table 3, and the second load with both sets of gains."""
+    table = figures(paper, "Table 3")
+    gains = {f"1{k}": table[f"gtau{k}"][0] for k in "123"}
+    (maker,) = quoted(paper, "637pi")[1:]
+    mass, second = quoted(paper, "M7 = 1.983kg")[0], quoted(paper, "a second payload")[0]
+    robot = _robot()
+    derivation = derive(robot)
+    emitted = generate(derivation)
+    compiled = load_compiled(emitted.spec, emitted.code)
+    machine = _machine(robot, table, [c.name for c in derivation.base.columns])
+    runs = []
+    for seed, load in enumerate((0.0, mass, second), 1):
+        runs.append(_run(machine, load, seed))
+        report(seed / 3)
+    rng = np.random.default_rng(2012)
+    bare, loaded, other = (_currents(run, gains, rng) for run in runs)
+    known = Payload((loaded.name,), mass=mass)
+    found = identify_gains(compiled, observe(compiled, [bare, loaded]), [known])
+    cases = [
+        _weighed(compiled, bare, other, dict.fromkeys(JOINTS, maker)),
+        _weighed(compiled, bare, other, found.gains),
+    ]
+    return [_table_3(table, found), _second_load(paper, cases)]
+
+
+def _robot() -> Robot:
+    """The robot with motors' effects only, and gains of 1: logs in drive units."""
+    text = re.sub(
+        r"^(rotor_inertia|viscous|coulomb) = .*$", r'\1 = ["1{i}"]', builtin_text(ROBOT), flags=re.M
+    )
+    return robot_from_text(with_drive_gains(text, dict.fromkeys(JOINTS, 1.0)), ROBOT)
+
+
+def _machine(robot: Robot, table: Mapping[str, tuple[float, ...]], names: list[str]) -> Robot:
+    """Slides and motors such that M11R, M12R, M13R and Ia13 are those of Table 3.
+
+    M1iR is Ia1i + M1i + M3i - MX3i/d4, and for leg 1, which carries the platform, besides
+    M6 + MX31/d4 + MX32/d4 + MX33/d4; a bar's MX3i/d4 is half its mass.
+    """
+    values = dict.fromkeys(names, 0.0)
+    half, d4 = BAR / 2, 0.31
+    slides = {"1": SLIDE, "2": SLIDE, "3": table["M13R"][0] - half}
+    rotors = {
+        "1": table["M11R"][0] - SLIDE - 2 * BAR - PLATFORM,
+        "2": table["M12R"][0] - SLIDE - half,
+        "3": table["Ia13"][0],
+    }
+    values["M6"] = PLATFORM
+    for leg in "123":
+        values |= {f"Ia1{leg}": rotors[leg], f"M1{leg}": slides[leg], f"M3{leg}": BAR}
+        values |= {f"{name}1{leg}": table[f"{name}1{leg}"][0] for name in ("Fv", "Fs")}
+        values |= {f"MX3{leg}": half * d4, f"YY3{leg}": BAR * d4**2 / 3}
+        values[f"ZZ3{leg}"] = BAR * d4**2 / 3
+    return replace(robot, parameters=values)
+
+
+def _run(machine: Robot, load: float, seed: int) -> SimulatedLog:
+    settings = SimulationSettings(
+        duration=SECONDS,
+        rate=RATE,
+        seed=seed,
+        torque_noise=0.0,
+        linear_resolution=1e-6,
+        motion="point-to-point",
+        limits=dict.fromkeys(JOINTS, LIMITS),
+        hidden=(hidden_from_text(f"payload:mass={load}"),) if load else (),
+    )
+    return simulate(machine, settings)
+
+
+def _currents(run: SimulatedLog, gains: Mapping[str, float], rng: np.random.Generator) -> Log:
+    """What is logged: torque over gain, with noise."""
+    at = [run.joints.index(joint) for joint in JOINTS]
+    tau = run.tau[:, at]
+    tau = tau + NOISE * np.sqrt(np.mean(tau**2, axis=0)) * rng.normal(size=tau.shape)
+    name = f"run{run.settings.seed}"
+    sources = tuple(f"current{joint} x 1" for joint in JOINTS)
+    current = tau / np.array([gains[joint] for joint in JOINTS])
+    return Log(name, JOINTS, run.time, run.q[:, at], current, torque_source=sources)
+
+
+def _weighed(
+    compiled: CompiledModel, bare: Log, loaded: Log, gains: Mapping[str, float]
+) -> tuple[float, float]:
+    """Mass of the load of `loaded`, kg, and its sigma, with these gains."""
+    scale = np.array([gains[joint] for joint in JOINTS])
+    logs = [replace(log, tau=log.tau * scale) for log in (bare, loaded)]
+    fit = identify_with_payloads(compiled, observe(compiled, logs), [Payload((loaded.name,))])
+    (mass,) = fit.loads
+    return mass.value, mass.sigma or 0.0
+
+
+def _table_3(table: Mapping[str, tuple[float, ...]], found: GainFit) -> MethodTable:
+    rows = []
+    for word, values in table.items():
+        name = word.replace("gtau", "g_tau1")
+        for p in (*found.result.gains, *found.result.parameters):
+            if p.name == name and (p.name[0] == "g" or p.name[:-1] in _SET):
+                printed = f"{values[0]:.5g} ({values[-1]:.3g} %)"
+                rows.append(recovered(word, printed, values[0], p.value, p.sigma or 0.0))
+    last = found.result.singular_values[-2:]
+    rows.append(
+        Row(
+            "s[-2]/s[-1]",
+            "-",
+            f"{last[0] / last[1]:.4g}",
+            judged(last[0] > 2 * last[1], Outcome.DERIVED),
+            "singular values of the currents beside the model: a gap, or no gains",
+        )
+    )
+    return MethodTable("Table 3: drive gains, slides and motors", SETTING, tuple(rows))
+
+
+_SET = ("M11", "M12", "M13", "Ia1", "Fv1", "Fs1")
+"""What the simulated machine has of Table 3, the last letter left out."""
+
+
+def _second_load(paper: Paper, cases: list[tuple[float, float]]) -> MethodTable:
+    load, *printed, width = quoted(paper, "a second payload")[:4]
+    rows = [Row("weighed", f"{load:g} kg", f"{load:g} kg", Outcome.SHOWN)]
+    for which, theirs, (ours, sigma) in zip(
+        ("case 1: the maker's gains", "case 2: the identified gains"), printed, cases, strict=True
+    ):
+        rows.append(
+            Row(
+                which,
+                f"{theirs:g} kg",
+                f"{ours:.4f} +- {sigma:.2g} kg",
+                judged(abs(ours - theirs) <= width),
+                f"within {width:g} kg, the paper's 2 sigma",
+            )
+        )
+    return MethodTable("The second load, weighed by the robot", SETTING[:1], tuple(rows))

@@ -1,0 +1,212 @@
+"""Guegan, Khalil and Lemoine 2003, section 5: ten motions, least squares with 23 and 13 parameters.
+
+The simulated Orthoglide is as the paper concludes: the values of its Table 3, links of the
+parallelograms too light to be seen. 2.5 ms, encoders of 1 um, 10 % torque noise.
+"""
+
+import tempfile
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from modeler.codegen.derivation import derive, generate, load
+from modeler.estimation.identify import identify
+from modeler.estimation.result import FitResult
+from modeler.observation.observation import Observation, observe
+from modeler.observation.read import read_log
+from modeler.papers import Paper
+from modeler.papers.method_report import MethodTable, Outcome, Row, figures, judged, recovered
+from modeler.robot.robot import Limits, Robot
+from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import load as load_compiled
+from modeler.simulation import SimulationSettings, simulate, write_log
+
+ROBOT = "orthoglide-2003-similar-legs"
+RUNS, SECONDS, RATE, NOISE = 10, 4.0, 400.0, 0.1
+LIMITS = Limits(0.02, 0.32, 0.8, 8.0)
+WEAK = ("ZZ2R", "MX2", "XX3R", "MX4")
+DIRECTION = {"ZZ2R": 0.62, "MX2": 1.0, "XX3R": -0.31, "MX4": -1.0}
+BAD = 15.0
+"""Percent, of the paper: "a parameter with sigma >= 15 is not good identified"."""
+FALL = 10.0
+SETTING = (
+    "simulated: the values of Table 3, links of the parallelograms without mass;",
+    "ten motions between random points, 4 s at 2.5 ms, encoders of 1 um, 10 % torque noise",
+)
+SLIDE = 0.8
+"""kg, of the slide of leg 3: M1R3, which gravity makes a part of Off3."""
+
+LETTERS = {
+    "MRP": "MPR", "Ma1R1": "Ia11R", "Ma1R2": "Ia12R", "Ma13": "Ia13R", "Off1": "Off11",
+    "Off2": "Off12", "Off3": "Off13R", "MX4R": "MX4",
+}  # fmt: skip
+"""Names of Tables 2 and 3 that are not ours with small letters."""
+
+
+def guegan_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
+    """Tables 2 and 3, the condition numbers, and the direction along which Table 2 is noise."""
+    table_2, table_3 = (_ours(figures(paper, place)) for place in ("Table 2", "Table 3"))
+    truth = {name: values[0] for name, values in table_3.items()}
+    derivation = derive(load(ROBOT))
+    emitted = generate(derivation)
+    compiled = load_compiled(emitted.spec, emitted.code)
+    observation, exact = _simulated(derivation.robot, truth, compiled, report)
+    full, reduced = identify(observation), identify(_chosen(observation, truth))
+    return [
+        _all_parameters(table_2, truth, full),
+        _weak_direction(table_2, observation.names, exact),
+        _essential(table_3, full, reduced),
+        _conditions(paper, full, reduced),
+    ]
+
+
+def _ours(printed: Mapping[str, tuple[float, ...]]) -> dict[str, tuple[float, ...]]:
+    names = {
+        word: LETTERS.get(word, word.replace("FV", "Fv").replace("FS", "Fs")) for word in printed
+    }
+    return {names[word]: values for word, values in printed.items()}
+
+
+def _machine(robot: Robot, truth: Mapping[str, float]) -> Robot:
+    """Slides and platform alone, with the values of Table 3."""
+    parameters = {"MP": truth["MPR"]}
+    for leg in "123":
+        third = leg == "3"
+        parameters |= {f"{name}1{leg}": truth[f"{name}1{leg}"] for name in ("Fv", "Fs")}
+        parameters[f"M1{leg}"] = SLIDE
+        parameters[f"Ia1{leg}"] = truth[f"Ia1{leg}R"] - SLIDE
+        parameters[f"Off1{leg}"] = truth["Off13R"] + 9.81 * SLIDE if third else truth[f"Off1{leg}"]
+    empty = {f"{row}{leg}": () for row in "23457" for leg in "123"}
+    return replace(robot, shared=(), links={**robot.links, **empty}, parameters=parameters)
+
+
+def _simulated(
+    robot: Robot,
+    truth: Mapping[str, float],
+    compiled: CompiledModel,
+    report: Callable[[float], None],
+) -> tuple[Observation, np.ndarray]:
+    """What is measured on all motions, and the regressor along the motions as they were."""
+    machine, logs, exact = _machine(robot, truth), [], []
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in range(RUNS):
+            settings = SimulationSettings(
+                duration=SECONDS, rate=RATE, seed=seed, torque_noise=NOISE, linear_resolution=1e-6,
+                motion="point-to-point", limits={f"1{leg}": LIMITS for leg in "123"},
+            )  # fmt: skip
+            log = simulate(machine, settings)
+            place = Path(folder) / f"run{seed}.parquet"
+            write_log(place, log)
+            logs.append(read_log(place, compiled.spec))
+            exact.append(compiled.observation(log.truth.q, log.truth.qd, log.truth.qdd))
+            report((seed + 1) / RUNS)
+    return observe(compiled, logs), np.concatenate(exact)
+
+
+def _chosen(observation: Observation, names: Mapping[str, float]) -> Observation:
+    """The same rows with the columns of these parameters only."""
+    kept = [i for i, name in enumerate(observation.names) if name in names]
+    return replace(
+        observation,
+        regressor=lambda segment, window: observation.regressor(segment, window)[..., kept],
+        names=tuple(observation.names[i] for i in kept),
+        units=tuple(observation.units[i] for i in kept),
+    )
+
+
+def _all_parameters(
+    printed: Mapping[str, tuple[float, ...]], truth: Mapping[str, float], full: FitResult
+) -> MethodTable:
+    """Table 2; the truth of what Table 3 leaves out is 0."""
+    rows = _recovered(printed, truth, full)
+    theirs = [abs(printed[name][1]) for name in WEAK]
+    ours = [p.relative_sigma_percent or 0.0 for p in full.parameters if p.name in WEAK]
+    rows.append(
+        Row(
+            "%sigma of " + ", ".join(WEAK), _range(theirs), _range(ours),
+            judged(min(*theirs, *ours) >= BAD, Outcome.HOLDS),
+            f"{BAD:g} % and more: not well identified",
+        )
+    )  # fmt: skip
+    return MethodTable("Table 2: all base parameters", SETTING, tuple(rows))
+
+
+def _recovered(
+    printed: Mapping[str, tuple[float, ...]], truth: Mapping[str, float], fit: FitResult
+) -> list[Row]:
+    rows = []
+    for p in fit.parameters:
+        value, percent = printed[p.name]
+        text = f"{value:.5g} ({abs(percent):.3g} %)"
+        rows.append(recovered(p.name, text, truth.get(p.name, 0.0), p.value, p.sigma or 0.0))
+    return rows
+
+
+def _range(values: list[float]) -> str:
+    return f"{min(values):.3g} % to {max(values):.3g} %"
+
+
+def _weak_direction(
+    printed: Mapping[str, tuple[float, ...]], names: tuple[str, ...], exact: np.ndarray
+) -> MethodTable:
+    """The right singular vector of the smallest singular value: Table 2 is noise along it."""
+    weakest = np.linalg.svd(exact, full_matrices=False)[2][-1]
+    ours = {name: weakest[i] / weakest[names.index("MX2")] for i, name in enumerate(names)}
+    theirs = {name: printed[name][0] / printed["MX2"][0] for name in WEAK}
+    rows = [
+        Row(
+            f"{name}/MX2", f"{theirs[name]:.3f}", f"{ours[name]:.3f}",
+            judged(abs(theirs[name] - ours[name]) < 0.05),
+            f"within 0.05; derived {DIRECTION[name]:.3g}",
+        )
+        for name in WEAK
+        if name != "MX2"
+    ]  # fmt: skip
+    rest = max(abs(value) for name, value in ours.items() if name not in WEAK)
+    rows.append(
+        Row("all others", "-", f"{rest:.2g}", judged(rest < 0.1, Outcome.DERIVED), "less than 0.1")
+    )
+    return MethodTable(
+        "The direction that noise follows in Table 2",
+        ("values of Table 2 divided by its MX2, beside the weakest singular vector of W;",
+         "derived: (ZZ2R, MX2, XX3R, MX4) = (2 D4, 1, -D4, -1)"),
+        tuple(rows),
+    )  # fmt: skip
+
+
+def _essential(
+    printed: Mapping[str, tuple[float, ...]], full: FitResult, reduced: FitResult
+) -> MethodTable:
+    """Table 3, its selection, and both condition numbers."""
+    rows = _recovered(printed, {name: value for name, (value, _) in printed.items()}, reduced)
+    left = [p.name for p in full.parameters if not p.essential]
+    rows.append(
+        Row(
+            "left out", str(len(full.parameters) - len(printed)), f"{len(left)} by the F-test",
+            Outcome.SHOWN, ", ".join(left),
+        )
+    )  # fmt: skip
+    return MethodTable("Table 3: essential parameters", SETTING[:1], tuple(rows))
+
+
+def _conditions(paper: Paper, full: FitResult, reduced: FitResult) -> MethodTable:
+    """Condition numbers, each of its own motions; what must agree is what leaving ten out does."""
+    rows, printed = [], []
+    for place, fit in (("Table 2", full), ("Table 3", reduced)):
+        printed.append(figures(paper, f"{place}, condition number")["Condition"][0])
+        rows.append(
+            Row(
+                f"{len(fit.parameters)} columns", f"{printed[-1]:g}",
+                f"{fit.condition_number:.4g}", Outcome.SHOWN, "of other motions",
+            )
+        )  # fmt: skip
+    theirs, ours = printed[0] / printed[1], full.condition_number / reduced.condition_number
+    rows.append(
+        Row(
+            "their ratio", f"{theirs:.3g}", f"{ours:.3g}",
+            judged(min(theirs, ours) > FALL, Outcome.HOLDS), f"more than {FALL:g}",
+        )
+    )  # fmt: skip
+    return MethodTable("Condition numbers of W", (), tuple(rows))

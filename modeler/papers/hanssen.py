@@ -1,0 +1,174 @@
+"""Hanssen, Hovland and Brogardh 2000, section 5: J11 of the wrist in two steps, and what follows.
+
+The simulated wrist has the J11 of the paper's eq. (3); its other parameters are made up. Joint 1
+moves alone at configurations of joints 2 and 3 (step 1), and P = pinv(Phi) J11 (step 2), with the
+rows of eq. (2).
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from modeler.codegen.derivation import Derivation, derive, generate
+from modeler.core.expression import parse
+from modeler.estimation.two_step import Directions
+from modeler.estimation.two_step_result import TwoStepFit, identify_in_two_steps
+from modeler.formulas.physical_system import physical_system
+from modeler.formulas.solve import determined
+from modeler.formulas.sufficient_sets import known_sets, smallest_number
+from modeler.observation.log import Log
+from modeler.observation.observation import observe
+from modeler.papers import Paper
+from modeler.papers.method_report import MethodTable, Outcome, Row, judged, quoted, recovered
+from modeler.robot.library import builtin_text
+from modeler.robot.motors import joint_directions
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import Limits, Robot
+from modeler.runtime.model import load as load_compiled
+from modeler.simulation import SimulatedLog, SimulationSettings, simulate
+
+SECONDS, RATE, BANDWIDTH, NOISE = 240.0, 400.0, 60.0, 0.02
+SEED = 11
+"""Of the configurations: of 60, the one with the best Phi; the paper chose its paths so too."""
+LIMITS = Limits(-1.4, 1.4, 4.0, 25.0)
+COULOMB = {"Fs1": 3.0, "Fs2": 2.0, "Fs3": 1.2}
+KNOWN = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33")
+"""What section 4 takes as known."""
+
+FOLLOW = 6
+"""Parameters that follow from these alone; the others need an eighth."""
+
+SETTING = (
+    "simulated: a wrist with the J11 of eq. (3), the rest made up; Coulomb friction;",
+    "one joint at a time for 240 s at 400 Hz, 2 % torque noise",
+)
+
+
+def hanssen_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
+    """J11 in two steps; the singular values of Phi; which parameters follow from which."""
+    names = tuple(f"PJ{k}" for k in range(1, 8))
+    truth = dict(zip(names, quoted(paper, "J11 = 0.0398")[-7:], strict=True))
+    robot = robot_from_text(builtin_text("wrist") + '\n[effects]\ncoulomb = "all"\n', "wrist")
+    derivation = derive(robot)
+    emitted = generate(derivation)
+    compiled = load_compiled(emitted.spec, emitted.code)
+    settings = SimulationSettings(
+        duration=SECONDS,
+        rate=RATE,
+        seed=SEED,
+        bandwidth=BANDWIDTH,
+        torque_noise=NOISE,
+        motion="one-joint",
+        limits=dict.fromkeys("123", LIMITS),
+    )
+    run = simulate(_machine(robot, derivation, truth), settings)
+    report(0.5)
+    observation = observe(compiled, [_log(run)])
+    steps = identify_in_two_steps(compiled, observation, Directions(joint_directions(robot)))
+    monomials = next(line.quote for line in paper.lines if line.check == "monomials").split(";")
+    tables = [*_inertia(paper, truth, steps, monomials), _one_step(steps)]
+    report(0.8)
+    tables.append(_known(paper, derivation))
+    return tables
+
+
+def _machine(robot: Robot, derivation: Derivation, truth: Mapping[str, float]) -> Robot:
+    """Links whose J11 has these coefficients; body 3 carries PJ1, PJ2, PJ4, PJ5.
+
+    PJ1 = YY3 - XX3, PJ2 = -2 XY3, PJ4 = -2 YZ3 + 2 bl1 MY3, PJ5 = 2 XZ3 - 2 bl1 MX3,
+    PJ3 = XX2R - PJ1 - ZZ3, PJ6 = 2 XY2, PJ7 = ZZ1 + YY2 + ZZ3; MX3 = MY3 = 0.
+    """
+    values = dict.fromkeys((column.name for column in derivation.base.columns), 0.0)
+    bl1 = robot.symbols["bl1"].number()
+    values |= {"M1": 12.0, "MX1": -0.36, "MY1": -0.24, "M2": 6.0, "MX2": -0.12, "MZ2": 0.06}
+    values |= {"M3": 4.0, "MZ3": 0.24, "YY3": 0.3, "ZZ3": 0.3, "YY2": 0.08, "ZZ2": 0.08}
+    values["XX3"] = values["YY3"] - truth["PJ1"]
+    values |= {"XY3": -truth["PJ2"] / 2, "YZ3": -truth["PJ4"] / 2, "XZ3": truth["PJ5"] / 2}
+    carried = values["YY3"] + 2 * bl1 * values["MZ3"] + bl1**2 * values["M3"]
+    values["XX2"] = truth["PJ3"] + truth["PJ1"] + values["ZZ3"] + values["YY2"] - carried
+    values["XY2"] = truth["PJ6"] / 2
+    values["ZZ1"] = truth["PJ7"] - values["YY2"] - values["ZZ3"]
+    values |= {"XX1": 0.3, "YY1": 0.3}
+    return replace(robot, parameters=values | COULOMB)
+
+
+def _log(run: SimulatedLog) -> Log:
+    sources = tuple(f"tau{joint}" for joint in run.joints)
+    return Log("one-joint", run.joints, run.time, run.q, run.tau, torque_source=sources)
+
+
+def _inertia(
+    paper: Paper, truth: Mapping[str, float], steps: TwoStepFit, monomials: list[str]
+) -> list[MethodTable]:
+    """P = pinv(Phi) J11 with rows as sure as step 1 is of them."""
+    moved = [c for c in steps.steps.configurations if c.joint == 0]
+    inertia = np.array([c.felt[0].theta[0] for c in moved])
+    sigma = np.array([c.felt[0].sigma[0] for c in moved])
+    functions = [parse(text.strip().replace("^", "**").replace(" ", "*")) for text in monomials]
+    phi = np.array([[f.number(_trigonometry(c.pose)) for f in functions] for c in moved])
+    inverse = np.linalg.pinv(phi / sigma[:, None])
+    values, deviations = inverse @ (inertia / sigma), np.linalg.norm(inverse, axis=1)
+    rows = [
+        recovered(name, f"{truth[name]:g}", truth[name], float(value), float(deviation))
+        for name, value, deviation in zip(truth, values, deviations, strict=True)
+    ]
+    return [
+        MethodTable(f"Eq. (3): J11 from {len(moved)} configurations", SETTING, tuple(rows)),
+        _singular(quoted(paper, "3.63")[:7], np.linalg.svd(phi, compute_uv=False)),
+    ]
+
+
+def _trigonometry(pose: np.ndarray) -> dict[str, float]:
+    sines = {f"s{k + 1}": float(np.sin(angle)) for k, angle in enumerate(pose)}
+    return sines | {f"c{k + 1}": float(np.cos(angle)) for k, angle in enumerate(pose)}
+
+
+def _singular(printed: tuple[float, ...], ours: np.ndarray) -> MethodTable:
+    rows = [
+        Row("singular values", _listed(printed), _listed(tuple(ours)), Outcome.SHOWN,
+            "of other configurations"),
+        Row("last over first", f"{printed[-1] / printed[0]:.3f}", f"{ours[-1] / ours[0]:.3f}",
+            Outcome.SHOWN, "the paper asks for about 0.1"),
+        Row("rank of Phi", str(len(printed)), str(int(np.sum(ours > 1e-8 * ours[0]))),
+            judged(len(printed) == int(np.sum(ours > 1e-8 * ours[0])))),
+    ]  # fmt: skip
+    return MethodTable("Persistent excitation of J11", (), tuple(rows))
+
+
+def _listed(values: tuple[float, ...]) -> str:
+    return " ".join(f"{value:.2f}" for value in values)
+
+
+def _one_step(steps: TwoStepFit) -> MethodTable:
+    """What the paper does not print: both ways on the same data."""
+    two, one = steps.result, steps.one_step
+    known = [sum(p.sigma is not None for p in fit.parameters) for fit in (two, one)]
+    rows = [
+        Row("parameters found", "-", f"{known[0]} in two steps, {known[1]} in one", Outcome.SHOWN,
+            "joints that stand with dry friction tell nothing of J12"),
+        Row("relative error of the torques", "-",
+            f"{100 * two.relative_error:.2f} % in two steps, {100 * one.relative_error:.2f} % in "
+            "one", Outcome.SHOWN),
+    ]  # fmt: skip
+    return MethodTable("Two steps beside one step", (), tuple(rows))
+
+
+def _known(paper: Paper, derivation: Derivation) -> MethodTable:
+    """Which physical parameters follow: the paper's claim, and the count of all choices."""
+    system = physical_system(derivation.model, derivation.base, "coefficients")
+    claim, rest = quoted(paper, "From these, 18")
+    found, _ = determined(system, KNOWN)
+    rows = [
+        Row("parameters that follow from " + ", ".join(KNOWN), f"{claim:g}", str(len(found)),
+            judged(len(found) == FOLLOW, Outcome.DERIVED),
+            "the statement is wrong: " + ", ".join(found) + " alone"),
+    ]  # fmt: skip
+    for size, expected in ((int(rest), 0), (smallest_number(system), 61_879)):
+        sets = known_sets(system, size)
+        rows.append(
+            Row(f"sets of {size} from which all others follow", "-",
+                f"{sets.count} of {sets.possible}",
+                judged(sets.count == expected, Outcome.DERIVED), "our consequence")
+        )  # fmt: skip
+    return MethodTable("Physical parameters that must be known", (), tuple(rows))

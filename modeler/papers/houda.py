@@ -1,0 +1,143 @@
+"""Houda et al., section 4: the energy model of Evr@, beside the torque model of the same data.
+
+The simulated machine has the masses and the friction of the paper's Table 1 and of its axis B4P4,
+read in N s/m; friction of the other axes is that of B4P4 without its directions.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from modeler.codegen.derivation import derive, generate
+from modeler.estimation.energy import identify_energy
+from modeler.estimation.identify import identify
+from modeler.estimation.result import FitResult, friction_by_direction
+from modeler.observation.log import Log
+from modeler.observation.observation import observe
+from modeler.papers import Paper
+from modeler.papers.method_report import MethodTable, Outcome, Row, judged, quoted, recovered
+from modeler.robot.library import builtin_text
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import Robot
+from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import load as load_compiled
+from modeler.simulation import SimulatedLog, SimulationSettings, simulate
+
+RUNS, SECONDS, RATE, NOISE = 6, 10.0, 204.0, 0.02
+FRICTION = ("Fv{}+", "Fs{}+", "Fv{}-", "Fs{}-")
+RAM = 0.25  # kg, of the third link of a leg
+LEG = "34"
+"""Our name of the motor of axis B4P4."""
+
+SETTING = (
+    "simulated: masses and friction of the paper, viscous friction in N s/m;",
+    "six motions of 10 s at 204 Hz, encoders of 1 um, 2 % torque noise",
+)
+
+
+def houda_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
+    """Masses and friction by direction from both models, and how sure each of them is."""
+    first, second = quoted(paper, "First"), quoted(paper, "Second")
+    axis = quoted(paper, "Fs1 = 1,39")
+    fs1, fv1, fs2, fv2 = axis
+    friction = {"s1": first[1:], "s2": second[1:], LEG: (fv1, fs1, fv2, fs2)}
+    (platform,) = quoted(paper, "MRp")
+    truth = {"Ms1": first[0], "Ms2R": second[0], "MPR": platform}
+    for joint, values in friction.items():
+        truth |= dict(zip((n.format(joint) for n in FRICTION), values, strict=True))
+    machine = _machine(truth, friction)
+    compiled = _model(both_ways=True)
+    runs = []
+    for seed in range(RUNS):
+        settings = SimulationSettings(
+            duration=SECONDS, rate=RATE, seed=seed, torque_noise=0.0, linear_resolution=1e-6
+        )
+        runs.append(simulate(machine, settings))
+        report((seed + 1) / (RUNS + 1))
+    rng = np.random.default_rng(90)
+    observation = observe(compiled, [_log(compiled, run, friction, rng) for run in runs])
+    torque, energy = identify(observation), identify_energy(compiled, observation).result
+    return [
+        _values(f"Table 1 and axis B4P4, {name} model", truth, compiled, fit)
+        for name, fit in (("torque", torque), ("energy", energy))
+    ] + [_compared(energy)]
+
+
+def _text(both_ways: bool) -> str:
+    effects = ["viscous", "coulomb", "offset"] + ["asymmetric_viscous"] * both_ways
+    return builtin_text("evra") + "\n[effects]\n" + "\n".join(f'{e} = "all"' for e in effects)
+
+
+def _model(both_ways: bool) -> CompiledModel:
+    emitted = generate(derive(robot_from_text(_text(both_ways), "evra")))
+    return load_compiled(emitted.spec, emitted.code)
+
+
+def _machine(truth: Mapping[str, float], friction: Mapping[str, tuple[float, ...]]) -> Robot:
+    """Slides, platform and legs such that Ms1, Ms2R and MPR are those of the paper.
+
+    Ms2R carries the two lower links of each leg, MPR the third.
+    """
+    robot = robot_from_text(_text(both_ways=False), "evra")
+    values = dict(robot.parameters)
+    legs = "123456"
+    values["Ms1"] = truth["Ms1"]
+    values["Ms2"] = truth["Ms2R"] - sum(values[f"M{k}{leg}"] for k in "12" for leg in legs)
+    for leg in legs:
+        lighter = RAM / values[f"M3{leg}"]
+        values |= {f"{n}3{leg}": values[f"{n}3{leg}"] * lighter for n in ("M", "MZ", "XX", "YY")}
+    values["MP"] = truth["MPR"] - 6 * RAM
+    for joint in ("s1", "s2", *(f"3{leg}" for leg in legs)):
+        there, level, back, back_level = friction.get(joint, friction[LEG])
+        values[f"Fv{joint}"] = (there + back) / 2
+        values[f"Fs{joint}"] = (level + back_level) / 2
+        values[f"Off{joint}"] = (level - back_level) / 2 if joint in friction else 0.0
+    return replace(robot, parameters=values)
+
+
+def _log(
+    compiled: CompiledModel,
+    run: SimulatedLog,
+    friction: Mapping[str, tuple[float, ...]],
+    rng: np.random.Generator,
+) -> Log:
+    """What is logged; the part Fva |qd| of friction, which the simulator leaves out, put in."""
+    joints = tuple(joint.name for joint in compiled.spec.joints)
+    at = [run.joints.index(joint) for joint in joints]
+    tau = run.tau[:, at].copy()
+    for joint, (there, _, back, _) in friction.items():
+        speed = run.truth.qd[:, run.joints.index(joint)]
+        tau[:, joints.index(joint)] += (there - back) / 2 * np.abs(speed)
+    tau += NOISE * np.sqrt(np.mean(tau**2, axis=0)) * rng.normal(size=tau.shape)
+    sources = tuple(f"tau{joint}" for joint in joints)
+    name = f"run{run.settings.seed}"
+    return Log(name, joints, run.time, run.q[:, at], tau, torque_source=sources)
+
+
+def _values(
+    title: str, truth: Mapping[str, float], compiled: CompiledModel, fit: FitResult
+) -> MethodTable:
+    found = {p.name: (p.value, p.sigma or 0.0) for p in fit.parameters}
+    found |= {d.name: (d.value, d.sigma) for d in friction_by_direction(compiled.spec, fit)}
+    rows = [recovered(n, f"{value:g}", value, *found[n]) for n, value in truth.items()]
+    return MethodTable(title, SETTING, tuple(rows))
+
+
+def _compared(energy: FitResult) -> MethodTable:
+    """What the paper does not print: both models on the same data."""
+    assert energy.energy is not None, "identify_energy compares"
+    rows = []
+    torque, simpson, trapezoid = energy.energy.figures
+    for model in (torque, simpson, trapezoid):
+        text = f"condition {model.condition_scaled:.4g}, {model.known} parameters below 10 %"
+        rows.append(Row(model.model, "-", f"{model.rows} rows, {text}", Outcome.SHOWN))
+    ratio = simpson.torque_sigma / torque.torque_sigma
+    rows.append(
+        Row(
+            "uncertainty of predicted torques, energy over torque", "-", f"{ratio:.3g}",
+            judged(ratio > 1.0, Outcome.DERIVED),
+            "our consequence: at equal data the torque model is the surer",
+        )
+    )  # fmt: skip
+    return MethodTable("The energy model beside the torque model", (), tuple(rows))

@@ -1,0 +1,379 @@
+"""The page of a comparison: one HTML file that needs no network."""
+
+import math
+import statistics
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from modeler.core.figure import Picture
+from modeler.diagnosis.score import percent
+from modeler.report.figure_matplotlib import write_files
+from modeler.report.page import (
+    Figure,
+    Items,
+    Judged,
+    Origin,
+    Page,
+    PageCell,
+    PageTable,
+    Paragraph,
+    Section,
+    Verdicts,
+    page,
+    write_page,
+)
+from modeler.validation.comparison import (
+    Comparison,
+    JointComparison,
+    by_log,
+    method_lines,
+    or_dash,
+    share_text,
+)
+from modeler.validation.models import DOUBT, Contest, JointContest, contest_sentences, headline_of
+from modeler.validation.pictures import overlay_picture, overview_picture, residual_picture
+from modeler.validation.time_picture import time_picture
+from modeler.validation.verdict import (
+    best_other,
+    best_pattern,
+    headline,
+    joint_verdict,
+    kind_of_residual,
+    looks_like_noise,
+    rounded_percent,
+    wrong_scale,
+)
+
+# The page of several models side by side.
+
+
+def write_contest(
+    path: Path,
+    found: Contest,
+    provenance: Sequence[str] = (),
+    held_out: bool | None = None,
+    following: Sequence[str] = (),
+) -> Path:
+    """Write the page; returns the path of the file written.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets `compare.html`.
+        found: from `contest`.
+        provenance: lines on how the data came about.
+        held_out: False if a model was fitted on rows of these logs.
+        following: commands to go on with.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    first = found.predictions[0]
+    sheet = Page(
+        title=f"{first.robot}: {len(found.names)} models side by side",
+        headline=headline_of(found),
+        sections=_model_sections(found),
+        origin=Origin(", ".join(found.names), first.logs, held_out),
+        facts=[(name, _fact(found, k)) for k, name in enumerate(found.names)],
+        next=following,
+        provenance=provenance,
+        command="compare",
+    )
+    return write_page(path, sheet, "compare.html")
+
+
+def write_overlays(
+    folder: Path, found: Contest, progress: Callable[[float], None] | None = None
+) -> tuple[Path, ...]:
+    """Write the pictures as PNG and SVG and their numbers as CSV; the paths written.
+
+    Args:
+        folder: made if it is not there.
+        found: from `contest`.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        ModelerError: the folder cannot be written.
+    """
+    return write_files(folder, [_picture(found, item) for item in found.joints], progress)
+
+
+def _fact(found: Contest, k: int) -> str:
+    errors = ", ".join(
+        f"{percent(error)} of the {unit}" if len(found.by_unit[k]) > 1 else percent(error)
+        for unit, error in found.by_unit[k].items()
+    )
+    won = found.wins(k)
+    best = f"joint {', '.join(won)}" if won else "no joint"
+    return f"error {errors}; best beyond doubt on {best}"
+
+
+def _model_sections(found: Contest) -> list[Section]:
+    sections = [
+        Section(
+            "Verdict",
+            [
+                Items([("", line) for line in contest_sentences(found)]),
+                _errors(found),
+                _sizes(found),
+            ],
+        )
+    ]
+    sections += [
+        Section(f"Joint {item.joint.name}", [Figure(_picture(found, item), titled=False)],
+                f"joint-{item.joint.name}")
+        for item in found.joints
+    ]  # fmt: skip
+    return sections
+
+
+def _picture(found: Contest, item: JointContest) -> Picture:
+    joints = [info.name for info in found.predictions[0].joints]
+    return overlay_picture(found.names, found.predictions, joints.index(item.joint.name))
+
+
+def _errors(found: Contest) -> PageTable:
+    top = max((e for item in found.joints for e in item.errors), default=0.0) or 1.0
+    rows: list[list[str | PageCell]] = [
+        [
+            PageCell(item.joint.name, "text", link=f"joint-{item.joint.name}"),
+            *(PageCell(percent(e), "bar", e / top) for e in item.errors),
+            PageCell("-" if item.best is None else found.names[item.best], "text"),
+            f"{item.chance:.2g}" if item.chance >= 1e-6 else "under 1e-6",
+        ]
+        for item in found.joints
+    ]
+    return PageTable(
+        ["joint", *(PageCell(name, "bar") for name in found.names),
+         PageCell("best beyond doubt", "text"), "chance"],
+        rows,
+        "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
+        "measured, each joint by itself, on the rows that count for every model. Chance: that the "
+        "best and its nearest rival are equally good, from the spread of the difference between "
+        f"blocks of time; beyond doubt is less than {100 * DOUBT:.2g} %, shared among the rivals.",
+    )  # fmt: skip
+
+
+def _sizes(found: Contest) -> PageTable:
+    rows: list[list[str | PageCell]] = [
+        [item.joint.name, *(f"{rms:.3g} {item.joint.effort_unit}" for rms in item.rms)]
+        for item in found.joints
+    ]
+    return PageTable(["joint", *found.names], rows, "Root mean square of what each model leaves.")
+
+
+# All pictures of a comparison, and as files.
+
+
+def joint_pictures(comparison: Comparison, item: JointComparison) -> tuple[Picture, ...]:
+    """The pictures of one joint: against time, then against each coordinate."""
+    return (
+        time_picture(comparison.prediction, item),
+        residual_picture(comparison.prediction, item),
+    )
+
+
+def all_pictures(comparison: Comparison) -> tuple[Picture, ...]:
+    """The overview, then the pictures of each judged joint."""
+    drawn = [picture for item in comparison.joints for picture in joint_pictures(comparison, item)]
+    return (overview_picture(comparison), *drawn)
+
+
+def write_pictures(
+    folder: Path, comparison: Comparison, progress: Callable[[float], None] | None = None
+) -> tuple[Path, ...]:
+    """Write every picture as PNG and SVG and its numbers as CSV; returns the paths written.
+
+    Args:
+        folder: made if it is not there.
+        comparison: from `compare`.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        ModelerError: the folder cannot be written.
+    """
+    return write_files(folder, all_pictures(comparison), progress)
+
+
+_TAGS = {"pattern": "pattern left", "noise": "noise only", "other": "unclear"}
+_REGION_PHRASES = {
+    "fast -": "fast in the negative direction",
+    "slow -": "slow in the negative direction",
+    "around zero": "around zero speed",
+    "slow +": "slow in the positive direction",
+    "fast +": "fast in the positive direction",
+}
+_HEAD = (
+    "joint", PageCell("relative error", "bar"), "rms residual", "sigma", "rms measured",
+    "largest residual", PageCell("at", "text"), "R\u00b2", "repeatable", "noise", "mean residual",
+    "samples",
+)  # fmt: skip
+
+
+def write_report(
+    path: Path,
+    comparison: Comparison,
+    provenance: Sequence[str] = (),
+    origin: Origin | None = None,
+    following: Sequence[str] = (),
+) -> Path:
+    """Write the page; returns the path of the file written.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets `compare.html`.
+        comparison: from `compare`.
+        provenance: lines on how the data came about (filtering, model, versions), as they are.
+        origin: model, logs, and whether they were held out; robot and logs if it is left out.
+        following: commands to go on with.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    return write_page(path, _sheet(comparison, provenance, origin, following), "compare.html")
+
+
+def report_html(comparison: Comparison, provenance: Sequence[str] = ()) -> str:
+    """The page as text; its security policy forbids any network access."""
+    return page(_sheet(comparison, provenance, None, ()))
+
+
+def _sheet(
+    comparison: Comparison, provenance: Sequence[str], origin: Origin | None,
+    following: Sequence[str],
+) -> Page:  # fmt: skip
+    prediction = comparison.prediction
+    figure, _, rest = headline(comparison).partition(" of ")
+    return Page(
+        title=f"{prediction.robot}: measured against predicted torque",
+        headline=(figure, f"of {rest}" if rest else ""),
+        sections=_sections(comparison),
+        origin=origin or Origin(prediction.robot, prediction.logs),
+        facts=_facts(comparison),
+        next=following,
+        provenance=(*_facts_on_data(comparison), *provenance),
+        command="compare",
+    )
+
+
+def _sections(comparison: Comparison) -> list[Section]:
+    method = " ".join(f"{line}." for line in method_lines(comparison))
+    table = PageTable(
+        _HEAD,
+        [_table_row(item, comparison) for item in comparison.joints],
+        "Relative error is the norm of measured minus predicted torque (force) over the norm of "
+        "what was measured, each joint by itself, over the samples that count. R\u00b2 compares "
+        "with the best constant. Sigma is the rms standard deviation of the prediction by the "
+        "covariance of the fit. " + method,
+    )
+    found = [Section("Verdict", [Verdicts(_judged(comparison)), table, *_log_table(comparison)])]
+    if comparison.joints:
+        found.append(Section("All joints", [Figure(overview_picture(comparison), titled=False)]))
+    return [*found, *(_joint_section(comparison, item) for item in comparison.joints)]
+
+
+def _facts(comparison: Comparison) -> list[tuple[str, str]]:
+    """The three answers of the first screen."""
+    if not comparison.joints:
+        return []
+    return [
+        ("How good?", _how_good(comparison.joints)),
+        ("Where does it fail?", _where(comparison.joints)),
+        ("Does the residual still have structure?", _what_is_left(comparison.joints)),
+    ]
+
+
+def _how_good(joints: tuple[JointComparison, ...]) -> str:
+    below = sum(item.relative_error < 0.1 for item in joints)
+    middle = rounded_percent(statistics.median(item.relative_error for item in joints))
+    text = f"{below} of {len(joints)} joints are within 10 %; the middle one is at {middle}."
+    defined = [item for item in joints if not math.isnan(item.r2)]
+    if defined:
+        worst = min(defined, key=lambda item: item.r2)
+        text += f" Lowest R\u00b2: {worst.r2:.3f} (joint {worst.joint.name})."
+    return text
+
+
+def _where(joints: tuple[JointComparison, ...]) -> str:
+    worst = max(joints, key=lambda item: item.relative_error)
+    window = worst.worst
+    region = max(worst.regions, key=lambda part: part.energy_share - part.time_share)
+    return (
+        f"Most on joint {worst.joint.name} ({rounded_percent(worst.relative_error)}): "
+        f"{rounded_percent(region.energy_share)} of its squared residual while "
+        f"{_REGION_PHRASES[region.name]} ({rounded_percent(region.time_share)} of the samples); "
+        f"worst at {window.start:.2f}-{window.end:.2f} s of {window.log}."
+    )
+
+
+def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
+    named = []
+    for item in joints:
+        pattern, other = best_pattern(item), best_other(item)
+        if wrong_scale(item) is not None and item.scale is not None:
+            named.append((item.scale.mended, f"joint {item.joint.name} has a wrong sign or scale"))
+        elif other is not None:
+            named.append((other[1], f"joint {item.joint.name} follows the velocity of {other[0]}"))
+        elif pattern is not None:
+            named.append((pattern[1], f"joint {item.joint.name} follows {pattern[0].phrase}"))
+    if named:
+        named.sort(reverse=True)
+        listed = "; ".join(f"{text} ({rounded_percent(share)})" for share, text in named[:3])
+        return f"Yes, on {len(named)} of {len(joints)} joints: {listed}."
+    if all(looks_like_noise(item) for item in joints):
+        return "No: the residual of every joint looks like noise."
+    return "No pattern in the joints' motion, but not all of it is noise: see below."
+
+
+def _facts_on_data(comparison: Comparison) -> list[str]:
+    prediction = comparison.prediction
+    lines = [f"Robot: {prediction.robot}.", f"Logs: {', '.join(prediction.logs)}."]
+    lines.append(
+        f"Samples: {comparison.samples} of {prediction.time.size} count for at least one joint; "
+        "filtered alike on both sides, never differenced across a gap."
+    )
+    return lines
+
+
+def _judged(comparison: Comparison) -> list[Judged]:
+    lines = []
+    for item in comparison.joints:
+        kind, (first, _, rest) = kind_of_residual(item), joint_verdict(item).partition(": ")
+        lines.append(Judged(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
+    lines += [
+        Judged("", "not judged", f"Joint {name}", f"{reason}.")
+        for name, reason in comparison.unjudged
+    ]
+    return lines
+
+
+def _table_row(item: JointComparison, comparison: Comparison) -> list[str | PageCell]:
+    unit = item.joint.effort_unit
+    top = max(other.relative_error for other in comparison.joints)
+    share = item.relative_error / top if top else 0.0
+    return [
+        PageCell(item.joint.name, "text", link=f"joint-{item.joint.name}"),
+        PageCell(rounded_percent(item.relative_error), "bar", share),
+        f"{item.rms:.3g} {unit}",
+        "-" if item.predicted_sigma is None else f"{item.predicted_sigma:.2g} {unit}",
+        f"{item.measured_rms:.3g} {unit}",
+        f"{item.largest.value:.3g} {unit}",
+        PageCell(f"{item.largest.time:.2f} s of {item.largest.log}", "text"),
+        or_dash(item.r2, ".4f"),
+        "-" if item.shares is None else share_text(item.shares.systematic),
+        "-" if item.shares is None else share_text(item.shares.floor),
+        f"{item.bias:+.2g} {unit}",
+        str(item.samples),
+    ]
+
+
+def _log_table(comparison: Comparison) -> list[PageTable]:
+    """Relative error of each log and joint; nothing for a single log."""
+    if len(comparison.logs) < 2:
+        return []
+    head, *rows = by_log(comparison, "all")
+    caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
+    return [PageTable(head, rows, caption)]
+
+
+def _joint_section(comparison: Comparison, item: JointComparison) -> Section:
+    name = item.joint.name
+    pictures = [Figure(picture) for picture in joint_pictures(comparison, item)]
+    return Section(f"Joint {name}", [Paragraph(joint_verdict(item)), *pictures], f"joint-{name}")

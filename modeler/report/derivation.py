@@ -1,0 +1,257 @@
+"""Robots and what is derived from them."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from modeler.codegen.derivation import Derivation
+from modeler.core.formula import Formula
+from modeler.core.manifest import Emitted, ModuleSpec
+from modeler.core.result import Figures, Presentation, Tables, present
+from modeler.core.table import Cell, MathCell, Table
+from modeler.derivation.home import HomeModes, written
+from modeler.derivation.relations import relation_latex, relation_text
+from modeler.report.figure_matplotlib import robot_figure
+from modeler.report.page import (
+    Block,
+    Formulas,
+    Origin,
+    Page,
+    PageCell,
+    PageTable,
+    Paragraph,
+    Section,
+    write_page,
+)
+from modeler.report.robot_page import table_head, table_rows
+from modeler.robot.robot import JointKind, Robot
+from modeler.runtime.model import CompiledModel
+
+_COLUMNS = (("gamma", "rad"), ("b", "m"), ("alpha", "rad"), ("d", "m"), ("theta", "rad"),
+            ("r", "m"))  # fmt: skip
+
+
+def present_robots() -> None:
+    """Robot, Derivation, Emitted, CompiledModel, HomeModes."""
+    present(Robot, Presentation("a robot", _robot_summary, _robot_tables, _robot_figures))
+    present(Derivation, Presentation("a derivation", _derivation_summary, _derivation_tables,
+                                     lambda d: _robot_figures(d.robot)))  # fmt: skip
+    present(Emitted, Presentation("an emitted module", _emitted_summary, _emitted_tables))
+    present(CompiledModel, Presentation("a compiled model", _compiled_summary,
+                                        lambda m: _functions(m.spec)))  # fmt: skip
+    present(HomeModes, Presentation("a set of assembly modes", _modes_summary, _modes_tables))
+
+
+def _robot_summary(robot: Robot) -> str:
+    kinds = Counter("passive" if not j.actuated else "actuated" for j in robot.moving)
+    joints = ", ".join(f"{n} {kind}" for kind, n in sorted(kinds.items()))
+    lines = [f"{robot.name}: {robot.title}"]
+    lines.append(f"{len(robot.moving)} joints ({joints}), {len(robot.coordinates)} coordinates, "
+                 f"{len(robot.loops)} loops")  # fmt: skip
+    for use in robot.effects:
+        lines.append(f"effect {use.effect}: {', '.join(use.joints)}")
+    if robot.symbols:
+        told = [f"{name} = {value}" for name, value in robot.symbol_values().items()]
+        lines.append(f"symbols: {', '.join(told)}")
+    return "\n".join(lines)
+
+
+def _robot_tables(robot: Robot) -> Tables:
+    found = {"mdh": lambda: _mdh(robot)}
+    if robot.parameters:
+        found["parameters"] = lambda: Table(
+            f"{robot.name}: nominal parameters", (("parameter", ""), ("value", "SI")),
+            tuple(robot.parameters.items()),
+        )  # fmt: skip
+    return found
+
+
+def _mdh(robot: Robot) -> Table:
+    used = [(name, unit) for name, unit in _COLUMNS
+            if any(not getattr(joint, name).is_zero for joint in robot.joints)]  # fmt: skip
+    rows = tuple(
+        (joint.name, joint.antecedent, int(joint.actuated), int(JointKind(joint.kind)),
+         *(getattr(joint, name).text for name, _ in used))
+        for joint in robot.joints
+    )  # fmt: skip
+    return Table(
+        f"{robot.name}: {robot.title}",
+        (("j", ""), ("a", ""), ("mu", ""), ("sigma", ""), *used), rows,
+        "Khalil-Kleinfinger notation; sigma 0 revolute, 1 prismatic, 2 fixed; mu 1 actuated",
+    )  # fmt: skip
+
+
+def _robot_figures(robot: Robot) -> Figures:
+    return {"skeleton": lambda: robot_figure(robot)}
+
+
+def _derivation_summary(derivation: Derivation) -> str:
+    base, robot = derivation.base, derivation.robot
+    counts = ", ".join(f"{n} {kind}" for kind, n in base.counts().items() if n)
+    return "\n".join([
+        f"{robot.name}: {len(base.columns)} standard parameters, {base.rank} base parameters "
+        f"({counts})",
+        f"proof: {base.proof.kind}; rank {base.proof.numeric_rank} in floating point, singular "
+        f"values {base.proof.gap[0]:.3g} (last kept) and {base.proof.gap[1]:.1e} (first dropped)",
+        f"no effect: {' '.join(base.unidentifiable) or 'none'}",
+    ])  # fmt: skip
+
+
+def _derivation_tables(derivation: Derivation) -> Tables:
+    return {
+        "base": lambda: _base_table(derivation),
+        "standard": lambda: _standard_table(derivation),
+        **_robot_tables(derivation.robot),
+    }
+
+
+def _base_table(derivation: Derivation) -> Table:
+    base, rows = derivation.base, []
+    for parameter in base.parameters:
+        left, right = relation_latex(parameter).split(" = ", 1)
+        column = base.columns[parameter.column]
+        rows.append((
+            MathCell(parameter.name, left),
+            MathCell(relation_text(parameter).split(" = ", 1)[1], right),
+            column.unit, column.kind.replace("_", " "),
+        ))  # fmt: skip
+    names = ("base parameter", "is", "unit", "kind")
+    title = f"{derivation.robot.name}: base parameters"
+    return Table(title, tuple((name, "") for name in names), tuple(rows))
+
+
+def _standard_table(derivation: Derivation) -> Table:
+    base = derivation.base
+    grouped = {term.parameter: p.name for p in base.parameters for term in p.terms}
+    rows = tuple(
+        (c.name, c.unit, c.kind.replace("_", " "),
+         "no effect" if c.name in base.unidentifiable else grouped.get(c.name, "-"))
+        for c in base.columns
+    )  # fmt: skip
+    names = ("parameter", "unit", "kind", "goes into")
+    title = f"{derivation.robot.name}: standard parameters"
+    return Table(title, tuple((name, "") for name in names), rows)
+
+
+def _emitted_summary(emitted: Emitted) -> str:
+    spec, size = emitted.spec, sum(len(text) for text in emitted.files.values())
+    lines = [f"C of {spec.robot}: {len(spec.functions)} functions in {len(emitted.files)} files, "
+             f"{size / 1000:.0f} kB, signature {spec.signature()[:12]}"]  # fmt: skip
+    return "\n".join([*lines, _functions(spec)["functions"]().text()])
+
+
+def _emitted_tables(emitted: Emitted) -> Tables:
+    sizes = tuple((name, len(text)) for name, text in sorted(emitted.files.items()))
+    files = Table(f"files of {emitted.spec.robot}", (("file", ""), ("size", "bytes")), sizes)
+    return {**_functions(emitted.spec), "files": lambda: files}
+
+
+def _functions(spec: ModuleSpec) -> Tables:
+    rows = tuple((f.name, f.equation, f.additions, f.multiplications) for f in spec.functions)
+    names = ("function", "equation", "additions", "multiplications")
+    table = Table(f"functions of {spec.robot}", tuple((name, "") for name in names), rows)
+    return {"functions": lambda: table}
+
+
+def _compiled_summary(compiled: CompiledModel) -> str:
+    spec = compiled.spec
+    joints = ", ".join(f"{joint.name} [{joint.unit}]" for joint in spec.joints)
+    return "\n".join([
+        f"compiled {spec.robot}: {len(spec.base)} base parameters, {len(spec.standard)} standard",
+        f"joints in order: {joints}",
+        "base parameters in order: " + " ".join(base.name for base in spec.base),
+    ])  # fmt: skip
+
+
+def _modes_summary(found: HomeModes) -> str:
+    own = "none" if found.own is None else found.modes[found.own].letter
+    count = len(found.modes)
+    return (f"{found.linkage.robot.name}: {count} assembly mode{'s' if count > 1 else ''}, the "
+            f"robot's own: {own}")  # fmt: skip
+
+
+def _modes_tables(found: HomeModes) -> Tables:
+    names = [joint.name for joint in found.linkage.free]
+    units = [joint.unit for joint in found.linkage.free]
+    rows: tuple[tuple[Cell, ...], ...] = tuple(
+        (mode.letter, mode.sigma, mode.kept, mode.copies,
+         *(float(written(found.linkage, mode.posture).get(name, 0.0)) for name in names))
+        for mode in found.modes
+    )  # fmt: skip
+    columns = (("mode", ""), ("singular value", ""), ("within limits", ""), ("copies", ""),
+               *((f"q{name}", unit) for name, unit in zip(names, units, strict=True)))  # fmt: skip
+    table = Table(f"{found.linkage.robot.name}: assembly modes", columns, rows)
+    return {"modes": lambda: table}
+
+
+# The page of a derivation: table, base parameters with their relations typeset, proof.
+
+
+@dataclass(frozen=True)
+class Derived:
+    """What a derivation says, without its symbols.
+
+    Attributes:
+        relations: the formula of each base parameter in pieces, and its unit.
+        standard: number of standard parameters.
+        counts: of base parameters by the kind of their column.
+        unidentifiable: names of parameters without effect.
+        tied: how joints move each other, in lines.
+        proof: kind of proof, and its lines.
+    """
+
+    relations: Sequence[tuple[Sequence[Formula], str]]
+    standard: int
+    counts: Mapping[str, int]
+    unidentifiable: Sequence[str]
+    tied: Sequence[str]
+    proof: tuple[str, Sequence[str]]
+
+
+def write_derivation(path: Path, robot: Robot, derived: Derived, given: str) -> Path:
+    """Write the page; returns the path of the file written.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets `derive.html`.
+        robot: as it was derived.
+        derived: what was found.
+        given: file or name that the robot was read from.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    kind, lines = derived.proof
+    counts = ", ".join(f"{n} {what}" for what, n in derived.counts.items() if n)
+    none = ", ".join(derived.unidentifiable) or "none"
+    sheet = Page(
+        title=f"{robot.name}: {robot.title}" if robot.title else robot.name,
+        headline=(
+            str(len(derived.relations)),
+            f"base parameters of {derived.standard} standard parameters; proof: {kind}",
+        ),
+        sections=[
+            Section("Table", _table(robot, derived.tied)),
+            Section("Base parameters", [Formulas(derived.relations)]),
+            Section("Parameters without effect", [Paragraph(f"{none}.")]),
+            Section("Proof", [Paragraph(line) for line in lines]),
+        ],
+        origin=Origin(given),
+        facts=[("Base parameters", counts), ("Without effect", f"{len(derived.unidentifiable)}")],
+        next=[f"modeler generate {given} --out {robot.name}_c"],
+        command="derive",
+    )
+    return write_page(path, sheet, "derive.html")
+
+
+def _table(robot: Robot, tied: Sequence[str]) -> list[Block]:
+    head = [PageCell(text) for text in table_head(robot)[:-1]]
+    rows = [
+        [PageCell(text) for text in (*row.cells, *(text for _, text in row.entries))]
+        for row in table_rows(robot)
+    ]
+    note = (
+        "Lengths in m, angles in rad. \u03bc 1: actuated. \u03c3 0 revolute, 1 prismatic, 2 fixed."
+    )
+    blocks: list[Block] = [PageTable(head, rows, note)]
+    return blocks + [Paragraph(line) for line in tied]

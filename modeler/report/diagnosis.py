@@ -1,0 +1,229 @@
+"""The page of a diagnosis: one HTML file, no network."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from modeler.diagnosis.result import Diagnosis, Finding
+from modeler.diagnosis.score import percent, printed
+from modeler.diagnosis.search import Step
+from modeler.diagnosis.sentences import blind_spots, tie_names, tied, unit, where
+from modeler.effects.catalogue import effect_named
+from modeler.report.evidence import evidence_picture, rivals_of, rivals_table
+from modeler.report.page import (
+    Block,
+    Figure,
+    Items,
+    Origin,
+    Page,
+    PageCell,
+    PageTable,
+    Paragraph,
+    Section,
+    write_page,
+)
+from modeler.report.shown import figures, shown
+from modeler.report.torque_picture import play_picture, push_picture, torque_picture
+
+
+def write_diagnosis(
+    path: Path,
+    diagnosis: Diagnosis,
+    provenance: Sequence[str] = (),
+    origin: Origin | None = None,
+    following: Sequence[str] = (),
+) -> Path:
+    """Write the page of a diagnosis; the path of the file written.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets `diagnosis.html`.
+        diagnosis: what it shows.
+        provenance: lines on how the data came about.
+        origin: model, logs, and whether some were held out; what the diagnosis knows of them if it
+            is left out.
+        following: commands to go on with.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    sheet = Page(
+        title=f"{diagnosis.robot}: which effect is missing",
+        headline=_headline(diagnosis),
+        sections=_sections(diagnosis),
+        origin=origin or Origin(diagnosis.robot, diagnosis.held_out, bool(diagnosis.held_out)),
+        facts=_facts(diagnosis),
+        next=following,
+        provenance=[*diagnosis.sentences, *provenance],
+        command="diagnose",
+    )
+    return write_page(path, sheet, "diagnosis.html")
+
+
+def _headline(diagnosis: Diagnosis) -> tuple[str, str]:
+    """The size of the prize, and what wins it."""
+    if not diagnosis.effects:
+        verdict, _, reason = diagnosis.sentences[0].partition(": ")
+        return verdict, reason
+    first = diagnosis.effects[0]
+    effect = effect_named(first.effect, diagnosis.search.start.data.known.catalogue)
+    assert effect is not None
+    size = " \u2192 ".join(printed(first.error_before, first.error_after))
+    return size, f"{diagnosis.verdict}: {effect.title}, {where(first.joint)}{tied(first)}"
+
+
+def _facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
+    facts = []
+    if diagnosis.effects:
+        first = diagnosis.effects[0]
+        facts.append(("What the data do not tell apart", tie_names(first) or _runner_up(diagnosis)))
+    left = [
+        f"joint {name}: {percent(j.systematic / (j.systematic + j.noise))} systematic"
+        for name, j in diagnosis.joints.items()
+        if j.unexplained
+    ]
+    facts.append(("What is still systematic", ", ".join(left) or "nothing worth a word"))
+    if diagnosis.data:
+        facts.append(("Doubts about the logs", "; ".join(diagnosis.data)))
+    held = ", ".join(diagnosis.held_out) or "none: errors are cross-validated within the logs"
+    facts.append(("Held-out motion", held))
+    return facts
+
+
+def _runner_up(diagnosis: Diagnosis) -> str:
+    """Of the same joint: an effect on another one is no rival."""
+    first = diagnosis.effects[0]
+    rivals = [gain_of for gain_of in diagnosis.rivals if gain_of[1] == first.joint]
+    if not rivals:
+        return "nothing"
+    effect, joint, gain = rivals[0]
+    share = percent(max(0.0, gain))
+    return f"nothing; the runner-up is {effect} on {where(joint)}, {share} within these logs"
+
+
+def by_error(diagnosis: Diagnosis) -> list[Finding]:
+    """All that was found, refinements too, the largest error before first."""
+    found = [*diagnosis.effects, *diagnosis.refinements]
+    return sorted(found, key=lambda finding: -finding.error_before)
+
+
+def _sections(diagnosis: Diagnosis) -> list[Section]:
+    found = [Section("Effects", _table(diagnosis)), Section("Joints", [_joints(diagnosis)])]
+    order = [(finding.effect, finding.joint) for finding in by_error(diagnosis)]
+    steps = sorted(
+        diagnosis.search.steps,
+        key=lambda step: order.index(step.pick.key) if step.pick.key in order else len(order),
+    )
+    ids: list[str] = []
+    for step in steps:
+        own = _id(*step.pick.key)
+        ids.append(own)  # two ripples of a joint differ by their orders only
+        again = ids.count(own)
+        found.append(_shown(diagnosis, step, own if again == 1 else f"{own}-{again}"))
+    found += _events(diagnosis)
+    found.append(Section("What these logs cannot show", [_blind(diagnosis)]))
+    return found
+
+
+def _shown(diagnosis: Diagnosis, step: Step, own: str) -> Section:
+    """One effect: what it explains, before and after, and what else could stand for it."""
+    item = shown(diagnosis.search, step)
+    effect, joint = step.pick.effect.id, step.pick.joint
+    blocks: list[Block] = [
+        Paragraph(figures(item)), Figure(torque_picture(item)), Figure(evidence_picture(item)),
+    ]  # fmt: skip
+    if rivals_of(step):
+        blocks.append(rivals_table(step))
+    else:
+        blocks.append(
+            Paragraph(f"No other effect of the catalogue explains anything of {where(joint)}.")
+        )
+    return Section(_name(effect, joint), blocks, own)
+
+
+def _id(effect: str, joint: str | None) -> str:
+    return f"effect-{effect}-{joint or 'robot'}"
+
+
+def _events(diagnosis: Diagnosis) -> list[Section]:
+    """Play and pushes, which are no columns."""
+    end = diagnosis.search.end
+    names = [joint.name for joint in end.data.compiled.spec.joints]
+    found = []
+    for finding in diagnosis.effects:
+        if finding.pick is None and finding.joint is not None:
+            picture = play_picture(end, names.index(finding.joint))
+            found.append(Section(_name(finding.effect, finding.joint), [Figure(picture)]))
+    if diagnosis.window is not None:
+        picture = push_picture(end, diagnosis.window)
+        found += [Section(f.effect, [Figure(picture)]) for f in diagnosis.effects if f.event]
+    return found
+
+
+def _name(effect: str, joint: str | None) -> str:
+    return f"{effect}, {where(joint)}"
+
+
+def _table(diagnosis: Diagnosis) -> list[Block]:
+    findings = by_error(diagnosis)
+    if not findings:
+        return [Paragraph(diagnosis.sentences[0])]
+    head = (
+        "effect", PageCell("joint", "text"), PageCell("values", "values"), "error before",
+        "error after", PageCell("gain", "bar"), PageCell("why", "why"),
+    )  # fmt: skip
+    drawn = {step.pick.key for step in diagnosis.search.steps}
+    rows = [_row(finding, (finding.effect, finding.joint) in drawn) for finding in findings]
+    return [PageTable(head, rows, _ERRORS)]
+
+
+_ERRORS = (
+    "The largest error first. Errors are those of the joint that is named, in parts of its own rms "
+    "torque or force; of an effect that several joints feel, of all of them, each in units of what "
+    "is left of it, so that N m and N are never added. Before and after: without the effect and "
+    "with it, all others that were named before it in the model. Gain: share of the residual's "
+    "variance that is gone."
+)
+
+
+def _row(finding: Finding, drawn: bool) -> list[str | PageCell]:
+    values = "; ".join(
+        f"{name} = {value:.4g}"
+        + (f" \u00b1 {finding.sigmas[name]:.2g}" if name in finding.sigmas else "")
+        + unit(finding, name)
+        for name, value in finding.parameters.items()
+    )
+    name = finding.effect + (" (refinement)" if finding.refines else "")
+    return [
+        PageCell(name, "text", link=_id(finding.effect, finding.joint) if drawn else ""),
+        PageCell(finding.joint or "all", "text"),
+        PageCell(values, "values"),
+        *printed(finding.error_before, finding.error_after),
+        PageCell(percent(finding.gain), "bar", max(0.0, finding.gain)),
+        PageCell(finding.evidence, "why"),
+    ]
+
+
+def _joints(diagnosis: Diagnosis) -> PageTable:
+    """Share of each joint's torque: explained, systematic, noise."""
+    head = (
+        "joint", "error", "with the effects", "explained", "systematic, unexplained", "noise",
+    )  # fmt: skip
+    rows = [
+        [
+            name,
+            *printed(j.error_before, j.error_after),
+            *(percent(share, 5) for share in (j.explained, j.systematic, j.noise)),
+        ]
+        for name, j in diagnosis.joints.items()
+    ]
+    return PageTable(
+        head,
+        rows,
+        "Errors of each joint in parts of its own rms torque or force. Shares of its variance with "
+        "the effects in. Systematic is what smooth functions "
+        "of the motion predict, what returns in the next lap, what lasts, and outbursts.",
+    )
+
+
+def _blind(diagnosis: Diagnosis) -> Block:
+    lines = [(f"{what}:", why) for what, why in blind_spots(diagnosis)]
+    return Items(lines) if lines else Paragraph("Nothing of the catalogue.")

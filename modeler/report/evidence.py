@@ -1,0 +1,303 @@
+"""The picture of an effect: the residual without it, the effect's curve, and what is left."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.figure import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    SKY,
+    VERMILLION,
+    Band,
+    Curve,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Series,
+    Style,
+)
+from modeler.diagnosis.judge import Judged
+from modeler.diagnosis.orders import order_spectrum
+from modeler.diagnosis.score import percent
+from modeler.diagnosis.search import Step
+from modeler.report.evidence_axes import bins_of
+from modeler.report.page import PageCell, PageTable
+from modeler.report.shown import Shown
+from modeler.validation.prediction import DEVIATIONS
+
+# How much of the axes a picture shows: where the effect acts and most means are.
+
+
+_TAIL = 0.005  # of the rows, and of the square of the effect, beyond either end of the x axis
+_LEAST = 0.25  # of the rows that are shown, however small the place is where the effect acts
+_MEANS = 0.05  # of the ends of all intervals beyond either end of the y axis
+_PAD = 0.08  # of a range, on either side
+
+
+@dataclass(frozen=True)
+class View:
+    """Ranges of the axes, y of residuals, law of the effect's torque; what lies outside."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    law: tuple[float, float]
+    outside: tuple[str, ...]
+
+
+def view_of(item: Shown) -> View:
+    """Of both panels, alike, so that they can be compared.
+
+    The ends are quantiles: neither one spike nor a few rows may flatten everything else. The curve
+    of the effect is always inside.
+    """
+    x = _across(item)
+    y = _upward(item, x, item.adds, (item.before, item.after))
+    own = item.adds if item.own is None else item.own
+    law = _upward(item, x, own, (own + item.after,))
+    return View(x, y, law, tuple(_outside(item, x, y)))
+
+
+def _across(item: Shown) -> tuple[float, float]:
+    """Most of the rows, and no more than the neighbourhood of the place where the effect acts."""
+    x, adds = item.axis.x[item.calm], (item.adds if item.own is None else item.own)[item.calm]
+    low, high = np.quantile(x, (_TAIL, 1.0 - _TAIL))
+    order = np.argsort(x)
+    share = np.cumsum(adds[order] ** 2)
+    if share[-1] > 0.0 and item.axis.shows not in ("t", "waves"):
+        ends = np.searchsorted(share, np.array((_TAIL, 1.0 - _TAIL)) * share[-1])
+        near, far = x[order[np.minimum(ends, len(x) - 1)]]
+        first, last = _around(x, near, far)
+        low, high = max(low, first), min(high, last)
+    pad = 0.5 * _PAD * (high - low) or 1.0
+    return float(low - pad), float(high + pad)
+
+
+def _around(x: np.ndarray, near: float, far: float) -> tuple[float, float]:
+    """As wide on either side of a place as the place itself, or wider: many rows are inside."""
+    beside = far - near
+    while beside > 0.0 and np.mean((x >= near - beside) & (x <= far + beside)) < _LEAST:
+        beside *= 2.0
+    return near - beside, far + beside
+
+
+def _upward(
+    item: Shown, x: tuple[float, float], effect: np.ndarray, drawn: Sequence[np.ndarray]
+) -> tuple[float, float]:
+    inside = (item.bins.centre >= x[0]) & (item.bins.centre <= x[1])
+    ends, error = [], np.nan_to_num(item.errors())
+    for y in drawn:
+        turned = item.axis.turned(y)
+        means = item.bins.means(turned)
+        ends += [(means - error)[inside], (means + error)[inside]]
+    curve = item.bins.means(item.axis.turned(effect))[inside]
+    every = np.concatenate(ends)
+    low = min(float(np.quantile(every, _MEANS)), float(curve.min()), 0.0)
+    high = max(float(np.quantile(every, 1.0 - _MEANS)), float(curve.max()), 0.0)
+    pad = _PAD * (high - low) or 1.0
+    return low - pad, high + pad
+
+
+def _outside(item: Shown, x: tuple[float, float], y: tuple[float, float]) -> list[str]:
+    """What the picture does not show."""
+    beside = (item.axis.x < x[0]) | (item.axis.x > x[1])
+    turned = item.axis.turned(item.before)
+    above = ~beside & ((turned < y[0]) | (turned > y[1]))
+    count = len(turned)
+    lines = [
+        f"{int(rows.sum())} of {count} rows lie {where}."
+        for rows, where in ((beside, "left or right of the axes"), (above, "above or below"))
+        if rows.any()
+    ]
+    means = item.bins.means(turned)
+    shown = (item.bins.centre >= x[0]) & (item.bins.centre <= x[1])
+    lost = shown & ((means < y[0]) | (means > y[1]))
+    if lost.any():
+        farthest = float(means[lost][np.argmax(np.abs(means[lost]))])
+        lines.append(
+            f"{int(lost.sum())} of {int(shown.sum())} means without the effect lie above or "
+            f"below, the farthest at {farthest:.3g} {item.unit}."
+        )
+    wild = int((~item.calm).sum())
+    if wild:
+        what = "wild row counts" if wild == 1 else "wild rows count"
+        lines.append(f"{wild} {what} in no mean.")
+    return lines
+
+
+ROWS = Style(GREY, 2.0, 0.35)
+MEANS = Style(BLACK, 0.0)
+EFFECT = Style(VERMILLION, 2.2)
+RIVAL = Style(BLUE, 1.4, dash=True)
+LAW_BAND = Style(SKY, opacity=0.45)
+LINES, LINES_AFTER = Style(BLACK, 1.0), Style(GREEN, 1.4)
+_DOTS = 1500
+
+
+def evidence_picture(item: Shown) -> Picture:
+    """Residual on the axis where the effect shows itself, without the effect and with it."""
+    pick, view = item.step.pick, view_of(item)
+    panels = [_without(item, view), _with(item, view)]
+    if item.axis.shows == "waves":
+        panels.insert(0, _orders(item))
+    elif item.own is not None:
+        panels.append(_law(item, item.own, view))
+    name = f"joint {pick.joint}" if pick.joint is not None else "the whole robot"
+    drawn = item.without.data.compiled.spec.joints[item.j].name
+    seen = "" if drawn == pick.joint else f", seen on joint {drawn}"
+    return Picture(
+        name=f"evidence_{pick.effect.id}_{pick.joint or 'robot'}",
+        title=f"{pick.effect.title}: {name}{seen}",
+        caption=" ".join(_caption(item, view)),
+        panels=(tuple(panels),),
+        heights=(1.0,),
+        widths=tuple(1.0 / len(panels) for _ in panels),
+        height=400,
+    )
+
+
+def _without(item: Shown, view: View) -> Panel:
+    axis, bins = item.axis, item.bins
+    curves = [(item.step.pick.effect.id, item.adds, EFFECT)]
+    if item.rival is not None:
+        curves.append(("flexible rival", item.rival, RIVAL))
+    lines = [
+        Curve(name, *_pieces(item, bins.means(axis.turned(y))), style) for name, y, style in curves
+    ]
+    series = (*_cloud(item, view, item.before), *lines)
+    return _panel("without the effect", item, view, series)
+
+
+def _with(item: Shown, view: View) -> Panel:
+    return _panel("with it", item, view, _cloud(item, view, item.after))
+
+
+def _law(item: Shown, own: np.ndarray, view: View) -> Panel:
+    """Torque that is left to the effect with all else in the model, and its equation."""
+    y = item.bins.means(item.axis.turned(own))
+    series = [*_cloud(item, view, own + item.after)]
+    if item.own_sigma is not None:
+        half = DEVIATIONS * item.own_sigma
+        x, low = _pieces(item, y - half)
+        series.append(Band("95 % band of its law", x, low, _pieces(item, y + half)[1], LAW_BAND))
+    series.append(Curve(item.step.pick.effect.id, *_pieces(item, y), EFFECT))
+    panel = _panel("its law", item, view, tuple(series))
+    label = panel.y_label.replace("residual", "torque laid to it")
+    return dataclasses.replace(panel, y_label=label, y_range=view.law)
+
+
+def _panel(title: str, item: Shown, view: View, series: tuple[Series, ...]) -> Panel:
+    y_label = f"residual{item.axis.times} [{item.unit}]"
+    return Panel(title, item.axis.label, y_label, series, zero=True, x_range=view.x, y_range=view.y)
+
+
+def _cloud(item: Shown, view: View, y: np.ndarray) -> tuple[Series, ...]:
+    x, turned = item.axis.x, item.axis.turned(y)
+    inside = np.flatnonzero((x >= view.x[0]) & (x <= view.x[1]))
+    kept = inside[:: max(1, len(inside) // _DOTS)]
+    return (
+        Points("rows", x[kept], turned[kept], ROWS),
+        Means("mean of bin, 95 %", item.bins.centre, item.bins.means(turned), item.errors(), MEANS),
+    )
+
+
+def _pieces(item: Shown, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A curve over the centres of the bins; over velocities it may leap at 0."""
+    if item.axis.shows != "v":
+        return item.bins.centre, y
+    at = [edge for edge in item.bins.edges if edge > 0]
+    return np.insert(item.bins.centre, at, np.nan), np.insert(y, at, np.nan)
+
+
+def _orders(item: Shown) -> Panel:
+    order = item.step.pick.shapes["m"]
+    series = []
+    for label, state, style in (
+        ("without", item.without, LINES), ("with the effect", item.full, LINES_AFTER),
+    ):  # fmt: skip
+        spectrum = order_spectrum(state, item.j)
+        if spectrum is not None:
+            near = (spectrum.order > 0.5 * order) & (spectrum.order < 1.5 * order)
+            series.append(Curve(label, spectrum.order[near], spectrum.amplitude[near], style))
+    return Panel(
+        "order spectrum", "waves per turn", f"amplitude [{item.unit}]", tuple(series),
+        marks=((order, f"{order:.4g}"),),
+    )  # fmt: skip
+
+
+def _caption(item: Shown, view: View) -> list[str]:
+    lines = [
+        f"Look for: {item.step.pick.effect.signature}. Without the effect, all other parameters "
+        "are fitted anew; with it, the scale is the same.",
+        f"{ROWS.named.capitalize()}: filtered rows; {MEANS.named}: means of bins with 95 % "
+        f"intervals, from blocks of time, of what scatters about the effect; {EFFECT.named}: "
+        "what the effect adds, as far as the model's other parameters cannot imitate it.",
+    ]
+    if item.axis.shows == "waves":
+        lines.append(
+            f"In the spectrum {LINES.named} is without the effect, {LINES_AFTER.named} with it. "
+            "Rows of fast motion show less of the wave: the filter takes it."
+        )
+    elif item.own is None:
+        lines.append(
+            "No single quantity shows this effect, so the axis is what it adds itself: where it "
+            "describes the residual, the means lie on its line."
+        )
+    else:
+        lines.append("Its law: measured torque less all else in the model, and the equation.")
+        if item.own_sigma is not None:
+            lines.append(
+                f"Broad {LAW_BAND.named}: two standard deviations of the law on either side, by "
+                "the scatter between blocks of time, its shapes taken as known."
+            )
+    if item.rival is not None:
+        lines.append(
+            f"{RIVAL.named.capitalize()}: the flexible rival, any smooth law of what was "
+            "measured, fitted to other blocks."
+        )
+    if item.axis.way is not None:
+        lines.append(
+            "Residuals are multiplied by the sign of the velocity: friction turns with it."
+        )
+    if len(item.without.picks):
+        lines.append("The other effects found here are in the model on both sides.")
+    return [*lines, *view.outside]
+
+
+def rivals_of(step: Step) -> list[Judged]:
+    """The effects that could stand for it: those of the same joint, or of the whole robot."""
+    return [rival for rival in step.rivals if rival.candidate.joint == step.pick.joint]
+
+
+def rivals_table(step: Step) -> PageTable:
+    """What the best effects on the same joint explain within the logs, below one another."""
+    items = [step.judged, *rivals_of(step)[:7]]
+    rows: list[list[str | PageCell]] = [
+        [item.candidate.effect.id, PageCell(percent(gain), "bar", gain)]
+        for item in items
+        for gain in [max(0.0, item.gain)]
+    ]
+    return PageTable(
+        ["Why not another effect", PageCell("explains", "bar")], rows,
+        "Share of the error variance of its own joints that each effect explains within these "
+        "logs, cross-validated. Only effects on the same joint are rivals; one on another joint is "
+        "perhaps the next to be found.",
+    )  # fmt: skip
+
+
+def scatter(
+    title: str, x_label: str, y_label: str, x: np.ndarray, y: np.ndarray, block: np.ndarray
+) -> Panel:
+    """Rows as dots, and the means of bins with 95 % intervals."""
+    bins = bins_of(x, np.zeros(len(x)), block, np.ones(len(x), dtype=bool))
+    every = max(1, len(x) // _DOTS)
+    series: Sequence[Series] = (
+        Points("rows", x[::every], y[::every], ROWS),
+        Means("mean of bin, 95 %", bins.centre, bins.means(y), bins.errors(y, block), MEANS),
+    )
+    return Panel(title, x_label, y_label, tuple(series), zero=True)

@@ -1,0 +1,334 @@
+"""A picture as PNG or SVG, by matplotlib; no window, no global state."""
+
+import io
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
+
+from modeler.core.figure import (
+    BLUE,
+    COLORS,
+    ORANGE,
+    SHADE,
+    Band,
+    Bars,
+    Curve,
+    Heat,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Series,
+    Style,
+    picture_csv,
+    thin_curves,
+)
+from modeler.core.files import write_atomically
+from modeler.diagnosis.result import Diagnosis
+from modeler.estimation.result import FitResult
+from modeler.report.showing import show
+from modeler.robot.robot import Robot
+
+if TYPE_CHECKING:
+    pass
+
+
+_BESIDE = 4  # entries of a legend that leave room for the title
+_SETTINGS: Any = {
+    "font.size": 9,
+    "axes.titlesize": 9.5,
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "svg.hashsalt": "modeler",  # the same picture gives the same file
+    "svg.fonttype": "none",
+}
+
+
+def images(picture: Picture) -> dict[str, bytes]:
+    """The picture as PNG (150 dpi) and SVG files, 12 inches wide, without a date or version."""
+    with matplotlib.rc_context(_SETTINGS):
+        figure = _figure(picture)
+        png = _saved(figure, "png", {"Software": None})
+        figure.set_layout_engine("none")  # laid out by now; the layout is the slow part
+        return {"png": png, "svg": _saved(figure, "svg", {"Date": None, "Creator": None})}
+
+
+class Drawing(Figure):
+    """A figure that a notebook shows by itself, whatever backend it has."""
+
+    def _repr_png_(self) -> bytes:
+        stream = io.BytesIO()
+        self.savefig(stream, format="png", dpi=100)
+        return stream.getvalue()
+
+
+def drawing(picture: Picture) -> Drawing:
+    """The picture as a figure of matplotlib, 12 inches wide."""
+    with matplotlib.rc_context(_SETTINGS):
+        return _figure(picture)
+
+
+def _saved(figure: Figure, kind: str, metadata: dict[str, None]) -> bytes:
+    stream = io.BytesIO()
+    figure.savefig(stream, format=kind, dpi=150, metadata=metadata)
+    return stream.getvalue()
+
+
+def _figure(picture: Picture) -> Drawing:
+    figure = Drawing(figsize=(12.0, picture.height / 100.0), layout="constrained")
+    FigureCanvasAgg(figure)
+    figure.suptitle(picture.title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    axes = figure.subplots(
+        len(picture.panels),
+        len(picture.panels[0]),
+        squeeze=False,
+        sharex="col" if picture.shared_time else False,
+        gridspec_kw={"height_ratios": picture.heights, "width_ratios": picture.widths},
+    )
+    last = len(picture.panels) - 1
+    for row, panels in enumerate(picture.panels):
+        for column, panel in enumerate(panels):
+            _draw_panel(axes[row, column], panel)
+            if not picture.shared_time or row == last:
+                axes[row, column].set_xlabel(panel.x_label)
+    _legend(figure, picture, axes)
+    return figure
+
+
+def _legend(figure: Figure, picture: Picture, axes: Any) -> None:
+    """One legend for the picture: the series of panels that have several."""
+    handles: dict[str, Any] = {}
+    for row, panels in enumerate(picture.panels):
+        for column, panel in enumerate(panels):
+            if len(panel.series) > 1 or panel.spans:
+                drawn, labels = axes[row, column].get_legend_handles_labels()
+                handles |= dict(zip(labels, drawn, strict=True))
+    if handles:
+        figure.legend(
+            list(handles.values()),
+            list(handles),
+            loc="outside upper right",
+            ncols=len(handles) if len(handles) <= _BESIDE else -(-len(handles) // 2),
+            frameon=False,
+        )
+
+
+def _draw_panel(axes: Any, panel: Panel) -> None:
+    if not panel.series:
+        axes.set_axis_off()
+        return
+    axes.set_title(panel.title)
+    axes.set_ylabel(panel.y_label)
+    if panel.scale == "log" and any(
+        np.isfinite(s.y).any() for s in panel.series if isinstance(s, Curve)
+    ):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+    for span in panel.spans:
+        for k, (start, end) in enumerate(span.ends):
+            label = "_nolegend_" if k else span.label
+            axes.axvspan(start, end, color=span.color, lw=0, zorder=-1, label=label)
+    if panel.shade is not None:
+        axes.axvspan(*panel.shade, color=SHADE, lw=0, zorder=0)
+    if panel.zero:
+        axes.axhline(0.0, color="0.4", lw=0.7, zorder=1)
+    for place, text in panel.marks:
+        axes.axvline(place, color="0.5", lw=0.7, ls=":", zorder=1)
+        axes.annotate(
+            f" {text}", (place, 1.0), xycoords=("data", "axes fraction"), fontsize=7, va="top"
+        )
+    for series in panel.series:
+        _draw(axes, series)
+    if panel.x_range is not None:
+        axes.set_xlim(panel.x_range)
+    if panel.y_range is not None:
+        axes.set_ylim(panel.y_range)
+
+
+def _draw(axes: Any, series: Series) -> None:
+    if isinstance(series, Heat):
+        _draw_heat(axes, series)
+    elif isinstance(series, Bars):
+        _draw_bars(axes, series)
+    elif isinstance(series, Band):
+        style = series.style
+        axes.fill_between(
+            series.x, series.low, series.high, color=style.color, alpha=style.opacity, lw=0,
+            label=series.label,
+        )  # fmt: skip
+    elif isinstance(series, Means):
+        axes.errorbar(
+            series.x,
+            series.y,
+            yerr=series.error,
+            color=series.style.color,
+            lw=series.style.width,
+            elinewidth=1.0,
+            marker="o",
+            ms=3,
+            label=series.label,
+            zorder=3,
+        )
+    else:
+        style, line = series.style, isinstance(series, Curve)
+        axes.plot(
+            series.x,
+            series.y,
+            color=style.color,
+            alpha=style.opacity,
+            lw=style.width if line else 0.0,
+            ls="--" if style.dash else "-",
+            marker="" if line else ".",
+            ms=style.width,
+            label=series.label,
+            rasterized=isinstance(series, Points),
+        )
+
+
+def _draw_bars(axes: Any, series: Bars) -> None:
+    stacked = series.base is not None
+    drawn = axes.bar(
+        series.names,
+        series.values,
+        bottom=series.base,
+        color=series.style.color,
+        width=0.6,
+        label=series.label,
+    )
+    place: Any = {"label_type": "center", "color": "white"} if stacked else {"padding": 2}
+    axes.bar_label(drawn, labels=list(series.texts), **place)
+
+
+def _draw_heat(axes: Any, heat: Heat) -> None:
+    colours = LinearSegmentedColormap.from_list("share", ["#ffffff", BLUE])
+    axes.imshow(heat.values, cmap=colours, vmin=0.0, vmax=heat.top, aspect="auto")
+    axes.set_xticks(range(len(heat.columns)), heat.columns)
+    axes.set_yticks(range(len(heat.rows)), heat.rows)
+    axes.tick_params(length=0)
+    for i, row in enumerate(heat.texts):
+        for j, text in enumerate(row):
+            dark = heat.values[i, j] > 0.55 * heat.top
+            axes.text(j, i, text, ha="center", va="center", color="white" if dark else "black")
+
+
+# Figures: matplotlib's, made without its global state, drawn by a notebook and saved by `savefig`.
+#
+# A figure of matplotlib stands in a notebook as a picture, works without a network, and goes into a
+# paper; the pages that commands write have the ones that can be zoomed.
+
+
+_MOST_BARS = 40
+
+
+def picture_figure(picture: Picture) -> "Drawing":
+    """The picture as a figure."""
+    return drawing(picture)
+
+
+def robot_figure(robot: Robot) -> "Drawing":
+    """The robot at its [home], as wide as a column of a paper."""
+    from modeler.report.robot_drawing import picture_figure as skeleton_figure
+
+    found = show(robot)
+    return skeleton_figure(found.skeleton, found.posture, Drawing)
+
+
+def parameters_figure(fit: FitResult) -> "Drawing":
+    """How sure each parameter is: its sigma in percent of its value."""
+    known = [p for p in fit.parameters if p.relative_sigma_percent is not None][:_MOST_BARS]
+    shares = np.array([min(p.relative_sigma_percent or 0.0, 100.0) for p in known])
+    texts = tuple(_rounded(p.relative_sigma_percent or 0.0) for p in known)
+    names = tuple(p.name for p in known)
+    bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
+    label = "sigma [% of the value], at most 100 drawn"
+    return picture_figure(Picture(
+        name="parameters", title=f"{fit.robot}: how sure the parameters are", caption="",
+        panels=((Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label,
+                       (bars,)),),),
+        heights=(1.0,), widths=(1.0,), height=380,
+    ))  # fmt: skip
+
+
+def errors_picture(diagnosis: Diagnosis) -> Picture:
+    """Relative error of every joint, without and with the effects."""
+    panels = tuple(
+        Panel(title, "joint", "relative error [%]", (_error_bars(diagnosis, after),))
+        for title, after in (("as fitted", False), ("with the effects", True))
+    )
+    return Picture(
+        name="errors", title=f"{diagnosis.robot}: {diagnosis.verdict}", caption="",
+        panels=(panels,), heights=(1.0,), widths=(0.5, 0.5), height=380,
+    )  # fmt: skip
+
+
+def _error_bars(diagnosis: Diagnosis, after: bool) -> Bars:
+    joints = diagnosis.joints.values()
+    values = np.array([100.0 * (j.error_after if after else j.error_before) for j in joints])
+    texts = tuple("" if np.isnan(value) else f"{value:.2f}" for value in values)
+    return Bars("error", tuple(diagnosis.joints), values, texts, Style(ORANGE if after else BLUE))
+
+
+def log_figure(
+    title: str, joints: Sequence[str], time: np.ndarray, q: np.ndarray, tau: np.ndarray
+) -> "Drawing":
+    """Positions and torques of all joints against time."""
+    panels = tuple(
+        (Panel(what, "time [s]", label, tuple(_curves(joints, time, values)), zero=True),)
+        for what, label, values in (
+            ("positions", "q [rad, m]", q),
+            ("torques", "tau [N m, N]", tau),
+        )
+    )
+    return picture_figure(Picture(
+        name="channels", title=title, caption="", panels=panels, heights=(1.0, 1.0),
+        widths=(1.0,), height=620, shared_time=True,
+    ))  # fmt: skip
+
+
+def _curves(joints: Sequence[str], time: np.ndarray, values: np.ndarray) -> list[Curve]:
+    found = []
+    for j, name in enumerate(joints):
+        rows = thin_curves((values[:, j],))
+        color = COLORS[j % len(COLORS)]
+        found.append(Curve(name, time[rows], values[rows, j], Style(color, dash=j >= len(COLORS))))
+    return found
+
+
+def _rounded(percent: float) -> str:
+    """Two digits, all of those before the point."""
+    return f"{percent:.2g}" if percent < 100.0 else f"{percent:.0f}" if percent < 1e4 else ">10000"
+
+
+# Pictures as files: PNG and SVG, and their numbers as CSV.
+
+
+def write_files(
+    folder: Path, pictures: Sequence[Picture], progress: Callable[[float], None] | None = None
+) -> tuple[Path, ...]:
+    """Write every picture; returns the paths written.
+
+    Args:
+        folder: made if it is not there.
+        pictures: what to draw.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        ModelerError: the folder cannot be written.
+    """
+    written = []
+    for number, picture in enumerate(pictures, start=1):
+        files = {**images(picture), "csv": picture_csv(picture).encode()}
+        for kind, content in files.items():
+            place = Path(folder) / f"{picture.name}.{kind}"
+            write_atomically(place, content)
+            written.append(place)
+        if progress is not None:
+            progress(number / len(pictures))
+    return tuple(written)

@@ -1,0 +1,207 @@
+"""A picture as plain data, from which the script of a page draws it."""
+
+import base64
+import gzip
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
+
+# The numbers of all pictures of a page in one compressed block, each array once.
+
+
+_LEVELS = 65534  # between the smallest and the largest value; one more level is NaN
+_SINGLE = 1e-6  # of the range of x: less than a pixel of any screen
+
+
+class Numbers:
+    """Arrays by number; `block()` holds them all.
+
+    What a screen shows is kept: values on linear axes to 1/65534 of their range, those that must
+    stay apart (x of a curve) or span decades in single precision, or double where that is too
+    coarse (a clock that counts from 1970). Of an array the bytes of one significance stand
+    together, highest first, so that they compress.
+    """
+
+    def __init__(self) -> None:
+        self._places: dict[bytes, int] = {}
+        self._kinds: list[list[float]] = []
+        self._bytes: list[bytes] = []
+
+    def seen(self, values: np.ndarray) -> int:
+        """The number of an array that a linear axis shows; what is not finite becomes NaN."""
+        exact = np.asarray(values, dtype=np.float64)
+        held = np.isfinite(exact)
+        low, span = (float(exact[held].min()), float(np.ptp(exact[held]))) if held.any() else (0, 0)
+        step = span / _LEVELS or 1.0
+        levels = np.full(exact.shape, _LEVELS + 1, dtype="<u2")
+        levels[held] = np.round((exact[held] - low) / step)
+        return self._add(levels, [float(low), float(step)])
+
+    def exact(self, values: np.ndarray) -> int:
+        """The number of an array in single or double precision."""
+        whole = np.asarray(values, dtype=np.float64)
+        held = whole[np.isfinite(whole)]
+        with np.errstate(over="ignore"):
+            single = whole.astype(np.float32)
+        away = np.abs(held - held.astype(np.float32)).max() if held.size else 0.0
+        enough = not held.size or away <= _SINGLE * np.ptp(held) or np.ptp(held) == 0.0
+        return self._add(single if enough else whole, [])
+
+    def _add(self, values: np.ndarray, scale: list[float]) -> int:
+        count, size = values.size, values.itemsize
+        content = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<")).tobytes()
+        key = repr((size, scale)).encode() + content
+        if key not in self._places:
+            self._places[key] = len(self._kinds)
+            self._kinds.append([count, size, *scale])
+            planes = np.frombuffer(content, np.uint8).reshape(count, size).T[::-1]
+            self._bytes.append(planes.tobytes())
+        return self._places[key]
+
+    def block(self) -> dict[str, Any]:
+        """What the page holds.
+
+        `arrays`: of each its count, the bytes of a value, and of two-byte levels the lowest value
+        and the step. `data`: gzip of them all, as base64.
+        """
+        return {"arrays": self._kinds, "data": packed(b"".join(self._bytes))}
+
+
+def packed(content: bytes) -> str:
+    """gzip as base64, the same for the same content."""
+    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
+
+
+def drawn(picture: Picture, numbers: Numbers) -> dict[str, Any]:
+    """Panels and series of a picture; arrays by their number.
+
+    Maps of cells (`Heat`) are left out: a page shows them as tables.
+
+    Args:
+        picture: what to draw.
+        numbers: takes the arrays.
+    """
+    rows, heights, widths = plotted(picture)
+    return {
+        "name": picture.name,
+        "height": round(picture.height * sum(heights) / sum(picture.heights)),
+        "shared": picture.shared_time,
+        "heights": list(heights),
+        "widths": list(widths),
+        "rows": [[_panel(panel, numbers) for panel in row] for row in rows],
+    }
+
+
+def plotted(
+    picture: Picture,
+) -> tuple[Sequence[Sequence[Panel]], Sequence[float], Sequence[float]]:
+    """Rows of panels with axes, their heights and the widths of the columns.
+
+    Where maps of cells stand between them, the others are put side by side.
+    """
+    panels = [panel for row in picture.panels for panel in row]
+    if not cells(picture):
+        return picture.panels, picture.heights, picture.widths
+    kept = [panel for panel in panels if not _cells(panel) and _filled(panel)]
+    return ([kept], picture.heights[:1], [1.0] * len(kept)) if kept else ((), (), ())
+
+
+def cells(picture: Picture) -> list[tuple[Panel, Heat]]:
+    """The maps of cells of a picture, each with its panel."""
+    panels = [panel for row in picture.panels for panel in row]
+    return [(panel, s) for panel in panels for s in panel.series if isinstance(s, Heat)]
+
+
+def keys(picture: Picture) -> list[tuple[str, str, str]]:
+    """The legend, of panels with several series: label, colour, kind of mark; each label once."""
+    found: dict[str, tuple[str, str, str]] = {}
+    for panel in (panel for row in plotted(picture)[0] for panel in row):
+        for series in panel.series if len(panel.series) > 1 else ():
+            if not isinstance(series, Heat):
+                mark = (series.label, _shade(series), _mark(series))
+                found.setdefault(series.label, mark)
+        for span in panel.spans:
+            found.setdefault(span.label, (span.label, span.color, "span"))
+    return list(found.values())
+
+
+def _filled(panel: Panel) -> bool:
+    return any(len(s.values if isinstance(s, Bars | Heat) else s.x) for s in panel.series)
+
+
+def _cells(panel: Panel) -> bool:
+    return any(isinstance(series, Heat) for series in panel.series)
+
+
+def _shade(series: Curve | Points | Means | Band | Bars) -> str:
+    """The colour; of a band, whose ground shines through, mixed with white."""
+    style = series.style
+    if not isinstance(series, Band):
+        return style.color
+    parts = (int(style.color[k : k + 2], 16) for k in (1, 3, 5))
+    return "#" + "".join(f"{round(255 - style.opacity * (255 - part)):02x}" for part in parts)
+
+
+def _mark(series: Series) -> str:
+    if isinstance(series, Curve):
+        return "dashes" if series.style.dash else "line"
+    return "bar" if isinstance(series, Bars | Band) else "dots"
+
+
+def _panel(panel: Panel, numbers: Numbers) -> dict[str, Any]:
+    return {
+        "title": panel.title,
+        "x": panel.x_label,
+        "y": panel.y_label,
+        "log": panel.scale == "log",
+        "zero": panel.zero,
+        "marks": [[float(place), text] for place, text in panel.marks],
+        "shade": _ends(panel.shade),
+        "spans": [[span.color, span.ends.round(4).tolist()] for span in panel.spans],
+        "xrange": _ends(panel.x_range),
+        "yrange": _ends(panel.y_range),
+        "series": [
+            _series(s, numbers, panel.scale == "log")
+            for s in panel.series
+            if not isinstance(s, Heat)
+        ],
+    }
+
+
+def _ends(ends: tuple[float, float] | None) -> list[float] | None:
+    return None if ends is None else [float(ends[0]), float(ends[1])]
+
+
+def _series(
+    series: Curve | Points | Means | Band | Bars, numbers: Numbers, log: bool
+) -> dict[str, Any]:
+    style = series.style
+    found: dict[str, Any] = {
+        "label": series.label,
+        "color": style.color,
+        "width": style.width,
+        "opacity": style.opacity,
+    }
+    if isinstance(series, Bars):
+        base = None if series.base is None else numbers.exact(series.base)
+        return found | {
+            "kind": "bars",
+            "names": list(series.names),
+            "texts": list(series.texts),
+            "y": numbers.exact(series.values),
+            "base": base,
+        }
+    if isinstance(series, Band):
+        places = {"low": numbers.exact(series.low), "high": numbers.exact(series.high)}
+        return found | {"kind": "band", "x": numbers.exact(series.x)} | places
+    along = numbers.exact if log else numbers.seen
+    across = along if isinstance(series, Points) else numbers.exact
+    found |= {"x": across(series.x), "y": along(series.y)}
+    if isinstance(series, Means):
+        return found | {"kind": "means", "error": along(series.error)}
+    if isinstance(series, Points):
+        return found | {"kind": "points"}
+    return found | {"kind": "curve", "dash": style.dash}

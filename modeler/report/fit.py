@@ -1,0 +1,274 @@
+"""Fits and models."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from modeler.core.result import Figures, Presentation, Tables, present
+from modeler.core.table import Cell, Table
+from modeler.estimation.least_squares import titled
+from modeler.estimation.model_file import Addition, IdentifiedModel
+from modeler.estimation.result import FitResult, ParameterEstimate
+from modeler.estimation.side_by_side import SideBySide
+from modeler.report.estimators import table_of, values_of
+from modeler.report.figure_matplotlib import parameters_figure, picture_figure
+from modeler.report.history import waterfall_picture
+from modeler.report.page import (
+    Items,
+    Judged,
+    Origin,
+    Page,
+    PageCell,
+    PageTable,
+    Section,
+    Verdicts,
+    after_fit,
+    write_page,
+)
+from modeler.report.values import joints_table, values_table
+
+
+def present_models() -> None:
+    """FitResult, IdentifiedModel, Addition, SideBySide."""
+    present(FitResult, Presentation("a fit", _fit_summary, fit_tables, _fit_figures,
+                                    ("parameters", "errors")))  # fmt: skip
+    present(IdentifiedModel, Presentation("a model", _model_summary, _model_tables, _model_figures,
+                                          ("parameters", "errors", "waterfall")))  # fmt: skip
+    present(Addition, Presentation("an addition", _addition_summary))
+    present(SideBySide, Presentation("a comparison of estimators", _trials_summary, _trials_tables))
+
+
+def _fit_summary(fit: FitResult) -> str:
+    first = (f"{fit.robot}: {len(fit.parameters)} base parameters by {fit.method}, relative error "
+             f"{100.0 * fit.relative_error:.3f} %")  # fmt: skip
+    return "\n".join([first, *fit.lines()])
+
+
+def fit_tables(fit: FitResult) -> Tables:
+    """The tables of a fit; those of loads, gains and the reduced model where there are any."""
+    found = {
+        "parameters": lambda: _estimates(f"{fit.robot}: base parameters", fit.parameters),
+        "errors": lambda: _errors(fit),
+    }
+    if fit.essential is not None:
+        reduced = fit.essential.parameters
+        found["essential"] = lambda: _estimates(f"{fit.robot}: reduced model", reduced)
+    if fit.loads:
+        found["loads"] = lambda: _estimates(f"{fit.robot}: loads", fit.loads)
+    if fit.gains:
+        found["gains"] = lambda: _estimates(f"{fit.robot}: drive gains", fit.gains)
+    return found
+
+
+def _estimates(title: str, parameters: Sequence[ParameterEstimate]) -> Table:
+    rows: list[tuple[Cell, ...]] = [
+        (p.name, p.value if p.sigma is not None else None, p.sigma, p.relative_sigma_percent,
+         p.unit, p.essential if p.sigma is not None else p.status)
+        for p in parameters
+    ]  # fmt: skip
+    columns = (("parameter", ""), ("value", ""), ("sigma", ""), ("relative sigma", "%"),
+               ("unit", ""), ("essential", ""))  # fmt: skip
+    return Table(title, columns, tuple(rows))
+
+
+def _errors(fit: FitResult) -> Table:
+    rows: list[tuple[Cell, ...]] = [
+        (j.name, None if j.relative_error is None else 100.0 * j.relative_error, j.rms, j.unit,
+         j.rows)
+        for j in fit.joints
+    ]  # fmt: skip
+    columns = (("joint", ""), ("relative error", "%"), ("rms", ""), ("unit", ""), ("rows", ""))
+    note = f"all rows together: {100.0 * fit.relative_error:.3f} %, on the logs of the fit"
+    return Table(f"{fit.robot}: what the fit leaves", columns, tuple(rows), note)
+
+
+def _fit_figures(fit: FitResult) -> Figures:
+    return {"parameters": lambda: parameters_figure(fit)}
+
+
+def _model_summary(model: IdentifiedModel) -> str:
+    logs = ", ".join(log.name for log in model.logs)
+    lines = [f"model of {model.spec.robot}: {len(model.beta)} base parameters by "
+             f"{model.fit.method}, fitted on {logs}"]  # fmt: skip
+    lines += [_step_line(step) for step in model.history]
+    return "\n".join([*lines, *model.fit.lines()])
+
+
+def _model_tables(model: IdentifiedModel) -> Tables:
+    found = dict(fit_tables(model.fit))
+    if model.history:
+        found["waterfall"] = lambda: _waterfall(model)
+    found["logs"] = lambda: Table(
+        "logs of the fit",
+        (("log", ""), ("rows", ""), ("samples", ""), ("from", "s"), ("to", "s")),
+        tuple((log.name, log.rows, log.samples, log.start, log.end) for log in model.logs),
+    )
+    return found
+
+
+def _waterfall(model: IdentifiedModel) -> Table:
+    rows: list[tuple[Cell, ...]] = [
+        (step.effect or "as fitted", step.joint, 100.0 * step.error, 100.0 * step.training_error)
+        for step in model.history
+    ]
+    columns = (("effect", ""), ("joint", ""), ("error", "%"), ("on the fitted logs", "%"))
+    held = ", ".join(model.history[-1].held_out)
+    note = f"error: on {held}" if held else "error: on parts of the fitted logs, left out in turn"
+    return Table(f"{model.spec.robot}: error after every effect", columns, tuple(rows), note)
+
+
+def _model_figures(model: IdentifiedModel) -> Figures:
+    found = dict(_fit_figures(model.fit))
+    if model.history:
+        picture = waterfall_picture(model.history)
+        found["waterfall"] = lambda: picture_figure(picture)
+    return found
+
+
+def _addition_summary(step: Addition) -> str:
+    return _step_line(step)
+
+
+def _step_line(step: Addition) -> str:
+    name = f"+ {step.effect}" if step.effect else "as fitted"
+    name += f" @{step.joint}" if step.joint else ""
+    return f"{name}: error {step.error:.2%} ({step.training_error:.2%} on the fitted logs)"
+
+
+def _trials_summary(trials: SideBySide) -> str:
+    fitted = sum(own.fit is not None for own in trials.tried)
+    first = f"{trials.robot}: {fitted} of {len(trials.tried)} estimators fit these logs"
+    said = [
+        f"{own.method}: {remark}"
+        for own in trials.tried
+        for remark in ((own.refusal,) if own.refusal else own.remarks)
+    ]
+    return "\n".join([first, *trials.data, *said])
+
+
+def _trials_tables(trials: SideBySide) -> Tables:
+    return {
+        "errors": lambda: _texts("estimators on the same logs", table_of(trials.tried)),
+        "values": lambda: _texts("values and standard deviations", values_of(trials.tried)),
+    }
+
+
+def _texts(title: str, lines: list[list[str]]) -> Table:
+    head, *rows = lines
+    return Table(title, tuple((name, "") for name in head), tuple(map(tuple, rows)))
+
+
+# The page of a fit: values with sigma, what each is the sum of, condition, doubts.
+
+
+_TANGLED = 0.95  # correlation of two estimates from which on they are told
+_MOST = 12  # pairs that are told
+
+
+def write_fit(
+    path: Path,
+    model: IdentifiedModel,
+    provenance: Sequence[str] = (),
+    place: str = "MODEL",
+    following: Sequence[str] = (),
+) -> Path:
+    """Write the page; returns the path of the file written.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets `fit.html`.
+        model: fitted.
+        provenance: lines on how the data came about.
+        place: of the model file.
+        following: commands to go on with; none: those for any logs.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    fit = model.fit
+    sheet = Page(
+        title=f"{fit.robot}: fitted values",
+        headline=(fit.error_told("{:.2f} %"), f"left on the fitted logs: {_verdict(fit)}"),
+        sections=_sections(model),
+        origin=Origin(place, [log.name for log in model.logs], False),
+        facts=_facts(fit),
+        next=following or after_fit(place, ["LOG"], fit.robot, fit),
+        provenance=provenance,
+        command="fit",
+    )
+    return write_page(path, sheet, "fit.html")
+
+
+def _verdict(fit: FitResult) -> str:
+    return "nobody has judged it" if fit.verdict is None else fit.verdict.line
+
+
+def _facts(fit: FitResult) -> list[tuple[str, str]]:
+    sure = [p for p in fit.parameters if (p.relative_sigma_percent or np.inf) < 10.0]
+    aside = [p.name for p in fit.parameters if p.sigma is None]
+    facts = [
+        ("How sure?", f"{len(sure)} of {len(fit.parameters)} parameters within 10 % (one sigma); "
+         f"{sum(p.essential for p in fit.parameters)} are essential"),
+        ("Condition number", f"{fit.condition_number:.4g}; {fit.condition_scaled:.4g} with columns "
+         f"of length one; {fit.rows} rows of {fit.samples} samples"),
+        ("Estimator", titled(fit.method)),
+    ]  # fmt: skip
+    if aside:
+        facts.append(("Set aside", ", ".join(aside)))
+    return facts
+
+
+def _sections(model: IdentifiedModel) -> list[Section]:
+    fit = model.fit
+    found = [Section("Verdict", _judged(fit)), Section("Joints", [joints_table(fit)])]
+    caption = (
+        "SI units. Sigma is one standard deviation from the scatter of the residuals; the bar is "
+        "full at 30 %. A parameter without a sum is a standard parameter by itself."
+    )
+    found.append(Section("Values", [values_table(fit.parameters, model.spec.base, caption)]))
+    for title, others in (("Loads", fit.loads), ("Drive gains", fit.gains)):
+        if others:
+            found.append(Section(title, [values_table(others)]))
+    pairs = tangled(model)
+    if pairs:
+        found.append(Section("What the data hardly tell apart", [_pairs(pairs)]))
+    return found
+
+
+def _judged(fit: FitResult) -> list[Verdicts | Items]:
+    blocks: list[Verdicts | Items] = []
+    if fit.verdict is not None:
+        kind, tag = ("noise", "usable") if fit.verdict.usable else ("pattern", "not usable")
+        lines = [Judged(kind, tag, "This fit", fit.verdict.line)]
+        lines += [Judged("other", "doubt", f"Doubt {k}", text)
+                  for k, text in enumerate(fit.verdict.doubts, start=1)]  # fmt: skip
+        blocks.append(Verdicts(lines))
+    if fit.sentences:
+        blocks.append(Items([("", line) for line in fit.sentences]))
+    return blocks
+
+
+def tangled(model: IdentifiedModel) -> list[tuple[str, str, float]]:
+    """Pairs of parameters whose estimates correlate by more than 0.95, worst first."""
+    deviation = np.sqrt(np.diag(model.covariance))
+    size = np.where(deviation > 0.0, deviation, np.inf)
+    correlation = model.covariance / np.outer(size, size)
+    names = [p.name for p in model.fit.parameters]
+    rows, columns = np.triu_indices(len(names), 1)
+    strong = [
+        (names[i], names[j], float(correlation[i, j]))
+        for i, j in zip(rows, columns, strict=True)
+        if abs(correlation[i, j]) > _TANGLED
+    ]
+    return sorted(strong, key=lambda pair: -abs(pair[2]))[:_MOST]
+
+
+def _pairs(pairs: Sequence[tuple[str, str, float]]) -> PageTable:
+    rows: list[list[str | PageCell]] = [
+        [a, PageCell(b, "text"), f"{value:+.3f}"] for a, b, value in pairs
+    ]
+    return PageTable(
+        ("parameter", PageCell("and", "text"), "correlation"), rows,
+        "The torques of these logs tell the sum (-1) or the difference (+1) of such a pair better "
+        "than either; more exciting motion parts them.",
+    )  # fmt: skip

@@ -1,0 +1,257 @@
+"""The page of a fleet: what drifts where."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from modeler.core.figure import BLUE, COLORS, GREY, Curve, Heat, Means, Panel, Picture, Style
+from modeler.core.result import Figures, Presentation, Tables, present
+from modeler.core.table import Cell, Table
+from modeler.fleet.result import (
+    Finding,
+    Fleet,
+    Followed,
+    Values,
+    effect_title,
+    fleet_lines,
+    headline_of,
+    left_lines,
+    rows_of,
+    sentence,
+)
+from modeler.report.figure_matplotlib import Drawing, picture_figure
+from modeler.report.page import (
+    Figure,
+    Items,
+    Judged,
+    Origin,
+    Page,
+    PageCell,
+    PageTable,
+    Paragraph,
+    Section,
+    Verdicts,
+    write_page,
+)
+
+_PICTURES = 12  # findings that are drawn
+_COLUMNS = 24  # machines of one map
+_TOP = 10.0  # sigmas at which cells are darkest
+
+
+def write_fleet(path: Path, found: Fleet, provenance: Sequence[str] = ()) -> Path:
+    """Write the page; returns the path of the file written.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets `fleet.html`.
+        found: from `fleet_of`.
+        provenance: lines on how the data came about.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    sheet = Page(
+        title=f"{found.robot}: what drifts where",
+        headline=headline_of(found),
+        sections=_sections(found),
+        origin=Origin(found.robot, [f"{name}: {len(p)}" for name, p in found.machines.items()]),
+        facts=[
+            ("machines", str(len(found.machines))),
+            ("logs", str(found.logs)),
+            ("chance of any finding where nothing drifts", f"{100 * found.false_alarm:.2g} %"),
+        ],
+        provenance=[*found.notes, *left_lines(found), *provenance],
+        command="fleet",
+    )
+    return write_page(path, sheet, "fleet.html")
+
+
+def _sections(found: Fleet) -> list[Section]:
+    drawn = found.findings[:_PICTURES]
+    sections = [Section("Verdict", [_verdict(found)])]
+    sections += [
+        Section(
+            f"Machine {one.machine}, {one.quantity.parameter}",
+            [
+                Paragraph(f"{sentence(one, found.unit)}."),
+                Figure(finding_picture(found, one), False),
+            ],
+            _id(k),
+        )
+        for k, one in enumerate(drawn)
+    ]
+    if any(each.scores for each in found.followed):
+        sections.append(Section("All machines", [Figure(map_) for map_ in map_pictures(found)]))
+    sections.append(Section("What was looked at", [_followed(found)]))
+    if found.doubts:
+        sections.append(Section("Doubts", [Items([("", line) for line in found.doubts])]))
+    return sections
+
+
+def _id(k: int) -> str:
+    return f"finding-{k + 1}"
+
+
+def _verdict(found: Fleet) -> Verdicts | Paragraph:
+    if not found.findings:
+        return Paragraph("No machine drifts and none is apart from the others, beyond doubt.")
+    return Verdicts([
+        Judged("pattern", one.shape, f"{one.machine}, {_short(one)}", sentence(one, found.unit),
+               _id(k) if k < _PICTURES else "")
+        for k, one in enumerate(found.findings)
+    ])  # fmt: skip
+
+
+def _short(one: Finding) -> str:
+    joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
+    return joint + effect_title(one.quantity)
+
+
+def finding_picture(found: Fleet, one: Finding) -> Picture:
+    """The values of that machine over its periods, before those of all others."""
+    each = next(each for each in found.followed if each.quantity == one.quantity)
+    others = [own for name, own in each.machines.items() if name != one.machine]
+    series: list[Curve | Means] = []
+    if others:
+        series.append(_background(others))
+    own = each.machines[one.machine]
+    series.append(
+        Means(f"machine {one.machine}", own.at, own.values, 2.0 * own.sigmas, Style(BLUE, 1.6))
+    )
+    label = f"{one.quantity.parameter} [{one.quantity.unit}]"
+    panel = Panel("", f"time [{found.unit}]", label, tuple(series))
+    caption = (
+        f"{effect_title(one.quantity)} of {one.quantity.whose}, log by log: blue the machine of "
+        "this finding, with two standard deviations (scatter from period to period included), "
+        "grey all others."
+    )
+    place = found.findings.index(one) + 1
+    return Picture(f"finding_{place}", label, caption, ((panel,),), (1.0,), (1.0,), 320)
+
+
+def quantity_picture(found: Fleet, each: Followed) -> Picture:
+    """One quantity of all machines over their periods."""
+    series = tuple(
+        Means(name, own.at, own.values, 2.0 * own.sigmas, Style(COLORS[k % len(COLORS)], 1.3))
+        for k, (name, own) in enumerate(each.machines.items())
+    )
+    label = f"{each.quantity.parameter} [{each.quantity.unit}]"
+    panel = Panel("", f"time [{found.unit}]", label, series)
+    caption = (
+        f"{effect_title(each.quantity)} of {each.quantity.whose}, log by log, one line a machine; "
+        "whiskers: two standard deviations, scatter from period to period included."
+    )
+    return Picture("quantity", label, caption, ((panel,),), (1.0,), (1.0,), 320)
+
+
+def _background(others: Sequence[Values]) -> Curve:
+    """All other machines as one broken line."""
+    x = np.concatenate([[*own.at, np.nan] for own in others])
+    y = np.concatenate([[*own.values, np.nan] for own in others])
+    return Curve("the others", x, y, Style(GREY, 1.0, 0.7))
+
+
+def map_pictures(found: Fleet) -> list[Picture]:
+    """The greatest change of every quantity and machine, in sigmas; machines in portions."""
+    names = [name for name, periods in found.machines.items() if len(periods) > 1]
+    portions = [names[k : k + _COLUMNS] for k in range(0, len(names), _COLUMNS)]
+    return [_map(found.followed, own, k) for k, own in enumerate(portions, start=1)]
+
+
+def _map(followed: Sequence[Followed], machines: Sequence[str], number: int) -> Picture:
+    values = np.array([[each.scores.get(name, np.nan) for name in machines] for each in followed])
+    texts = tuple(
+        tuple("" if np.isnan(value) else f"{value:.1f}" for value in row) for row in values
+    )
+    rows = tuple(each.quantity.parameter for each in followed)
+    heat = Heat("greatest change [sigma]", tuple(machines), rows, values, texts, _TOP)
+    caption = (
+        "The greatest change of each quantity in each machine, in sigmas: a straight line, a leap, "
+        "or one period apart, whichever is surest. The greatest of many is 2 to 4 by chance."
+    )
+    panel = Panel("", "machine", "", (heat,))
+    height = 60 + 28 * len(rows)
+    return Picture(f"map_{number}", "Changes", caption, ((panel,),), (1.0,), (1.0,), height)
+
+
+def _followed(found: Fleet) -> PageTable:
+    head, *rows = rows_of(found)
+    texts = (0, 1, 2, 4)
+    return PageTable(
+        [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(head)],
+        [
+            [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(r)]
+            for r in rows
+        ],
+        "Level: median of all machines and periods. Scatter: by which values change from one "
+        "period to the next more than the noise of their logs explains. Told: the smallest "
+        "straight drift over all periods that would be a finding.",
+    )
+
+
+# Fleets.
+
+
+def present_fleets() -> None:
+    """Fleet."""
+    present(Fleet, Presentation("a fleet", lambda f: "\n".join(fleet_lines(f)), _tables, _figures))
+
+
+def _tables(found: Fleet) -> Tables:
+    return {
+        "findings": lambda: _findings(found),
+        "values": lambda: _values(found),
+        "quantities": lambda: _quantities(found),
+    }
+
+
+def _findings(found: Fleet) -> Table:
+    columns = (("machine", ""), ("joint", ""), ("effect", ""), ("shape", ""), ("from", ""),
+               ("to", ""), ("before", ""), ("change", ""), ("unit", ""), ("change of it", "%"),
+               ("sigmas", ""), ("chance", ""))  # fmt: skip
+    rows: tuple[tuple[Cell, ...], ...] = tuple(
+        (f.machine, f.quantity.joint, f.quantity.effect, f.shape, f.begin, f.end, f.before,
+         f.change, f.quantity.unit, f.percent, f.score, f.chance)
+        for f in found.findings
+    )  # fmt: skip
+    return Table(f"{found.robot}: {found.verdict}", columns, rows)
+
+
+def _values(found: Fleet) -> Table:
+    columns = (("machine", ""), ("period", ""), ("at", found.unit), ("parameter", ""),
+               ("value", ""), ("sigma", ""), ("unit", ""))  # fmt: skip
+    rows: tuple[tuple[Cell, ...], ...] = tuple(
+        (name, own.periods[k], own.at[k], each.quantity.parameter, own.values[k], own.sigmas[k],
+         each.quantity.unit)
+        for each in found.followed
+        for name, own in each.machines.items()
+        for k in range(len(own.periods))
+    )  # fmt: skip
+    return Table("what was followed, log by log", columns, rows)
+
+
+def _quantities(found: Fleet) -> Table:
+    columns = (("joint", ""), ("effect", ""), ("parameter", ""), ("level", ""), ("unit", ""),
+               ("scatter", ""), ("told", ""))  # fmt: skip
+    rows: tuple[tuple[Cell, ...], ...] = tuple(
+        (each.quantity.joint, effect_title(each.quantity), each.quantity.parameter, each.level,
+         each.quantity.unit, each.factor, each.told)
+        for each in found.followed
+    )  # fmt: skip
+    return Table("what may drift", columns, rows)
+
+
+def _figures(found: Fleet) -> Figures:
+    drawn: dict[str, Callable[[], Drawing]] = {
+        "changes" if not k else f"changes {k + 1}": partial(picture_figure, picture)
+        for k, picture in enumerate(map_pictures(found))
+    }
+    for k, each in enumerate(found.followed, start=1):
+        drawn[f"quantity {k}"] = partial(_drawn, found, each)
+    return drawn
+
+
+def _drawn(found: Fleet, each: Followed) -> Drawing:
+    return picture_figure(quantity_picture(found, each))

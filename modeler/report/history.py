@@ -1,0 +1,268 @@
+"""The page of a model's history: the error after every effect that was added, and the values."""
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from modeler.core.figure import BLUE, GREEN, ORANGE, SKY, Bars, Panel, Picture, Style
+from modeler.core.table import WORDS
+from modeler.diagnosis.score import DIGITS, percent, printed
+from modeler.effects.catalogue import effect_named
+from modeler.effects.effect import Effect
+from modeler.estimation.model_file import Addition, IdentifiedModel
+from modeler.report.page import (
+    Block,
+    Code,
+    Figure,
+    Items,
+    Origin,
+    Page,
+    PageCell,
+    PageTable,
+    Paragraph,
+    Section,
+    write_page,
+)
+from modeler.report.values import added_names, chosen, joints_table, shapes_table, values_table
+from modeler.robot.read import robot_from_text
+
+HELD, FITTED = Style(BLUE), Style(ORANGE)
+SAME, CHANGED = Style(SKY), Style(GREEN)
+_ACROSS = 3  # panels side by side
+
+
+def write_additions(
+    path: Path,
+    model: IdentifiedModel,
+    left_out: Sequence[str] = (),
+    origin: Origin | None = None,
+    following: Sequence[str] = (),
+) -> Path:
+    """Write the page of a model's history: the error after every effect, joint by joint; values.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets `improved.html`.
+        model: with its history.
+        left_out: effects that were not added, and why.
+        origin: model, logs, and whether some were held out.
+        following: commands to go on with.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    history, robot = model.history, model.spec.robot
+    held, last = history[-1].held_out, history[-1].error
+    fact = f"judged on {', '.join(held)}" if held else "training only: nothing was held out"
+    several = len(history[-1].joints) > 1
+    sheet = Page(
+        title=f"{robot}: effects added",
+        headline=(percent(last, DIGITS), f"error left of {percent(history[0].error, DIGITS)}"
+                  + (", rms over the joints" if several else "")),
+        sections=_sections(model, left_out),
+        origin=origin or Origin(robot, held, bool(held)),
+        facts=_facts(model, fact, left_out),
+        next=following,
+        provenance=[*model.warning, f"fitted on {', '.join(log.name for log in model.logs)}"],
+        command="add",
+    )  # fmt: skip
+    return write_page(path, sheet, "improved.html")
+
+
+def _facts(
+    model: IdentifiedModel, data: str, left_out: Sequence[str]
+) -> list[tuple[str, str]]:  # fmt: skip
+    history = model.history
+    facts = [("Effects", ", ".join(s.effect for s in history[1:]) or "none"), ("Data", data)]
+    if len(history) > 1:
+        start, end = (_errors(step) for step in (history[0], history[-1]))
+        most = max(end, key=lambda name: start.get(name, 0.0) - end[name], default=None)
+        if most is not None:
+            change = " \u2192 ".join(printed(start.get(most, math.nan), end[most]))
+            facts.append(("Gains most", f"joint {most}: {change}"))
+    if left_out:
+        facts.append(("Refused", f"{len(left_out)}, see below"))
+    if model.fit.verdict is not None:
+        facts.append(("The new fit", model.fit.verdict.line))
+    return facts
+
+
+def _errors(step: Addition) -> dict[str, float]:
+    """By joint, with the effect."""
+    return {name: after for name, (_, after) in step.joints.items()}
+
+
+def _sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[Section]:
+    history = model.history
+    sections = [Section("The error falls", [Figure(waterfall_picture(history))])]
+    if history[-1].joints:
+        units = {joint.name: joint.effort_unit for joint in model.spec.joints}
+        sections.append(Section("Joint by joint", [
+            _by_joint(history), Figure(joints_picture(history, units), titled=False),
+        ]))  # fmt: skip
+    sections.append(Section("What was added", _added(model)))
+    if left_out:
+        sections.append(Section("What was refused, and why", [_refused(left_out)]))
+    sections.append(Section("All values", [
+        joints_table(model.fit),
+        values_table(model.fit.parameters, model.spec.base,
+                     "SI units; sigma is one standard deviation. The bar is full at 30 %."),
+    ]))  # fmt: skip
+    again = [Code(_again(step)) for step in history[1:]]
+    if again:
+        sections.append(Section("To do this again, in this order", again))
+    return sections
+
+
+def _by_joint(history: Sequence[Addition]) -> PageTable:
+    """Errors before, and after each addition."""
+    names = list(history[-1].joints)
+    rows: list[list[str | PageCell]] = []
+    for name in names:
+        errors = [_errors(step).get(name) for step in history]
+        top = max((e for e in errors if e is not None), default=0.0) or 1.0
+        cells = [
+            PageCell("-", "bar") if e is None
+            else PageCell(percent(e) + (" *" if name in step.changed else ""), "bar", e / top)
+            for e, step in zip(errors, history, strict=True)
+        ]  # fmt: skip
+        rows.append([name, *cells])
+    return PageTable(
+        ["joint", *(PageCell(step_name(step), "bar") for step in history)], rows,
+        "Relative error of each joint, in parts of its own rms torque or force, on "
+        + (f"the held-out logs {', '.join(history[-1].held_out)}" if history[-1].held_out
+           else "parts of the fitted logs, each left out in turn")
+        + ". * a change beyond chance, paired over blocks of time.",
+    )  # fmt: skip
+
+
+def _added(model: IdentifiedModel) -> list[Block]:
+    catalogue = robot_from_text(model.robot_text, "robot").catalogue
+    steps = [step for step in model.history if step.effect]
+    if not steps:
+        return [Paragraph("Nothing: the model is as it was fitted.")]
+    found = {step.effect: effect_named(step.effect, catalogue) for step in steps}
+    blocks: list[Block] = [
+        Items([(f"{step_name(step)[2:]}:", effect.title)
+               for step in steps if (effect := found[step.effect]) is not None])
+    ]  # fmt: skip
+    own = chosen(model.fit.parameters, added_names(model))
+    if own:
+        caption = (
+            "SI units; sigma is one standard deviation, and knows that shapes were fitted too."
+        )
+        blocks.append(values_table(own, model.spec.base, caption))
+    shapes = shapes_table([(s, _units(s, found[s.effect], model)) for s in steps])
+    return blocks if shapes is None else [*blocks, shapes]
+
+
+def _units(step: Addition, effect: Effect | None, model: IdentifiedModel) -> dict[str, str]:
+    """Of the shapes of a step, by name; "" for a plain number."""
+    linear = any(j.name == step.joint and j.unit == "m" for j in model.spec.joints)
+    shapes = [] if effect is None else [shape for form in effect.forms for shape in form.shapes]
+    units = {shape.name: shape.unit(linear) for shape in shapes}
+    return {name: "" if units.get(name, "1") == "1" else units[name] for name in step.shapes}
+
+
+def _refused(left_out: Sequence[str]) -> Items:
+    """The effect bold, the reason behind it."""
+    lines = []
+    for line in left_out:
+        what, _, why = line.removeprefix("left out: ").partition(" (")
+        lines.append((f"{what}:", why.removesuffix(")")) if why else ("", line))
+    return Items(lines)
+
+
+def _again(step: Addition) -> str:
+    joint = f" --joint {step.joint}" if step.joint else ""
+    return f"modeler add MODEL {step.effect}{joint} LOG... --out MODEL"
+
+
+def step_name(step: Addition) -> str:
+    """What a step is called: "as fitted", "+ spring @2"."""
+    if not step.effect:
+        return "as fitted"
+    return f"+ {step.effect}" + (f" @{step.joint}" if step.joint else "")
+
+
+def _broken(step: Addition) -> str:
+    """Its name on several lines, so that bars may be narrow."""
+    return step_name(step).replace("_", "\n").replace(" @", "\n@")
+
+
+def waterfall_picture(history: Sequence[Addition]) -> Picture:
+    """Error over the joints after every effect, on held-out and on fitted logs."""
+    names = tuple(_broken(step) for step in history)
+    held = np.array([100.0 * s.error for s in history])
+    fitted = np.array([100.0 * s.training_error for s in history])
+    apart = bool(history[-1].held_out)
+    first = "held-out logs" if apart else "parts of the fitted logs, left out in turn"
+    panels = (
+        Panel(f"On {first}", "", "error [%]", (_bars("judged", names, held, HELD),)),
+        Panel("On the fitted logs", "", "error [%]", (_bars("fitted", names, fitted, FITTED),)),
+    )
+    several = len(history[-1].joints) > 1
+    return Picture(
+        name="waterfall",
+        title="Error after every effect",
+        caption=(
+            f"{HELD.named.capitalize()}: the error that counts, on {first}; {FITTED.named}: on the "
+            "logs that were fitted. Each joint's error is in parts of its own rms torque or force"
+            + (", and the bar is their root mean square: N m and N are not added. " if several
+               else ". ")
+            + "`modeler add MODEL undo LOG... --out MODEL` takes the last effect back."
+        ),
+        panels=(panels,),
+        heights=(1.0,),
+        widths=(0.5, 0.5),
+        height=380,
+    )  # fmt: skip
+
+
+def joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Picture:
+    """The same for every joint by itself.
+
+    Args:
+        history: of a model.
+        units: of the efforts, by joint.
+    """
+    panels = [_joint(history, name, units[name]) for name in history[-1].joints]
+    panels += [Panel("", "", "", ())] * (-len(panels) % min(_ACROSS, len(panels)))
+    across = min(_ACROSS, len(panels))
+    rows = tuple(tuple(panels[k : k + across]) for k in range(0, len(panels), across))
+    said = (
+        f"{SAME.named.capitalize()}: the error of each joint on motion that was not fitted, in "
+        "parts of its own rms torque or force, before any effect and after each"
+    )
+    if any(set(step.changed) & set(history[-1].joints) for step in history):
+        said += f"; {CHANGED.named}: where it changes beyond chance"
+    return Picture(
+        name="waterfall_joints",
+        title="Error of every joint after every effect",
+        caption=f"{said}.",
+        panels=rows,
+        heights=tuple(1.0 / len(rows) for _ in rows),
+        widths=tuple(1.0 / across for _ in range(across)),
+        height=270 * len(rows) + 40,
+    )
+
+
+def _joint(history: Sequence[Addition], name: str, unit: str) -> Panel:
+    """Bars of one joint, those that change by chance only and the others."""
+    steps = [step for step in history if name in step.joints]
+    names = tuple(_broken(step) for step in steps)
+    errors = np.array([100.0 * step.joints[name][1] for step in steps])
+    surely = np.array([name in step.changed for step in steps])
+    series = [
+        _bars(label, names, np.where(own, errors, np.nan), style)
+        for label, style, own in (("as likely chance", SAME, ~surely), ("changes", CHANGED, surely))
+        if own.any()
+    ]
+    return Panel(f"Joint {name}", "", f"error [% of {WORDS[unit]}]", tuple(series))
+
+
+def _bars(label: str, names: tuple[str, ...], errors: np.ndarray, style: Style) -> Bars:
+    return Bars(
+        label, names, errors, tuple("" if np.isnan(e) else f"{e:.{DIGITS}g}" for e in errors), style
+    )

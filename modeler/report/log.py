@@ -1,0 +1,339 @@
+"""What is in a log, as pictures and as a page."""
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from modeler.core.figure import (
+    COLORS,
+    SLATE,
+    Curve,
+    Panel,
+    Picture,
+    Points,
+    Style,
+    thin_curves,
+    thin_points,
+)
+from modeler.core.result import Figures, Presentation, Tables, present
+from modeler.core.table import Cell, Table
+from modeler.excitation.result import Exciting
+from modeler.logs.guess import template_of
+from modeler.logs.inspect import Channel, Clock, Look
+from modeler.observation.log import Log
+from modeler.observation.observation import Observation
+from modeler.observation.report import DataReport
+from modeler.report.figure_matplotlib import log_figure, picture_figure
+from modeler.report.page import (
+    Code,
+    Figure,
+    Items,
+    Origin,
+    Page,
+    PageCell,
+    PageTable,
+    Paragraph,
+    Section,
+    write_page,
+)
+from modeler.simulation import SimulatedLog
+
+_HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remarks")
+_LIMIT = 600  # points of one curve
+
+
+def write_log_page(
+    path: Path, seen: Look, doubts: Sequence[str], provenance: Sequence[str]
+) -> Path:
+    """Write the page; returns the path of the file written.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets `log.html`.
+        seen: what is in the log.
+        doubts: about it, those of a fit too.
+        provenance: lines on how it was read.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    head, *rows = channel_rows(seen)
+    sections = [
+        Section(
+            "Doubts", [Items([("", line) for line in doubts])] if doubts else [Paragraph("None.")]
+        ),
+        Section("Channels", [_table(head, rows), *map(Figure, channel_pictures(seen))]),
+    ]
+    picture = clock_picture(seen)
+    if seen.clock is not None and picture is not None:
+        sections.append(Section("Clock", [Paragraph(clock_line(seen.clock)), Figure(picture)]))
+    if seen.suggested:
+        sections.append(Section("A [log] to start from", [Code(seen.suggested)]))
+    sheet = Page(
+        f"What is in {seen.name}",
+        (str(len(doubts)), "doubts" if len(doubts) != 1 else "doubt"),
+        sections,
+        Origin(logs=(seen.name,)),
+        [("rows", str(seen.rows)), ("clock", clock_line(seen.clock) if seen.clock else "none")],
+        provenance=[*seen.notes, *provenance],
+        command="log",
+    )
+    return write_page(path, sheet, "log.html")
+
+
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> PageTable:
+    """Units and remarks are text."""
+    texts = (1, len(head) - 1)
+    return PageTable(
+        [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(head)],
+        [
+            [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(r)]
+            for r in rows
+        ],
+    )
+
+
+def clock_line(clock: Clock) -> str:
+    """The clock in words."""
+    rate = f"{clock.rate:.6g} Hz" if clock.rate > 0.0 else "unknown rate"
+    parts = [f"{clock.column}: {rate} over {clock.duration:.4g} s"]
+    uneven = f"jitter {100 * clock.jitter:.2g} % of a step"
+    parts += [uneven if clock.jitter > 1e-6 else "even"] * (clock.rate > 0.0)
+    if clock.gaps:
+        parts.append(
+            f"{clock.gaps} gap{'s' * (clock.gaps > 1)}, about {clock.lost} rows lost, "
+            f"the widest {clock.largest:.4g} s at {clock.at:.4g} s"
+        )
+    else:
+        parts.append("no gaps")
+    parts.append(f"{clock.repeated} repeated times" if clock.repeated else "no time twice")
+    if clock.back:
+        parts.append(f"{clock.back} steps back: the clock restarts, or rows are not in order")
+    return ", ".join(parts)
+
+
+def channel_rows(seen: Look) -> list[list[str]]:
+    """Header and one row a channel, as text."""
+    return [list(_HEAD), *(_row(channel) for channel in seen.channels)]
+
+
+def _row(channel: Channel) -> list[str]:
+    remarks = ["never changes"] if channel.constant else []
+    remarks += [f"stays at {end:.4g} in {share:.1%} of the rows" for end, share in channel.limits]
+    return [
+        channel.name,
+        f"{channel.unit}?" if channel.guessed else channel.unit or "-",
+        f"{channel.low:.5g}",
+        f"{channel.high:.5g}",
+        f"{channel.resolution:.3g}" if channel.resolution else "-",
+        str(channel.missing or "-"),
+        "; ".join(remarks),
+    ]
+
+
+def log_pictures(seen: Look) -> list[Picture]:
+    """All pictures of a log."""
+    clock = clock_picture(seen)
+    return [*channel_pictures(seen), *([clock] if clock is not None else [])]
+
+
+def channel_pictures(seen: Look) -> list[Picture]:
+    """One picture for the columns of each kind, against time."""
+    groups: dict[str, list[str]] = {}
+    for name in seen.values:
+        groups.setdefault(template_of(name)[0], []).append(name)
+    time = f"time column {seen.clock.column}" if seen.clock is not None else ""
+    return [
+        _against_time(seen, number, template, names)
+        for number, (template, names) in enumerate(groups.items(), start=1)
+        if template != "time" and not (len(names) == 1 and time.endswith(names[0]))
+    ]
+
+
+def _against_time(seen: Look, number: int, template: str, names: Sequence[str]) -> Picture:
+    title = template.replace("{}", "*")
+    unit = next((c.unit for c in seen.channels if c.unit and names[0] in c.name), "")
+    label = f"{title} [{unit}]" if unit else title
+    curves = []
+    for k, name in enumerate(names):
+        values = seen.values[name]
+        rows = thin_curves((values,), _LIMIT)
+        style = Style(COLORS[k % len(COLORS)], dash=k >= len(COLORS))
+        curves.append(Curve(name, seen.time[rows], values[rows], style))
+    panel = Panel("", _time_label(seen), label, tuple(curves))
+    caption = (
+        f"{title} against time, as logged, {len(names)} columns: every extreme is drawn, values "
+        "between them are thinned. A value that is missing breaks its line."
+    )
+    return Picture(f"channels_{number}", title, caption, ((panel,),), (1.0,), (1.0,), 320)
+
+
+def clock_picture(seen: Look) -> Picture | None:
+    """The steps of the clock against time; None without a clock."""
+    time, steps = seen.steps[0], 1e3 * seen.steps[1]
+    if seen.clock is None or not np.isfinite(steps).any():
+        return None
+    rows = thin_points(time, steps)
+    dots = Points("step", time[rows], steps[rows], Style(SLATE, width=2.0))
+    known = steps[np.isfinite(steps)]
+    reach = (min(0.0, float(known.min())), float(max(known.max(), 2.0 * np.median(known))))
+    panel = Panel("", _time_label(seen), "step of the clock [ms]", (dots,), y_range=reach)
+    caption = (
+        "Time from each row to the next. A level line is a steady clock; dots above it are gaps, "
+        "dots at or below 0 times that repeat or go back."
+    )
+    return Picture("clock", "Clock", caption, ((panel,),), (1.0,), (1.0,), 260)
+
+
+def _time_label(seen: Look) -> str:
+    return "row" if seen.clock is None else "time [s]"
+
+
+# Logs, observations of them, and motions.
+
+
+def present_logs() -> None:
+    """Look, Log, SimulatedLog, Observation, DataReport, Exciting."""
+    present(Look, Presentation("a look at a log", _look_summary, _look_tables, _look_figures))
+    present(Log, Presentation("a log", _log_summary, _log_tables, _log_figures))
+    present(SimulatedLog, Presentation("a simulated log", _simulated_summary, _simulated_tables,
+                                       _simulated_figures))  # fmt: skip
+    present(Observation, Presentation("an observation", _observation_summary,
+                                      _observation_tables))  # fmt: skip
+    present(DataReport, Presentation("a report", lambda r: "\n".join(r.lines()), _report_tables))
+    present(Exciting, Presentation("a motion", _motion_summary, _motion_tables))
+
+
+def _look_summary(seen: Look) -> str:
+    clock = "no clock" if seen.clock is None else clock_line(seen.clock)
+    lines = [f"{seen.name}: {seen.rows} rows, {len(seen.channels)} channels", clock]
+    lines += [f"note: {note}" for note in seen.notes]
+    return "\n".join([*lines, *([f"doubt: {doubt}" for doubt in seen.doubts] or ["no doubts"])])
+
+
+def _look_tables(seen: Look) -> Tables:
+    head, *rows = channel_rows(seen)
+    columns = tuple((name, "") for name in head)
+    return {"channels": lambda: Table(f"channels of {seen.name}", columns, tuple(map(tuple, rows)))}
+
+
+def _look_figures(seen: Look) -> Figures:
+    return {picture.name: partial(picture_figure, picture) for picture in log_pictures(seen)}
+
+
+def _log_summary(log: Log) -> str:
+    span = float(log.time[-1] - log.time[0])
+    channels = [name for name in ("qd", "qdd", "commanded") if getattr(log, name) is not None]
+    lines = [f"{log.name}: {log.rows} rows, {span:.4g} s at {1.0 / log.step:.4g} Hz, joints "
+             f"{', '.join(log.joints)}"]  # fmt: skip
+    lines.append("channels: " + ", ".join(["q", "tau", *channels, *log.extra]))
+    lines += [f"{column}: {count} rows without a value" for column, count in log.missing.items()]
+    return "\n".join([*lines, *log.notes])
+
+
+def _log_channels(log: Log) -> Iterator[tuple[str, np.ndarray]]:
+    """Every column by name; units are SI."""
+    pairs = (("q", log.q), ("qd", log.qd), ("qdd", log.qdd), ("qc", log.commanded),
+             ("tau", log.tau))  # fmt: skip
+    for prefix, values in pairs:
+        for j, name in enumerate(log.joints) if values is not None else ():
+            yield f"{prefix}{name}", values[:, j]  # type: ignore[index]
+    yield from log.extra.items()
+
+
+def _log_tables(log: Log) -> Tables:
+    rows = tuple(_channel(name, values) for name, values in _log_channels(log))
+    return {"channels": lambda: _channels(log.name, rows), "data": lambda: _data(log)}
+
+
+def _channel(name: str, values: np.ndarray) -> tuple[Cell, ...]:
+    there = values[np.isfinite(values)]
+    if not there.size:
+        return name, None, None, None, int(values.size)
+    return (name, float(there.min()), float(there.max()), float(np.sqrt(np.mean(there**2))),
+            int(values.size - there.size))  # fmt: skip
+
+
+def _channels(title: str, rows: tuple[tuple[Cell, ...], ...]) -> Table:
+    names = ("channel", "least", "largest", "rms", "missing")
+    return Table(f"channels of {title}, SI units", tuple((name, "") for name in names), rows)
+
+
+def _data(log: Log) -> Table:
+    """Every row; a long table."""
+    columns = {"time": log.time, **dict(_log_channels(log))}
+    rows = tuple(map(tuple, np.column_stack([*columns.values()]).tolist()))
+    return Table(log.name, tuple((name, "") for name in columns), rows)
+
+
+def _log_figures(log: Log) -> Figures:
+    return {"channels": lambda: log_figure(log.name, log.joints, log.time, log.q, log.tau)}
+
+
+def _simulated_summary(log: SimulatedLog) -> str:
+    lines = [f"{log.robot}, simulated: {len(log.time)} samples of {len(log.joints)} joints, "
+             f"{float(log.time[-1] - log.time[0]):.4g} s, seed {log.settings.seed}"]  # fmt: skip
+    for effect in log.truth.hidden:
+        where = f" on {effect.joint}" if effect.joint else ""
+        values = ", ".join(f"{name} = {value:.4g}" for name, value in effect.values.items())
+        lines.append(f"hidden: {effect.effect}{where}: {values}")
+    return "\n".join(lines)
+
+
+def _simulated_tables(log: SimulatedLog) -> Tables:
+    rows = tuple((name, value, name in log.truth.drawn)
+                 for name, value in log.truth.parameters.items())  # fmt: skip
+    truth = Table(
+        f"{log.robot}: true parameters", (("parameter", ""), ("value", "SI"), ("drawn", "")), rows
+    )
+    return {"truth": lambda: truth}
+
+
+def _simulated_figures(log: SimulatedLog) -> Figures:
+    title = f"{log.robot}, simulated"
+    return {"channels": lambda: log_figure(title, log.joints, log.time, log.q, log.tau)}
+
+
+def _observation_summary(observation: Observation) -> str:
+    rows, columns = int(observation.used.sum()), len(observation.names)
+    first = (f"{observation.robot}: {rows} rows of {len(observation.time)} samples, {columns} "
+             f"columns, from {', '.join(observation.logs)}")  # fmt: skip
+    return "\n".join([first, *observation.report.lines()])
+
+
+def _observation_tables(observation: Observation) -> Tables:
+    return _report_tables(observation.report)
+
+
+def _report_tables(report: DataReport) -> Tables:
+    joints = tuple((j.name, j.used, j.samples, j.slow, j.speed_floor, j.unit)
+                   for j in report.joints)  # fmt: skip
+    logs = tuple((log.name, log.rows, log.rate, log.samples, log.decimation, log.pieces,
+                  log.derivatives) for log in report.logs)  # fmt: skip
+    of_joint = ("joint", "rows", "samples", "share slow", "speed floor", "unit")
+    of_log = ("log", "rows", "rate", "samples", "one of", "pieces", "derivatives")
+    return {
+        "joints": lambda: Table("rows of each joint", tuple((n, "") for n in of_joint), joints),
+        "logs": lambda: Table(
+            "logs", tuple((n, "Hz" if n == "rate" else "") for n in of_log), logs
+        ),
+    }
+
+
+def _motion_summary(motion: Exciting) -> str:
+    return "\n".join([f"{motion.robot}: a motion of {motion.series.duration:g} s, condition number "
+                      f"{motion.quality.condition:.4g}", *motion.lines()])  # fmt: skip
+
+
+def _motion_tables(motion: Exciting) -> Tables:
+    b, u = motion.bounds, motion.used
+    rows = tuple(
+        (name, float(u.lower[j]), float(u.upper[j]), float(b.lower[j]), float(b.upper[j]),
+         float(u.speed[j]), float(b.speed[j]), float(u.acceleration[j]), float(b.acceleration[j]))
+        for j, name in enumerate(b.joints)
+    )  # fmt: skip
+    names = ("joint", "lower", "upper", "lower limit", "upper limit", "speed", "speed limit",
+             "acceleration", "acceleration limit")  # fmt: skip
+    title = f"{motion.robot}: what the motion uses of the limits, SI units"
+    return {"limits": lambda: Table(title, tuple((n, "") for n in names), rows)}

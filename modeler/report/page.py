@@ -1,0 +1,466 @@
+"""What a page says, as plain data: first screen, sections, how it was made."""
+
+import dataclasses
+import functools
+import json
+import re
+import shlex
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import jinja2
+
+from modeler.core.figure import Picture
+from modeler.core.files import page_place, resource_dir, write_atomically
+from modeler.core.formula import Formula
+from modeler.report.figure_page import Numbers, cells, drawn, keys, packed, plotted
+
+if TYPE_CHECKING:
+    from modeler.diagnosis.result import Diagnosis
+    from modeler.estimation.result import FitResult
+
+
+# The one module that knows jinja2 for pages: everything that a template prints is escaped.
+
+
+PLOTLY = "plotly/plotly-basic.min.js"
+"""Where plotly.js lies in `templates/`; see docs/pages.md for version and checksum."""
+
+
+class Drawings:
+    """The pictures of one page, as its template asks for them."""
+
+    def __init__(self) -> None:
+        self.numbers = Numbers()
+        self.any = False
+
+    def content(self, picture: Picture) -> str:
+        """What the script draws it from."""
+        self.any = True
+        return script_json(drawn(picture, self.numbers))
+
+    def block(self) -> str:
+        """The numbers of all pictures so far."""
+        return script_json(self.numbers.block())
+
+    def has_axes(self, picture: Picture) -> bool:
+        """False for a picture of cells alone, which is a table."""
+        return bool(plotted(picture)[0])
+
+
+def render(template: str, **values: Any) -> str:
+    """Text of `templates/pages/<template>.html.jinja` with these values."""
+    made = _environment().get_template(f"{template}.html.jinja")
+    return made.render(drawings=Drawings(), **values)
+
+
+def script_json(content: Any) -> str:
+    """JSON that may stand inside a script element."""
+    text = json.dumps(content, allow_nan=False, separators=(",", ":"), ensure_ascii=False)
+    return text.replace("<", "\\u003c")
+
+
+@functools.cache
+def _environment() -> jinja2.Environment:
+    made = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(resource_dir("templates") / "pages"),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        autoescape=True,
+    )
+    made.globals.update(
+        asset=_asset, plotly=_plotly, cells=cells, keys=keys, json=script_json, about=None
+    )
+    made.filters["share"] = _share
+    return made
+
+
+@functools.cache
+def _asset(name: str) -> str:
+    """A style or a script of our own as it is."""
+    return (resource_dir("templates") / "pages" / name).read_text(encoding="utf-8")
+
+
+@functools.cache
+def _plotly() -> str:
+    return packed((resource_dir("templates") / PLOTLY).read_bytes())
+
+
+def _share(value: float, top: float) -> str:
+    """0 to 1, as a style may say it."""
+    return f"{min(1.0, max(0.0, value / top)) if value == value and top > 0.0 else 0.0:.3f}"
+
+
+# The index of a folder of pages: what each is about and what it found, read from the pages.
+
+
+NAME = "index.html"
+_ABOUT = re.compile(r'id="about">([^<]*)<')
+_HEAD = 200_000  # characters within which a page says what it is about
+_ORDER = ("derive", "show", "home", "fit", "estimators", "compare", "diagnose", "add")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A page of the folder.
+
+    Attributes:
+        place: relative to the folder.
+        command: of `modeler`, that made it.
+        title: of the page.
+        figure: of its headline.
+        verdict: the rest of the headline.
+        model: what it is about.
+        logs: names.
+        held_out: True, False, or None where no fit is judged.
+    """
+
+    place: str
+    command: str
+    title: str
+    figure: str
+    verdict: str
+    model: str
+    logs: tuple[str, ...]
+    held_out: bool | None
+
+    @property
+    def folder(self) -> str:
+        """Of the page; "" for the folder itself."""
+        return self.place.rpartition("/")[0]
+
+    @property
+    def rank(self) -> tuple[int, str]:
+        """Where it stands among the pages of its folder."""
+        known = _ORDER.index(self.command) if self.command in _ORDER else len(_ORDER)
+        return known, self.place
+
+
+def write_index(folder: Path, title: str = "") -> Path | None:
+    """Write `index.html` of a folder and its own folders; the path, None if it is not ours.
+
+    An `index.html` that no earlier call wrote is left alone.
+
+    Args:
+        folder: of the pages.
+        title: of the index; the name of the folder if it is left out.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    place = Path(folder) / NAME
+    if place.exists() and (_about(place) or {}).get("command") != "index":
+        return None
+    found = entries(Path(folder))
+    name = title or Path(folder).resolve().name
+    write_atomically(place, render("index", title=name, entries=found, about={"command": "index"}))
+    return place
+
+
+def entries(folder: Path) -> list[Entry]:
+    """Our pages in a folder and in its folders, in the order in which one reads them."""
+    pages = [*folder.glob("*.html"), *folder.glob("*/*.html")]
+    found = []
+    for path in pages:
+        about = _about(path)
+        if about is not None and about.get("command") != "index":
+            found.append(_entry(path.relative_to(folder).as_posix(), about))
+    return sorted(found, key=lambda entry: (entry.folder, entry.rank))
+
+
+def _entry(place: str, about: dict[str, object]) -> Entry:
+    def text(name: str) -> str:
+        return str(about.get(name) or "")
+
+    logs, held = about.get("logs"), about.get("held_out")
+    return Entry(
+        place=place,
+        command=text("command"),
+        title=text("title") or place,
+        figure=text("figure"),
+        verdict=text("verdict"),
+        model=text("model"),
+        logs=tuple(map(str, logs)) if isinstance(logs, list) else (),
+        held_out=held if isinstance(held, bool) else None,
+    )
+
+
+def _about(path: Path) -> dict[str, object] | None:
+    """What a page says of itself; None for a page of somebody else."""
+    try:
+        with path.open(encoding="utf-8") as file:
+            match = _ABOUT.search(file.read(_HEAD))
+        about = json.loads(match[1]) if match else None
+    except (OSError, ValueError):
+        return None
+    return about if isinstance(about, dict) else None
+
+
+@dataclass(frozen=True)
+class PageCell:
+    """Of a table.
+
+    Attributes:
+        text: what stands there.
+        kind: "number" to the right, "text" to the left and wrapped, "bar" with a bar before it.
+        share: length of the bar, 0 to 1.
+        link: id of a section of this page.
+    """
+
+    text: str
+    kind: str = "number"
+    share: float = 0.0
+    link: str = ""
+
+
+@dataclass(frozen=True)
+class PageTable:
+    """Head and rows; a plain string is a number, or the text of the first column."""
+
+    head: Sequence[str | PageCell]
+    rows: Sequence[Sequence[str | PageCell]]
+    caption: str = ""
+    block: str = "table"
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """A paragraph."""
+
+    text: str
+    block: str = "lead"
+
+
+@dataclass(frozen=True)
+class Items:
+    """A list; each line with a word before it that is set bold, or none."""
+
+    lines: Sequence[tuple[str, str]]
+    block: str = "items"
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One line of a verdict.
+
+    Attributes:
+        kind: "noise" (good), "pattern" (bad), "other" (unclear), "" (none of them).
+        tag: a word or two.
+        head: what it is about.
+        text: what is said of it.
+        link: id of a section of this page, or nothing.
+    """
+
+    kind: str
+    tag: str
+    head: str
+    text: str
+    link: str = ""
+
+
+@dataclass(frozen=True)
+class Verdicts:
+    """A list of judgements."""
+
+    lines: Sequence[Judged]
+    block: str = "verdicts"
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A picture with its caption, legend, maps of cells as tables, and its numbers to download."""
+
+    picture: Picture
+    titled: bool = True
+    block: str = "figure"
+
+
+@dataclass(frozen=True)
+class Formulas:
+    """Formulas below one another, each in pieces between which a line may break, and its unit."""
+
+    rows: Sequence[tuple[Sequence[Formula], str]]
+    block: str = "formulas"
+
+
+@dataclass(frozen=True)
+class Code:
+    """Commands or text to copy, as it is."""
+
+    text: str
+    block: str = "code"
+
+
+Block = PageTable | Paragraph | Items | Verdicts | Figure | Formulas | Code
+
+
+@dataclass(frozen=True)
+class Section:
+    """A title and what stands below it; `id` is what links lead to."""
+
+    title: str
+    blocks: Sequence[Block]
+    id: str = ""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a page comes from, for its first screen.
+
+    Attributes:
+        model: file or robot that it is about.
+        logs: names of logs.
+        held_out: True if what is judged was never fitted, False for training data, None if a page
+            judges no fit.
+    """
+
+    model: str = ""
+    logs: Sequence[str] = ()
+    held_out: bool | None = None
+
+
+@dataclass(frozen=True)
+class Page:
+    """One page.
+
+    Attributes:
+        title: plain text.
+        headline: a figure, and what it is.
+        sections: in order.
+        origin: model, logs, badge.
+        facts: names and what stands below them.
+        next: commands to go on with.
+        provenance: how it was made, in lines.
+        command: of `modeler`, that makes such pages.
+    """
+
+    title: str
+    headline: tuple[str, str]
+    sections: Sequence[Section]
+    origin: Origin = dataclasses.field(default_factory=Origin)
+    facts: Sequence[tuple[str, str]] = ()
+    next: Sequence[str] = ()
+    provenance: Sequence[str] = ()
+    command: str = ""
+
+
+def page(sheet: Page) -> str:
+    """The page as text; its security policy forbids any network access."""
+    return render("sheet", sheet=sheet, about=_page_facts(sheet))
+
+
+def _page_facts(sheet: Page) -> dict[str, Any]:
+    """What the index of a folder says of the page."""
+    return {
+        "command": sheet.command,
+        "title": sheet.title,
+        "figure": sheet.headline[0],
+        "verdict": sheet.headline[1],
+        "model": sheet.origin.model,
+        "logs": list(sheet.origin.logs),
+        "held_out": sheet.origin.held_out,
+    }
+
+
+def write_page(path: Path, sheet: Page, name: str) -> Path:
+    """Write the page; returns the path of the file written.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets `name` and an index of its pages.
+        sheet: what it says.
+        name: of the file in a folder.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    place = page_place(Path(path), name)
+    write_atomically(place, page(sheet))
+    if place != Path(path):
+        write_index(place.parent)
+    return place
+
+
+# The command to go on with, after each page, with the files of the one that was given.
+
+
+def after_fit(model: str, logs: Sequence[str], robot: str, fit: "FitResult") -> list[str]:
+    """Judge the model on other data, and look for what it lacks; first what the fit asks for.
+
+    Args:
+        model: its file.
+        logs: that were fitted.
+        robot: as it was given.
+        fit: judged.
+    """
+    own = _listed([model])
+    judge = f"modeler compare {own} HELD_OUT_LOG --report compare.html"
+    look = f"modeler diagnose {_listed([model, *logs])} --report diagnosis.html"
+    verdict = fit.verdict
+    if verdict is not None and not verdict.usable:
+        return [f"modeler log {_listed(logs[:1])} --robot {_listed([robot])}", look]
+    lacks = verdict is not None and verdict.usable_for != "physics"
+    lacks = lacks or any("`modeler diagnose`" in line for line in fit.sentences)
+    return [look, judge] if lacks else [judge, look]
+
+
+def after_compare(
+    model: str, fitted: Sequence[str], logs: Sequence[str], held_out: bool, noise: bool = False
+) -> str:
+    """Look for what is missing; if nothing is, look at other data, or go to the controller.
+
+    Args:
+        model: file of the model.
+        fitted: logs that it was fitted on.
+        logs: logs that were compared.
+        held_out: False if some of them were fitted.
+        noise: True if nothing else is left on any joint.
+    """
+    if noise:
+        return f"modeler compare {_listed([model])} HELD_OUT_LOG" if not held_out else _taken(model)
+    if not held_out:
+        return f"modeler diagnose {_listed([model, *logs])}"
+    return f"modeler diagnose {_listed([model, *fitted])} --holdout {_listed(logs)}"
+
+
+def after_diagnosis(
+    model: str, logs: Sequence[str], holdout: Sequence[str], diagnosis: "Diagnosis"
+) -> list[str]:
+    """Add the first effect that has columns; without any, see what is left, or take the model."""
+    first = next((f for f in diagnosis.effects if f.pick is not None), None)
+    if first is None and diagnosis.verdict == "nothing significant":
+        return [_taken(model)]
+    if first is None:
+        return [f"modeler compare {_listed([model, *(holdout or logs)])} --report compare.html"]
+    joint = f" --joint {shlex.quote(first.joint)}" if first.joint else ""
+    held = f" --holdout {_listed(holdout)}" if holdout else ""
+    effect = shlex.quote(first.effect)
+    words = f"modeler add {_listed([model])} {effect}{joint} {_listed(logs)}{held}"
+    return [f"{words} --out {_listed([_better(model)])}"]
+
+
+def after_add(model: str, holdout: Sequence[str]) -> list[str]:
+    """Judge the new model on what was never fitted, and take it to the controller."""
+    own = _listed([model])
+    logs = _listed(holdout) if holdout else "HELD_OUT_LOG"
+    return [f"modeler compare {own} {logs}", _taken(model)]
+
+
+def _taken(model: str) -> str:
+    """To the controller."""
+    return f"modeler generate {_listed([model])} --out {_folder(model)}"
+
+
+def _better(model: str) -> str:
+    path = Path(model)
+    return str(path.with_name(f"{path.name.partition('.')[0]}-improved{''.join(path.suffixes)}"))
+
+
+def _folder(model: str) -> str:
+    return _listed([f"{Path(model).name.partition('.')[0]}_c"])
+
+
+def _listed(words: Sequence[str]) -> str:
+    return " ".join(shlex.quote(word) for word in words)

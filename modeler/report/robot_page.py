@@ -1,0 +1,305 @@
+"""What the scripts of a robot's page work on, as plain data."""
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from modeler.report.robot_closing import CLOSED, Gap, Posture, gaps_of
+from modeler.report.robot_labels import good_view
+from modeler.report.robot_scene import Face, Line, Point, Scene, scene_of
+from modeler.report.robot_skeleton import Row, Skeleton, kind_word, poses
+from modeler.robot.robot import Joint, JointKind, Robot
+
+_DIGITS = 7  # of coordinates of drawn points: finer than any screen
+
+
+def page_content(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
+    """What the scripts of the page work on: the table in numbers, loops, ranges, drawn parts."""
+    view = good_view(skeleton, posture)
+    ranges = [_range(skeleton, posture, k) for k in range(len(skeleton.free))]
+    return {
+        "name": skeleton.robot.name,
+        "size": posture.size,
+        "stated": bool(skeleton.robot.home),
+        "closed": posture.closed,
+        "held": posture.held,
+        "loose": list(posture.loose),
+        "rows": [_row(row) for row in skeleton.rows],
+        "free": list(skeleton.free),
+        "given": list(skeleton.given),
+        "ranges": ranges,
+        "home": posture.u.tolist(),
+        "loops": [
+            {
+                "name": loop.name,
+                "frame": skeleton.number(loop.frame),
+                "meets": skeleton.number(loop.meets),
+                "kind": loop.kind,
+            }
+            for loop in skeleton.robot.loops
+        ],
+        "gravity": skeleton.gravity.tolist(),
+        "view": view.rotation.tolist(),
+        "up": view.up.tolist(),
+        **_parts(scene_of(skeleton, posture)),
+    }
+
+
+def _row(row: Row) -> dict[str, Any]:
+    joint = row.joint
+    used = np.flatnonzero(row.coefficients)
+    return {
+        "name": joint.name,
+        "antecedent": joint.antecedent,
+        "parent": row.parent,
+        "kind": kind_word(joint),
+        "actuated": joint.actuated,
+        "virtual": row.virtual,
+        "unit": joint.unit,
+        "cells": dict(row.cells),
+        "texts": {name: getattr(joint, name).text for name in row.cells},
+        "rate": row.rate,
+        "constant": row.constant,
+        "terms": [[int(k), float(row.coefficients[k])] for k in used],
+    }
+
+
+def _range(skeleton: Skeleton, posture: Posture, k: int) -> list[float]:
+    """Of a slider: [limits]; else a turn, or as far as the robot is large."""
+    name, home = skeleton.free[k], float(posture.u[k])
+    limits = skeleton.robot.limits.get(name)
+    if limits is not None:
+        return [min(limits.lower, home), max(limits.upper, home)]
+    reach = 0.5 * posture.size if skeleton.travels[k] else np.pi
+    return [home - reach, home + reach]
+
+
+def _parts(scene: Scene) -> dict[str, Any]:
+    return {
+        "bulk": scene.radius,
+        "sleeves": [[_point(end) for end in sleeve.ends] for sleeve in scene.sleeves],
+        "lines": [_line(line) for line in scene.lines],
+        "faces": [_face(face) for face in scene.faces],
+        "dots": [
+            {"row": d.row, "at": _point(d.at), "color": d.color, "radius": d.radius,
+             "layer": d.layer}
+            for d in scene.dots
+        ],
+        "labels": [
+            {"row": x.row, "at": _point(x.at), "text": x.text, "color": x.color, "layer": x.layer}
+            for x in scene.labels
+        ],
+    }  # fmt: skip
+
+
+def _line(line: Line) -> dict[str, Any]:
+    return {
+        "row": line.row,
+        "ends": [_point(end) for end in line.ends],
+        "color": line.color,
+        "width": line.width,
+        "layer": line.layer,
+        "arrow": line.arrow,
+        "dashed": line.dashed,
+    }
+
+
+def _face(face: Face) -> dict[str, Any]:
+    return {
+        "row": face.row,
+        "frame": face.frame,
+        "points": np.round(face.points, _DIGITS).tolist(),
+        "color": face.color,
+        "layer": face.layer,
+        "opacity": face.opacity,
+    }
+
+
+def _point(point: Point) -> list[float]:
+    return [point[0], *(round(x, _DIGITS) for x in point[1])]
+
+
+# The table of a robot for people, and what stands beside it.
+
+
+_COLUMNS = ("gamma", "b", "alpha", "d", "theta", "r")
+_LETTERS = {"gamma": "γ", "alpha": "α", "theta": "θ"}
+
+
+@dataclass(frozen=True)
+class TableRow:
+    """One row of the table, as it is printed.
+
+    Attributes:
+        number: index of the joint.
+        kind: "fixed", "actuated" or "passive".
+        cells: joint, antecedent, mu, sigma.
+        entries: (column, text) of the columns that are used.
+        platform: True for a row of the platform.
+    """
+
+    number: int
+    kind: str
+    cells: tuple[str, ...]
+    entries: tuple[tuple[str, str], ...]
+    platform: bool
+
+
+def table_head(robot: Robot) -> tuple[str, ...]:
+    """The names of the columns; those that are zero everywhere are left out."""
+    return ("j", "a", "μ", "σ", *(_LETTERS.get(name, name) for name in _used(robot)), "q")
+
+
+def table_rows(robot: Robot) -> tuple[TableRow, ...]:
+    """The rows in table order, the platform's last."""
+    used = _used(robot)
+    rows = [_table_row(i, joint, used, robot) for i, joint in enumerate(robot.joints)]
+    return tuple(sorted(rows, key=lambda row: row.platform))
+
+
+def _used(robot: Robot) -> list[str]:
+    return [name for name in _COLUMNS if any(not getattr(j, name).is_zero for j in robot.joints)]
+
+
+def _table_row(i: int, joint: Joint, used: list[str], robot: Robot) -> TableRow:
+    kind = "fixed" if not joint.moves else "actuated" if joint.actuated else "passive"
+    cells = (joint.name, joint.antecedent, f"{joint.actuated:d}", f"{JointKind(joint.kind):d}")
+    entries = tuple((name, _typeset(getattr(joint, name).text)) for name in used)
+    return TableRow(i, kind, cells, entries, joint.name in robot.platform)
+
+
+def _typeset(cell: str) -> str:
+    """`pi/2` as it is printed; a minus as long as a minus."""
+    return re.sub(r"\bpi\b", "π", cell).replace("-", "−")
+
+
+def gravity_text(skeleton: Skeleton) -> str:
+    """`gravity 9.81 m/s² along −z0`."""
+    length = float(np.linalg.norm(skeleton.gravity))
+    if length == 0.0:
+        return "no gravity"
+    along = skeleton.gravity / length
+    k = int(np.argmax(np.abs(along)))
+    if abs(along[k]) > 1.0 - 1e-12:
+        return f"gravity {length:.4g} m/s² along {'−' if along[k] < 0 else '+'}{'xyz'[k]}0"
+    return f"gravity {length:.4g} m/s² along ({', '.join(f'{x:.3g}' for x in along)})"
+
+
+def relations_text(robot: Robot) -> str:
+    """`q4 = -q3, q7 = q3`; nothing without relations."""
+    found = [f"q{name} = {relation.text}" for name, relation in robot.relations.items()]
+    return ", ".join(found)
+
+
+# What is shown, in words and for machines.
+
+
+_HEAD = ("j", "a", "joint", "q", "x", "y", "z", "axis")
+
+
+def told(skeleton: Skeleton, posture: Posture) -> list[str]:
+    """Lines for people: where every frame stands at home, and whether the loops close."""
+    robot = skeleton.robot
+    frames = poses(skeleton, posture.u)
+    cells = [_HEAD, *(_cells(row, frames[i], posture) for i, row in enumerate(skeleton.rows))]
+    widths = [max(len(line[k]) for line in cells) for k in range(len(_HEAD))]
+    table = [
+        "  ".join(text.rjust(w) if 3 <= k <= 6 else text.ljust(w)
+                  for k, (text, w) in enumerate(zip(line, widths, strict=True))).rstrip()
+        for line in cells
+    ]  # fmt: skip
+    plain = gravity_text(skeleton).replace("\u2212", "-").replace("\u00b2", "2")
+    lines = [f"{robot.name}: {robot.title}", plain]
+    lines += ["frames at home: origin in frame 0 [m], direction of the joint's axis", *table]
+    return [*lines, *_loop_lines(skeleton, posture)]
+
+
+def _cells(row: Row, frame: np.ndarray, posture: Posture) -> tuple[str, ...]:
+    joint = row.joint
+    kind = kind_word(joint)
+    if joint.moves:
+        kind += ", actuated" if joint.actuated else ", platform" if row.virtual else ", passive"
+    q = _number(row.constant + row.coefficients @ posture.u) if joint.moves else ""
+    return (joint.name, joint.antecedent, kind, q, *map(_number, frame[:3, 3]),
+            _direction(frame[:3, 2]))  # fmt: skip
+
+
+def _loop_lines(skeleton: Skeleton, posture: Posture) -> list[str]:
+    lines = []
+    for gap in gaps_of(skeleton, posture.u):
+        loop = gap.loop
+        state = "closed"
+        if not _is_closed(gap, posture):
+            angle = f" and {np.degrees(gap.angle):.3g} degrees" if gap.angle > CLOSED else ""
+            state = f"OPEN by {gap.distance:.3g} m{angle}"
+        lines.append(f'loop "{loop.name}": {loop.frame} meets {loop.meets} ({loop.kind}): {state}')
+    if not posture.closed:
+        where = "near [home]: drawn as it is stated"
+        if not skeleton.robot.home:
+            where = "near all joints at 0: drawn so"
+        lines.append(
+            f"the loops do not close {where}; move the joints by hand on the page, close the "
+            "loops there, and copy [home]"
+        )
+    elif not posture.held:
+        lines.append(
+            "the loops do not close with the actuated joints as [home] states them: drawn nearby"
+        )
+    if posture.note:
+        lines.append(posture.note)
+    elif posture.loose:
+        lines.append(
+            f"joints {', '.join(posture.loose)} could move there with the actuated joints locked: "
+            "[home] is singular, or the loops determine too little"
+        )
+    return lines
+
+
+def described(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
+    """The same for machines: poses are 4x4 matrices, rows first, in frame 0, m."""
+    frames = poses(skeleton, posture.u)
+    return {
+        "robot": skeleton.robot.name,
+        "title": skeleton.robot.title,
+        "coordinates": [skeleton.free[k] for k in skeleton.given],
+        "home": {
+            row.joint.variable: float(row.constant + row.coefficients @ posture.u)
+            for row in skeleton.rows
+            if row.joint.moves
+        },
+        "frames": [
+            {"name": row.joint.name, "antecedent": row.joint.antecedent,
+             "joint": kind_word(row.joint), "actuated": row.joint.actuated,
+             "pose": frames[i].tolist()}
+            for i, row in enumerate(skeleton.rows)
+        ],
+        "loops": [
+            {"loop": gap.loop.name, "frame": gap.loop.frame, "meets": gap.loop.meets,
+             "joint": gap.loop.kind, "gap": gap.distance, "angle": gap.angle,
+             "closed": _is_closed(gap, posture)}
+            for gap in gaps_of(skeleton, posture.u)
+        ],
+        "closed": posture.closed,
+        "as_stated": posture.held,
+        "loose": list(posture.loose),
+        "note": posture.note,
+        "gravity": skeleton.gravity.tolist(),
+    }  # fmt: skip
+
+
+def _is_closed(gap: Gap, posture: Posture) -> bool:
+    return gap.distance < 10.0 * CLOSED * posture.size and gap.angle < 10.0 * CLOSED
+
+
+def _number(x: float) -> str:
+    return f"{0.0 if abs(x) < 5e-5 else x:.4f}"
+
+
+def _direction(z: np.ndarray) -> str:
+    """`+z`, `-y`, or its three components."""
+    k = int(np.argmax(np.abs(z)))
+    if abs(z[k]) > 1.0 - 1e-9:
+        return f"{'-' if z[k] < 0 else '+'}{'xyz'[k]}0"
+    return " ".join(f"{0.0 if abs(x) < 5e-4 else x:.3f}" for x in z)

@@ -1,0 +1,408 @@
+"""What is drawn: parts that hang on frames, so that they move as the frames do."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.report.robot_closing import Posture, gaps_of
+from modeler.report.robot_skeleton import BASE, Row, Skeleton, corner, foot, poses
+
+# Shapes of joints: lists of flat polygons, (corners, 3) each, around the origin, axis along z.
+
+
+_SIDES = 14
+
+
+def cylinder(radius: float, length: float) -> list[np.ndarray]:
+    """A cylinder."""
+    angle = np.linspace(0.0, 2.0 * np.pi, _SIDES + 1)
+    ring = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.0 * angle], axis=1)
+    half = np.array([0.0, 0.0, 0.5 * length])
+    top, bottom = ring + half, ring - half
+    sides = [np.array([bottom[k], bottom[k + 1], top[k + 1], top[k]]) for k in range(_SIDES)]
+    return [*sides, top[:-1], bottom[-1:0:-1]]
+
+
+def box(half: float, low: float, high: float) -> list[np.ndarray]:
+    """A square prism from z = low to high, 2 half wide."""
+    ring = half * np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
+    top = np.column_stack([ring, np.full(4, high)])
+    bottom = np.column_stack([ring, np.full(4, low)])
+    sides = [np.array([bottom[k], bottom[(k + 1) % 4], top[(k + 1) % 4], top[k]]) for k in range(4)]
+    return [*sides, top, bottom[::-1]]
+
+
+def ball(radius: float) -> list[np.ndarray]:
+    """A ball, as rings of polygons."""
+    rings, turns = 5, 10
+    polar = np.pi * np.arange(rings + 1) / rings
+    angle = 2.0 * np.pi * np.arange(turns + 1) / turns
+
+    def point(i: int, k: int) -> np.ndarray:
+        s, c = np.sin(polar[i]), np.cos(polar[i])
+        return radius * np.array([s * np.cos(angle[k]), s * np.sin(angle[k]), c])
+
+    return [
+        np.array([point(i, k), point(i + 1, k), point(i + 1, k + 1), point(i, k + 1)])
+        for i in range(rings)
+        for k in range(turns)
+    ]
+
+
+def ordered_polygon(points: np.ndarray, size: float) -> np.ndarray | None:
+    """The points in the order around their middle, in their best plane; None if they are a line."""
+    if len(points) < 3:
+        return None
+    middle = points - points.mean(axis=0)
+    _, lengths, axes = np.linalg.svd(middle)
+    if lengths[1] < 1e-3 * size:
+        return None
+    angle = np.arctan2(middle @ axes[1], middle @ axes[0])
+    return np.asarray(points[np.argsort(angle, kind="stable")])
+
+
+BODIES = ("#3b5b7a", "#7d9cba", "#4f7f6d", "#93b8a4", "#7a6c9c", "#b3a8cc")
+"""Of the links, by the number of joints below them."""
+
+ACTUATED, PASSIVE, FIXED, LOOP, OPEN = "#d55e00", "#a9a9a9", "#555555", "#b0508a", "#e00000"
+PLATFORM, GROUND, MASS = "#56b4e9", "#8a8a8a", "#000000"
+AXES = ("#cc2222", "#2a8f2a", "#1f4fd0")
+
+Point = tuple[int, tuple[float, float, float]]
+"""A frame (`BASE` for frame 0) and coordinates in it, m."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A straight piece between two points.
+
+    Attributes:
+        row: that it belongs to, for the one who points at it.
+        ends: of the piece.
+        color: "#rrggbb".
+        width: in units of a thin line.
+        layer: that it is shown and hidden with.
+        arrow: True with a head at the second end.
+        dashed: True for what the table does not say, or what should not be there.
+    """
+
+    row: int
+    ends: tuple[Point, Point]
+    color: str
+    width: float
+    layer: str
+    arrow: bool = False
+    dashed: bool = False
+
+
+@dataclass(frozen=True)
+class Face:
+    """A flat polygon that is fixed on one frame."""
+
+    row: int
+    frame: int
+    points: np.ndarray
+    color: str
+    layer: str
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True)
+class Dot:
+    """A point; its radius in units of a thin line."""
+
+    row: int
+    at: Point
+    color: str
+    radius: float
+    layer: str
+
+
+@dataclass(frozen=True)
+class Label:
+    """A name at a point; names at one place are written together."""
+
+    row: int
+    at: Point
+    text: str
+    color: str
+    layer: str
+
+
+@dataclass(frozen=True)
+class Sleeve:
+    """Where faces stand that are longer than wide: names keep off this line."""
+
+    ends: tuple[Point, Point]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """All that is drawn of a robot, in no order; `radius` is that of its joints, m."""
+
+    radius: float
+    lines: tuple[Line, ...]
+    faces: tuple[Face, ...]
+    dots: tuple[Dot, ...]
+    labels: tuple[Label, ...]
+    sleeves: tuple[Sleeve, ...]
+
+    def without(self, layers: Sequence[str]) -> "Scene":
+        """The scene without what is shown and hidden with these layers."""
+        return Scene(
+            self.radius,
+            tuple(part for part in self.lines if part.layer not in layers),
+            tuple(part for part in self.faces if part.layer not in layers),
+            tuple(part for part in self.dots if part.layer not in layers),
+            tuple(part for part in self.labels if part.layer not in layers),
+            self.sleeves,
+        )
+
+
+ORIGIN = (0.0, 0.0, 0.0)
+
+
+def scene_of(skeleton: Skeleton, posture: Posture) -> Scene:
+    """The parts of a robot, their sizes chosen for the posture."""
+    maker = _Maker(skeleton, posture)
+    parts = [*maker.base(), *maker.platform(), *maker.loops()]
+    for i, row in enumerate(skeleton.rows):
+        if not row.virtual:
+            parts += [
+                *maker.link(i, row),
+                *maker.joint(i, row),
+                *maker.frame(i),
+                *maker.end(i, row),
+            ]
+        parts += maker.mass(i, row)
+    return Scene(
+        maker.radius,
+        tuple(part for part in parts if isinstance(part, Line)),
+        tuple(part for part in parts if isinstance(part, Face)),
+        tuple(part for part in parts if isinstance(part, Dot)),
+        tuple(part for part in parts if isinstance(part, Label)),
+        tuple(part for part in parts if isinstance(part, Sleeve)),
+    )
+
+
+Part = Line | Face | Dot | Label | Sleeve
+
+
+class _Maker:
+    """Parts of one robot.
+
+    Attributes:
+        size: a length of the robot, m.
+        radius: of joints, m.
+    """
+
+    def __init__(self, skeleton: Skeleton, posture: Posture) -> None:
+        self.skeleton = skeleton
+        self.size = posture.size
+        self.r = [_travel(row, posture.u) for row in skeleton.rows]
+        self.radius = self._radius()
+        self.frames = poses(skeleton, posture.u)
+
+    def _radius(self) -> float:
+        """Of joints: small beside the robot, and beside most of its links."""
+        rows = [(row, r) for row, r in zip(self.skeleton.rows, self.r, strict=True)
+                if not row.virtual]  # fmt: skip
+        lengths = [abs(x) for row, r in rows for x in (row.cells["b"], row.cells["d"], r)]
+        lengths = [x for x in lengths if x > 1e-6 * self.size]
+        typical = float(np.quantile(lengths, 0.25)) if lengths else self.size
+        return float(np.clip(0.3 * typical, 0.010 * self.size, 0.021 * self.size))
+
+    def color(self, body: int) -> str:
+        """Of a link."""
+        if body == BASE:
+            return GROUND
+        if self.skeleton.rows[body].virtual:
+            return PLATFORM
+        return BODIES[(self.skeleton.depth(body) - 1) % len(BODIES)]
+
+    def base(self) -> Iterator[Part]:
+        """Frame 0."""
+        yield from self._triad(BASE, 0.13 * self.size, 1.6, "base")
+        for axis, name in enumerate("xyz"):
+            tip = 0.15 * self.size * np.eye(3)[axis]
+            yield Label(BASE, (BASE, _tuple(tip)), f"{name}0", AXES[axis], "base")
+        yield Dot(BASE, (BASE, ORIGIN), "#222222", 3.0, "base")
+
+    def link(self, i: int, row: Row) -> Iterator[Part]:
+        """The common normal from the antecedent, and the way along the joint's axis."""
+        a, carrier = row.parent, self.skeleton.body(row.parent)
+        turn, ankle = corner(row), foot(row)[:3, 3]
+        of = i if a == BASE else a
+        for start, end in ((np.zeros(3), turn), (turn, ankle)):
+            if np.linalg.norm(end - start) > 1e-9 * self.size:
+                ends = ((a, _tuple(start)), (a, _tuple(end)))
+                width = 2.5 if a == BASE else 5.0
+                yield Line(of, ends, self.color(carrier), width, self._layer(carrier))
+        slides = row.joint.moves and not row.joint.angular
+        if not slides and abs(self.r[i]) <= 1e-9 * self.size:
+            return
+        carrier = i if slides else self.skeleton.body(i)
+        for ends in self._along(i, row, (a, _tuple(ankle))):
+            width = 3.0 if slides else 5.0
+            yield Line(i, ends, self.color(carrier), width, self._layer(carrier))
+
+    def _layer(self, body: int) -> str:
+        """Of links: the ground lies behind what moves on it, the platform has a face."""
+        if body == BASE:
+            return "ground"
+        return "platform" if self.skeleton.rows[body].virtual else "links"
+
+    def _along(self, i: int, row: Row, ankle: Point) -> list[tuple[Point, Point]]:
+        """The way along z of row j, without what is inside its joint."""
+        r, place = self.r[i], foot(row)
+        low, high = -1.3 * self.radius - 0.5 * r, 1.3 * self.radius - 0.5 * r
+        inside: tuple[Point, Point] = ((i, (0.0, 0.0, low)), (i, (0.0, 0.0, high)))
+        if row.joint.moves and not row.joint.angular:
+            low, high = self._sleeve(r)
+            inside = (self._on(row, place, low), self._on(row, place, high))
+        if not row.joint.moves or high - low >= abs(r):
+            return [(ankle, (i, ORIGIN))]
+        near, far = inside if r > 0.0 else inside[::-1]
+        return [(ankle, near), (far, (i, ORIGIN))]
+
+    def _on(self, row: Row, place: np.ndarray, z: float) -> Point:
+        """The point z along the axis of a row, on its antecedent."""
+        return (row.parent, _tuple((place @ [0.0, 0.0, z, 1.0])[:3]))
+
+    def joint(self, i: int, row: Row) -> Iterator[Part]:
+        """A cylinder along a revolute axis, a sleeve along a prismatic one, else a dot."""
+        joint, name = row.joint, row.joint.name
+        if not joint.moves:
+            yield Dot(i, (i, ORIGIN), FIXED, 2.5, "joints")
+            yield Label(i, (i, ORIGIN), name, FIXED, "fixed names")
+            return
+        color = ACTUATED if joint.actuated else PASSIVE
+        ink = "#a34700" if joint.actuated else "#5a5a5a"
+        if joint.angular:
+            at = (0.0, 0.0, -0.5 * self.r[i])
+            for points in cylinder(self.radius, 2.6 * self.radius):
+                yield Face(i, i, points + at, color, "joints")
+            for side in (-1.3 * self.radius, 1.3 * self.radius):
+                outside = tuple((i, (0.0, 0.0, at[2] + far * side)) for far in (1.0, 2.5))
+                yield Line(i, (outside[0], outside[1]), color, 1.0, "joints")
+            yield Label(i, (i, at), name, ink, "names")
+            return
+        place = foot(row)
+        low, high = self._sleeve(self.r[i])
+        for points in box(0.75 * self.radius, low, high):
+            yield Face(i, row.parent, points @ place[:3, :3].T + place[:3, 3], color, "joints")
+        yield Sleeve((self._on(row, place, low), self._on(row, place, high)))
+        yield Label(i, self._on(row, place, 0.5 * (low + high)), name, ink, "names")
+
+    def _sleeve(self, r: float) -> tuple[float, float]:
+        """From where to where along the axis of a prismatic joint its sleeve reaches."""
+        half = max(0.16 * abs(r), 2.2 * self.radius)
+        return 0.5 * r - half, 0.5 * r + half
+
+    def frame(self, i: int) -> Iterator[Part]:
+        """The axes of frame j."""
+        length = min(0.075 * self.size, 4.5 * self.radius)
+        yield from self._triad(i, length, 1.1, "frames")
+
+    def _triad(self, frame: int, length: float, width: float, layer: str) -> Iterator[Part]:
+        for axis, color in enumerate(AXES):
+            ends = ((frame, ORIGIN), (frame, _tuple(length * np.eye(3)[axis])))
+            yield Line(frame, ends, color, width, layer, arrow=True)
+
+    def end(self, i: int, row: Row) -> Iterator[Part]:
+        """A dashed stub where the table ends: it does not say how long the last link is."""
+        skeleton = self.skeleton
+        followed = any(other.parent == i for other in skeleton.rows)
+        met = any(row.joint.name in (loop.frame, loop.meets) for loop in skeleton.robot.loops)
+        if followed or met or not row.joint.moves:
+            return
+        tip = self._way_out(row) * 0.13 * self.size
+        yield Line(i, ((i, ORIGIN), (i, _tuple(tip))), self.color(i), 3.0, "links", dashed=True)
+
+    def _way_out(self, row: Row) -> np.ndarray:
+        """The axis of frame j that the link's mass lies along; else what the table suggests."""
+        centre = self._centre(row)
+        if centre is not None and np.any(np.abs(centre) > 1e-9 * self.size):
+            k = int(np.argmax(np.abs(centre)))
+            return np.asarray(np.eye(3)[k] * np.sign(centre[k]))
+        parallel = abs(np.sin(row.cells["alpha"])) < 1e-6 and row.joint.angular
+        return np.eye(3)[0 if parallel else 2]
+
+    def mass(self, i: int, row: Row) -> Iterator[Part]:
+        """The centre of mass, where the file states it."""
+        centre = self._centre(row)
+        if centre is not None:
+            yield Dot(i, (i, _tuple(centre)), MASS, 3.4, "masses")
+
+    def _centre(self, row: Row) -> np.ndarray | None:
+        """(3,) centre of mass in frame j, m; None where the file does not state it."""
+        values, name = self.skeleton.robot.parameters, row.joint.name
+        mass, moments = values.get(f"M{name}", 0.0), [f"M{axis}{name}" for axis in "XYZ"]
+        if mass <= 0.0 or not any(moment in values for moment in moments):
+            return None
+        return np.array([values.get(moment, 0.0) for moment in moments]) / mass
+
+    def platform(self) -> Iterator[Part]:
+        """The body between the points where legs meet it; a block where that is one point."""
+        skeleton = self.skeleton
+        if not skeleton.robot.platform:
+            return
+        i = skeleton.number(skeleton.robot.platform[-1])
+        inverse = np.linalg.inv(self.frames[i])
+        met = {f for loop in skeleton.robot.loops for f in (loop.frame, loop.meets)}
+        points = [ORIGIN] + [
+            _tuple((inverse @ self.frames[k])[:3, 3])
+            for k, row in enumerate(skeleton.rows)
+            if skeleton.body(k) == i and row.joint.name in met and k != i
+        ]
+        outline = ordered_polygon(np.array(points[1:]), self.size)
+        if outline is not None:
+            yield Face(i, i, outline, PLATFORM, "platform", 0.45)
+            for point in outline:
+                yield Line(i, ((i, ORIGIN), (i, _tuple(point))), PLATFORM, 2.0, "platform")
+        else:
+            for face in box(1.3 * self.radius, -1.3 * self.radius, 1.3 * self.radius):
+                yield Face(i, i, face, PLATFORM, "platform")
+        yield Label(i, (i, ORIGIN), skeleton.robot.platform[-1], "#0b6aa5", "names")
+        yield from self.frame(i)
+
+    def loops(self) -> Iterator[Part]:
+        """The joints that close loops."""
+        skeleton = self.skeleton
+        for loop in skeleton.robot.loops:
+            one, other = skeleton.number(loop.frame), skeleton.number(loop.meets)
+            faces: Sequence[np.ndarray]
+            if loop.kind in ("revolute", "cylindrical"):
+                faces = cylinder(1.15 * self.radius, 2.0 * self.radius)
+            elif loop.kind in ("prismatic", "planar", "rigid"):
+                faces = box(self.radius, -self.radius, self.radius)
+            else:
+                faces = ball(1.05 * self.radius)
+            for face in faces:
+                yield Face(one, one, face, LOOP, "loops")
+            yield Dot(other, (other, ORIGIN), LOOP, 3.0, "loops")
+            yield Label(one, (one, ORIGIN), loop.name, LOOP, "loop names")
+
+
+def gap_lines(skeleton: Skeleton, u: np.ndarray) -> list[Line]:
+    """Between the frames of every loop: the travel that its joint lets free, and in red the gap."""
+    lines = []
+    for gap in gaps_of(skeleton, u):
+        row = skeleton.number(gap.loop.frame)
+        start, bend, end = ((BASE, _tuple(point)) for point in gap.way)
+        lines.append(Line(row, (start, bend), LOOP, 1.0, "gap"))
+        lines.append(Line(row, (bend, end), OPEN, 2.0, "gap", dashed=True))
+    return lines
+
+
+def _travel(row: Row, u: np.ndarray) -> float:
+    """r of the row, m."""
+    r = row.cells["r"]
+    if row.joint.moves and not row.joint.angular:
+        r += row.rate * float(row.constant + row.coefficients @ u)
+    return r
+
+
+def _tuple(point: Sequence[float] | np.ndarray) -> tuple[float, float, float]:
+    return (float(point[0]), float(point[1]), float(point[2]))

@@ -1,0 +1,214 @@
+"""The table in numbers: every cell a constant, or a constant and a coefficient of the variable."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.core.expression import Expression
+from modeler.robot.cells import linear_form
+from modeler.robot.robot import Joint, JointKind, Robot
+
+BASE = -1
+"""Number of the base among the rows."""
+
+_CELLS = ("gamma", "b", "alpha", "d", "theta", "r")
+
+
+@dataclass(frozen=True)
+class Row(Brief):
+    """One row of the table, in numbers: rad and m.
+
+    Attributes:
+        joint: the row as it was read.
+        parent: number of the antecedent row, `BASE` for the base.
+        cells: gamma, b, alpha, d, theta, r without the joint variable.
+        rate: of the joint variable in theta (revolute) or r (prismatic); 0 for a fixed frame.
+        constant: of the joint variable.
+        coefficients: (free,) of the joint variable: it is constant + coefficients @ u.
+        virtual: True for a row that stands for a motion of the platform, not for a joint.
+    """
+
+    joint: Joint
+    parent: int
+    cells: Mapping[str, float]
+    rate: float
+    constant: float
+    coefficients: np.ndarray
+    virtual: bool
+
+
+@dataclass(frozen=True)
+class Skeleton(Brief):
+    """A robot's table, loops and home in numbers.
+
+    Attributes:
+        robot: as read.
+        rows: in table order.
+        free: names of the rows whose variables are u.
+        given: places in u of the actuated joints, which the others follow.
+        stated: (free,) u at [home] as the file states it.
+        gravity: (3,) acceleration of gravity in frame 0, m/s2.
+    """
+
+    robot: Robot
+    rows: tuple[Row, ...]
+    free: tuple[str, ...]
+    given: tuple[int, ...]
+    stated: np.ndarray
+    gravity: np.ndarray
+
+    @property
+    def solved(self) -> tuple[int, ...]:
+        """Places in u of the variables that the loops determine."""
+        return tuple(k for k in range(len(self.free)) if k not in self.given)
+
+    @property
+    def travels(self) -> np.ndarray:
+        """(free,) True where u is a travel in m."""
+        return np.array([not self.robot.joint(name).angular for name in self.free], dtype=bool)
+
+    def number(self, name: str) -> int:
+        """Place of the row of that name; `BASE` for "0"."""
+        return next((i for i, row in enumerate(self.rows) if row.joint.name == name), BASE)
+
+    def body(self, row: int) -> int:
+        """The moving row that carries the frame of that row; `BASE` for the base."""
+        while row != BASE and not self.rows[row].joint.moves:
+            row = self.rows[row].parent
+        return row
+
+    def depth(self, row: int) -> int:
+        """How many moving joints, those of the platform apart, lie between the row and the base."""
+        count = 0
+        while row != BASE:
+            count += self.rows[row].joint.moves and not self.rows[row].virtual
+            row = self.rows[row].parent
+        return count
+
+
+def skeleton_of(robot: Robot) -> Skeleton:
+    """The numbers of a robot's table, at the values of its symbols."""
+    values = robot.symbol_values()
+    free = tuple(joint.name for joint in robot.free)
+    places = {joint.name: i for i, joint in enumerate(robot.joints)}
+    forms = _forms(robot, values, free)
+    rows = tuple(
+        _row(robot, joint, places.get(joint.antecedent, BASE), values, forms)
+        for joint in robot.joints
+    )
+    return Skeleton(
+        robot=robot,
+        rows=rows,
+        free=free,
+        given=tuple(free.index(joint.name) for joint in robot.coordinates),
+        stated=np.array([robot.home.get(name, 0.0) for name in free]),
+        gravity=np.array([component.number(values) for component in robot.gravity]),
+    )
+
+
+def _row(
+    robot: Robot,
+    joint: Joint,
+    parent: int,
+    values: Mapping[str, float],
+    forms: Mapping[str, np.ndarray],
+) -> Row:
+    cells: dict[str, float] = {}
+    rate = 0.0
+    for name in _CELLS:
+        cell: Expression = getattr(joint, name)
+        affine = linear_form(cell, values)
+        cells[name] = affine.constant
+        rate += affine.coefficients.get(joint.variable, 0.0)
+    form = forms.get(joint.name, np.zeros(1 + len(robot.free)))
+    virtual = joint.name in robot.platform
+    return Row(joint, parent, cells, rate, float(form[0]), form[1:], virtual)
+
+
+def _forms(
+    robot: Robot, values: Mapping[str, float], free: tuple[str, ...]
+) -> dict[str, np.ndarray]:
+    """Of every moving row: constant, then coefficients of u."""
+    found = {name: np.eye(1 + len(free))[1 + k] for k, name in enumerate(free)}
+    left = dict(robot.relations)
+    while left:
+        for name in list(left):
+            form = linear_form(left[name], values)
+            owners = {variable[1:]: c for variable, c in form.coefficients.items()}
+            if owners.keys() <= found.keys():
+                total = np.eye(1 + len(free))[0] * form.constant
+                found[name] = sum((c * found[o] for o, c in owners.items()), total)
+                del left[name]
+    return found
+
+
+def kind_word(joint: Joint) -> str:
+    """`revolute`, `prismatic`, `fixed`."""
+    return JointKind(joint.kind).name.lower()
+
+
+# Where the frames are: poses from the table, and what a joint moves.
+
+
+def poses(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
+    """(rows, 4, 4) poses of all frames in frame 0.
+
+    T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r) (Khalil and Kleinfinger 1986).
+
+    Args:
+        skeleton: the table.
+        u: (free,) variables; may be complex, for derivatives.
+    """
+    found = np.empty((len(skeleton.rows), 4, 4), dtype=np.result_type(u, float))
+    for i, row in enumerate(skeleton.rows):
+        before = np.eye(4) if row.parent == BASE else found[row.parent]
+        q = row.constant + row.coefficients @ u
+        found[i] = before @ foot(row) @ _screw_z(*_moved(row, q))
+    return found
+
+
+def foot(row: Row) -> np.ndarray:
+    """(4, 4) pose of the foot of the joint axis in the antecedent frame: before theta and r."""
+    cells = row.cells
+    tilt = np.eye(4)
+    c, s = np.cos(cells["alpha"]), np.sin(cells["alpha"])
+    tilt[1:3, 1:3] = [[c, -s], [s, c]]
+    tilt[0, 3] = cells["d"]
+    return np.asarray(_screw_z(cells["gamma"], cells["b"]) @ tilt)
+
+
+def corner(row: Row) -> np.ndarray:
+    """(3,) where the common normal leaves the antecedent's z axis, in the antecedent frame."""
+    return np.array([0.0, 0.0, row.cells["b"]])
+
+
+def _moved(row: Row, q: complex | float) -> tuple[complex | float, complex | float]:
+    theta, r = row.cells["theta"], row.cells["r"]
+    if row.joint.angular:
+        return theta + row.rate * q, r
+    return theta, r + row.rate * q
+
+
+def _screw_z(angle: complex | float, travel: complex | float) -> np.ndarray:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, travel], [0, 0, 0, 1]])
+
+
+def size_of(skeleton: Skeleton, u: np.ndarray) -> float:
+    """A length of the robot, m: the diagonal of the box around its frames; 1 without any extent."""
+    frames = poses(skeleton, u)
+    points = [np.zeros(3)]
+    for i, row in enumerate(skeleton.rows):
+        before = np.eye(4) if row.parent == BASE else frames[row.parent]
+        points += [frames[i][:3, 3], (before @ foot(row))[:3, 3]]
+    span = np.ptp(np.array(points), axis=0)
+    size = float(np.linalg.norm(span))
+    return 1.0 if size <= 1e-9 else size
+
+
+# Kinds of picture that a robot can be drawn as.
+
+
+PICTURE_KINDS = (".png", ".svg", ".pdf")

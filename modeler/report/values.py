@@ -1,0 +1,147 @@
+"""Tables of fitted values: parameters with sigma, what each is the sum of, errors by joint."""
+
+from collections.abc import Collection, Mapping, Sequence
+
+from modeler.core.manifest import BaseSpec, TermSpec
+from modeler.diagnosis.values import told_spread
+from modeler.estimation.model_file import Addition, IdentifiedModel
+from modeler.estimation.parameter import ParameterEstimate
+from modeler.estimation.result import FitResult
+from modeler.report.page import PageCell, PageTable
+
+_UNSURE = 30.0  # % of the value from which on the bar of a sigma is full
+
+
+def values_table(
+    parameters: Sequence[ParameterEstimate], base: Sequence[BaseSpec] = (), caption: str = ""
+) -> PageTable:
+    """Value, sigma, %sigma, unit, and what each parameter is the sum of.
+
+    Args:
+        parameters: estimated ones.
+        base: the base parameters of the robot, for the sums; parameters without one have none.
+        caption: below the table.
+    """
+    sums = {b.name: relation(b) for b in base}
+    rows: list[list[str | PageCell]] = [
+        [
+            p.name,
+            "set aside" if p.sigma is None else f"{p.value:.5g}",
+            "" if p.sigma is None else _plain(told_spread(p.value, p.sigma, p.interval)) or "0",
+            _share(p),
+            PageCell(p.unit, "unit"),
+            PageCell(sums.get(p.name, ""), "why"),
+        ]
+        for p in parameters
+    ]
+    head = (
+        "parameter", "value", "sigma", PageCell("% sigma", "bar"), PageCell("unit", "unit"),
+        PageCell("is the sum of", "why"),
+    )  # fmt: skip
+    return PageTable(head, rows, caption)
+
+
+def relation(base: BaseSpec) -> str:
+    """The sum behind a base parameter: "ZZ1 + Ia1 + D2**2*M2"; "" where it is one term alone."""
+    if len(base.terms) == 1 and base.terms[0].coefficient == "1":
+        return ""
+    text = " ".join(_term(term) for term in base.terms)
+    return text.removeprefix("+ ")
+
+
+def _term(term: TermSpec) -> str:
+    coefficient = term.coefficient
+    if coefficient in ("1", "-1"):
+        return f"{'-' if coefficient == '-1' else '+'} {term.parameter}"
+    outside = coefficient
+    depth = 0
+    for k, letter in enumerate(coefficient):
+        depth += (letter == "(") - (letter == ")")
+        if letter in "+-" and k and depth == 0 and coefficient[k - 1] not in "*/(e":
+            outside = f"({coefficient})"
+            break
+    if outside.startswith("-"):
+        return f"- {outside[1:]}*{term.parameter}"
+    return f"+ {outside}*{term.parameter}"
+
+
+def _share(parameter: ParameterEstimate) -> PageCell:
+    share = parameter.relative_sigma_percent
+    if share is None:
+        return PageCell("-", "bar")
+    text = f"{share:.3g}" if share < 1e4 else ">10000"
+    mark = "" if parameter.essential else " not essential"
+    return PageCell(f"{text}{mark}", "bar", min(1.0, share / _UNSURE))
+
+
+def joints_table(fit: FitResult) -> PageTable:
+    """Errors by joint on the logs that were fitted, each in parts of the joint's own torque."""
+    top = max((joint.relative_error or 0.0 for joint in fit.joints), default=0.0) or 1.0
+    rows: list[list[str | PageCell]] = [
+        [
+            joint.name,
+            PageCell("-", "bar") if joint.relative_error is None
+            else PageCell(
+                f"{100.0 * joint.relative_error:.3g} %", "bar", joint.relative_error / top
+            ),
+            f"{joint.rms:.3g} {joint.unit}",
+            f"{joint.rows}",
+        ]
+        for joint in fit.joints
+    ]  # fmt: skip
+    return PageTable(
+        ("joint", PageCell("relative error", "bar"), "rms residual", "rows"),
+        rows,
+        "On the logs that were fitted. Relative error: norm of the residual over the norm of the "
+        "joint's own torque or force.",
+    )
+
+
+def added_names(model: IdentifiedModel) -> set[str]:
+    """Base parameters that the effects of a model's history brought."""
+    steps = {(step.effect, step.joint) for step in model.history if step.effect}
+    own = {p.name for p in model.spec.standard if (p.effect, p.joint) in steps}
+    return {b.name for b in model.spec.base if b.column_of in own}
+
+
+def shapes_table(steps: Sequence[tuple[Addition, Mapping[str, str]]]) -> PageTable | None:
+    """Shapes of the effects that were added; None if they have none.
+
+    Args:
+        steps: of a model's history, each with the units of its shapes by name.
+    """
+    rows: list[list[str | PageCell]] = [
+        [
+            step.effect,
+            PageCell(step.joint or "all", "text"),
+            PageCell(name, "text"),
+            f"{value:.5g}",
+            _spread(step, name),
+            PageCell(units[name], "text"),
+        ]
+        for step, units in steps
+        for name, value in step.shapes.items()
+    ]
+    if not rows:
+        return None
+    head = (
+        "effect", PageCell("joint", "text"), PageCell("shape", "text"), "value", "sigma",
+        PageCell("unit", "text"),
+    )  # fmt: skip
+    return PageTable(head, rows, "Shapes enter the torque not as factors; they were searched for.")
+
+
+def _spread(step: Addition, name: str) -> str:
+    sigma, interval = step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name)
+    return _plain(told_spread(step.shapes[name], sigma, interval)) or "-"
+
+
+def _plain(spread: str) -> str:
+    return spread.strip().removeprefix("+- ").removeprefix("(").removesuffix(")")
+
+
+def chosen(
+    parameters: Sequence[ParameterEstimate], names: Collection[str]
+) -> list[ParameterEstimate]:
+    """Those with these names."""
+    return [parameter for parameter in parameters if parameter.name in names]

@@ -1,1 +1,0 @@
-"""What a residual may be, from plain arrays: predictable, repeated, lasting, bursts, ripple."""

@@ -1,0 +1,387 @@
+"""A `.par` file as the text of a robot file, with what had to be decided or left out."""
+
+import re
+import unicodedata
+from dataclasses import dataclass, field
+from pathlib import PurePath
+
+from modeler.robot.letters import Symbols
+from modeler.robot.par_table import (
+    GEOMETRY,
+    Counts,
+    Frame,
+    counts,
+    frames,
+    gravity,
+    table_cells,
+    variables,
+)
+from modeler.robot.par_text import (
+    BASE,
+    FORCES,
+    FRICTION,
+    INERTIA,
+    JOINTS,
+    Formula,
+    Statements,
+    formula,
+    scan,
+)
+from modeler.robot.robot import listed
+
+# What a `.par` file says of the links: which parameters they have, values, friction, rotors.
+
+
+_EFFECT = {"IA": ("rotor_inertia", "Ia"), "FV": ("viscous", "Fv"), "FS": ("coulomb", "Fs")}
+_IDENTITY = ["1" if k % 5 == 0 else "0" for k in range(16)]
+
+
+@dataclass
+class Bodies:
+    """What becomes of the lists of the links.
+
+    Attributes:
+        links: link -> the parameters it has, where it has not all ten.
+        parameters: nominal values.
+        effects: effect id -> its joints.
+        notes: what was not carried over.
+    """
+
+    links: dict[str, list[str]] = field(default_factory=dict)
+    parameters: dict[str, float] = field(default_factory=dict)
+    effects: dict[str, list[str]] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+
+
+def bodies(statements: Statements, found: Counts, made: list[Frame]) -> Bodies:
+    """The parameters of links 1 .. NL, and what is left out.
+
+    A parameter that is 0 beside letters is one that the link has not; beside numbers only, a
+    value. Cut joints carry nothing.
+
+    Raises:
+        RobotError: an entry is no formula.
+    """
+    result = Bodies()
+    others = []
+    for k in range(found.links):
+        cells = {key: _cell(statements, key, k, found) for key in INERTIA}
+        if made[k].home is None:
+            if any(key in statements.by_key and not cells[key].is_zero for key in INERTIA):
+                result.notes.append(
+                    f"parameters of frame {k + 1} are left out: it is fixed (Sigma 2), count them "
+                    f"to link {made[k].antecedent}"
+                )
+            continue
+        has = [key for key, cell in cells.items() if not cell.is_zero]
+        if has and all(cell.literal is not None for cell in cells.values()):
+            has = list(INERTIA)
+        if len(has) < len(INERTIA):
+            result.links[f"{k + 1}"] = has
+        for key in has:
+            others += _parameter(f"{key}{k + 1}", cells[key], result)
+    for j in range(found.links, found.joints):
+        if made[j].home is not None:
+            result.links[f"{j + 1}"] = []
+    others += _effects(statements, found, made, result)
+    if others:
+        result.notes.append(f"parameters that are not letters of their own: {listed(others)}")
+    _left_out(statements, found, result)
+    return result
+
+
+def _cell(statements: Statements, key: str, k: int, found: Counts) -> Formula:
+    statement = statements.by_key.get(key)
+    if statement is None:
+        return formula(f"{key}{k + 1}", statements.place)
+    k += found.floating
+    return formula(statement.entries[k], statement.entry_place(k + 1))
+
+
+def _parameter(name: str, cell: Formula, result: Bodies) -> list[str]:
+    """Keep the value; the name with what the file has for it, if that is another letter."""
+    if cell.literal is not None:
+        result.parameters[name] = float(cell.literal)
+        return []
+    same = cell.text.lower() == name.lower()
+    return [] if same else [f"{name} (there {cell.written})"]
+
+
+def _effects(statements: Statements, found: Counts, made: list[Frame], result: Bodies) -> list[str]:
+    others: list[str] = []
+    without = []
+    for key in FRICTION:
+        effect, prefix = _EFFECT[key]
+        if key not in statements.by_key:
+            continue
+        for k in range(found.links):
+            cell = _cell(statements, key, k, found)
+            if cell.is_zero or made[k].home is None:
+                continue
+            if effect == "rotor_inertia" and not made[k].mu:
+                without.append(cell.written)
+                continue
+            result.effects.setdefault(effect, []).append(f"{k + 1}")
+            others += _parameter(f"{prefix}{k + 1}", cell, result)
+    if without:
+        result.notes.append(
+            f"{listed(without)}: left out, rotor inertias of joints without a motor (Mu 0)"
+        )
+    return others
+
+
+def _left_out(statements: Statements, found: Counts, result: Bodies) -> None:
+    """Say what of the file has no place in a robot file."""
+    if found.floating:
+        result.notes.append(
+            "is_mobile, is_floating: the base stands still here, its own parameters are left out"
+        )
+    forces = [key for key in FORCES if any(e != "0" for e in statements.entries(key))]
+    if forces:
+        result.notes.append(
+            f"{listed(forces)} are left out: a robot file states no forces on links; see "
+            "modeler effects external_force"
+        )
+    springs = [key for key in ("eta", "k") if any(e != "0" for e in statements.entries(key))]
+    if springs:
+        result.notes.append(f"{listed(springs)} are left out: joints are rigid here")
+    states = [key for key in JOINTS[:3] if _has_numbers(statements.entries(key))]
+    if states:
+        result.notes.append(f"{listed(states)} are left out: they are a state, no robot")
+    moves = [key for key in BASE[:4] if any(not _zero(e) for e in statements.entries(key))]
+    moves = [key for key in moves if key != "VP0" or _states_gravity(statements)]
+    if moves:
+        result.notes.append(f"{listed(moves)} are left out: the base stands still here")
+    if statements.entries("Z") and list(statements.entries("Z")) != _IDENTITY:
+        result.notes.append("Z is left out: frame 0 is where the robot starts")
+
+
+def _has_numbers(entries: tuple[str, ...]) -> bool:
+    return any(entry[:1] in "0123456789.+-" and not _zero(entry) for entry in entries)
+
+
+def _zero(entry: str) -> bool:
+    try:
+        return float(entry) == 0
+    except ValueError:
+        return False
+
+
+def _states_gravity(statements: Statements) -> bool:
+    return any(not _zero(entry) for entry in statements.entries("G"))
+
+
+def gravity_entries(statements: Statements, notes: list[str]) -> tuple[str, ...]:
+    """G; -VP0 where the file has gravity as an acceleration of the base; downwards without both."""
+    if _states_gravity(statements):
+        return statements.entries("G")
+    base = statements.entries("VP0")
+    if any(not _zero(entry) for entry in base):
+        notes.append("gravity is -VP0: the file has it as an acceleration of the base")
+        return tuple("0" if _zero(entry) else f"-({entry})" for entry in base)
+    if statements.entries("G"):
+        return statements.entries("G")
+    notes.append("the file has no G: gravity is taken along -z0")
+    return ("0", "0", "-9.81")
+
+
+_NO_HOME = (
+    "a .par file states no posture: [home] says near which one the loops are closed, and so which "
+    "assembly mode is meant"
+)
+
+
+@dataclass(frozen=True)
+class Converted:
+    """A robot file made from another program's.
+
+    Attributes:
+        text: TOML.
+        notes: what was decided, and what was not carried over; one line each.
+    """
+
+    text: str
+    notes: tuple[str, ...]
+
+
+def par_to_toml(data: bytes, where: str) -> Converted:
+    """The robot file that says what the SYMORO file says.
+
+    Frames 1 .. NL are rows; frames NL + 1 .. NJ are rows without a body, each tied rigidly to its
+    second frame NJ + 1 .. NF by a row of `[loops]`.
+
+    Args:
+        data: contents of the file.
+        where: its name, for messages and the name of a robot that has none.
+
+    Raises:
+        RobotError: the file is wrong; says line, key, entry, what was got, what was expected.
+
+    Source: W. Khalil, D. Creusot, SYMORO+: a system for the symbolic modelling of robots,
+        Robotica 15, 1997; W. Khalil, E. Dombre, Modeling, identification and control of robots,
+        2002, section 7.3 (closed chains).
+    """
+    statements = scan(data, where)
+    found = counts(statements)
+    made = frames(statements, found)
+    symbols = Symbols()
+    _settle_motors(made, found, symbols.notes)
+    names = variables(made, statements)
+    other = [theirs for theirs, ours in names.items() if theirs != ours]
+    if other:
+        symbols.notes.append(f"joint variables are called q<row> here: {listed(other)}")
+    table_cells(made, found, names, symbols, statements.place)
+    links = bodies(statements, found, made)
+    pull = gravity(gravity_entries(statements, symbols.notes), symbols, statements.place)
+    notes = (*symbols.notes, *links.notes, *_structure_notes(statements, found))
+    parts = [
+        *_head(statements, where, notes, pull), "",
+        *_symbols(symbols), *_table(made), *_loops(found), *_tables(links, made),
+    ]  # fmt: skip
+    while not parts[-1]:
+        parts.pop()
+    return Converted("\n".join(parts) + "\n", notes)
+
+
+def _structure_notes(statements: Statements, found: Counts) -> list[str]:
+    """What is to be known of the loops.
+
+    Raises:
+        RobotError: Type is no type.
+    """
+    notes = [_NO_HOME] if found.loops else []
+    statement = statements.by_key.get("Type")
+    if statement is None:
+        return notes
+    kind = statement.entries[0]
+    if kind not in ("0", "1", "2"):
+        raise statement.place.error(
+            f'Type: got "{kind}"; expected 0 (simple), 1 (tree) or 2 (closed)'
+        )
+    if (kind == "2") != bool(found.loops):
+        notes.append(
+            f"Type is {kind}, but NJ - NL says that {found.loops} joints are cut, which counts"
+        )
+    return notes
+
+
+def _head(statements: Statements, where: str, notes: tuple[str, ...], pull: list[str]) -> list[str]:
+    name = _name(statements, where)
+    return [
+        f'name = "{name}"',
+        f'title = "{_title(statements, name)}"',
+        _notes(where, notes),
+        f"gravity = [{', '.join(_quoted(cell) for cell in pull)}]",
+    ]
+
+
+def _settle_motors(made: list[Frame], found: Counts, notes: list[str]) -> None:
+    """A file in which no joint has a motor says nothing of motors, if there are no loops."""
+    if not found.loops and not any(frame.mu for frame in made):
+        for frame in made:
+            frame.mu = int(frame.home is not None)
+        notes.append("Mu is 0 for every joint: all are taken as actuated")
+
+
+def _name(statements: Statements, where: str) -> str:
+    """The name with the letters that names may have."""
+    for wanted in (statements.name, PurePath(where).stem):
+        plain = unicodedata.normalize("NFKD", wanted).encode("ascii", "ignore").decode()
+        name = re.sub(r"[^A-Za-z0-9_-]+", "-", plain).strip("-_")
+        if name:
+            return name
+    return "robot"
+
+
+def _title(statements: Statements, name: str) -> str:
+    title = "".join(c for c in statements.name if c.isprintable() and c not in '"\\')
+    return title.strip() or name
+
+
+def _notes(where: str, notes: tuple[str, ...]) -> str:
+    lines = [f"Read from the SYMORO file {PurePath(where).name}.", *(f"* {n}." for n in notes)]
+    text = "\n".join(lines).replace("\\", "/").replace('"""', "'''")
+    text = "".join(c for c in text if c.isprintable() or c == "\n")
+    return f'notes = """\n{text}"""'
+
+
+def _quoted(cell: str) -> str:
+    """A TOML cell: whole numbers bare, all else as text."""
+    return cell if re.fullmatch(r"-?\d+(\.\d+)?", cell) else f'"{cell}"'
+
+
+def _symbols(symbols: Symbols) -> list[str]:
+    if not symbols.values:
+        return []
+    lines = ["[symbols]"]
+    for name, worth in symbols.values.items():
+        value = f'"{worth}"' if isinstance(worth, str) else repr(worth)
+        comment = symbols.comments.get(name)
+        start = f"{name} = {value}"
+        lines.append(f"{start:<37} # {comment}" if comment else start)
+    return [*lines, ""]
+
+
+def _table(made: list[Frame]) -> list[str]:
+    """`[mdh]`, aligned; columns that are 0 everywhere are left out."""
+    used = [c for c in GEOMETRY if any(not frame.cells[c].is_zero for frame in made)]
+    columns = ["j", "a", "mu", "sigma", *used]
+    cells = [[f'"{column}"' for column in columns]]
+    for frame in made:
+        geometry = [frame.cells[c] for c in used]
+        cells.append(
+            [f'"{frame.number}"', f'"{frame.antecedent}"', str(frame.mu), str(frame.sigma)]
+            + ["0" if cell.is_zero else _quoted(cell.text) for cell in geometry]
+        )
+    widths = [max(len(row[i]) for row in cells) + 2 for i in range(len(columns))]
+    lines = [
+        "".join(f"{cell},".ljust(width) for cell, width in zip(row, widths, strict=True))
+        for row in cells
+    ]
+    lines = [line.rstrip().removesuffix(",") for line in lines]
+    return [
+        "[mdh]                                 # sigma: 0 revolute, 1 prismatic, 2 fixed; "
+        "mu: 1 actuated, 0 passive",
+        f"columns = [{lines[0]}]",
+        "rows = [",
+        *(f"          [{line}]," for line in lines[1:]),
+        "]",
+        "",
+    ]
+
+
+def _loops(found: Counts) -> list[str]:
+    """Every cut joint meets its second frame."""
+    if not found.loops:
+        return []
+    rows = [
+        f'  ["cut{k + 1}", "{found.links + k + 1}", "{found.joints + k + 1}", "rigid"],'
+        for k in range(found.loops)
+    ]
+    columns = 'columns = ["loop", "frame", "meets", "joint"]'
+    return ["[loops]", columns, "rows = [", *rows, "]", ""]
+
+
+def _tables(links: Bodies, made: list[Frame]) -> list[str]:
+    lines = []
+    if links.links:
+        lines += ["[links]                               # parameters that these rows have"]
+        for name, has in links.links.items():
+            lines.append(f"{name} = [{', '.join(_quoted(key) for key in has)}]")
+        lines.append("")
+    actuated = [str(frame.number) for frame in made if frame.mu]
+    if links.effects:
+        lines.append("[effects]")
+        for effect, joints in links.effects.items():
+            names = ", ".join(f'"{joint}"' for joint in joints)
+            where = '"all"' if joints == actuated else f"[{names}]"
+            lines.append(f"{effect} = {where}")
+        lines.append("")
+    if links.parameters:
+        lines.append("[parameters]                          # kg m^2, kg m, kg; N m s/rad, N m")
+        lines += [f"{name} = {worth!r}" for name, worth in links.parameters.items()]
+        lines.append("")
+    return lines
+
+
+# SYMORO's `.par` files as robot files: from their bytes to the text of ours, and what is lost.

@@ -1,0 +1,377 @@
+"""The statements of a `.par` file: `KEY = {entry, entry}` and `KEY = number`, with their lines."""
+
+import ast
+import codecs
+import keyword
+import math
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+
+from modeler.core.expression import FUNCTIONS, ExpressionError, parse
+from modeler.robot.robot import Place, listed, near, shown
+
+SCALARS = ("NF", "NL", "NJ", "Type", "is_mobile", "is_floating")
+FRAMES = ("Ant", "Sigma", "b", "d", "r", "gamma", "alpha", "Mu", "theta")
+"""Lists of one entry for each frame."""
+INERTIA = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
+FRICTION = ("IA", "FV", "FS")
+FORCES = ("FX", "FY", "FZ", "CX", "CY", "CZ")
+BODIES = (*INERTIA, *FRICTION, *FORCES)
+"""Lists of one entry for each link."""
+JOINTS = ("QP", "QDP", "GAM", "eta", "k")
+BASE = ("W0", "WP0", "V0", "VP0", "Z", "G")
+KEYS = (*SCALARS, *FRAMES, *BODIES, *JOINTS, *BASE)
+
+_KEY = {key.lower(): key for key in KEYS}
+_COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
+_NAME = re.compile(r"Robotname\s*=\s*'([^'\n]*)'", re.IGNORECASE)
+_HEAD = re.compile(r"[\s;]*([^\W\d]\w*)[ \t]*=\s*")
+_UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+
+
+@dataclass(frozen=True)
+class Statement:
+    """One statement.
+
+    Attributes:
+        key: as `KEYS` spells it.
+        entries: of the list, or the one value.
+        place: file and line.
+    """
+
+    key: str
+    entries: tuple[str, ...]
+    place: Place
+
+    def entry_place(self, number: int) -> Place:
+        """Where entry `number`, counted from 1, stands."""
+        return self.place.at(f"{self.key}, entry {number}")
+
+
+@dataclass(frozen=True)
+class Statements:
+    """What a file says.
+
+    Attributes:
+        name: of the robot, as a comment of the file gives it; "" without one.
+        by_key: the statements.
+        place: the file.
+    """
+
+    name: str
+    by_key: dict[str, Statement]
+    place: Place
+
+    def entries(self, key: str) -> tuple[str, ...]:
+        """The list of that key; empty if the file has none."""
+        statement = self.by_key.get(key)
+        return statement.entries if statement else ()
+
+
+def scan(data: bytes, where: str) -> Statements:
+    """The statements of a file.
+
+    Keys may be written in capitals or not, and in any order; line ends and encoding are found.
+
+    Raises:
+        RobotError: it is no such file; an unknown key, a key twice, a list that is not closed.
+    """
+    place = Place(where)
+    text = _decoded(data, place)
+    named = _NAME.search(text)
+    bare = _COMMENT.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
+    opened = bare.find("(*")
+    if opened >= 0:
+        raise _line(place, bare, opened).error('the comment "(*" is not closed; end it with "*)"')
+    by_key: dict[str, Statement] = {}
+    at = 0
+    while re.search(r"[^\s;]", bare[at:]):
+        statement, at = _statement(bare, at, place)
+        if statement.key in by_key:
+            raise statement.place.error(
+                f"{statement.key} stands twice, first on {by_key[statement.key].place.spot}; "
+                "remove one"
+            )
+        by_key[statement.key] = statement
+    if "Ant" not in by_key:
+        raise place.error(
+            "is no SYMORO file: the list Ant is missing; expected Ant = {0,1,...}, the antecedent "
+            "of every frame, beside Sigma, d, r, alpha, theta"
+        )
+    return Statements(named[1].strip() if named else "", by_key, place)
+
+
+def _decoded(data: bytes, place: Place) -> str:
+    """The text; comments of old files are in the encoding of Windows."""
+    if data.startswith(_UTF16):
+        text = data.decode("utf-16", errors="replace")
+    else:
+        try:
+            text = data.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = data.decode("cp1252", errors="replace")
+    if "\0" in text:
+        raise place.error("is no text; expected a SYMORO file, such as KEY = {0,1,2} line by line")
+    return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\x1a")  # end of file in DOS
+
+
+def _line(place: Place, text: str, at: int) -> Place:
+    return place.at(f"line {text.count(chr(10), 0, at) + 1}")
+
+
+def _statement(text: str, at: int, place: Place) -> tuple[Statement, int]:
+    """The statement that starts at or after `at`, and where it ends."""
+    head = _HEAD.match(text, at)
+    start = at + len(text[at:]) - len(re.sub(r"^[\s;]*", "", text[at:]))
+    here = _line(place, text, start)
+    if head is None:
+        got = text[start:].splitlines()[0].strip()
+        raise here.error(f"got {shown(got)}; expected KEY = {{...}} or KEY = number")
+    key = _KEY.get(head[1].lower())
+    if key is None:
+        raise here.error(
+            f"unknown keyword {shown(head[1])}{near(head[1], KEYS)}; expected one of {listed(KEYS)}"
+        )
+    here = place.at(here.spot)
+    if text[head.end() : head.end() + 1] != "{":
+        value = re.compile(r"[^\n;]*").match(text, head.end())
+        assert value is not None
+        if key not in SCALARS:
+            raise here.error(f"{key}: got {shown(value[0].strip())}; expected a list in braces")
+        return Statement(key, (value[0].strip(),), here), value.end()
+    end = text.find("}", head.end())
+    inner = text[head.end() + 1 : end]
+    if end < 0 or "=" in inner or "{" in inner:
+        raise here.error(f"{key}: the list is not closed; end it with }}")
+    if key in SCALARS:
+        raise here.error(f"{key}: got a list; expected one number, as in {key} = 6")
+    return Statement(key, _entries(inner, key, here), here), end + 1
+
+
+def _entries(inner: str, key: str, place: Place) -> tuple[str, ...]:
+    """The entries between commas that stand in no parentheses."""
+    entries, depth = [""], 0
+    for letter in inner:
+        depth += (letter in "([") - (letter in ")]")
+        if letter == "," and depth == 0:
+            entries.append("")
+        else:
+            entries[-1] += letter
+    entries = [" ".join(entry.split()) for entry in entries]
+    if entries == [""]:
+        return ()
+    for number, entry in enumerate(entries, start=1):
+        if not entry:
+            raise place.at(f"{key}, entry {number}").error(
+                "is empty; expected a number, a letter or an expression"
+            )
+    return tuple(entries)
+
+
+# Entries of a `.par` file as formulas: read in its spelling, written in that of robot files.
+
+
+INVERSE: dict[str, Callable[..., float]] = {
+    "atan2": math.atan2, "atan": math.atan, "acos": math.acos, "asin": math.asin,
+}  # fmt: skip
+"""Functions of `.par` files that robot files do not have."""
+
+_FUNCTION = {name: name for name in (*FUNCTIONS, *INVERSE)} | {
+    "arctan": "atan", "arctan2": "atan2", "arccos": "acos", "arcsin": "asin",
+}  # fmt: skip
+_NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:(?:[eE]|\*\^)[+-]?\d+)?"
+_TOKEN = re.compile(rf"({_NUMBER})|([^\W\d]\w*)(\s*[(\[])?|(\*\*|\^|[-+*/()\[\],])|(\s+)|(.)")
+_PLAIN = re.compile(rf"[+-]?\s*{_NUMBER}")
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A checked formula.
+
+    Attributes:
+        tree: of Python's arithmetic; functions are those of robot files and `INVERSE`.
+        written: the entry as the file has it.
+    """
+
+    tree: ast.expr
+    written: str
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The letters in it; pi and functions are none."""
+        called = {id(n.func) for n in ast.walk(self.tree) if isinstance(n, ast.Call)}
+        names = (n for n in ast.walk(self.tree) if isinstance(n, ast.Name) and id(n) not in called)
+        return frozenset(name.id for name in names if name.id != "pi")
+
+    @property
+    def literal(self) -> str | None:
+        """The number as its digits are written, if it is nothing but a number."""
+        if not _PLAIN.fullmatch(self.written):
+            return None
+        return self.written.replace(" ", "").replace("*^", "e")
+
+    @property
+    def is_zero(self) -> bool:
+        """True of 0 in any spelling."""
+        return self.literal is not None and float(self.literal) == 0
+
+    @property
+    def text(self) -> str:
+        """As robot files spell it."""
+        return written(self.tree)
+
+    def replaced(self, tree: ast.expr) -> "Formula":
+        """Another formula in its place."""
+        return Formula(tree, written(tree))
+
+
+def written(tree: ast.expr) -> str:
+    """The formula as text: `b**2 + pi/2`."""
+    return re.sub(r" (\*\*|\*|/) ", r"\1", ast.unparse(tree))
+
+
+def formula(entry: str, place: Place) -> Formula:
+    """The formula of an entry: `-Pi/2`, `Sqrt[b^2 + d6^2]`, `0.45`.
+
+    Raises:
+        RobotError: it is none.
+    """
+    try:
+        tree = ast.parse(_spelled(entry), mode="eval").body
+        plain = _with_stand_ins(tree)
+        parse(ast.unparse(plain))
+    except (SyntaxError, ValueError, RecursionError, MemoryError, ExpressionError):
+        raise place.error(
+            f"got {shown(entry)}; expected a number, a letter, or arithmetic of these with "
+            f"{', '.join(sorted({*FUNCTIONS, *INVERSE}))}"
+        ) from None
+    return Formula(tree, entry)
+
+
+def value(tree: ast.expr, values: Mapping[str, float]) -> float:
+    """The number that a formula without `INVERSE` functions is worth."""
+    return parse(ast.unparse(tree)).number(values)
+
+
+class Each(ast.NodeTransformer):
+    """Replaces the calls of functions, innermost first."""
+
+    def __init__(self, replace: Callable[[ast.Call], ast.expr]) -> None:
+        self.replace = replace
+
+    def visit_Call(self, node: ast.Call) -> ast.expr:
+        """One call."""
+        self.generic_visit(node)
+        return self.replace(node)
+
+
+def renamed(tree: ast.expr, names: Mapping[str, str]) -> ast.expr:
+    """The formula with other names."""
+
+    class Rename(ast.NodeTransformer):
+        def visit_Name(self, node: ast.Name) -> ast.expr:
+            return ast.Name(names.get(node.id, node.id), ast.Load())
+
+    result: ast.expr = Rename().visit(ast.parse(ast.unparse(tree), mode="eval").body)
+    return result
+
+
+def _spelled(entry: str) -> str:
+    """The entry in Python's spelling."""
+    parts = []
+    for number, name, opened, operator, space, other in _TOKEN.findall(entry):
+        if other:
+            raise ValueError(other)
+        if number:
+            parts.append(number.replace("*^", "e"))
+        elif name:
+            is_pi = name.lower() == "pi"
+            known = _FUNCTION.get(name.lower()) if opened else None
+            letter = f"{name}_" if keyword.iskeyword(name) else name
+            parts.append(("pi" if is_pi else known or letter) + ("(" if opened else ""))
+        else:
+            parts.append({"^": "**", "[": "(", "]": ")"}.get(operator, operator) or space)
+    return _two_arguments("".join(parts).strip())
+
+
+def _two_arguments(text: str) -> str:
+    """Mathematica's ArcTan[x, y] is atan2(y, x)."""
+
+    def turned(call: ast.Call) -> ast.expr:
+        if isinstance(call.func, ast.Name) and call.func.id == "atan" and len(call.args) == 2:
+            return ast.Call(ast.Name("atan2", ast.Load()), call.args[::-1], [])
+        return call
+
+    if "atan(" not in text:
+        return text
+    return ast.unparse(Each(turned).visit(ast.parse(text, mode="eval").body))
+
+
+def _with_stand_ins(tree: ast.expr) -> ast.expr:
+    """The formula with functions that robot files have: to be checked by their grammar."""
+
+    def plain(call: ast.Call) -> ast.expr:
+        name = call.func.id if isinstance(call.func, ast.Name) else ""
+        if name in INVERSE and not call.keywords:
+            if len(call.args) != (2 if name == "atan2" else 1):
+                raise ValueError(name)
+            joined = call.args[0]
+            for other in call.args[1:]:
+                joined = ast.BinOp(joined, ast.Add(), other)
+            return joined
+        return call
+
+    result: ast.expr = Each(plain).visit(ast.parse(ast.unparse(tree), mode="eval").body)
+    return result
+
+
+# Angles printed as rounded decimals, and the multiples of pi/12 that they mean.
+
+
+FINE, COARSE = 3, 2
+"""Decimals that an angle must have to be taken for a multiple of pi/12, and of pi/2: with fewer,
+a measured angle is near one by chance too often."""
+
+
+def exact_angle(digits: str) -> str | None:
+    """The multiple of pi/12 that the printed number is a rounding of; None if it is of none.
+
+    `1.5708`, `1.571`, `1.57080` and the cut-off `3.1415` are: from the multiple to the number it
+    is half a unit of its last digit, or towards 0 a whole one. Zeros at the end are taken for
+    padding as long as enough decimals are left without them.
+
+    Args:
+        digits: a decimal number, rad.
+    """
+    number = abs(Decimal(digits))
+    twelfths = round(float(number) / (math.pi / 12))
+    if twelfths == 0 or twelfths > 24:
+        return None
+    least = COARSE if twelfths % 6 == 0 else FINE
+    decimals = _decimals(number.normalize())
+    if decimals < least:
+        decimals = _decimals(number)
+    if decimals < least:
+        return None
+    unit = 10.0 ** -min(decimals, 15)
+    if not -unit <= float(number) - twelfths * math.pi / 12 <= unit / 2:
+        return None
+    return multiple(Fraction(-twelfths if digits.startswith("-") else twelfths, 12))
+
+
+def _decimals(number: Decimal) -> int:
+    exponent = number.as_tuple().exponent
+    assert isinstance(exponent, int)
+    return -exponent
+
+
+def multiple(turns: Fraction) -> str:
+    """`turns` times pi as text: `pi/2`, `-pi`, `3*pi/4`, `0`."""
+    if turns == 0:
+        return "0"
+    head = "" if abs(turns.numerator) == 1 else f"{abs(turns.numerator)}*"
+    tail = "" if turns.denominator == 1 else f"/{turns.denominator}"
+    return f"{'-' if turns < 0 else ''}{head}pi{tail}"

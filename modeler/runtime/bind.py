@@ -1,0 +1,558 @@
+"""The library's functions, declared from the manifest; with bind_fused.py all that knows cffi."""
+
+import os
+import re
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import cffi
+import numpy as np
+
+from modeler.core.errors import BuildError, ManifestError
+from modeler.core.files import resource_dir
+from modeler.core.manifest import FunctionSpec, ModuleSpec
+from modeler.runtime.build import build_library
+
+FUNCTIONS = {
+    "regressor": 3, "base_regressor": 3, "base_regressor_nonzeros": 3, "inverse_dynamics": 4,
+    "inertia_matrix": 2, "gravity": 2, "coriolis": 3, "friction": 2, "base_parameters": 1,
+    "forward_kinematics": 1,
+}  # fmt: skip
+"""Functions that every module has, and how many inputs they read."""
+
+LOOP_FUNCTIONS = {
+    **{role: count for role, count in FUNCTIONS.items() if role != "base_regressor_nonzeros"},
+    "friction": 3, "close": 1, "close_from": 2, "coupling": 1,
+}  # fmt: skip
+"""Those of a robot with loops."""
+
+PLATFORM_FUNCTIONS = {
+    "platform_base_regressor": 3, "platform_inverse_dynamics": 4, "platform_close": 1,
+    "platform_close_from": 2, "platform_coupling": 1,
+}  # fmt: skip
+"""Those of a robot with loops and a platform besides."""
+
+READ_SIGNALS = ("regressor", "base_regressor", "base_regressor_nonzeros", "inverse_dynamics")
+"""Functions with one input more where effects read signals."""
+
+_RUNTIME = """
+typedef struct { const double *data; size_t step; } modeler_input;
+void modeler_batch_1(void *, size_t, const modeler_input *, double *, size_t);
+void modeler_batch_2(void *, size_t, const modeler_input *, double *, size_t);
+void modeler_batch_3(void *, size_t, const modeler_input *, double *, size_t);
+void modeler_batch_4(void *, size_t, const modeler_input *, double *, size_t);
+void modeler_batch_5(void *, size_t, const modeler_input *, double *, size_t);
+"""
+
+_LOOP_RUNTIME = """
+void modeler_batch_status_1(void *, size_t, const modeler_input *, double *, size_t, int *);
+void modeler_batch_status_2(void *, size_t, const modeler_input *, double *, size_t, int *);
+void modeler_batch_status_3(void *, size_t, const modeler_input *, double *, size_t, int *);
+void modeler_batch_status_4(void *, size_t, const modeler_input *, double *, size_t, int *);
+"""
+
+
+class Library:
+    """A loaded library; its functions release the interpreter lock and may run in threads.
+
+    Arrays are float64 here, whatever the precision of the code: that in single precision is given
+    copies in float32, and its results are copied back.
+
+    Attributes:
+        spec: the manifest it belongs to.
+    """
+
+    def __init__(self, spec: ModuleSpec, path: Path) -> None:
+        """Load the library at `path`.
+
+        Raises:
+            BuildError: it cannot be loaded.
+            ManifestError: it was emitted with another manifest.
+        """
+        self.spec = spec
+        self._ffi = cffi.FFI()
+        self._single = spec.precision == "single"
+        loops = _LOOP_RUNTIME if spec.closure is not None else ""
+        declared = _RUNTIME + loops + _declarations(spec)
+        self._ffi.cdef(_in_single(declared) if self._single else declared)
+        try:
+            self._library: Any = self._ffi.dlopen(str(path))
+            self._check()
+        except OSError as error:
+            raise BuildError(
+                f"{path}: the compiled library cannot be loaded ({error}); delete it and try again"
+            ) from error
+        except AttributeError as error:
+            raise ManifestError(
+                f"{spec.robot}: the compiled code lacks what its manifest names ({error}); "
+                "generate both again"
+            ) from error
+
+    def _check(self) -> None:
+        answer = self._ffi.string(self._function("signature")()).decode()
+        if answer != self.spec.signature():
+            raise ManifestError(
+                f"{self.spec.robot}: the compiled code answers {answer}, the manifest expects "
+                f"{self.spec.signature()}; one of them is older, generate both again"
+            )
+        for function in self.spec.functions:
+            getattr(self._library, function.name)
+
+    def _function(self, role: str) -> Any:
+        return getattr(self._library, f"{self.spec.prefix}_{role}")
+
+    def address(self, name: str) -> int:
+        """Where a function of the library stands, for C that calls it; the caller holds this."""
+        return int(self._ffi.cast("uintptr_t", getattr(self._library, name)))
+
+    def batch(
+        self,
+        function: FunctionSpec,
+        inputs: Sequence[np.ndarray],
+        out: np.ndarray,
+        status: np.ndarray | None = None,
+    ) -> None:
+        """Call `function` for every sample.
+
+        Args:
+            function: of the manifest, with 1 to 5 inputs.
+            inputs: C-contiguous float64; (n, length) per sample, or (length,) the same for all.
+            out: C-contiguous float64, (n, ...).
+            status: (n,) C int, of a function that returns one.
+        """
+        assert (status is not None) == function.status
+        assert len(inputs) == len(function.inputs) and len(inputs) in (1, 2, 3, 4, 5)
+        runtime, arrays, result = self._runtime, self._own(inputs), self._place(out)
+        given = self._ffi.new(f"{runtime}_input[]", len(arrays))
+        for place, array in zip(given, arrays, strict=True):
+            place.data = self._numbers(array)
+            place.step = array.shape[1] if array.ndim == 2 else 0
+        samples = len(out)
+        step = out.size // samples if samples else 0
+        pointer = self._ffi.cast("void *", getattr(self._library, function.name))
+        arguments = [pointer, samples, given, self._numbers(result), step]
+        if status is None:
+            getattr(self._library, f"{runtime}_batch_{len(inputs)}")(*arguments)
+        else:
+            driver = getattr(self._library, f"{runtime}_batch_status_{len(inputs)}")
+            driver(*arguments, self._integers(status))
+        self._give_back(result, out)
+
+    def observation(
+        self,
+        q: np.ndarray,
+        qd: np.ndarray,
+        qdd: np.ndarray,
+        W: np.ndarray,
+        status: np.ndarray | None = None,
+        s: np.ndarray | None = None,
+    ) -> None:
+        """Fill W, (n*joints, columns), from (n, joints) arrays; (n,) `status` with loops.
+
+        s: (n, signals), for effects that read any.
+        """
+        arrays = self._own([a for a in (q, qd, qdd, s) if a is not None])
+        result = self._place(W)
+        arguments = [self._numbers(a) for a in (*arrays, result)]
+        if status is not None:
+            arguments.append(self._integers(status))
+        self._function("observation")(len(q), *arguments)
+        self._give_back(result, W)
+
+    def base_parameters(self, function: FunctionSpec, chi: np.ndarray, beta: np.ndarray) -> None:
+        """Fill beta from chi by the grouping relations."""
+        (given,), result = self._own([chi]), self._place(beta)
+        getattr(self._library, function.name)(self._numbers(given), self._numbers(result))
+        self._give_back(result, beta)
+
+    @property
+    def _runtime(self) -> str:
+        """Start of the names of the C runtime."""
+        return "modelerf" if self._single else "modeler"
+
+    def _own(self, arrays: Sequence[np.ndarray]) -> list[np.ndarray]:
+        """The arrays as the code reads them."""
+        assert all(a.flags.c_contiguous and a.dtype == np.float64 for a in arrays)
+        if not self._single:
+            return list(arrays)
+        with np.errstate(over="ignore"):  # infinite in single precision: the results will tell
+            return [array.astype(np.float32) for array in arrays]
+
+    def _place(self, out: np.ndarray) -> np.ndarray:
+        """Where the code writes what is for `out`."""
+        assert out.flags.c_contiguous and out.dtype == np.float64
+        return np.empty_like(out, dtype=np.float32) if self._single else out
+
+    def _give_back(self, result: np.ndarray, out: np.ndarray) -> None:
+        if result is not out:
+            out[...] = result
+
+    def _integers(self, array: np.ndarray) -> Any:
+        assert array.flags.c_contiguous and array.dtype == np.intc
+        return self._ffi.cast("int *", array.ctypes.data)
+
+    def _numbers(self, array: np.ndarray) -> Any:
+        # The address itself: half the time of from_buffer; the caller holds the array.
+        return self._ffi.cast("float *" if self._single else "double *", array.ctypes.data)
+
+
+def check_names(spec: ModuleSpec) -> None:
+    """Refuse manifests whose functions could not be declared, or that lack one.
+
+    Files are named after the prefix, so this comes before any is read or written.
+
+    Raises:
+        ManifestError: a name is no C name, or a function is missing.
+    """
+    inputs = {function.name: len(function.inputs) for function in spec.functions}
+    for name in (spec.prefix, *inputs):
+        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
+            raise ManifestError(f'{spec.robot}: got the name "{name}", expected a C name')
+    wanted = FUNCTIONS
+    if spec.closure is not None:
+        wanted = LOOP_FUNCTIONS | (PLATFORM_FUNCTIONS if spec.closure.platform else {})
+    more = int(bool(spec.signals))
+    for role, count in wanted.items():
+        got = inputs.get(f"{spec.prefix}_{role}")
+        count += more if role in READ_SIGNALS else 0
+        if role == "friction" and got == 4 + more:  # effects that read positions or loads
+            continue
+        if got != count:
+            raise ManifestError(
+                f"{spec.robot}: the manifest names {got or 'no'} inputs of {role}, expected "
+                f"{count}; generate it again"
+            )
+
+
+def _in_single(declared: str) -> str:
+    """Declarations of the same code in single precision."""
+    return re.sub(r"\bmodeler_", "modelerf_", re.sub(r"\bdouble\b", "float", declared))
+
+
+def _declarations(spec: ModuleSpec) -> str:
+    status = ", int *" if spec.closure is not None else ""
+    signals = "const double *, " if spec.signals else ""
+    lines = [
+        f"const char *{spec.prefix}_signature(void);",
+        f"void {spec.prefix}_observation(size_t, const double *, const double *, const double *, "
+        f"{signals}double *{status});",
+    ]
+    for function in spec.functions:
+        inputs = ", ".join("const double *" for _ in function.inputs)
+        returns = "int" if function.status else "void"
+        lines.append(f"{returns} {function.name}({inputs}, double *);")
+    return "\n".join(lines)
+
+
+# The least squares of csrc/modeler_fused.c, made callable; with bind.py all that knows cffi.
+
+
+_SOURCES = ("modeler_fused.c",)
+_HEADERS = ("modeler_fused.h", "modeler_fused_body.h", "modeler_tile.h", "modeler_runtime.h")
+_DECISIVE = ("CC", "CFLAGS", "PATH", "MODELER_CACHE", "XDG_CACHE_HOME", "HOME")
+"""Variables that decide which library is meant, and where it is kept."""
+
+_FUSED_DECLARED = """
+typedef struct {
+    int joints, signals, nonzeros;
+    const int *row;
+    void *tile, *entries, *entries_signals;
+} modeler_source;
+typedef struct {
+    const double *q, *qd, *qdd, *s, *tau;
+    const unsigned char *use;
+    const double *weight;
+} modeler_samples;
+typedef struct {
+    size_t rows, step, y_step, use_step;
+    int columns;
+    const int *column;
+    const double *W, *y;
+    const unsigned char *use;
+} modeler_rows;
+int modeler_fused_level(int);
+size_t modeler_fused_work(const modeler_source *);
+size_t modeler_fused_triangles(const modeler_source *, size_t, const modeler_samples *, int,
+                               double *, size_t *, unsigned char *, void *);
+size_t modeler_fused_products_work(const modeler_source *);
+size_t modeler_fused_products(const modeler_source *, size_t, size_t, const modeler_samples *, int,
+                              int, const int *, double *, unsigned char *, void *);
+void modeler_fused_merge(const modeler_source *, int, double *, const double *, void *);
+size_t modeler_rows_work(int);
+size_t modeler_rows_triangle(const modeler_rows *, int, double *, size_t *, void *);
+"""
+
+
+class Functions(NamedTuple):
+    """Addresses of the functions that evaluate a base regressor's entries; 0 for none.
+
+    Attributes:
+        entries: of one sample, as `<prefix>_base_regressor_nonzeros`.
+        signals: how many it reads besides.
+        tile: of several samples, see modeler_tile.h.
+    """
+
+    entries: int
+    signals: int = 0
+    tile: int = 0
+
+
+class Samples(NamedTuple):
+    """Arrays of one call, C-contiguous, one row per sample; see `modeler_samples`."""
+
+    q: np.ndarray
+    qd: np.ndarray
+    qdd: np.ndarray
+    tau: np.ndarray
+    s: np.ndarray | None
+    use: np.ndarray | None
+    weight: np.ndarray | None
+
+    def part(self, block: slice) -> "Samples":
+        """The samples of a block."""
+        s, use, weight = (x if x is None else x[block] for x in (self.s, self.use, self.weight))
+        return Samples(
+            self.q[block], self.qd[block], self.qdd[block], self.tau[block], s, use, weight
+        )
+
+
+class FusedLibrary:
+    """The loaded library; its functions release the interpreter lock and keep nothing."""
+
+    def __init__(self, path: Path) -> None:
+        """Load the library at `path`.
+
+        Raises:
+            BuildError: it cannot be loaded.
+        """
+        self._ffi = cffi.FFI()
+        self._ffi.cdef(_FUSED_DECLARED)
+        try:
+            self._library: Any = self._ffi.dlopen(str(path))
+        except OSError as error:
+            raise BuildError(
+                f"{path}: the compiled library cannot be loaded ({error}); delete it and try again"
+            ) from error
+
+    def level(self, wanted: int = 0) -> int:
+        """Which instructions a wanted level means here; 0: the best.
+
+        1: those of every processor of its kind, 2: AVX2, 3: AVX-512.
+        """
+        return int(self._library.modeler_fused_level(wanted))
+
+    def triangles(
+        self, rows_of_entries: np.ndarray, functions: Functions, given: Samples, level: int,
+        state: np.ndarray, rows: np.ndarray,
+    ) -> np.ndarray:  # fmt: skip
+        """Add samples to a state; (samples,) True for those that were left out.
+
+        Args:
+            rows_of_entries: (entries,) C int, row after row.
+            functions: that evaluate the entries.
+            given: the samples.
+            level: of instructions.
+            state: triangles of all joints one after another, changed.
+            rows: (joints,) of numpy.uintp, increased.
+        """
+        joints = given.q.shape[1]
+        source = self._source(rows_of_entries, functions, joints)
+        work = self._work(self._library.modeler_fused_work(source))
+        bad = np.zeros(len(given.q), dtype=np.uint8)
+        self._library.modeler_fused_triangles(
+            source, len(given.q), self._samples(given), level,
+            self._pointer(state), self._pointer(rows), self._pointer(bad), self._pointer(work),
+        )  # fmt: skip
+        return bad.view(bool)
+
+    def products(
+        self, rows_of_entries: np.ndarray, functions: Functions, given: Samples, past: int,
+        level: int, first: int, last: np.ndarray, out: np.ndarray,
+    ) -> np.ndarray:  # fmt: skip
+        """Add products of rows some samples apart; (samples,) True for those counted as zeros.
+
+        Args:
+            rows_of_entries: (entries,) C int, row after row.
+            functions: that evaluate the entries.
+            given: the samples.
+            past: how many of them only stand before the others.
+            level: of instructions.
+            first: smallest lag.
+            last: (joints,) C int, largest lag of each joint.
+            out: products of all joints and lags one after another, changed.
+        """
+        source = self._source(rows_of_entries, functions, given.q.shape[1])
+        work = self._work(self._library.modeler_fused_products_work(source))
+        bad = np.zeros(len(given.q), dtype=np.uint8)
+        self._library.modeler_fused_products(
+            source, len(given.q), past, self._samples(given), level, first, self._pointer(last),
+            self._pointer(out), self._pointer(bad), self._pointer(work),
+        )  # fmt: skip
+        return bad.view(bool)
+
+    def merge(
+        self, rows_of_entries: np.ndarray, joints: int, state: np.ndarray, other: np.ndarray
+    ) -> None:
+        """Add the rows of another state to a state."""
+        source = self._source(rows_of_entries, Functions(0), joints)
+        work = self._work(self._library.modeler_fused_work(source))
+        self._library.modeler_fused_merge(
+            source, 0, self._pointer(state), self._pointer(other), self._pointer(work)
+        )
+
+    def rows(
+        self, W: np.ndarray, y: np.ndarray, use: np.ndarray | None, columns: np.ndarray,
+        level: int, triangle: np.ndarray,
+    ) -> tuple[int, int]:  # fmt: skip
+        """Add rows that stand in memory to one triangle; rows added, rows left out.
+
+        Args:
+            W: (rows, c) rows one after another in memory, any step.
+            y: (rows,) any step.
+            use: (rows,) bytes, any step; None for all.
+            columns: (k,) C int, the columns to use.
+            level: of instructions.
+            triangle: of these columns, changed.
+        """
+        assert W.strides[1] == 8 and W.dtype == y.dtype == np.float64
+        given = {
+            "rows": len(W), "step": W.strides[0] // 8, "y_step": y.strides[0] // 8,
+            "use_step": 0 if use is None else use.strides[0], "columns": len(columns),
+            "column": self._pointer(columns), "W": self._pointer(W), "y": self._pointer(y),
+            "use": self._pointer(use),
+        }  # fmt: skip
+        added = np.zeros(1, dtype=np.uintp)
+        work = self._work(self._library.modeler_rows_work(len(columns)))
+        left = self._library.modeler_rows_triangle(
+            self._ffi.new("modeler_rows *", given), level, self._pointer(triangle),
+            self._pointer(added), self._pointer(work),
+        )  # fmt: skip
+        return int(added[0]), int(left)
+
+    def _source(self, rows_of_entries: np.ndarray, functions: Functions, joints: int) -> Any:
+        plain, reads = functions.entries, functions.signals
+        return self._ffi.new(
+            "modeler_source *",
+            {
+                "joints": joints, "signals": reads, "nonzeros": len(rows_of_entries),
+                "row": self._pointer(rows_of_entries),
+                "tile": self._ffi.cast("void *", functions.tile),
+                "entries": self._ffi.cast("void *", 0 if reads else plain),
+                "entries_signals": self._ffi.cast("void *", plain if reads else 0),
+            },
+        )  # fmt: skip
+
+    def _samples(self, given: Samples) -> Any:
+        arrays = {name: self._pointer(array) for name, array in given._asdict().items()}
+        return self._ffi.new("modeler_samples *", arrays)
+
+    def _pointer(self, array: np.ndarray | None) -> Any:
+        # The caller holds the array.
+        return self._ffi.cast("void *", 0 if array is None else array.ctypes.data)
+
+    @staticmethod
+    def _work(size: int) -> np.ndarray:
+        return np.empty(size, dtype=np.uint8)
+
+
+def fused_library() -> FusedLibrary:
+    """The library, compiled once per machine and then taken from the cache.
+
+    Raises:
+        BuildError: no compiler, or it refused.
+    """
+    return _loaded(tuple(os.environ.get(name, "") for name in _DECISIVE))
+
+
+@lru_cache(maxsize=4)
+def _loaded(environment: tuple[str, ...]) -> FusedLibrary:
+    """For variables of these values."""
+    folder = resource_dir("csrc")
+    texts = {name: (folder / name).read_text("utf-8") for name in _SOURCES}
+    texts |= {name: (folder / "include" / name).read_text("utf-8") for name in _HEADERS}
+    return FusedLibrary(build_library(texts))
+
+
+# The library of tiles, see csrc/modeler_tile.h, made callable; knows cffi.
+#
+# It is a library of its own, which is compiled when it is first asked for: small work does without.
+
+
+_TILE_DECLARED = """
+typedef struct {{
+    int joints, columns, signals, nonzeros;
+    const int *row, *column;
+    void *tile;
+}} modeler_tiled;
+const modeler_tiled *{prefix}_tiled(void);
+const char *{prefix}_tile_signature(void);
+size_t modeler_tile_work(const modeler_tiled *);
+void modeler_tile_observation(const modeler_tiled *, size_t, const double *, const double *,
+                              const double *, const double *, double *, void *);
+void modeler_tile_nonzeros(const modeler_tiled *, size_t, const double *, const double *,
+                           const double *, const double *, double *, void *);
+"""
+
+
+class TileLibrary:
+    """A loaded library; its functions release the interpreter lock and may run in threads."""
+
+    def __init__(self, spec: ModuleSpec, path: Path) -> None:
+        """Load the library at `path`.
+
+        Raises:
+            BuildError: it cannot be loaded.
+            ManifestError: it was emitted with another manifest.
+        """
+        self._ffi = cffi.FFI()
+        self._ffi.cdef(_TILE_DECLARED.format(prefix=spec.prefix))
+        try:
+            self._library: Any = self._ffi.dlopen(str(path))
+        except OSError as error:
+            raise BuildError(
+                f"{path}: the compiled library cannot be loaded ({error}); delete it and try again"
+            ) from error
+        answer = getattr(self._library, f"{spec.prefix}_tile_signature")()
+        if (got := self._ffi.string(answer).decode()) != spec.signature():
+            raise ManifestError(
+                f"{spec.robot}: the code of the tiles answers {got}, the manifest expects "
+                f"{spec.signature()}; one of them is older, generate both again"
+            )
+        self._tiled = getattr(self._library, f"{spec.prefix}_tiled")()
+
+    @property
+    def tile(self) -> int:
+        """Where the function of one tile stands, for C that calls it; the caller holds this."""
+        return int(self._ffi.cast("uintptr_t", self._tiled.tile))
+
+    def fill(self, inputs: Sequence[np.ndarray], out: np.ndarray, dense: bool) -> None:
+        """Evaluate samples.
+
+        Args:
+            inputs: q, qd, qdd and, with signals, s: (n, ...), C-contiguous.
+            out: C-contiguous, n rows: whole regressors if `dense`, else entries.
+            dense: with what is always 0.
+        """
+        pointers = [self._doubles(array) for array in inputs]
+        pointers += [self._ffi.NULL] * (4 - len(inputs))
+        work = np.empty(self._library.modeler_tile_work(self._tiled), dtype=np.uint8)
+        start = self._ffi.cast("void *", work.ctypes.data)
+        name = "observation" if dense else "nonzeros"
+        function = getattr(self._library, f"modeler_tile_{name}")
+        function(self._tiled, len(inputs[0]), *pointers, self._doubles(out), start)
+
+    def _doubles(self, array: np.ndarray) -> Any:
+        assert array.flags.c_contiguous and array.dtype == np.float64
+        return self._ffi.cast("double *", array.ctypes.data)
+
+
+def tile_library(spec: ModuleSpec, files: Mapping[str, str]) -> TileLibrary:
+    """The library of these files, compiled once and then taken from the cache.
+
+    Raises:
+        BuildError: no compiler, or it refused.
+        ManifestError: the files belong to another manifest.
+    """
+    return TileLibrary(spec, build_library({name: files[name] for name in spec.tile_sources}))

@@ -1,0 +1,339 @@
+"""The C compiler of this machine: which one, and which of our flags it knows."""
+
+import contextlib
+import hashlib
+import os
+import re
+import secrets
+import shlex
+import shutil
+import subprocess
+import tempfile
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from modeler.core.errors import BuildError
+from modeler.runtime.threads import mapped
+
+_INSTALL = (
+    "install one: Debian, Ubuntu `apt install gcc`, Fedora `dnf install gcc`, "
+    "macOS `xcode-select --install`; or set CC"
+)
+
+# Each line: alternatives, of which the first that the compiler knows is taken, or none.
+# gcc's vectoriser of straight-line code costs half the speed of a regressor (172 against 89 ns);
+# -ffast-math would change results, these do not but for fused multiply-add.
+_WANTED = (
+    ("-fno-tree-slp-vectorize", "-fno-slp-vectorize"),
+    ("-fno-math-errno",),
+    ("-fno-trapping-math",),
+    ("-ffp-contract=fast",),
+    ("-march=native", "-mcpu=native"),
+)
+_ALWAYS = ("-std=c99", "-fPIC")
+_OPTIMISED = "-O3"
+
+
+@dataclass(frozen=True)
+class Toolchain:
+    """A compiler and its flags.
+
+    Attributes:
+        command: e.g. ("gcc",) or ("ccache", "gcc").
+        flags: all of them known to it.
+        identity: everything about compiler and processor that can change the library.
+    """
+
+    command: tuple[str, ...]
+    flags: tuple[str, ...]
+    identity: str
+
+
+def find_toolchain() -> Toolchain:
+    """The compiler named by the environment variable CC, else the first of cc, gcc, clang.
+
+    The environment variable CFLAGS takes the place of the flags that are chosen otherwise: -O3,
+    code for this very processor, fused multiply-add. Where CC has a flag, what is chosen of its
+    kind is left out: `CC="gcc -march=x86-64-v2"` gives code for that processor.
+
+    Raises:
+        BuildError: there is none, or it does not know a flag of CFLAGS; says what to do.
+    """
+    wanted = os.environ.get("CC", "").strip()
+    if wanted:
+        command = _words("CC", wanted)
+        if shutil.which(command[0]) is None:
+            raise BuildError(
+                f'C compiler: got CC="{wanted}", which is not found; correct it, or {_INSTALL}'
+            )
+        return _examined(command, _own_flags())
+    for name in ("cc", "gcc", "clang"):
+        if shutil.which(name) is not None:
+            return _examined((name,), _own_flags())
+    raise BuildError(f"C compiler: none of cc, gcc, clang is found; {_INSTALL}")
+
+
+def _own_flags() -> tuple[str, ...]:
+    return _words("CFLAGS", os.environ.get("CFLAGS", ""))
+
+
+def _words(variable: str, text: str) -> tuple[str, ...]:
+    try:
+        return tuple(shlex.split(text))
+    except ValueError as error:
+        raise BuildError(
+            f'C compiler: got {variable}="{text}" ({error}); expected words as in a shell; '
+            "correct it"
+        ) from None
+
+
+@lru_cache(maxsize=8)
+def _examined(command: tuple[str, ...], own: tuple[str, ...]) -> Toolchain:
+    used = (*_ALWAYS, *(own or _chosen(command)))
+    # The predefined macros name the compiler's version and, with -march=native, this processor.
+    macros = _run(command, [*used, "-dM", "-E", "-x", "c", os.devnull])
+    if own and macros.returncode != 0 and _knows(command, []):
+        said = macros.stderr.strip().partition("\n")[0]
+        raise BuildError(
+            f'C compiler: {shlex.join(command)} refuses CFLAGS="{shlex.join(own)}" ({said}); '
+            "correct it, or leave it empty"
+        )
+    return Toolchain(command, used, macros.stdout)
+
+
+def _chosen(command: tuple[str, ...]) -> list[str]:
+    """The wanted flags that the compiler knows; none of a kind that its command has already."""
+    stated = {_kind(word) for word in command[1:]}
+    wanted = [each for each in _WANTED if not stated & {_kind(flag) for flag in each}]
+    optimised = [] if _kind(_OPTIMISED) in stated else [_OPTIMISED]
+    favourites = [alternatives[0] for alternatives in wanted]
+    if _knows(command, favourites):  # one start of the compiler instead of one per flag
+        return optimised + favourites
+    flags = optimised
+    for alternatives in wanted:
+        flags += [flag for flag in alternatives if _knows(command, [flag])][:1]
+    return flags
+
+
+def _kind(flag: str) -> str:
+    """What a flag says something of: -O2 and -Os, -march=native and -march=core2 are of a kind."""
+    if flag.startswith("-O"):
+        return "-O"
+    return flag.partition("=")[0].replace("-fno-", "-f", 1)
+
+
+def _knows(command: Sequence[str], flags: Sequence[str]) -> bool:
+    # clang only warns of flags that it ignores.
+    test = ["-Werror", *flags, "-fsyntax-only", "-x", "c", os.devnull]
+    return _run(command, test).returncode == 0
+
+
+def _run(command: Sequence[str], arguments: Sequence[str]) -> subprocess.CompletedProcess[str]:
+    try:
+        return subprocess.run(
+            [*command, *arguments], capture_output=True, text=True, errors="replace", check=False
+        )
+    except OSError as error:
+        raise BuildError(
+            f"C compiler: {shlex.join(command)} does not start ({error.strerror}); {_INSTALL}"
+        ) from error
+
+
+def compile_library(tools: Toolchain, folder: Path, sources: Sequence[str], output: Path) -> None:
+    """Compile C files of `folder` into the shared library `output`; one compiler per processor.
+
+    Raises:
+        BuildError: the compiler refused; quotes its own words.
+    """
+
+    def compile_one(source: str) -> str:
+        result = str(folder / f"{source}.o")
+        _checked(tools, ["-I", str(folder), "-c", "-o", result, str(folder / source)])
+        return result
+
+    # Threads only wait here: each for a compiler that is a process of its own.
+    objects = list(mapped(compile_one, sources))
+    _checked(tools, ["-shared", "-o", str(output), *objects, "-lm"])
+    if not output.is_file():
+        raise BuildError(
+            f"C compiler: {shlex.join(tools.command)} ended without a mistake, and made nothing; "
+            "expected a C compiler, such as gcc; correct CC"
+        )
+
+
+def _checked(tools: Toolchain, arguments: Sequence[str]) -> None:
+    result = _run([*tools.command, *tools.flags], arguments)
+    if result.returncode != 0:
+        words = result.stderr.strip() or f"exit status {result.returncode}, without a word"
+        raise BuildError(
+            f"C compiler: {shlex.join(tools.command)} refused the emitted code:\n{words}\n"
+            "(check it, or name another one in CC)"
+        )
+
+
+# The folder of compiled libraries: which entry is whole, and which have to go.
+#
+# One folder for each library, named by a hash of all that can change it. At most `MOST` entries and
+# `LARGEST` bytes are kept, those that were used last; what was used within the last hour stays
+# whatever there is, so that no process loses a library between finding and loading it. A library
+# that a process has loaded may go: the system keeps its content until the process ends. Any
+# number of processes may use, build and remove entries at once, and none may trip over another.
+
+
+MOST = 500
+LARGEST = 256 * 2**20
+RECENT = 3600.0
+"""Seconds since it was used, within which an entry stays."""
+
+_AGAIN = 100
+_ENTRY = re.compile(r"[0-9a-f]{64}")
+_SCRATCH = (".build-", ".gone-")
+
+
+def cache_folder() -> Path:
+    """$MODELER_CACHE, else $XDG_CACHE_HOME/modeler, else ~/.cache/modeler."""
+    own = os.environ.get("MODELER_CACHE", "")
+    if own:
+        return Path(own)
+    shared = os.environ.get("XDG_CACHE_HOME", "")
+    return (Path(shared) if shared else Path.home() / ".cache") / "modeler"
+
+
+def libraries(folder: Path) -> list[Path]:
+    """The libraries of an entry; none where another process has removed it."""
+    try:
+        return sorted(path for path in folder.iterdir() if path.suffix == ".so")
+    except FileNotFoundError:
+        return []
+
+
+def whole(library: Path) -> bool:
+    """True for a library that is what was built: its name is the hash of its content.
+
+    False too where another process has removed it.
+    """
+    try:
+        return hashlib.sha256(library.read_bytes()).hexdigest() == library.stem
+    except FileNotFoundError:
+        return False
+
+
+def placed(made: Path, final: Path) -> None:
+    """Moves a library into its folder, which another process may just be removing."""
+    for _ in range(_AGAIN):
+        final.parent.mkdir(exist_ok=True)
+        with contextlib.suppress(FileNotFoundError):
+            made.replace(final)
+            return
+    made.replace(final)
+
+
+def in_use(library: Path) -> None:
+    """Notes that a library is used now."""
+    with contextlib.suppress(OSError):  # a cache that may only be read
+        os.utime(library)
+
+
+def tidy(cache: Path) -> None:
+    """Remove the entries that were not used for longest, beyond `MOST` and `LARGEST`.
+
+    What cannot be removed stays: nobody waits for it.
+    """
+    now, count, size = time.time(), 0, 0
+    for used, bytes_there, folder in sorted(_entries(cache), reverse=True):
+        count, size = count + 1, size + bytes_there
+        beyond = count > MOST or size > LARGEST or folder.name.startswith(_SCRATCH)
+        if beyond and now - used > RECENT:
+            _remove(folder)
+
+
+def _entries(cache: Path) -> Iterator[tuple[float, int, Path]]:
+    """When it was used, its size and its folder, of all that is ours; others may remove it."""
+    try:
+        folders = [*cache.iterdir()]
+    except OSError:
+        return
+    for folder in folders:
+        if _ENTRY.fullmatch(folder.name) or folder.name.startswith(_SCRATCH):
+            with contextlib.suppress(OSError):
+                found = [path.stat() for path in (folder, *folder.iterdir())]
+                yield max(s.st_mtime for s in found), sum(s.st_size for s in found[1:]), folder
+
+
+def _remove(folder: Path) -> None:
+    """In one step for all others, who find it whole or not at all."""
+    gone = folder.with_name(f".gone-{secrets.token_hex(8)}")
+    with contextlib.suppress(OSError):
+        folder.rename(gone)
+        shutil.rmtree(gone, ignore_errors=True)
+
+
+# A shared library from emitted files, kept in a cache.
+#
+# The cache is keyed by everything that can change the library: sources, flags, compiler, processor.
+# The library's file name is the hash of its own bytes, so a damaged one is noticed and built again;
+# it is renamed into place, so that any number of processes may build the same robot at once.
+
+
+def build_library(sources: Mapping[str, str]) -> Path:
+    """Path of the shared library of these C files, compiled unless the cache has it.
+
+    Args:
+        sources: {file name: text}, headers included.
+
+    Raises:
+        BuildError: no compiler, the compiler refused, or the cache cannot be written.
+    """
+    tools = find_toolchain()
+    folder = cache_folder() / _key(sources, tools)
+    try:
+        kept = _intact(folder)
+        return kept if kept is not None else _build(sources, tools, folder)
+    except IsADirectoryError as error:
+        raise BuildError(
+            f"{error.filename}: is a folder; expected a compiled library of the cache; remove it"
+        ) from None
+    except OSError as error:
+        raise BuildError(
+            f"{folder}: the compiled library cannot be written ({error.strerror}); set "
+            "MODELER_CACHE to a folder you may write to"
+        ) from error
+
+
+def _key(sources: Mapping[str, str], tools: Toolchain) -> str:
+    parts = [*tools.command, *tools.flags, tools.identity]
+    for name in sorted(sources):
+        parts += [name, sources[name]]
+    # Lengths first: no two lists of parts give the same bytes.
+    text = "".join(f"{len(part)}:{part}" for part in parts)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _intact(folder: Path) -> Path | None:
+    """The library of `folder`, if it is still what was built."""
+    for path in libraries(folder):
+        in_use(path)  # before it is read: from here on nobody removes it
+        if whole(path):
+            return path
+    return None
+
+
+def _build(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> Path:
+    cache = folder.parent
+    cache.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=cache, prefix=".build-") as scratch:
+        for name, text in sources.items():
+            (Path(scratch) / name).write_text(text, encoding="utf-8", newline="\n")
+        made = Path(scratch) / "library"
+        units = [name for name in sorted(sources) if name.endswith(".c")]
+        compile_library(tools, Path(scratch), units, made)
+        final = folder / f"{hashlib.sha256(made.read_bytes()).hexdigest()}.so"
+        placed(made, final)
+    for other in libraries(folder):
+        if other != final and not whole(other):
+            other.unlink(missing_ok=True)
+    tidy(cache)
+    return final

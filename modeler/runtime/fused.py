@@ -1,0 +1,528 @@
+"""Triangles of [W_j y_j], joint by joint, while samples pass: W is never built.
+
+Samples are reduced in blocks of a fixed size, each from a state of zeros, and the states are merged
+in the order of the blocks: results depend on nothing but the samples, however many threads there
+are.
+"""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from numbers import Integral
+from typing import Any
+
+import numpy as np
+
+from modeler.core.checks import as_mask, as_samples, same_samples
+from modeler.core.errors import ManifestError, ShapeError
+from modeler.core.manifest import FunctionSpec, ModuleSpec
+from modeler.runtime.bind import (
+    Functions,
+    FusedLibrary,
+    Library,
+    Samples,
+    TileLibrary,
+    fused_library,
+    tile_library,
+)
+from modeler.runtime.threads import mapped, shares
+
+BLOCK = 16384
+"""Samples that are reduced by themselves."""
+
+PAST = 64
+"""Rows that are multiplied with each other are at most so many samples apart."""
+
+_DENSE = 4096  # those of a robot whose whole regressor is evaluated: 13 MB of 400 values each
+
+
+@dataclass(frozen=True, eq=False)
+class Pattern:
+    """Which columns can enter the rows of each joint; n joints, c columns.
+
+    Attributes:
+        columns: of each joint, ascending.
+        width: c.
+    """
+
+    columns: tuple[np.ndarray, ...]
+    width: int
+
+    @cached_property
+    def sizes(self) -> list[int]:
+        """Of the packed triangles: columns and torque, then zeros up to a multiple of 4."""
+        return [(len(own) + 1 + 3) // 4 * 4 for own in self.columns]
+
+    @cached_property
+    def rows_of_entries(self) -> np.ndarray:
+        """(entries,) joint of each entry, joint after joint."""
+        counts = [len(own) for own in self.columns]
+        return np.repeat(np.arange(len(counts), dtype=np.intc), counts)
+
+    def parts(self, packed: np.ndarray) -> list[np.ndarray]:
+        """The square triangle of each joint, views."""
+        ends = np.cumsum([size * size for size in self.sizes])
+        return [
+            part.reshape(size, size)
+            for part, size in zip(np.split(packed, ends[:-1]), self.sizes, strict=True)
+        ]
+
+
+def pattern_of(entries: Sequence[tuple[int, int]], joints: int, width: int) -> Pattern:
+    """The pattern of (joint, column) entries."""
+    columns = [sorted(c for joint, c in entries if joint == j) for j in range(joints)]
+    return Pattern(tuple(np.array(own, dtype=np.intc) for own in columns), width)
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """R of [W_j y_j] = Q R for the rows of each joint; n joints, c columns.
+
+    Attributes:
+        pattern: which columns each joint has.
+        packed: the triangles over these columns only, one after another.
+        rows: (n,) rows that were added.
+        left_out: (samples,) of the last call: True where a row in use was not finite.
+    """
+
+    pattern: Pattern
+    packed: np.ndarray
+    rows: np.ndarray
+    left_out: np.ndarray
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """(n, c + 1, c + 1) over all columns and the torque; 0 for columns a joint does not have.
+
+        ||y_j - W_j beta|| = ||R_j [-beta; 1]||.
+        """
+        size = self.pattern.width + 1
+        whole = np.zeros((len(self.rows), size, size))
+        parts = self.pattern.parts(self.packed)
+        for own, columns, part in zip(whole, self.pattern.columns, parts, strict=True):
+            places = np.append(columns, size - 1)
+            own[np.ix_(places, places)] = part[: len(places), : len(places)]
+        return whole
+
+
+def no_rows(pattern: Pattern) -> Triangles:
+    """The triangles of no rows."""
+    packed = np.zeros(sum(size * size for size in pattern.sizes))
+    rows = np.zeros(len(pattern.columns), dtype=np.uintp)
+    return Triangles(pattern, packed, rows, np.zeros(0, dtype=bool))
+
+
+def of_samples(
+    pattern: Pattern, functions: Functions, given: Samples, state: Triangles | None = None,
+    level: int = 0,
+) -> Triangles:  # fmt: skip
+    """Triangles of samples whose entries a compiled function evaluates, sample by sample.
+
+    Args:
+        pattern: of the entries, whose order is joint after joint.
+        functions: that evaluate them.
+        given: checked arrays.
+        state: of earlier samples, which these are added to.
+        level: of instructions; 0: the best of this processor.
+    """
+    library = fused_library()
+
+    def one(block: slice) -> Triangles:
+        own, part = no_rows(pattern), given.part(block)
+        bad = library.triangles(
+            pattern.rows_of_entries, functions, part, level, own.packed, own.rows
+        )
+        return Triangles(pattern, own.packed, own.rows, bad)
+
+    return _merged(library, pattern, mapped(one, _blocks(len(given.q), BLOCK)), state)
+
+
+def products_of_samples(
+    pattern: Pattern, functions: Functions, given: Samples, last: np.ndarray, first: int = 0
+) -> list[np.ndarray]:
+    """Sums over t of x_j(t - k) x_j(t)^T, x_j = [W_j y_j], for k = first .. last_j, joint by joint.
+
+    Rows out of use, and of samples with a row that is not finite, count as zeros; k = 0 is the Gram
+    matrix. Threads and blocks as for triangles.
+
+    Args:
+        pattern: of the entries, whose order is joint after joint.
+        functions: that evaluate them.
+        given: checked arrays, samples one step apart.
+        last: (n,) at most `PAST`.
+        first: smallest k.
+
+    Returns:
+        (last_j - first + 1, k + 1, k + 1) of each joint, over its own k columns and the torque.
+    """
+    library, lags = fused_library(), np.ascontiguousarray(last, dtype=np.intc)
+    assert lags.max(initial=0) <= PAST and len(lags) == len(pattern.columns)
+    rows, counts = pattern.rows_of_entries, [max(int(lag) - first + 1, 0) for lag in lags]
+    sizes = [count * size * size for count, size in zip(counts, pattern.sizes, strict=True)]
+
+    def one(block: slice) -> np.ndarray:
+        out, past, level = np.zeros(sum(sizes)), min(PAST, block.start), library.level()
+        part = given.part(slice(block.start - past, block.stop))
+        library.products(rows, functions, part, past, level, first, lags, out)
+        return out
+
+    total = np.zeros(sum(sizes))
+    for part in mapped(one, _blocks(len(given.q), BLOCK)):
+        total += part
+    parts = np.split(total, np.cumsum(sizes)[:-1])
+    return [
+        part.reshape(count, size, size)[:, : len(own) + 1, : len(own) + 1]
+        for part, count, size, own in zip(
+            parts, counts, pattern.sizes, pattern.columns, strict=True
+        )
+    ]
+
+
+def of_dense(
+    pattern: Pattern,
+    evaluate: Callable[[slice], tuple[np.ndarray, np.ndarray]],
+    given: Samples,
+    state: Triangles | None = None,
+) -> Triangles:
+    """Triangles of samples whose whole regressor is evaluated, some at a time.
+
+    Args:
+        pattern: of the entries.
+        evaluate: (b, n, c) of the b samples of a block, and (b,) True where it has no value.
+        given: checked arrays.
+        state: of earlier samples, which these are added to.
+    """
+    library = fused_library()
+
+    def one(block: slice) -> Triangles:
+        phi, without = evaluate(block)
+        part = given.part(block)
+        use = np.ones(part.tau.shape, dtype=bool) if part.use is None else part.use
+        tau, known = part.tau, np.isfinite(phi).all(axis=2) & np.isfinite(part.tau)
+        if part.weight is not None:
+            phi, tau = phi * part.weight[:, :, None], tau * part.weight
+            known &= np.isfinite(part.weight)
+        left = (use & (~known | without[:, None])).any(axis=1)
+        own = of_rows(pattern, phi, tau, use & ~left[:, None])
+        return Triangles(pattern, own.packed, own.rows, left)
+
+    return _merged(library, pattern, mapped(one, _blocks(len(given.q), _DENSE)), state)
+
+
+def of_rows(
+    pattern: Pattern, phi: np.ndarray, y: np.ndarray, use: np.ndarray | None,
+    state: Triangles | None = None, level: int = 0,
+) -> Triangles:  # fmt: skip
+    """Triangles of rows that stand in memory.
+
+    Args:
+        pattern: which columns to use.
+        phi: (b, n, c); copied unless C-contiguous.
+        y: (b, n).
+        use: (b, n) bool; None for all.
+        state: of earlier rows, which these are added to.
+        level: of instructions; 0: the best of this processor.
+    """
+    library, before = fused_library(), no_rows(pattern) if state is None else state
+    packed, rows, phi = before.packed.copy(), before.rows.copy(), np.ascontiguousarray(phi)
+    kept = None if use is None else use.view(np.uint8)
+    for j, (columns, triangle) in enumerate(
+        zip(pattern.columns, pattern.parts(packed), strict=True)
+    ):
+        flags = None if kept is None else kept[:, j]
+        added, _ = library.rows(phi[:, j], y[:, j], flags, columns, level, triangle)
+        rows[j] += np.uintp(added)
+    return Triangles(pattern, packed, rows, np.zeros(0, dtype=bool))
+
+
+def _merged(
+    library: FusedLibrary,
+    pattern: Pattern,
+    parts: Iterable[Triangles],
+    state: Triangles | None,
+) -> Triangles:
+    """The rows of all parts, added to those of a state."""
+    found = no_rows(pattern) if state is None else state
+    packed, rows, left = found.packed.copy(), found.rows.copy(), [np.zeros(0, dtype=bool)]
+    fresh = state is None
+    for part in parts:
+        if fresh:
+            packed, fresh = part.packed, False
+        else:
+            library.merge(pattern.rows_of_entries, len(rows), packed, part.packed)
+        rows += part.rows
+        left.append(part.left_out)
+    return Triangles(pattern, packed, rows, np.concatenate(left))
+
+
+def _blocks(samples: int, size: int) -> list[slice]:
+    return [slice(i, min(i + size, samples)) for i in range(0, samples, size)]
+
+
+# Least squares of a compiled model while samples pass: neither W nor a part of it is kept.
+
+
+class Reducing:
+    """What a compiled model makes of y = W beta without W; n samples, c base parameters."""
+
+    spec: ModuleSpec
+    _library: Library
+    _functions: Mapping[str, FunctionSpec]
+    _joints: int
+
+    def triangles(
+        self, q: Any, qd: Any, qdd: Any, tau: Any, use: Any = None, s: Any = None,
+        weight: Any = None, state: Triangles | None = None,
+    ) -> Triangles:  # fmt: skip
+        """R of [W_j tau_j] = Q R for the rows of each joint, without W, by Householder reflections.
+
+        The singular values of R are those of [W_j tau_j] up to rounding of the largest, also where
+        W^T W has lost the small ones (Golub and Van Loan 2013, Matrix Computations, section 5.2).
+        Of a joint's columns only those that can enter its torque take part. Results do not depend
+        on the number of threads. Samples with a row in use that is not finite, or whose loops do
+        not close, are left out and marked in the result.
+
+        Args:
+            q: positions.
+            qd: velocities.
+            qdd: accelerations.
+            tau: (n, joints) N m or N.
+            use: (n, joints) rows to use, the others may hold anything; None: all.
+            s: signals of effects, where there are any.
+            weight: (n, joints) what a row and its torque are multiplied by, at least 0; None: 1.
+            state: of earlier samples, which these are added to.
+
+        Raises:
+            ShapeError: an array of another shape, a weight in use that is negative or not finite,
+                or the state of another robot.
+        """
+        if state is not None:
+            self._check_state(state)
+        given = self._measured((q, qd, qdd, tau), use, s, weight)
+        if not self.emits_entries:
+            return of_dense(self.pattern, partial(self._dense, given), given, state)
+        return of_samples(self.pattern, self._entries(len(given.q)), given, state)
+
+    def products(
+        self, q: Any, qd: Any, qdd: Any, tau: Any, last: Any, use: Any = None, s: Any = None,
+        first: int = 0,
+    ) -> list[np.ndarray]:  # fmt: skip
+        """Sums over t of x_j(t - k) x_j(t)^T, x_j = [W_j tau_j], k = first .. last_j, without W.
+
+        (last_j - first + 1, c_j + 1, c_j + 1) for each joint, over the columns that can enter its
+        torque. k = 0 is the Gram matrix, half the work of triangles and half their digits. Samples
+        are one step apart; rows out of use count as zeros, as do those of samples that are not
+        finite.
+
+        Args:
+            q: positions.
+            qd: velocities.
+            qdd: accelerations.
+            tau: (n, joints) N m or N.
+            last: (joints,) largest k of each joint, from 0 to `compiled.fused.PAST`.
+            use: (n, joints) rows to use; None: all.
+            s: signals of effects, where there are any.
+            first: smallest k, from 0.
+
+        Raises:
+            ShapeError: an array of another shape, or k that cannot be.
+            ManifestError: the robot has loops, or its C is in single precision.
+        """
+        if not self.emits_entries:
+            raise ManifestError(
+                f"{self.spec.robot}: products of rows need the entries of the base regressor in "
+                "double precision, which this C has not; use triangles"
+            )
+        given, steps = self._measured((q, qd, qdd, tau), use, s), _steps(last, self._joints)
+        if not isinstance(first, Integral) or first < 0:
+            raise ShapeError(f"first: got {first!r}, expected a whole number of samples, from 0")
+        entries = self._entries(len(given.q))
+        return products_of_samples(self.pattern, entries, given, steps, int(first))
+
+    def _measured(
+        self, values: tuple[Any, Any, Any, Any], use: Any, s: Any, weight: Any = None
+    ) -> Samples:
+        """Checked arrays; but for weights in use they may be not finite."""
+        wanted = dict(zip(("q", "qd", "qdd", "tau"), values, strict=True))
+        wanted |= {} if weight is None else {"weight": weight}
+        arrays = {
+            name: as_samples(value, name, self._joints, finite=False)
+            for name, value in wanted.items()
+        }
+        samples = same_samples(arrays)
+        rows = None if use is None else as_mask(use, "use", (samples, self._joints))
+        read = self._signals(s, samples, False)
+        if weight is not None:
+            _check_weight(arrays["weight"], rows)
+        q, qd, qdd, tau = (arrays[name] for name in ("q", "qd", "qdd", "tau"))
+        return Samples(q, qd, qdd, tau, read, rows, arrays.get("weight"))
+
+    def _check_state(self, state: Any) -> None:
+        """Refuses what is no state, or has other columns than this robot."""
+        if not isinstance(state, Triangles):
+            raise ShapeError(
+                f"state: got {type(state).__name__}, expected what `triangles` gave for earlier "
+                "samples, or None"
+            )
+        own, given = self.pattern, state.pattern
+        if given.width != own.width or not _same(given.columns, own.columns):
+            raise ShapeError(
+                f"state: got triangles of another robot ({len(given.columns)} joints, "
+                f"{given.width} base parameters), expected those of {self.spec.robot} "
+                f"({len(own.columns)} joints, {own.width} base parameters)"
+            )
+
+    def _entries(self, samples: int) -> Functions:
+        name = f"{self.spec.prefix}_base_regressor_nonzeros"
+        tile = self._tile(samples)
+        return Functions(self._library.address(name), len(self.spec.signals), tile)
+
+    @cached_property
+    def pattern(self) -> Pattern:
+        """Which columns can enter the torque of each joint."""
+        return pattern_of(self.spec.nonzeros, self._joints, len(self.spec.base))
+
+    @property
+    def emits_entries(self) -> bool:
+        """True if the C has the entries of the base regressor alone, in double precision."""
+        return self.spec.closure is None and self.spec.precision == "double"
+
+    def _dense(self, given: Samples, block: slice) -> tuple[np.ndarray, np.ndarray]:
+        """The base regressor of a block, and where it has no value: loops may not close."""
+        function, part = self._functions["base_regressor"], given.part(block)
+        out = np.zeros((len(part.q), *function.outputs[0].shape))
+        status = np.zeros(len(out), dtype=np.intc)
+        states = [array for array in (part.q, part.qd, part.qdd, part.s) if array is not None]
+        self._library.batch(function, states, out, status if function.status else None)
+        return out, status != 0
+
+    def _tile(self, samples: int) -> int:
+        raise NotImplementedError
+
+    def _signals(self, s: Any, samples: int, finite: bool = True) -> np.ndarray | None:
+        raise NotImplementedError
+
+
+def _check_weight(weight: np.ndarray, use: np.ndarray | None) -> None:
+    """Refuses weights of rows in use that are negative or not finite."""
+    wrong = ~(np.isfinite(weight) & (weight >= 0.0))
+    if use is not None:
+        wrong &= use
+    if wrong.any():
+        row, column = (int(i) for i in np.argwhere(wrong)[0])
+        raise ShapeError(
+            f"weight: got {weight[row, column]} in row {row}, column {column} (counted from 0), "
+            "expected finite numbers, at least 0"
+        )
+
+
+def _steps(last: Any, joints: int) -> np.ndarray:
+    """`last` as whole numbers from 0 to PAST, one of each joint."""
+    steps = np.asarray(last)
+    if steps.shape != (joints,) or steps.dtype.kind not in "iu":
+        raise ShapeError(f"last: got {last!r}, expected {joints} whole numbers, one of each joint")
+    if steps.min(initial=0) < 0 or steps.max(initial=0) > PAST:
+        raise ShapeError(f"last: got {steps.tolist()}, expected numbers from 0 to {PAST}")
+    return steps
+
+
+def _same(given: Sequence[np.ndarray], own: Sequence[np.ndarray]) -> bool:
+    return len(given) == len(own) and all(map(np.array_equal, given, own))
+
+
+# Base regressors of many samples, by tiles: eight samples at once, in threads.
+#
+# What a sample gives depends on nothing but that sample, so neither do results depend on the number
+# of threads. They are equal to those of the scalar functions but for roundings.
+
+
+TILED_FROM = 2**18
+"""Samples from which on tiles are used: fewer are sooner done than tiles are compiled."""
+
+_SLICE = 2**14  # samples that a thread is worth starting for
+
+
+class Tiling:
+    """What a compiled model makes of many samples."""
+
+    spec: ModuleSpec
+    _library: Library
+    _functions: Mapping[str, FunctionSpec]
+    _tile_files: Mapping[str, str]
+
+    def nonzeros(
+        self, q: Any, qd: Any, qdd: Any, s: Any = None, out: np.ndarray | None = None
+    ) -> np.ndarray:
+        """The entries of the base regressor that are not always 0, (n, len(spec.nonzeros)).
+
+        values[:, k] = phi[:, joint, column] with (joint, column) = spec.nonzeros[k].
+
+        Args:
+            q: positions.
+            qd: velocities.
+            qdd: accelerations.
+            s: signals of effects, where there are any.
+            out: is filled and returned if given.
+
+        Raises:
+            ManifestError: the robot has loops: all its entries can be something else than 0.
+        """
+        if self.spec.closure is not None:
+            raise ManifestError(
+                f"{self.spec.robot} has loops: every entry of its regressor can differ from 0; "
+                "use base_regressor"
+            )
+        inputs = self._motion(q, qd, qdd, s)
+        shape = (len(inputs[0]), len(self.spec.nonzeros))
+        values = np.empty(shape) if out is None else checked_out(out, shape)
+        if not self._fill(inputs, values, dense=False):
+            self._library.batch(self._functions["base_regressor_nonzeros"], inputs, values)
+        return values
+
+    def _fill(self, inputs: Sequence[np.ndarray], out: np.ndarray, dense: bool) -> bool:
+        """Fill `out` by tiles; False, and nothing done, for few samples or without tiles."""
+        samples = len(inputs[0])
+        tiles = self._tiles if samples >= TILED_FROM else None
+        if tiles is None:
+            return False
+        rows = out.reshape(samples, -1)
+
+        def part(piece: slice) -> None:
+            tiles.fill([array[piece] for array in inputs], rows[piece], dense)
+
+        for _ in mapped(part, shares(samples, _SLICE)):
+            pass
+        return True
+
+    def _tile(self, samples: int) -> int:
+        """The function of one tile, for so many samples; 0 for few, or without tiles."""
+        tiles = self._tiles if samples >= TILED_FROM else None
+        return 0 if tiles is None else tiles.tile
+
+    @cached_property
+    def _tiles(self) -> TileLibrary | None:
+        """The library of tiles; None where there are none: with loops, or in older files."""
+        wanted = self.spec.tile_sources
+        if not wanted or not all(name in self._tile_files for name in wanted):
+            return None
+        return tile_library(self.spec, self._tile_files)
+
+    def _motion(self, q: Any, qd: Any, qdd: Any, s: Any) -> tuple[np.ndarray, ...]:
+        raise NotImplementedError
+
+
+def checked_out(out: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+    """`out`, if it can be filled.
+
+    Raises:
+        ShapeError: says what it must be.
+    """
+    if not isinstance(out, np.ndarray) or out.shape != shape:
+        got = out.shape if isinstance(out, np.ndarray) else type(out).__name__
+        raise ShapeError(f"out: got {got}, expected an array {shape}")
+    if out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
+        raise ShapeError(
+            f"out: got type {out.dtype}, expected a writeable C-contiguous float64 array; "
+            f"make one with np.empty({shape})"
+        )
+    return out

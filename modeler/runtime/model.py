@@ -1,0 +1,340 @@
+"""The compiled model of a robot: dynamics over arrays of samples."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from modeler.core.checks import as_samples, as_vector, no_signals, same_samples
+from modeler.core.errors import LoopError, ManifestError, ShapeError
+from modeler.core.files import read_file
+from modeler.core.manifest import MANIFEST, Emitted, FunctionSpec, ModuleSpec, module_from_json
+from modeler.core.result import Presented
+from modeler.runtime.bind import Library, check_names
+from modeler.runtime.build import build_library
+from modeler.runtime.fused import Reducing, Tiling, checked_out
+
+_STATUS = {
+    1: "the loops cannot be closed",
+    2: "singular posture, the passive joints are not determined",
+    3: "the loops cannot be closed, a value is not finite",
+    4: "the loops were not closed within the evaluations allowed",
+}
+"""What a status of the C code says."""
+
+
+class CompiledModel(Tiling, Reducing, Presented):
+    """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
+
+    q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the
+    order of `spec.base`, chi (p,) in the order of `spec.standard`. All methods raise ShapeError for
+    arrays of another shape or with values that are not finite. Threads may share a model.
+
+    Attributes:
+        spec: the manifest.
+        log: the [log] of the robot file: which columns of its logs are which.
+    """
+
+    def __init__(
+        self,
+        spec: ModuleSpec,
+        library: Library,
+        log: Mapping[str, object] | None = None,
+        tile_files: Mapping[str, str] | None = None,
+    ) -> None:
+        self.spec = spec
+        self._tile_files = tile_files or {}
+        self.log: Mapping[str, object] = log or {}
+        self._library = library
+        self._functions = {
+            function.name.removeprefix(f"{spec.prefix}_"): function for function in spec.functions
+        }
+        self._joints = len(spec.joints)
+
+    def base_regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
+        """Phi of the base parameters, (n, joints, c): tau = phi beta.
+
+        Large batches are evaluated as those of `observation` and `nonzeros`, see docs/emitted-c.md.
+        """
+        return self._evaluate("base_regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
+
+    def regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
+        """Phi of the standard parameters, (n, joints, p): tau = phi chi."""
+        return self._evaluate("regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
+
+    def observation(
+        self, q: Any, qd: Any, qdd: Any, out: np.ndarray | None = None, s: Any = None
+    ) -> np.ndarray:
+        """W, (n*joints, c): y = W beta with y = tau.reshape(-1), joint after joint in each sample.
+
+        Args:
+            q: positions.
+            qd: velocities.
+            qdd: accelerations.
+            out: is filled and returned if given; saves most of the time of a large W, which goes
+                into fresh memory pages.
+            s: signals of effects, where there are any.
+        """
+        inputs = self._motion(q, qd, qdd, s)
+        shape = (len(inputs[0]) * self._joints, len(self.spec.base))
+        W = np.empty(shape) if out is None else checked_out(out, shape)
+        if not self._fill(inputs, W, dense=True):
+            q, qd, qdd, *signals = inputs
+            status = self._no_status(len(q))
+            self._library.observation(q, qd, qdd, W, status, *signals)
+            self._check(status, q)
+        return W
+
+    def inverse_dynamics(self, q: Any, qd: Any, qdd: Any, beta: Any, s: Any = None) -> np.ndarray:
+        """Tau, (n, joints), by the Newton-Euler recursion."""
+        return self._evaluate("inverse_dynamics", {"q": q, "qd": qd, "qdd": qdd}, beta, s)
+
+    def inertia_matrix(self, q: Any, beta: Any) -> np.ndarray:
+        """M(q), (n, joints, joints), rotor inertias included."""
+        return self._evaluate("inertia_matrix", {"q": q}, beta)
+
+    def gravity(self, q: Any, beta: Any) -> np.ndarray:
+        """g(q), (n, joints)."""
+        return self._evaluate("gravity", {"q": q}, beta)
+
+    def coriolis(self, q: Any, qd: Any, beta: Any) -> np.ndarray:
+        """c(q, qd), (n, joints): Coriolis and centripetal torques."""
+        return self._evaluate("coriolis", {"q": q, "qd": qd}, beta)
+
+    def friction(
+        self, qd: Any, beta: Any, q: Any = None, qdd: Any = None, s: Any = None
+    ) -> np.ndarray:
+        """f(qd), (n, joints): all effects but rotor inertias, offsets included.
+
+        With loops f(q, qd): passive joints rub too, and how fast they move depends on q. Effects
+        that read positions, loads or signals need q, qdd and s.
+        """
+        if len(self._functions["friction"].inputs) > 3:
+            if q is None or qdd is None:
+                raise ShapeError(
+                    f"{self.spec.robot}: its effects depend on positions and loads; give q and qdd"
+                )
+            return self._evaluate("friction", {"q": q, "qd": qd, "qdd": qdd}, beta, s)
+        if self.spec.closure is None:
+            return self._evaluate("friction", {"qd": qd}, beta, s)
+        if q is None:
+            raise ShapeError(
+                f"{self.spec.robot} has loops: its friction depends on the positions; give q"
+            )
+        return self._evaluate("friction", {"q": q, "qd": qd}, beta, s)
+
+    def close(self, q: Any) -> np.ndarray:
+        """All free variables u of the opened tree, (n, len(u)), in the order of the manifest.
+
+        Raises:
+            LoopError: the loops cannot be closed; names the sample.
+        """
+        return self._evaluate("close", {"q": q}) if self._loops else self._states({"q": q})["q"]
+
+    def closing_status(self, q: Any) -> np.ndarray:
+        """(n,) 0 where the loops close, else the status of the C code; never raises for loops."""
+        given = self._states({"q": q})["q"]
+        status = np.zeros(len(given), dtype=np.intc)
+        if self._loops:
+            out = np.empty((len(given), *self._functions["close"].outputs[0].shape))
+            self._library.batch(self._functions["close"], [given], out, status)
+        return status
+
+    def coupling(self, q: Any) -> np.ndarray:
+        """G of ud = G qd, (n, len(u), joints); rows of the platform are its Jacobian."""
+        if not self._loops:
+            n = len(self._states({"q": q})["q"])
+            return np.broadcast_to(np.eye(self._joints), (n, self._joints, self._joints)).copy()
+        return self._evaluate("coupling", {"q": q})
+
+    def platform_close(self, x: Any) -> np.ndarray:
+        """U, (n, len(u)), from the platform's coordinates."""
+        return self._evaluate("platform_close", {"x": x})
+
+    def platform_base_regressor(self, x: Any, xd: Any, xdd: Any) -> np.ndarray:
+        """Phi of f = phi beta, (n, joints, c): forces along the platform's coordinates."""
+        return self._evaluate("platform_base_regressor", {"x": x, "xd": xd, "xdd": xdd})
+
+    def platform_inverse_dynamics(self, x: Any, xd: Any, xdd: Any, beta: Any) -> np.ndarray:
+        """f, (n, joints), along the platform's coordinates."""
+        return self._evaluate("platform_inverse_dynamics", {"x": x, "xd": xd, "xdd": xdd}, beta)
+
+    def forward_kinematics(self, q: Any) -> np.ndarray:
+        """[R | p] of the frame of every moving row in frame 0, (n, rows, 3, 4); p in m.
+
+        Columns of R are the frame's axes: a point x of frame j stands at R x + p.
+        """
+        return self._evaluate("forward_kinematics", {"q": q})
+
+    def base_parameters(self, chi: Any) -> np.ndarray:
+        """Beta, (c,), from chi, (p,), by the grouping relations."""
+        function = self._functions["base_parameters"]
+        given = as_vector(chi, "chi", len(self.spec.standard))
+        beta = np.empty(len(self.spec.base))
+        self._library.base_parameters(function, given, beta)
+        return beta
+
+    def _motion(self, q: Any, qd: Any, qdd: Any, s: Any) -> tuple[np.ndarray, ...]:
+        """Checked q, qd, qdd and, where effects read any, signals."""
+        states = self._states({"q": q, "qd": qd, "qdd": qdd})
+        signals = self._signals(s, len(states["q"]))
+        return (*states.values(), *(() if signals is None else (signals,)))
+
+    def _states(self, arrays: Mapping[str, Any]) -> dict[str, np.ndarray]:
+        checked = {name: as_samples(a, name, self._joints) for name, a in arrays.items()}
+        same_samples(checked)
+        return checked
+
+    def advance(self, dq: Any, dt: float, s: Any) -> np.ndarray:
+        """The signals of effects one sample later, (m,): time and bristles; see the header.
+
+        Args:
+            dq: (joints,) travel since the last sample.
+            dt: s since then.
+            s: (m,) signals then.
+        """
+        function = self._functions.get("advance")
+        if function is None:
+            raise ManifestError(f"{self.spec.robot} has no effects that read signals")
+        given = [
+            as_samples([dq], "dq", self._joints),
+            as_samples([[dt]], "dt", 1),
+            as_samples([s], "s", len(self.spec.signals)),
+        ]
+        out = np.empty((1, len(self.spec.signals)))
+        self._library.batch(function, given, out)
+        return out[0]
+
+    def _signals(self, s: Any, samples: int, finite: bool = True) -> np.ndarray | None:
+        """(n, m) signals of effects; None where the robot has none, and must be given none."""
+        wanted = len(self.spec.signals)
+        if not wanted:
+            no_signals(s, self.spec.robot)
+            return None
+        if s is None:
+            names = ", ".join(f"{x.kind} {x.joint}".strip() for x in self.spec.signals)
+            raise ShapeError(f"{self.spec.robot}: its effects read signals; give s ({names})")
+        checked = as_samples(s, "s", wanted, finite)
+        if len(checked) != samples:
+            raise ShapeError(f"s: got {len(checked)} samples, expected {samples} as of q")
+        return checked
+
+    def _evaluate(
+        self, role: str, states: Mapping[str, Any], beta: Any = None, s: Any = None
+    ) -> np.ndarray:
+        if role not in self._functions:
+            raise ManifestError(f"{self.spec.robot} has no {role}: it has no platform in a loop")
+        function: FunctionSpec = self._functions[role]
+        given = self._states(states)
+        samples = len(next(iter(given.values())))
+        names = [argument.name for argument in function.inputs]
+        if "beta" in names:
+            given["beta"] = as_vector(beta, "beta", len(self.spec.base))
+        signals = self._signals(s, samples) if "s" in names or s is not None else None
+        if signals is not None:
+            given["s"] = signals
+        out = np.empty((samples, *function.outputs[0].shape))
+        inputs = [given[name] for name in names]
+        if role == "base_regressor" and self._fill(inputs, out, dense=True):
+            return out
+        status = self._no_status(samples) if function.status else None
+        self._library.batch(function, inputs, out, status)
+        self._check(status, inputs[0])
+        return out
+
+    @property
+    def _loops(self) -> bool:
+        return self.spec.closure is not None
+
+    def _no_status(self, samples: int) -> np.ndarray | None:
+        return np.zeros(samples, dtype=np.intc) if self._loops else None
+
+    def _check(self, status: np.ndarray | None, given: np.ndarray) -> None:
+        """Raises LoopError for the first sample that does not close."""
+        if status is None or not np.any(status):
+            return
+        first = int(np.flatnonzero(status)[0])
+        where = ", ".join(f"{value:.6g}" for value in given[first])
+        more = int(np.count_nonzero(status)) - 1
+        also = f" (and {more} more)" if more else ""
+        raise LoopError(
+            f"{self.spec.robot}: sample {first + 1}{also}: {_STATUS[int(status[first])]}; got "
+            f"({where}); expected positions that the robot reaches from [home], in SI units"
+        )
+
+
+def load(
+    spec: ModuleSpec, files: Mapping[str, str], log: Mapping[str, object] | None = None
+) -> CompiledModel:
+    """The compiled model of an emitted module; compiled once, then taken from the cache.
+
+    Args:
+        spec: the manifest.
+        files: {file name: text} with at least `spec.sources`; `spec.tile_sources` are compiled when
+            they are first needed, others are not looked at.
+        log: the [log] of the robot file.
+
+    Raises:
+        ManifestError: a file is missing, a name of the manifest is no C name, or the code belongs
+            to another manifest.
+        BuildError: no compiler, or it refused.
+    """
+    check_names(spec)
+    missing = [name for name in spec.sources if name not in files]
+    if missing:
+        raise ManifestError(
+            f"{spec.robot}: the module lacks {', '.join(missing)}; generate it again"
+        )
+    path = build_library({name: files[name] for name in spec.sources})
+    return CompiledModel(spec, Library(spec, path), log, files)
+
+
+def load_folder(folder: Path | str) -> CompiledModel:
+    """The compiled model of a folder that `modeler generate` wrote.
+
+    Raises:
+        ManifestError: the folder holds no module, or a part of it is missing or damaged.
+        BuildError: no compiler, or it refused.
+    """
+    folder = Path(folder)
+    manifest = folder / MANIFEST
+    if not manifest.is_file():
+        raise ManifestError(
+            f"{folder}: no {MANIFEST}; expected a folder that `modeler generate` wrote"
+        )
+    spec = module_from_json(_content(manifest), str(manifest))
+    check_names(spec)
+    files = {}
+    for name in (*spec.sources, *spec.tile_sources):
+        if (folder / name).is_file():
+            try:
+                files[name] = _content(folder / name).decode()
+            except UnicodeDecodeError:
+                raise ManifestError(f"{folder / name}: no text; generate it again") from None
+    return load(spec, files)
+
+
+def _content(path: Path) -> bytes:
+    try:
+        return read_file(path)
+    except OSError as error:
+        raise ManifestError(f"{path}: cannot be read ({error.strerror}); check the path") from None
+
+
+# One compiled model of a robot in each process, however many jobs need it.
+
+
+_MODELS: dict[str, CompiledModel] = {}  # of this process, by signature
+
+
+def compiled_once(emitted: Emitted) -> CompiledModel:
+    """The compiled model of an emitted module; the same object every time.
+
+    Raises:
+        BuildError: see `load`.
+    """
+    signature = emitted.spec.signature()
+    if signature not in _MODELS:
+        _MODELS[signature] = load(emitted.spec, emitted.code, emitted.log)
+    return _MODELS[signature]

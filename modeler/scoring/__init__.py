@@ -1,1 +1,0 @@
-"""How much every hypothesis explains beside a model, on blocks of time that were not fitted."""

@@ -1,0 +1,374 @@
+"""The joints that follow: closed postures along a commanded motion, speeds, and what ties cost."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from modeler.core.errors import DataError, RobotError
+from modeler.robot.robot import Robot
+from modeler.simulation.rigid import FUNCTIONS, Frame, world_frames
+
+# What ties the joints of a simulated robot: relations and loops, as equations in all joints.
+#
+# Whole frames are compared here (nine direction cosines where three would do): nothing is shared
+# with the loop equations of the modeling stages.
+
+
+@dataclass(frozen=True)
+class Constraints:
+    """c(v) = 0 for the variables v of all moving rows.
+
+    Attributes:
+        given: places in v of the coordinates that follow the commanded motion.
+        others: places of the rest.
+        value: v -> c.
+        slope: v -> J = dc/dv.
+        curvature: (v, vd) -> J' vd, so that J vdd + J' vd = 0.
+        units: (moving rows,) 1 for an angle, the robot's size [m] for a travel.
+    """
+
+    given: list[int]
+    others: list[int]
+    value: ca.Function
+    slope: ca.Function
+    curvature: ca.Function
+    units: np.ndarray
+
+
+def constraints_of(robot: Robot) -> Constraints:
+    """The equations of a robot's relations and loops; lengths in sizes of the robot."""
+    moving = robot.moving
+    v, vd = ca.SX.sym("v", len(moving)), ca.SX.sym("vd", len(moving))
+    names = [joint.name for joint in moving]
+    variables = {joint.variable: v[i] for i, joint in enumerate(moving)}
+    values = {**robot.symbol_values(), **variables}
+    rows = [
+        v[names.index(name)] - relation.fold(values, FUNCTIONS, float(np.pi), float)
+        for name, relation in robot.relations.items()
+    ]
+    size = _size(robot)
+    frames = {
+        name: Frame(frame.rotation, frame.position / size, frame.axis)
+        for name, frame in world_frames(robot, v).items()
+    }
+    for loop in robot.loops:
+        rows += _KINDS[loop.kind](frames[loop.frame], frames[loop.meets])
+    c = ca.vertcat(*rows)
+    slope = ca.jacobian(c, v)
+    given = [names.index(joint.name) for joint in robot.coordinates]
+    bend = ca.jtimes(slope @ vd, v, vd)
+    return Constraints(
+        given=given,
+        others=[i for i in range(len(names)) if i not in given],
+        value=ca.Function("c", [v], [ca.densify(ca.cse(c))]),
+        slope=ca.Function("J", [v], [ca.densify(ca.cse(slope))]),
+        curvature=ca.Function("k", [v, vd], [ca.densify(ca.cse(bend))]),
+        units=np.array([1.0 if joint.angular else size for joint in moving]),
+    )
+
+
+def _size(robot: Robot) -> float:
+    """The largest of the robot's lengths, m; 1 where none has a symbol."""
+    values = robot.symbol_values().items()
+    return max((abs(value) for name, value in values if name != "g"), default=1.0) or 1.0
+
+
+def sampled(function: ca.Function, *samples: np.ndarray) -> np.ndarray:
+    """(n, rows, columns) of a function of vectors, for samples (n, its length) of each."""
+    rows, columns = function.size_out(0)
+    count = len(samples[0])
+    mapped: Any = function.map(count)
+    values, inputs = np.zeros((count, columns, rows)), [np.ascontiguousarray(s) for s in samples]
+    assert mapped.nnz_out(0) == values.size
+    # Through the buffer: CasADi's own matrices are slow to turn into arrays.
+    buffer, evaluate = mapped.buffer()
+    for i, array in enumerate(inputs):
+        buffer.set_arg(i, array.data)
+    buffer.set_res(0, values.data)
+    evaluate()
+    return values.transpose(0, 2, 1)
+
+
+def _position(a: Frame, b: Frame) -> list[ca.SX]:
+    return [a.position - b.position]
+
+
+def _same_axis(a: Frame, b: Frame) -> list[ca.SX]:
+    return [a.rotation[:, 2] - b.rotation[:, 2]]
+
+
+def _same_axes(a: Frame, b: Frame) -> list[ca.SX]:
+    return [ca.vec(a.rotation - b.rotation)]
+
+
+def _beside(a: Frame, b: Frame) -> list[ca.SX]:
+    return [ca.cross(a.rotation[:, 2], b.position - a.position)]
+
+
+_KINDS: Mapping[str, Callable[[Frame, Frame], list[ca.SX]]] = {
+    "position": _position,
+    "spherical": _position,
+    "universal": lambda a, b: [*_position(a, b), ca.dot(a.rotation[:, 2], b.rotation[:, 2])],
+    "revolute": lambda a, b: [*_position(a, b), *_same_axis(a, b)],
+    "cylindrical": lambda a, b: [*_beside(a, b), *_same_axis(a, b)],
+    "prismatic": lambda a, b: [*_beside(a, b), *_same_axes(a, b)],
+    "planar": lambda a, b: [
+        ca.dot(a.rotation[:, 2], b.position - a.position), *_same_axis(a, b)
+    ],
+    "rigid": lambda a, b: [*_position(a, b), *_same_axes(a, b)],
+}  # fmt: skip
+
+
+_CLOSED = 1e-11  # sizes of the robot, and of direction cosines
+_ITERATIONS = 40
+_LONGEST = 0.2  # rad or m, of one Newton step
+_JUMP = 0.8  # rad or m: a joint that moves so far at once is in another assembly mode
+_APART = 0.02  # rad or m, between postures found one after the other; those between, all at once
+_STRIDE = 0.1  # rad or m, of the coordinates between two postures found one after the other
+_RANK = 1e-10  # of singular values
+_SINGULAR = 1e-6  # of the sizes of the passive joints' columns, one after the other
+_CHUNK = 2000  # samples
+
+
+def followed(
+    robot: Robot,
+    constraints: Constraints,
+    q: np.ndarray,
+    progress: Callable[[float], None] | None = None,
+) -> np.ndarray:
+    """(n, moving rows) closed postures along (n, coordinates) positions, led there from `home`.
+
+    Raises:
+        RobotError: `home` does not close, or leaves joints undetermined.
+        DataError: the loops do not close on the way; says where.
+    """
+    v = _at_home(robot, constraints)
+    v = _led(robot, constraints, v, q[0], "on the way from [home] to the first sample")
+    out = np.empty((len(q), len(v)))
+    for part in _chunks(len(q)):
+        out[part] = _between(robot, constraints, v, q[part], part.start)
+        v = out[part.stop - 1]
+        if progress is not None:
+            progress(part.stop / len(q))
+    return out
+
+
+def rates(
+    constraints: Constraints, v: np.ndarray, qd: np.ndarray, qdd: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """(n, moving rows) speeds and accelerations that the constraints allow.
+
+    J vd = 0 and J vdd + J' vd = 0 at closed postures v, for those of the coordinates.
+    """
+    given, others = constraints.given, constraints.others
+    vd, vdd = np.zeros_like(v), np.zeros_like(v)
+    vd[:, given], vdd[:, given] = qd, qdd
+    for part in _chunks(len(v)):
+        J = sampled(constraints.slope, v[part])
+        Q, R = np.linalg.qr(J[:, :, others])
+        driven = J[:, :, given]
+        vd[part, others] = -_least(Q, R, np.einsum("nij,nj->ni", driven, qd[part]))
+        bend = sampled(constraints.curvature, v[part], vd[part])[:, :, 0]
+        vdd[part, others] = -_least(Q, R, np.einsum("nij,nj->ni", driven, qdd[part]) + bend)
+    return vd, vdd
+
+
+def motor_torques(constraints: Constraints, v: np.ndarray, load: np.ndarray) -> np.ndarray:
+    """(n, coordinates) motor torques that, with the constraint forces, make up the joints' load.
+
+    load = S tau + J^T lambda: the rows of joints without motor give the multipliers lambda (the
+    smallest ones where equations are redundant), the others then tau.
+
+    Args:
+        constraints: the equations.
+        v: (n, moving rows) closed postures.
+        load: (n, moving rows) M vdd + h of the open tree, friction included.
+    """
+    given, others = constraints.given, constraints.others
+    tau = np.empty((len(v), len(given)))
+    for part in _chunks(len(v)):
+        J = sampled(constraints.slope, v[part])
+        Q, R = np.linalg.qr(J[:, :, others])
+        carried = np.linalg.solve(R.transpose(0, 2, 1), load[part, others][:, :, None])
+        multipliers = Q @ carried
+        tau[part] = load[part, given] - np.einsum("nij,ni->nj", J[:, :, given], multipliers[..., 0])
+    return tau
+
+
+def distances(constraints: Constraints, v: np.ndarray) -> np.ndarray:
+    """(n,) least singular value of J in the joints that follow; 0 in a singular posture.
+
+    Lengths count in sizes of the robot.
+    """
+    least = np.empty(len(v))
+    for part in _chunks(len(v)):
+        J = sampled(constraints.slope, v[part]) * constraints.units
+        _, R = np.linalg.qr(J[:, :, constraints.others])
+        least[part] = np.linalg.svd(R, compute_uv=False)[:, -1]
+    return least
+
+
+def _chunks(count: int) -> Iterator[slice]:
+    return (slice(begin, min(begin + _CHUNK, count)) for begin in range(0, count, _CHUNK))
+
+
+def _least(Q: np.ndarray, R: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """(n, columns) least squares solutions of Q R x = right."""
+    turned = np.einsum("nij,ni->nj", Q, right)
+    return np.linalg.solve(R, turned[:, :, None])[:, :, 0]
+
+
+def _at_home(robot: Robot, constraints: Constraints) -> np.ndarray:
+    names = [joint.name for joint in robot.moving]
+    home = _solved(constraints, np.array([robot.home.get(name, 0.0) for name in names]))
+    if home is None:
+        raise RobotError(
+            f"simulation: the loops of {robot.name} do not close at [home]; state values near a "
+            "closed posture, and check the lengths"
+        )
+    J = constraints.slope(home).full()[:, constraints.others]
+    _, sizes, turned = np.linalg.svd(J)
+    free = turned[np.sum(sizes > _SINGULAR * sizes[0]) :]
+    if len(free):
+        loose = np.array(names)[constraints.others][np.max(np.abs(free), axis=0) > _SINGULAR]
+        raise RobotError(
+            f"simulation: joints {', '.join(loose)} of {robot.name} can move at [home] with the "
+            "actuated joints locked; actuate one of them, add a loop or a relation, or correct "
+            "[home]"
+        )
+    return home
+
+
+def _led(
+    robot: Robot, constraints: Constraints, v: np.ndarray, q: np.ndarray, where: str
+) -> np.ndarray:
+    """The closed posture at q, from the closed posture v, straight and in small steps."""
+    begin = v[constraints.given]
+    steps = max(1, int(np.ceil(np.max(np.abs(q - begin)) / _STRIDE)))
+    for share in np.arange(1, steps + 1) / steps:
+        start = v.copy()
+        start[constraints.given] = begin + share * (q - begin)
+        found = _solved(constraints, start)
+        if found is None or not _same_mode(constraints, v, found):
+            raise _not_closed(robot, start[constraints.given], where)
+        v = found
+    return v
+
+
+def _same_mode(constraints: Constraints, before: np.ndarray, after: np.ndarray) -> bool:
+    """True if no joint jumped, and no singular posture lies between two near postures.
+
+    Of square Jacobians, the ratio of the determinants is above 0; of redundant equations, that of
+    what one Jacobian is in the columns of the other.
+    """
+    if np.max(np.abs(after - before)) > _JUMP:
+        return False
+    old, new = (constraints.slope(v).full()[:, constraints.others] for v in (before, after))
+    return bool(np.linalg.det(np.linalg.lstsq(old, new, rcond=_RANK)[0]) > 0)
+
+
+def _between(
+    robot: Robot, constraints: Constraints, before: np.ndarray, q: np.ndarray, first: int
+) -> np.ndarray:
+    """Closed postures at q: some one after the other, those between them all at once."""
+    travel = np.cumsum(np.max(np.abs(np.diff(q, axis=0, prepend=q[:1])), axis=1))
+    anchors = np.unique([0, *np.flatnonzero(np.diff(travel // _APART)), len(q) - 1])
+    found = []
+    for k in anchors:
+        before = _led(robot, constraints, before, q[k], f"at sample {first + k + 1}")
+        found.append(before)
+    start = np.column_stack([
+        np.interp(np.arange(len(q)), anchors, column) for column in np.array(found).T
+    ])  # fmt: skip
+    start[:, constraints.given] = q
+    v, closed = _polished(constraints, start)
+    wrong = ~closed | (np.max(np.abs(v - start), axis=1) > _JUMP)
+    if np.any(wrong):
+        k = int(np.argmax(wrong))
+        raise _not_closed(robot, q[k], f"at sample {first + k + 1}")
+    return v
+
+
+def _polished(constraints: Constraints, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Newton for all samples at once; (n, moving rows), and (n,) True where loops are closed."""
+    v = v.copy()
+    for _ in range(_ITERATIONS):
+        c = sampled(constraints.value, v)[:, :, 0]
+        open_ = np.flatnonzero(np.max(np.abs(c), axis=1) >= _CLOSED)
+        if not open_.size:
+            break
+        Q, R = _factors(constraints, v[open_])
+        if not np.all(_regular(R)):
+            break
+        step = _least(Q, R, c[open_])
+        longest = np.max(np.abs(step), axis=1, keepdims=True)
+        v[open_[:, None], constraints.others] -= step * np.minimum(1.0, _LONGEST / longest)
+    return v, np.max(np.abs(sampled(constraints.value, v)[:, :, 0]), axis=1) < _CLOSED
+
+
+def _factors(constraints: Constraints, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Q and R of the columns of J of the joints that are not given, (n, ...) each."""
+    return np.linalg.qr(sampled(constraints.slope, v)[:, :, constraints.others])
+
+
+def _regular(R: np.ndarray) -> np.ndarray:
+    """(n,) True where the joints that are not given are determined."""
+    diagonal = np.abs(np.diagonal(R, axis1=1, axis2=2))
+    return diagonal.min(axis=1) > _SINGULAR * diagonal.max(axis=1)
+
+
+def _solved(constraints: Constraints, v: np.ndarray) -> np.ndarray | None:
+    """Newton on the rows that are not given, by least squares; None if it does not converge."""
+    v = v.copy()
+    for _ in range(_ITERATIONS):
+        c = constraints.value(v).full().ravel()
+        if np.max(np.abs(c)) < _CLOSED:
+            return v
+        J = constraints.slope(v).full()[:, constraints.others]
+        step = np.linalg.lstsq(J, -c, rcond=_RANK)[0]
+        v[constraints.others] += step * min(1.0, _LONGEST / np.max(np.abs(step)))
+    return None
+
+
+def _not_closed(robot: Robot, q: np.ndarray, where: str) -> DataError:
+    joints = ", ".join(joint.name for joint in robot.coordinates)
+    values = ", ".join(f"{x:.4g}" for x in q)
+    return DataError(
+        f"simulation: the loops of {robot.name} do not close {where}, joints {joints} at "
+        f"{values}; shrink [limits] of these joints"
+    )
+
+
+# Relations of a simulated robot as a matrix: all joints of the tree from the free ones.
+
+
+def tree_from_free(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
+    """F (moving rows, free rows) and c (moving rows,) of v = F u + c.
+
+    Args:
+        robot: u are the variables of `robot.free`, v those of `robot.moving`.
+    """
+    names = [joint.name for joint in robot.moving]
+    at_zero = robot.symbol_values() | {joint.variable: 0.0 for joint in robot.moving}
+    follows, constant = np.zeros((len(names), len(names))), np.zeros(len(names))
+    for name, relation in robot.relations.items():
+        row = names.index(name)
+        constant[row] = relation.number(at_zero)
+        for k, joint in enumerate(robot.moving):
+            if joint.variable in relation.names:
+                follows[row, k] = relation.number(at_zero | {joint.variable: 1.0}) - constant[row]
+    own = np.zeros((len(names), len(robot.free)))
+    for k, joint in enumerate(robot.free):
+        own[names.index(joint.name), k] = 1.0
+    # Relations may hold joints that follow others themselves; never in a circle.
+    left = np.eye(len(names)) - follows
+    return np.linalg.solve(left, own), np.linalg.solve(left, constant)
+
+
+def untied(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
+    """The same matrix and constants with every moving row free."""
+    count = len(robot.moving)
+    return np.eye(count), np.zeros(count)

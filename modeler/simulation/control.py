@@ -1,0 +1,214 @@
+"""What encoders and torque sensors read."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.robot.robot import Joint
+from modeler.simulation.hidden import HiddenEffect
+from modeler.simulation.portable_math import exponential, sine_and_cosine
+from modeler.simulation.settings import SimulationSettings
+
+_PASSES = 30  # of the fixed point that inverts an eccentric encoder; contracts to a hundredth
+
+
+def encoder_resolution(joints: Sequence[Joint], settings: SimulationSettings) -> np.ndarray:
+    """(joints,) rad or m per count; 0 for an ideal encoder."""
+    return np.array([
+        2 * np.pi / settings.encoder_counts if joint.angular and settings.encoder_counts
+        else 0.0 if joint.angular else settings.linear_resolution
+        for joint in joints
+    ])  # fmt: skip
+
+
+def quantised(position: np.ndarray, resolution: np.ndarray) -> np.ndarray:
+    """What an encoder of that resolution reads; a resolution of 0 reads the position itself."""
+    step = np.where(resolution > 0, resolution, 1.0)
+    return np.where(resolution > 0, np.round(position / step) * step, position)
+
+
+@dataclass(frozen=True, eq=False)
+class Faults:
+    """What the sensors of a machine do wrong, beside resolution and noise.
+
+    Attributes:
+        offset: (joints,) encoders read so much more, rad or m.
+        waves: place, amplitude [rad, m], order [1/rad, 1/m] and phase of eccentric encoders.
+        delay: of logged torques, s.
+        ratio: (joints,) logged torque per torque.
+        drift: (joints,) of logged torques, N m/s or N/s.
+    """
+
+    offset: np.ndarray
+    waves: tuple[tuple[int, float, float, float], ...]
+    delay: float
+    ratio: np.ndarray
+    drift: np.ndarray
+
+
+def faults_of(joints: Sequence[str], hidden: Sequence[HiddenEffect]) -> Faults:
+    """The faults among hidden effects."""
+    offset, ratio, drift = np.zeros(len(joints)), np.ones(len(joints)), np.zeros(len(joints))
+    waves, delay = [], 0.0
+    for effect in hidden:
+        i = joints.index(effect.joint) if effect.joint in joints else -1
+        values = effect.values
+        if effect.effect == "encoder_offset":
+            offset[i] += values["angle"]
+        elif effect.effect == "encoder_eccentricity":
+            waves.append((i, values["amplitude"], values["order"], values["phase"]))
+        elif effect.effect == "time_delay":
+            delay += values["delay"]
+        elif effect.effect == "drive_gain":
+            ratio[i] *= values["ratio"]
+        elif effect.effect == "drift":
+            drift[i] += values["per_minute"] / 60
+    return Faults(offset, tuple(waves), delay, ratio, drift)
+
+
+def sensed(faults: Faults, position: np.ndarray) -> np.ndarray:
+    """(joints,) what encoders of endless resolution read at these positions."""
+    read = position + faults.offset
+    for i, amplitude, order, phase in faults.waves:
+        read[i] += amplitude * sine_and_cosine(order * position[i] + phase)[0]
+    return read
+
+
+def where_read(faults: Faults, reading: np.ndarray) -> np.ndarray:
+    """(joints,) positions at which such encoders read that."""
+    position = np.array(reading, dtype=float)
+    for _ in range(_PASSES if faults.waves or np.any(faults.offset) else 0):
+        position = position - (sensed(faults, position) - reading)
+    return position
+
+
+def logged_torques(faults: Faults, time: np.ndarray, held: np.ndarray) -> np.ndarray:
+    """(n, joints) torques before noise: means over sampling intervals centred at the samples.
+
+    Args:
+        faults: of the sensors.
+        time: (n,) s.
+        held: (n, joints) torques, each held from its sample to the next.
+    """
+    before = np.vstack([held[:1], held[:-1]])
+    if not faults.delay:
+        return _faulty(faults, time, (before + held) / 2)
+    # The mean over one interval runs straight between the middles of the ticks.
+    return _faulty(faults, time, _late(faults, time, time + (time[1] - time[0]) / 2, held))
+
+
+def sampled_torques(faults: Faults, time: np.ndarray, tau: np.ndarray) -> np.ndarray:
+    """(n, joints) torques before noise, from (n, joints) torques at the samples themselves."""
+    return _faulty(faults, time, _late(faults, time, time, tau) if faults.delay else tau)
+
+
+def _late(faults: Faults, time: np.ndarray, known: np.ndarray, tau: np.ndarray) -> np.ndarray:
+    late = time - faults.delay
+    return np.column_stack([np.interp(late, known, column) for column in tau.T])
+
+
+def _faulty(faults: Faults, time: np.ndarray, tau: np.ndarray) -> np.ndarray:
+    return tau * faults.ratio + faults.drift * time[:, None]
+
+
+# A cascaded position and velocity controller, as drives have it, scheduled with the inertia.
+
+
+_SPEED_FILTER = 150.0  # Hz, on the differenced encoder position
+# Zero-order hold (0.5 tick), latency (1), difference (0.5), and the speed filter delay the velocity
+# loop; where that takes more than 0.6 rad of phase at the bandwidth, the bandwidth is lowered.
+_DELAY_TICKS = 2.0
+_PHASE = 0.6
+_LOWER_LOOPS = 0.25  # position loop and integral action, relative to the velocity loop
+
+
+@dataclass(frozen=True, eq=False)
+class Gains:
+    """Of the P-PI cascade, for unit inertia.
+
+    Attributes:
+        position: rad/s of speed per rad of position error, 1/s.
+        speed: acceleration per speed error, 1/s.
+        integral: acceleration per integrated speed error, 1/s2.
+        forward: 1 if commanded speed and acceleration are fed forward, else 0.
+        highest: (joints,) saturation, N m or N; 0 for a joint without motor.
+        filter_share: of the new difference in the filtered speed, per tick.
+        tick: s.
+    """
+
+    position: float
+    speed: float
+    integral: float
+    forward: float
+    highest: np.ndarray
+    filter_share: float
+    tick: float
+
+
+@dataclass(frozen=True, eq=False)
+class ControllerState:
+    """What the controller remembers from one tick to the next; (joints,) each.
+
+    Attributes:
+        measured: encoder position at the last tick.
+        speed: filtered.
+        effort: torque of the integral action.
+    """
+
+    measured: np.ndarray
+    speed: np.ndarray
+    effort: np.ndarray
+
+
+def tuned_gains(rate: float, bandwidth: float, feedforward: bool, highest: np.ndarray) -> Gains:
+    """Gains of a velocity loop of `bandwidth` [Hz], lowered where the delay asks for it."""
+    delay = _DELAY_TICKS / rate + 1 / (2 * np.pi * _SPEED_FILTER)
+    omega = min(2 * np.pi * bandwidth, _PHASE / delay)
+    return Gains(
+        position=_LOWER_LOOPS * omega,
+        speed=omega,
+        integral=_LOWER_LOOPS * omega**2,
+        forward=float(feedforward),
+        highest=highest,
+        filter_share=1 - float(exponential(-2 * np.pi * _SPEED_FILTER / rate)),
+        tick=1 / rate,
+    )
+
+
+def control(
+    gains: Gains,
+    state: ControllerState,
+    inertia: np.ndarray,
+    measured: np.ndarray,
+    command: tuple[np.ndarray, np.ndarray, np.ndarray],
+) -> tuple[ControllerState, np.ndarray]:
+    """The next state, and the torque the controller asks for; (joints,).
+
+    tau = sat(M (kv (kp (qc - q) + qdc - v) + qddc) + effort), effort' = M ki (the same error). With
+    fixed gains an arm without rotor inertias loses its wrist: its inertia varies a hundredfold.
+    Gravity, Coriolis torques and friction are left to the integral action. The integral of a joint
+    stands still while its torque is saturated and the error would drive it further.
+
+    Args:
+        gains: of the cascade.
+        state: after the last tick.
+        inertia: (joints, joints) M that the motors feel at the measured position.
+        measured: encoder position now.
+        command: commanded q, qd, qdd now.
+    """
+    q, qd, qdd = command
+    difference = (measured - state.measured) / gains.tick
+    speed = state.speed + gains.filter_share * (difference - state.speed)
+    error = gains.position * (q - measured) + gains.forward * qd - speed
+    rise = _product(inertia, gains.integral * gains.tick * error)
+    effort = state.effort + rise
+    wanted = _product(inertia, gains.speed * error + gains.forward * qdd) + effort
+    torque = np.minimum(np.maximum(wanted, -gains.highest), gains.highest)
+    winding = (wanted != torque) & (wanted * rise > 0)
+    return ControllerState(measured, speed, np.where(winding, state.effort, effort)), torque
+
+
+def _product(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    """matrix vector, by sums in a fixed order: libraries of linear algebra round as they like."""
+    return np.asarray(np.sum(matrix * vector, axis=1))

@@ -1,0 +1,298 @@
+"""Hidden effects made complete: joints and values that were not given are drawn from the seed."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+import casadi as ca
+import numpy as np
+
+from modeler.core.errors import RobotError
+from modeler.robot.robot import Limits, Robot
+from modeler.simulation.closed_motion import closed_motion
+from modeler.simulation.closing import constraints_of, motor_torques, rates, sampled
+from modeler.simulation.hidden import HIDDEN, HiddenEffect
+from modeler.simulation.hidden_bodies import last_link
+from modeler.simulation.hidden_kind import HiddenKind, Site
+from modeler.simulation.parameters import PlantParameters, joint_scales
+from modeler.simulation.physics import JointScale
+from modeler.simulation.plant import torque_function
+from modeler.simulation.portable_math import ten_digits
+from modeler.simulation.rigid import gravity_vector, world_frames
+from modeler.simulation.settings import SimulationSettings
+from modeler.simulation.trajectory import Reference, exciting_reference
+
+# How large a torque on a joint of a robot with loops is for the motors, which carry them.
+
+
+_DURATION, _RATE = 6.0, 50.0  # s and Hz of the motion that is looked at
+_TOP = 0.98
+
+
+def felt_by_motors(
+    robot: Robot, parameters: PlantParameters, limits: Sequence[Limits], joint: str, seed: int
+) -> tuple[float, float]:
+    """(torque, speed) of a joint that are large for the closed machine around it.
+
+    The torque is the one that asks of some motor as much as its rms torque tau_m, and of none
+    more: 1 / max_m(rms(G_m) / tau_m), with G_m = d speed / d speed of motor m; of a joint with a
+    motor, its rms torque. The speed is the joint's 98 % quantile. Both along an exciting motion of
+    the closed machine.
+
+    Args:
+        robot: with loops.
+        parameters: of its links and effects.
+        limits: in the order of `robot.moving`.
+        joint: name of a row.
+        seed: of the motion.
+
+    Raises:
+        RobotError: `home` does not close.
+        DataError: the loops close on no such motion.
+    """
+    constraints = constraints_of(robot)
+    names = [moving.name for moving in robot.moving]
+    own = tuple(limits[names.index(moving.name)] for moving in robot.coordinates)
+    motion = closed_motion(robot, constraints, own, partial(_exciting, seed=seed))
+    v, qd = motion.v, motion.reference.qd
+    vd, vdd = rates(constraints, v, qd, motion.reference.qdd)
+    torque, states = torque_function(robot, parameters, tuple(limits))
+    load = sampled(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
+    needed = np.sqrt(np.mean(motor_torques(constraints, v, load) ** 2, axis=0))
+    row = names.index(joint)
+    shares = []
+    for m, torque_m in enumerate(needed):
+        moved = np.zeros_like(qd)
+        moved[:, m] = 1.0
+        slope = rates(constraints, v, moved, np.zeros_like(qd))[0][:, row]
+        if torque_m > 0.0:
+            shares.append(float(np.sqrt(np.mean(slope**2))) / torque_m)
+    speed = float(np.quantile(np.abs(vd[:, row]), _TOP))
+    return (1.0 / max(shares) if any(shares) else 1.0), speed or limits[row].speed
+
+
+def _exciting(limits: tuple[Limits, ...], seed: int) -> Reference:
+    return exciting_reference(limits, _DURATION, _RATE, seed)
+
+
+_OWN = ("Fv", "Fs", "Ia")
+_LIVELY = 0.29  # of the limits: rms of what the scale of the links is drawn from
+_WHY_NONE = {
+    "pair": "a joint with a motor, and another one after it",
+    "geared": "a joint with a rotor inertia (effect rotor_inertia in the robot file)",
+    "lever": "a joint that turns",
+    "link": "a link before the last one",
+    "passive": "a joint without motor in a loop",
+}
+
+
+def complete_effects(
+    robot: Robot,
+    parameters: PlantParameters,
+    limits: tuple[Limits, ...],
+    settings: SimulationSettings,
+) -> tuple[HiddenEffect, ...]:
+    """The hidden effects of the settings with a joint and all values.
+
+    What is drawn depends on `parameter_seed`, and not on the other effects that are hidden; the
+    time at which an external force pushes also on the duration.
+
+    Args:
+        robot: its table and effects.
+        parameters: of these.
+        limits: in the order of `robot.moving`.
+        settings: with the hidden effects, complete or not.
+
+    Raises:
+        RobotError: an effect, joint or value that this robot cannot have; says which it can.
+    """
+    if not settings.hidden:
+        return ()
+    rng = np.random.default_rng([settings.parameter_seed, 6])
+    scales = joint_scales(robot, parameters.bodies, limits, rng)
+    found: list[HiddenEffect] = []
+    for k, asked in enumerate(settings.hidden):
+        kind = _kind(robot, asked)
+        before = sum(other.effect == asked.effect for other in settings.hidden[:k])
+        seed = [settings.parameter_seed, 7, before, *asked.effect.encode()]
+        rng = np.random.default_rng(seed)
+        joint = _joint(robot, parameters, kind, asked, rng)
+        site = _site(robot, parameters, limits, scales, settings, joint)
+        if joint is not None and kind.where == "pair":
+            site = _among_others(robot, site, scales, joint)
+        if joint is not None and robot.loops and kind.where in ("joint", "lever", "passive"):
+            felt = felt_by_motors(robot, parameters, limits, joint, settings.parameter_seed)
+            site = _as_felt(site, kind, *felt)
+        found.append(HiddenEffect(asked.effect, joint, _values(robot, kind, asked, site, rng)))
+    _check_together(robot, found)
+    return tuple(found)
+
+
+def _as_felt(site: Site, kind: HiddenKind, torque: float, speed: float) -> Site:
+    """The site in a closed machine; what no motor commands is as fast as the loops make it."""
+    if kind.where == "passive":
+        return dataclasses.replace(site, torque=torque, speed=speed)
+    return dataclasses.replace(site, torque=torque)
+
+
+def _kind(robot: Robot, asked: HiddenEffect) -> HiddenKind:
+    where = f"robot {robot.name}, hidden effect {asked.effect}"
+    kind = HIDDEN.get(asked.effect)
+    if kind is None:
+        raise RobotError(f"{where}: no such effect; expected one of {', '.join(HIDDEN)}")
+    if robot.loops and not kind.loops:
+        able = ", ".join(name for name, other in HIDDEN.items() if other.loops)
+        raise RobotError(f"{where}: not simulated for robots with loops; expected one of {able}")
+    if kind.role == "gravity" and not np.any(gravity_vector(robot)):
+        raise RobotError(f"{where}: the robot has no gravity; state one, or hide another effect")
+    return kind
+
+
+def _places(robot: Robot, parameters: PlantParameters, kind: HiddenKind) -> list[str]:
+    """Joints or links that may have the effect."""
+    joints = [joint for joint in robot.coordinates if joint.actuated]
+    names = [joint.name for joint in joints]
+    if kind.where == "lever":
+        return [joint.name for joint in joints if joint.angular]
+    if kind.where == "pair":
+        pairs = zip(robot.coordinates, robot.coordinates[1:], strict=False)
+        alike = [one.name for one, other in pairs if one.angular == other.angular]
+        return [name for name in alike if name in names]
+    if kind.where == "geared":
+        return [name for name in names if parameters.standard.get(f"Ia{name}", 0.0) > 0]
+    if kind.where == "link":
+        return [joint.name for joint in robot.moving[:-1] if joint.name not in robot.platform]
+    if kind.where == "passive":
+        rows = robot.moving if robot.loops else ()
+        gone = (*robot.platform, *robot.relations)
+        return [joint.name for joint in rows if not joint.actuated and joint.name not in gone]
+    return names
+
+
+def _joint(
+    robot: Robot,
+    parameters: PlantParameters,
+    kind: HiddenKind,
+    asked: HiddenEffect,
+    rng: np.random.Generator,
+) -> str | None:
+    where = f"robot {robot.name}, hidden effect {kind.effect}"
+    if kind.where == "system":
+        if asked.joint is not None:
+            raise RobotError(
+                f"{where}: got joint {asked.joint}; expected none, it belongs to the whole machine"
+            )
+        return None
+    places = _places(robot, parameters, kind)
+    if not places:
+        needs = _WHY_NONE.get(kind.where, "a joint with a motor")
+        raise RobotError(f"{where}: no place for it; expected {needs}")
+    # The first link of an arm hardly feels what is on it.
+    inner = places[1:] if kind.where == "link" and len(places) > 1 else places
+    drawn = str(rng.choice(inner))  # also where one is given: values do not depend on that
+    if asked.joint is not None and asked.joint not in places:
+        raise RobotError(f"{where}: got joint {asked.joint}; expected one of {', '.join(places)}")
+    return asked.joint or drawn
+
+
+def _site(
+    robot: Robot,
+    parameters: PlantParameters,
+    limits: tuple[Limits, ...],
+    scales: Sequence[JointScale],
+    settings: SimulationSettings,
+    joint: str | None,
+) -> Site:
+    names = [moving.name for moving in robot.moving]
+    row = names.index(last_link(robot) if joint is None else joint)
+    scale, limit, name = scales[row], limits[row], names[row]
+    own = {p: parameters.standard[p + name] for p in _OWN if p + name in parameters.standard}
+    return Site(
+        torque=_whole_torque(scale, limit, own),
+        speed=scale.speed,
+        inertia=scale.inertia,
+        span=limit.upper - limit.lower,
+        angular=robot.moving[row].angular,
+        own=own,
+        body=parameters.bodies[name],
+        mass=sum(body.mass for body in parameters.bodies.values()),
+        lever=_lever(robot, parameters, limits, scales),
+        rate=settings.rate,
+        duration=settings.duration,
+    )
+
+
+def _among_others(
+    robot: Robot,
+    site: Site,
+    scales: Sequence[JointScale],
+    joint: str,
+) -> Site:
+    """The site of an effect that the next joint feels too: what is large for the weaker one."""
+    names = [moving.name for moving in robot.moving]
+    motors = [names.index(other.name) for other in robot.coordinates]
+    row = names.index(joint)
+    after = motors[motors.index(row) + 1]
+    return dataclasses.replace(
+        site,
+        torque=min(site.torque, scales[after].torque),
+        inertia=min(site.inertia, scales[after].inertia),
+    )
+
+
+def _whole_torque(scale: JointScale, limit: Limits, own: Mapping[str, float]) -> float:
+    """Rms torque with what the robot file knows of friction and rotor, in the same motion."""
+    parts = (
+        scale.torque,
+        own.get("Ia", 0.0) * _LIVELY * limit.acceleration,
+        own.get("Fv", 0.0) * _LIVELY * limit.speed,
+        own.get("Fs", 0.0),
+    )
+    return float(np.linalg.norm(parts))
+
+
+def _lever(
+    robot: Robot,
+    parameters: PlantParameters,
+    limits: tuple[Limits, ...],
+    scales: Sequence[JointScale],
+) -> float:
+    """Torque of a force of 1 N on the last body, per rms torque of the joint that feels it most."""
+    q = ca.SX.sym("q", len(limits))
+    frame = world_frames(robot, q)[robot.moving[-1].name]
+    point = frame.position + frame.rotation @ parameters.bodies[robot.moving[-1].name].centre
+    slope = ca.Function("slope", [q], [ca.jacobian(point, q)])
+    middle = [(limit.lower + limit.upper) / 2 for limit in limits]
+    arms = np.linalg.norm(slope(middle).full(), axis=0)
+    return float(np.max(arms / [scale.torque for scale in scales]))
+
+
+def _values(
+    robot: Robot, kind: HiddenKind, asked: HiddenEffect, site: Site, rng: np.random.Generator
+) -> dict[str, float]:
+    where = f"robot {robot.name}, hidden effect {kind.effect}"
+    values = {name: ten_digits(value) for name, value in kind.draw(rng, site).items()}
+    for name, value in asked.values.items():
+        if name not in values:
+            raise RobotError(
+                f"{where}: got a value {name}; expected some of {', '.join(values) or 'none'}"
+            )
+        if not np.isfinite(value) or (value <= 0 and name not in kind.signed):
+            raise RobotError(f"{where}, {name}: got {value:g}; expected a number above 0")
+    return values | {name: float(value) for name, value in asked.values.items()}
+
+
+def _check_together(robot: Robot, effects: list[HiddenEffect]) -> None:
+    """Nothing, unless two effects stand for the same part of the same joint."""
+    taken: dict[tuple[str, str | None], str] = {}
+    for effect in effects:
+        kind = HIDDEN[effect.effect]
+        parts = (*kind.replaces, *(["transmission"] if kind.role == "transmission" else []))
+        for part in parts:
+            if (part, effect.joint) in taken:
+                other = taken[part, effect.joint]
+                raise RobotError(
+                    f"robot {robot.name}, joint {effect.joint}: hidden effects {other} and "
+                    f"{effect.effect} both are its {part}; hide them on different joints"
+                )
+            taken[part, effect.joint] = effect.effect

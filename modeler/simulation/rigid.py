@@ -1,0 +1,341 @@
+"""Rigid links in the world frame: Newton and Euler about each mass centre.
+
+Nothing here is written in link frames or at frame origins, and no regressor is formed: an error of
+the modeling stages cannot repeat itself in the simulated measurements.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+
+from modeler.core.expression import Expression
+from modeler.robot.robot import INERTIAL, Joint, Robot
+from modeler.simulation.portable_math import sine_and_cosine
+
+# Where the links are: frames of a modified Denavit-Hartenberg table in the world frame.
+
+
+FUNCTIONS = {
+    "sin": ca.sin, "cos": ca.cos, "tan": ca.tan, "sqrt": ca.sqrt, "exp": ca.exp,
+    "abs": ca.fabs, "sign": ca.sign, "tanh": ca.tanh,
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Frame j seen from the world (frame 0).
+
+    Attributes:
+        rotation: (3, 3), columns are the axes of frame j; a joint moves about or along column 2.
+        position: (3, 1) origin of frame j, m.
+        axis: (3, 1) turn or shift per unit of the joint variable: column 2, or its opposite where
+            the table says -q; zeros where nothing moves.
+    """
+
+    rotation: ca.SX
+    position: ca.SX
+    axis: ca.SX
+
+
+BASE = "0"
+"""Name of the frame that stands still."""
+
+
+def world_frames(robot: Robot, q: ca.SX) -> dict[str, Frame]:
+    """Every frame of the table by row name, and frame "0", in table order.
+
+    0_T_j = 0_T_a Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r) (Khalil and Kleinfinger 1986).
+
+    Args:
+        robot: its table.
+        q: (joints, 1) joint variables in the order of `robot.moving`.
+    """
+    symbols = robot.symbol_values()
+    variables = {joint.name: q[i] for i, joint in enumerate(robot.moving)}
+    frames = {BASE: Frame(ca.SX(np.eye(3)), ca.SX(np.zeros((3, 1))), ca.SX.zeros(3))}
+    for joint in robot.joints:
+        frames[joint.name] = _placed(
+            frames[joint.antecedent], joint, symbols, variables.get(joint.name)
+        )
+    return frames
+
+
+def gravity_vector(robot: Robot) -> np.ndarray:
+    """(3,) acceleration of gravity in the world frame, m/s2."""
+    symbols = robot.symbol_values()
+    return np.array([component.number(symbols) for component in robot.gravity])
+
+
+def _placed(
+    antecedent: Frame, joint: Joint, symbols: dict[str, float], variable: ca.SX | None
+) -> Frame:
+    def cell(expression: Expression) -> ca.SX | float:
+        if joint.variable not in expression.names:
+            return expression.number(symbols)
+        values = {**symbols, joint.variable: variable}
+        return expression.fold(values, FUNCTIONS, float(np.pi), float)
+
+    swing = antecedent.rotation @ _rotation_z(cell(joint.gamma))
+    tilt = swing @ _rotation_x(cell(joint.alpha))
+    theta, r = cell(joint.theta), cell(joint.r)
+    rotation = tilt @ _rotation_z(theta)
+    position = (
+        antecedent.position
+        + swing[:, 2] * cell(joint.b)
+        + tilt[:, 0] * cell(joint.d)
+        + rotation[:, 2] * r
+    )
+    rate = ca.SX(0) if variable is None else ca.jacobian(ca.SX(theta + r), variable)
+    return Frame(rotation, position, rotation[:, 2] * rate)
+
+
+def _rotation_z(angle: ca.SX | float) -> ca.SX:
+    c, s = _cosine_and_sine(angle)
+    return ca.vertcat(ca.horzcat(c, -s, 0), ca.horzcat(s, c, 0), ca.horzcat(0, 0, 1))
+
+
+def _rotation_x(angle: ca.SX | float) -> ca.SX:
+    c, s = _cosine_and_sine(angle)
+    return ca.vertcat(ca.horzcat(1, 0, 0), ca.horzcat(0, c, -s), ca.horzcat(0, s, c))
+
+
+def _cosine_and_sine(angle: ca.SX | float) -> tuple[ca.SX, ca.SX]:
+    if isinstance(angle, ca.SX):
+        return ca.cos(angle), ca.sin(angle)
+    # cos(pi/2) is 6e-17 in floating point; an exact 0 keeps the expressions small.
+    s, c = (float(value) for value in sine_and_cosine(angle))
+    return ca.SX(c if abs(c) > 1e-15 else 0.0), ca.SX(s if abs(s) > 1e-15 else 0.0)
+
+
+# A rigid link as a workshop describes it: mass, mass centre, inertia about the mass centre.
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """One moving link, in the axes of its frame j.
+
+    Attributes:
+        mass: [kg].
+        centre: (3,) mass centre in frame j, m.
+        inertia: (3, 3) inertia matrix about the mass centre, kg m2; off-diagonal elements are
+            minus the products of inertia.
+    """
+
+    mass: float
+    centre: np.ndarray
+    inertia: np.ndarray
+
+
+_ROUNDING = 1e-11  # of the moments of inertia
+_PLACE = {"XX": (0, 0), "XY": (0, 1), "XZ": (0, 2), "YY": (1, 1), "YZ": (1, 2), "ZZ": (2, 2)}
+
+
+def body_from_standard(values: Mapping[str, float]) -> Body:
+    """The body whose ten standard parameters (keys of `INERTIAL`) are `values`.
+
+    J_centre = J_origin - M (c.c 1 - c c'), c = (MX, MY, MZ) / M (Huygens and Steiner).
+    """
+    mass = values["M"]
+    moment = np.array([values["MX"], values["MY"], values["MZ"]])
+    centre = moment / mass if mass else np.zeros(3)
+    origin = np.zeros((3, 3))
+    for name, (row, column) in _PLACE.items():
+        origin[row, column] = origin[column, row] = values[name]
+    return Body(mass, centre, origin - mass * _spread(centre))
+
+
+def standard_from_body(body: Body) -> dict[str, float]:
+    """The ten standard parameters at the origin of frame j, in the order of `INERTIAL`."""
+    origin = body.inertia + body.mass * _spread(body.centre)
+    moment = body.mass * body.centre
+    values = {name: float(origin[place]) for name, place in _PLACE.items()}
+    values |= {name: float(moment[i]) for i, name in enumerate(("MX", "MY", "MZ"))}
+    values["M"] = float(body.mass)
+    return {name: values[name] for name in INERTIAL}
+
+
+def pseudo_inertia(values: Mapping[str, float]) -> np.ndarray:
+    """(4, 4) second moments of the mass, [[int x x' dm, int x dm], [., M]], at the frame's origin.
+
+    A set of ten parameters is that of some distribution of mass if and only if this matrix is
+    positive semi-definite (Wensing, Kim and Slotine 2018, IEEE RA-L 3(1)).
+    """
+    origin = np.zeros((3, 3))
+    for name, (row, column) in _PLACE.items():
+        origin[row, column] = origin[column, row] = values[name]
+    matrix = np.empty((4, 4))
+    matrix[:3, :3] = np.trace(origin) / 2 * np.eye(3) - origin
+    matrix[:3, 3] = matrix[3, :3] = [values["MX"], values["MY"], values["MZ"]]
+    matrix[3, 3] = values["M"]
+    return matrix
+
+
+def standard_from_pseudo_inertia(matrix: np.ndarray) -> dict[str, float]:
+    """Inverse of `pseudo_inertia`."""
+    second = matrix[:3, :3]
+    origin = np.trace(second) * np.eye(3) - second
+    values = {name: float(origin[place]) for name, place in _PLACE.items()}
+    values |= {name: float(matrix[i, 3]) for i, name in enumerate(("MX", "MY", "MZ"))}
+    values["M"] = float(matrix[3, 3])
+    return {name: values[name] for name in INERTIAL}
+
+
+def is_physical(values: Mapping[str, float], tolerance: float = 1e-9) -> bool:
+    """True if some distribution of mass has these parameters; rods, plates and no mass included."""
+    matrix = pseudo_inertia(values)
+    # A plate of which XX = YY + ZZ holds but for rounding is one.
+    matrix[:3, :3] += _ROUNDING * abs(np.trace(matrix[:3, :3])) * np.eye(3)
+    # Rows scaled to ones on the diagonal: kilograms and kilogram square metres become comparable.
+    diagonal = np.diag(matrix)
+    if np.any(diagonal < 0):
+        return False
+    scale = np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
+    return bool(np.linalg.eigvalsh(matrix / np.outer(scale, scale))[0] >= -tolerance)
+
+
+def _spread(centre: np.ndarray) -> np.ndarray:
+    return float(np.sum(centre * centre)) * np.eye(3) - np.outer(centre, centre)
+
+
+@dataclass(frozen=True)
+class RigidDynamics:
+    """M(q) qdd + h(q, qd) = tau of the links alone, as CasADi expressions.
+
+    Attributes:
+        q, qd: (joints, 1) symbols, rad or m and their rates.
+        inertia: (joints, joints) M.
+        bias: (joints, 1) h = Coriolis, centrifugal and gravity torques, N m or N.
+        kinetic: T, J. From velocities by differentiation of positions, not from `inertia`.
+        potential: U of gravity, J; 0 with all mass centres at the world's origin.
+    """
+
+    q: ca.SX
+    qd: ca.SX
+    inertia: ca.SX
+    bias: ca.SX
+    kinetic: ca.SX
+    potential: ca.SX
+
+
+@dataclass(frozen=True)
+class _Motion:
+    """Angular velocity, angular acceleration, acceleration of the frame's origin; (3, 1) each."""
+
+    spin: ca.SX
+    spin_rate: ca.SX
+    acceleration: ca.SX
+
+
+def rigid_dynamics(robot: Robot, bodies: Mapping[str, Body]) -> RigidDynamics:
+    """Equations of motion of a serial or tree robot.
+
+    Args:
+        robot: geometry, gravity.
+        bodies: mass, mass centre and inertia of each moving link, by joint name.
+    """
+    n = len(robot.moving)
+    q, qd, qdd = (ca.SX.sym(name, n) for name in ("q", "qd", "qdd"))
+    frames = world_frames(robot, q)
+    motions = _motions(robot, frames, qd, qdd)
+    torque = _joint_torques(robot, frames, motions, bodies)
+    kinetic, potential = _energies(robot, frames, bodies, q, qd)
+    return RigidDynamics(
+        q=q,
+        qd=qd,
+        inertia=ca.jacobian(torque, qdd),
+        bias=ca.substitute(torque, qdd, ca.SX.zeros(n)),
+        kinetic=kinetic,
+        potential=potential,
+    )
+
+
+def tied_dynamics(links: RigidDynamics, turns: np.ndarray, offset: np.ndarray) -> RigidDynamics:
+    """The same in fewer coordinates u of which all joints follow: q = turns u + offset.
+
+    M_u = turns^T M turns, h_u = turns^T h (the principle of virtual work).
+    """
+    F = ca.SX(turns)
+    u, ud = (ca.SX.sym(name, turns.shape[1]) for name in ("u", "ud"))
+    tree = [links.inertia, links.bias, links.kinetic, links.potential]
+    inertia, bias, kinetic, potential = ca.substitute(
+        tree, [links.q, links.qd], [F @ u + offset, F @ ud]
+    )
+    return RigidDynamics(u, ud, F.T @ inertia @ F, F.T @ bias, kinetic, potential)
+
+
+def _motions(
+    robot: Robot, frames: Mapping[str, Frame], qd: ca.SX, qdd: ca.SX
+) -> dict[str, _Motion]:
+    """From the base outwards; a sliding joint sees the Coriolis acceleration of its antecedent."""
+    zero = ca.SX.zeros(3)
+    motions = {BASE: _Motion(zero, zero, zero)}
+    index = {joint.name: i for i, joint in enumerate(robot.moving)}
+    for joint in robot.joints:
+        before, frame = motions[joint.antecedent], frames[joint.name]
+        arm = frame.position - frames[joint.antecedent].position
+        spin, spin_rate = before.spin, before.spin_rate
+        acceleration = (
+            before.acceleration + ca.cross(spin_rate, arm) + ca.cross(spin, ca.cross(spin, arm))
+        )
+        if joint.moves:
+            axis, i = frame.axis, index[joint.name]
+            if joint.angular:
+                spin_rate = spin_rate + axis * qdd[i] + ca.cross(spin, axis * qd[i])
+                spin = spin + axis * qd[i]
+            else:
+                acceleration += axis * qdd[i] + 2 * ca.cross(spin, axis * qd[i])
+        motions[joint.name] = _Motion(spin, spin_rate, acceleration)
+    return motions
+
+
+def _joint_torques(
+    robot: Robot,
+    frames: Mapping[str, Frame],
+    motions: Mapping[str, _Motion],
+    bodies: Mapping[str, Body],
+) -> ca.SX:
+    """From the tips inwards: what each joint must carry, projected on its axis."""
+    gravity = ca.SX(gravity_vector(robot))
+    force = {name: ca.SX.zeros(3) for name in frames}
+    moment = {name: ca.SX.zeros(3) for name in frames}  # about the frame's own origin
+    torques = {}
+    for joint in reversed(robot.joints):
+        name, frame, motion = joint.name, frames[joint.name], motions[joint.name]
+        if joint.moves:
+            body, spin = bodies[name], motion.spin
+            arm = frame.rotation @ body.centre
+            centre_acceleration = (
+                motion.acceleration
+                + ca.cross(motion.spin_rate, arm)
+                + ca.cross(spin, ca.cross(spin, arm))
+            )
+            inertia = frame.rotation @ body.inertia @ frame.rotation.T
+            push = body.mass * (centre_acceleration - gravity)
+            turn = inertia @ motion.spin_rate + ca.cross(spin, inertia @ spin)
+            force[name] += push
+            moment[name] += turn + ca.cross(arm, push)
+            carried = moment[name] if joint.angular else force[name]
+            torques[name] = ca.dot(frame.axis, carried)
+        lever = frame.position - frames[joint.antecedent].position
+        force[joint.antecedent] += force[name]
+        moment[joint.antecedent] += moment[name] + ca.cross(lever, force[name])
+    return ca.vertcat(*(torques[joint.name] for joint in robot.moving))
+
+
+def _energies(
+    robot: Robot, frames: Mapping[str, Frame], bodies: Mapping[str, Body], q: ca.SX, qd: ca.SX
+) -> tuple[ca.SX, ca.SX]:
+    gravity = ca.SX(gravity_vector(robot))
+    kinetic = potential = ca.SX(0)
+    for joint in robot.moving:
+        frame, body = frames[joint.name], bodies[joint.name]
+        centre = frame.position + frame.rotation @ body.centre
+        velocity = ca.jtimes(centre, q, qd)
+        turning = ca.reshape(ca.jtimes(ca.vec(frame.rotation), q, qd), 3, 3)
+        spin = ca.inv_skew(frame.rotation.T @ turning)  # in frame j, where the inertia is constant
+        kinetic += body.mass * ca.dot(velocity, velocity) / 2
+        kinetic += ca.dot(spin, ca.SX(np.asarray(body.inertia)) @ spin) / 2
+        potential -= body.mass * ca.dot(gravity, centre)
+    return kinetic, potential

@@ -1,0 +1,144 @@
+"""What a simulated measurement is asked to be."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.core.errors import DataError
+from modeler.robot.robot import Limits
+from modeler.simulation.hidden import HiddenEffect
+from modeler.simulation.portable_math import exponential
+
+if TYPE_CHECKING:
+    from modeler.simulation.trajectory import Reference
+
+
+MOTIONS = ("exciting", "point-to-point", "one-joint")
+"""What the commanded motion may be."""
+
+_MOST = {
+    "seed": math.inf, "parameter_seed": math.inf, "encoder_counts": 1e12,
+    "linear_resolution": 1.0, "torque_noise": 100.0, "process_noise": 100.0,
+}  # fmt: skip
+"""What may be 0 and more, up to this."""
+_EMPTY: Mapping = MappingProxyType({})
+_MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
+
+
+@dataclass(frozen=True)
+class SimulationSettings(Brief):
+    """Motion, controller and sensors of a simulated measurement.
+
+    Attributes:
+        motion: "exciting" (moves at several speeds, then a Fourier series), "point-to-point"
+            (moves between random points, as fast as the limits allow) or "one-joint" (one joint
+            after the other moves alone, at random configurations).
+        duration: s.
+        rate: control ticks and samples per second.
+        seed: of motion and noise; another seed is another measurement of the same robot.
+        parameter_seed: of the true parameters that the robot file leaves open.
+        encoder_counts: per turn of a revolute joint; 0 for an ideal encoder.
+        linear_resolution: of the encoder of a prismatic joint, m; 0 for an ideal encoder.
+        torque_noise: standard deviation of the white noise on measured torques, as a share of the
+            rms torque of the joint.
+        controller: True if a robot with loops is moved by a controller, as all others are; False:
+            it carries out the commanded motion exactly.
+        bandwidth: of the velocity loops, Hz; lowered where `rate` is too slow for it.
+        feedforward: True if the controller uses commanded speed and acceleration.
+        limits: range of motion by joint, in place of the robot file's.
+        torque_limits: largest motor torque by joint, N m or N; where none is given, twice what the
+            commanded motion needs.
+        process_noise: standard deviation of a random torque on the machine itself, correlated over
+            30 ms, as a share of the rms torque that the commanded motion needs.
+        hidden: effects that the machine has and the robot file lacks.
+        drive_gains: torque per drive unit by joint, N m or N; what the log holds of such a joint
+            is the current, its torque over this, and not the torque.
+        commanded: the motion itself, at `rate`, in place of `motion` and `duration`.
+    """
+
+    motion: str = "exciting"
+    duration: float = 20.0
+    rate: float = 1000.0
+    seed: int = 0
+    parameter_seed: int = 0
+    encoder_counts: int = 1_000_000
+    linear_resolution: float = 1e-6
+    torque_noise: float = 0.01
+    controller: bool = False
+    bandwidth: float = 20.0
+    feedforward: bool = True
+    limits: Mapping[str, Limits] = field(default_factory=lambda: _EMPTY)
+    torque_limits: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    process_noise: float = 0.0
+    hidden: tuple[HiddenEffect, ...] = ()
+    drive_gains: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    commanded: "Reference | None" = None
+
+
+def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> None:
+    """Nothing, if the settings can be simulated with these joints.
+
+    Raises:
+        DataError: names the setting, what was got and what is expected.
+    """
+    if settings.motion not in MOTIONS:
+        raise DataError(
+            f"simulation, motion: got {settings.motion}; expected one of {', '.join(MOTIONS)}"
+        )
+    for name in ("duration", "rate", "bandwidth"):
+        value = getattr(settings, name)
+        if not (math.isfinite(value) and value > 0):
+            raise DataError(f"simulation, {name}: got {value}; expected a number above 0")
+    if settings.duration * settings.rate > _MOST_SAMPLES:
+        raise DataError(
+            f"simulation, duration: got {settings.duration:g} s at {settings.rate:g} samples per "
+            f"second, {settings.duration * settings.rate:.3g} samples; expected at most "
+            f"{_MOST_SAMPLES:.0e}; simulate a shorter motion or lower the rate"
+        )
+    for name, most in _MOST.items():
+        value = getattr(settings, name)
+        if not 0 <= value <= most or value == math.inf:
+            upto = f", at most {most:g}" if math.isfinite(most) else ""
+            raise DataError(f"simulation, {name}: got {value}; expected 0 or more{upto}")
+    for joint, value in settings.torque_limits.items():
+        if joint not in joints:
+            raise DataError(
+                f"simulation, torque_limits: no moving joint {joint}; "
+                f"expected one of {', '.join(joints)}"
+            )
+        if not value > 0:
+            raise DataError(
+                f"simulation, torque_limits of joint {joint}: got {value}; expected a number "
+                "above 0"
+            )
+
+
+# A random torque on the machine itself, as from seals, cables and the air.
+
+
+_CORRELATION = 0.03  # s
+
+
+def process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarray) -> np.ndarray:
+    """(ticks, joints) an Ornstein-Uhlenbeck process on each joint, stationary, held over ticks.
+
+    Args:
+        settings: share, rate and seed.
+        ticks: number of samples.
+        rms: (joints,) torque of which it is a share, N m or N.
+    """
+    shape = (ticks, rms.size)
+    if not settings.process_noise:
+        return np.zeros(shape)
+    from scipy.signal import lfilter  # it takes long to load
+
+    white = np.random.default_rng([settings.seed, 5]).normal(size=shape)
+    kept = float(exponential(-1 / (settings.rate * _CORRELATION)))
+    white[1:] *= np.sqrt(1 - kept**2)  # the first sample has the variance of all
+    noise = lfilter([1.0], [1.0, -kept], white, axis=0)
+    return settings.process_noise * rms * np.round(noise, 10)  # the same on every machine

@@ -1,0 +1,251 @@
+"""What acts on the shafts of a simulated robot: the robot file's effects and the hidden ones."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+
+from modeler.core.errors import RobotError
+from modeler.robot.robot import Limits, Robot
+from modeler.simulation.hidden import HIDDEN, HiddenEffect
+from modeler.simulation.parameters import PlantParameters, effects_of
+from modeler.simulation.physics import Contribution, EffectPhysics, Shaft
+from modeler.simulation.rigid import RigidDynamics, world_frames
+
+_CORE = 1e-3  # width of the smooth core of dry friction, relative to the top speed
+_RISE = 5e-3  # s, in which a push sets in
+
+
+@dataclass(frozen=True)
+class ShaftEffects:
+    """All effects together.
+
+    Attributes:
+        torque: (coordinates, 1) resisting torque, N m or N.
+        inertia: (coordinates, coordinates) of the shafts.
+        state, rate: (k, 1) inner states and their time derivatives.
+        load: (coordinates, 1) symbols in these: torque that the links ask for.
+        fastest: rate of the inner states at top speed, 1/s.
+        temperatures: what thermometers read, by joint, degC.
+    """
+
+    torque: ca.SX
+    inertia: np.ndarray
+    state: ca.SX
+    rate: ca.SX
+    load: ca.SX
+    fastest: float
+    temperatures: dict[str, ca.SX]
+
+
+@dataclass(frozen=True)
+class _Acting:
+    """An effect on the shaft that turns with row . qd; `joint` sets its speed scale."""
+
+    name: str
+    joint: str
+    row: np.ndarray  # (moving rows,)
+    act: Callable[[Shaft], Contribution]
+
+
+def shaft_effects(
+    robot: Robot,
+    parameters: PlantParameters,
+    limits: tuple[Limits, ...],
+    links: RigidDynamics,
+    tie: tuple[np.ndarray, np.ndarray],
+    hidden: tuple[HiddenEffect, ...] = (),
+) -> ShaftEffects:
+    """The effects in the coordinates of `links`.
+
+    Args:
+        robot: with the effects of its file.
+        parameters: of these.
+        limits: in the order of `robot.moving`.
+        links: their coordinates u, and the torques that the links ask for.
+        tie: F and c of v = F u + c for the variables v of all moving rows.
+        hidden: further effects.
+    """
+    n = tie[0].shape[1]
+    load, torque, inertia = ca.SX.sym("load", n), ca.SX.zeros(n), np.zeros((n, n))
+    speeds = {j.name: limit.speed for j, limit in zip(robot.moving, limits, strict=True)}
+    found: list[Contribution] = []
+    temperatures: dict[str, ca.SX] = {}
+    for acting in _all_acting(robot, parameters, hidden):
+        row, contribution = _on_shaft(acting, links, tie, load, speeds[acting.joint])
+        torque += ca.SX(row) * contribution.torque
+        inertia += contribution.inertia * np.outer(row, row)
+        found.append(contribution)
+        if contribution.temperature is not None:
+            temperatures[acting.joint] = contribution.temperature
+    for effect in hidden:
+        if HIDDEN[effect.effect].role == "push":
+            found.append(_push(robot, effect, links, tie))
+            torque += found[-1].torque
+    state = ca.vertcat(ca.SX(0, 1), *(c.state for c in found))
+    rate = ca.vertcat(ca.SX(0, 1), *(c.rate for c in found))
+    fastest = max((c.fastest for c in found), default=0.0)
+    return ShaftEffects(torque, inertia, state, rate, load, fastest, temperatures)
+
+
+def _on_shaft(
+    acting: _Acting,
+    links: RigidDynamics,
+    tie: tuple[np.ndarray, np.ndarray],
+    load: ca.SX,
+    top: float,
+) -> tuple[np.ndarray, Contribution]:
+    """(coordinates,) shaft speed = row . ud, and what the effect adds there."""
+    turns, offset = tie
+    row = acting.row @ turns
+    shaft = Shaft(
+        position=ca.dot(ca.SX(row), links.q) + float(acting.row @ offset),
+        speed=ca.dot(ca.SX(row), links.qd),
+        settling=_CORE * top,
+        name=acting.name,
+        load=ca.dot(ca.SX(row), load),
+        top=top,
+    )
+    return row, acting.act(shaft)
+
+
+def _all_acting(
+    robot: Robot, parameters: PlantParameters, hidden: tuple[HiddenEffect, ...]
+) -> Iterator[_Acting]:
+    gone = {(old, h.joint) for h in hidden for old in HIDDEN[h.effect].replaces}
+    for joint in robot.moving:
+        for physics in effects_of(robot, joint.name):
+            if (physics.effect, joint.name) not in gone:
+                yield _of_file(robot, parameters, joint.name, physics)
+    for effect in hidden:
+        if HIDDEN[effect.effect].role == "shaft":
+            yield _of_hidden(robot, effect)
+
+
+def _of_file(
+    robot: Robot, parameters: PlantParameters, joint: str, physics: EffectPhysics
+) -> _Acting:
+    values = {p: parameters.standard[p + joint] for p in physics.prefixes}
+    return _Acting(
+        f"{physics.effect}_{joint}",
+        joint,
+        _shaft_row(robot, joint, physics),
+        lambda shaft: physics.act(shaft, values),
+    )
+
+
+def _of_hidden(robot: Robot, effect: HiddenEffect) -> _Acting:
+    kind = HIDDEN[effect.effect]
+    act = kind.act
+    assert act is not None and effect.joint is not None
+    names = [moving.name for moving in robot.moving]
+    row = np.zeros(len(names))
+    row[names.index(effect.joint)] = 1.0
+    if kind.where == "pair":
+        joints = [joint.name for joint in robot.coordinates]
+        after = joints[joints.index(effect.joint) + 1]
+        row[names.index(after)] = effect.values["ratio"]
+    return _Acting(
+        f"hidden_{effect.effect}_{effect.joint}",
+        effect.joint,
+        row,
+        lambda shaft: act(shaft, effect.values),
+    )
+
+
+def _push(
+    robot: Robot, effect: HiddenEffect, links: RigidDynamics, tie: tuple[np.ndarray, np.ndarray]
+) -> Contribution:
+    """-J^T F while it lasts, by the slope of the work F.p in the coordinates; a clock is a state.
+
+    F is along the axes of the world, p a point of the last link.
+    """
+    values = effect.values
+    turns, offset = tie
+    frame = world_frames(robot, ca.SX(turns) @ links.q + offset)[robot.moving[-1].name]
+    point = frame.position + frame.rotation @ ca.SX([values[k] for k in "xyz"])
+    work = ca.dot(ca.SX([values[k] for k in ("fx", "fy", "fz")]), point)
+    clock = ca.SX.sym("clock")
+    begun = ca.tanh((clock - values["start"]) / _RISE)
+    ended = ca.tanh((clock - values["start"] - values["length"]) / _RISE)
+    torque = -ca.jacobian(work, links.q).T * (begun - ended) / 2
+    return Contribution(torque=torque, state=clock, rate=ca.SX(1.0))
+
+
+def _shaft_row(robot: Robot, joint: str, physics: EffectPhysics) -> np.ndarray:
+    """(moving rows,) shaft speed = row . qd."""
+    names = [moving.name for moving in robot.moving]
+    row = np.zeros(len(names))
+    if not physics.on_motor:
+        row[names.index(joint)] = 1.0
+        return row
+    if joint not in robot.coupling:
+        raise RobotError(
+            f"robot {robot.name}, joint {joint}: {physics.effect} needs the motor's coupling; "
+            f'add {joint} = "q{joint} + ..." under [coupling]'
+        )
+    for name, coefficient in robot.coupling[joint].items():
+        row[names.index(name)] = coefficient
+    return row
+
+
+# Transmissions that give way: motor and link as two bodies with a spring between them.
+
+
+_FARTHEST = 0.3  # rad or m, that a link may be ahead of its motor at rest
+_HALVINGS = 60
+_SWEEPS = 4  # gravity couples what lies behind several transmissions, weakly
+
+
+@dataclass(frozen=True)
+class Transmissions:
+    """Those of a robot that give way.
+
+    Attributes:
+        rows: places of their joints among the free ones.
+        turns: (free joints, free joints + transmissions) F: positions of the links are F times
+            those of the motors and, after these, how far the links are ahead of them.
+        effects: of each.
+    """
+
+    rows: tuple[int, ...]
+    turns: np.ndarray
+    effects: tuple[HiddenEffect, ...]
+
+    def torque(self, ahead: ca.SX, rate: ca.SX) -> ca.SX:
+        """(transmissions, 1) torques that pull the links back to their motors, N m or N."""
+        torques = [ca.SX(0, 1)]
+        for i, effect in enumerate(self.effects):
+            spring = HIDDEN[effect.effect].spring
+            assert spring is not None
+            torques.append(spring(ahead[i], rate[i], effect.values))
+        return ca.vertcat(*torques)
+
+
+def transmissions_of(robot: Robot, hidden: tuple[HiddenEffect, ...]) -> Transmissions:
+    """The hidden effects that lie between motors and links."""
+    names = [joint.name for joint in robot.free]
+    effects = tuple(h for h in hidden if HIDDEN[h.effect].role == "transmission")
+    rows = tuple(names.index(effect.joint) for effect in effects if effect.joint)
+    unit = np.eye(len(names))
+    return Transmissions(rows, np.hstack([unit, unit[:, rows]]), effects)
+
+
+def settled(strain: ca.Function, q: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """(states,) inner states of a robot at rest: links sag until their springs carry them.
+
+    Args:
+        strain: (q, z) -> torque on each such link, rising with how far it is ahead.
+        q: motor positions.
+        z: (states,) of a robot whose links do not sag, those of the transmissions first.
+    """
+    z = z.copy()
+    for _ in range(_SWEEPS if strain.size1_out(0) else 0):
+        for i in range(strain.size1_out(0)):
+            low, high = -_FARTHEST, _FARTHEST
+            for _ in range(_HALVINGS):
+                z[i] = (low + high) / 2
+                pull = float(strain(q, z).full()[i, 0])
+                low, high = (low, z[i]) if pull > 0 else (z[i], high)
+    return z

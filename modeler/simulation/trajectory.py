@@ -1,0 +1,479 @@
+"""Commanded motion that excites a robot: moves at several speeds, then a Fourier series."""
+
+import io
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.csv as pacsv
+import pyarrow.parquet as pq
+from scipy.interpolate import BPoly, make_interp_spline
+
+from modeler.core.errors import DataError, RobotError
+from modeler.core.files import check_unpacked, read_file
+from modeler.robot.robot import Joint, Limits, Robot
+from modeler.simulation.portable_math import sine_and_cosine, ten_digits
+
+_MARGIN = 0.92  # of the limits: the joints overshoot the command a little
+_SPEEDS = (1.0, 0.6, 0.25, 1.0, 0.4, 0.1)  # of the top speed, taken in turn
+_LONGEST = 1.4  # s, of one move: slow moves are short ones
+_PAUSE = 0.05  # s, between moves
+_HARMONICS = 6
+_LOWEST = 0.1  # Hz, fundamental of the series
+_AS_FAST_AS_CAN_BE = (1.0,)
+_REST = 0.2  # s, before and after a joint moves alone
+_ALONE = (1.0, 0.5)  # of the top speed, of a joint that moves alone
+_PEAK_SPEED = 15 / 8  # of a quintic move of unit length and duration
+_PEAK_ACCELERATION = 10 / np.sqrt(3)
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """Commanded motion, sampled; twice continuously differentiable, at rest at both ends.
+
+    Attributes:
+        time: (n,) s.
+        q, qd, qdd: (n, joints), SI; qd and qdd are the exact derivatives.
+    """
+
+    time: np.ndarray
+    q: np.ndarray
+    qd: np.ndarray
+    qdd: np.ndarray
+
+
+def reference_motion(
+    motion: str,
+    limits: tuple[Limits, ...],
+    duration: float,
+    rate: float,
+    seed: int,
+    directions: np.ndarray | None = None,
+) -> Reference:
+    """The motion of that name: "exciting", "point-to-point" or "one-joint"."""
+    if motion == "one-joint":
+        return one_joint_reference(limits, duration, rate, seed, directions)
+    make = point_to_point_reference if motion == "point-to-point" else exciting_reference
+    return make(limits, duration, rate, seed)
+
+
+def widened(limits: tuple[Limits, ...], motion: Reference) -> tuple[Limits, ...]:
+    """Limits that hold the motion."""
+    peaks = (motion.q.min(0), motion.q.max(0), np.abs(motion.qd).max(0), np.abs(motion.qdd).max(0))
+    return tuple(
+        Limits(min(li.lower, low), max(li.upper, high), max(li.speed, v), max(li.acceleration, a))
+        for li, low, high, v, a in zip(limits, *(p.tolist() for p in peaks), strict=True)
+    )
+
+
+def point_to_point_reference(
+    limits: tuple[Limits, ...], duration: float, rate: float, seed: int
+) -> Reference:
+    """Quintic moves of all joints between random points, as fast as the limits allow.
+
+    The motion of Guegan, Khalil and Lemoine 2003 (ICRA, section 5). Arguments as those of
+    `exciting_reference`.
+
+    Raises:
+        DataError: no time for a move there and back, or what `exciting_reference` refuses.
+    """
+    path, time = _at_rest(limits, duration, rate)
+    rng = np.random.default_rng([seed, 4])
+    if _add_moves(path, time, limits, float(time[-1]), rng, exciting=False) == 0.0:
+        raise DataError(
+            f"reference motion: got duration {duration} s, too short for a move and back; expected "
+            "more, or faster [limits]"
+        )
+    return Reference(time, *path)
+
+
+def one_joint_reference(
+    limits: tuple[Limits, ...],
+    duration: float,
+    rate: float,
+    seed: int,
+    directions: np.ndarray | None = None,
+) -> Reference:
+    """One joint after the other moves alone, at ever new configurations of the others.
+
+    For a two-step identification (Hanssen, Hovland and Brogardh 2000, section 5): all coordinates
+    go to a random place, and one joint goes there and back over its range at several speeds.
+
+    Args:
+        limits: of the coordinates, in the order of q.
+        duration: s.
+        rate: samples per second.
+        seed: of the places.
+        directions: (joints, coordinates), the coordinates per joint; None: they are the joints.
+
+    Raises:
+        DataError: no time for one joint, or what `exciting_reference` refuses.
+    """
+    along = np.eye(len(limits)) if directions is None else directions
+    path, time = _at_rest(limits, duration, rate)
+    rng = np.random.default_rng([seed, 6])
+    middle = path[0, 0].copy()
+    now, here, turn = _PAUSE, middle.copy(), 0
+    while True:
+        steps, there = _there_and_back(limits, middle, here, along[turn % len(along)], rng)
+        moves = [(step, _move_time(step, limits, level)) for step, level in steps]
+        home = _move_time(middle - there, limits, 1.0)
+        if now + sum(lasts + _REST for _, lasts in moves) + home + _PAUSE > time[-1]:
+            break
+        for step, lasts in moves:
+            _add_move(path, time, now, lasts, step)
+            now += lasts + _REST
+        here, turn = there, turn + 1
+    _check_moved(turn, duration)
+    _add_move(path, time, now, _move_time(middle - here, limits, 1.0), middle - here)
+    return Reference(time, *path)
+
+
+def _check_moved(turns: int, duration: float) -> None:
+    if not turns:
+        raise DataError(
+            f"reference motion: got duration {duration} s, too short for one joint to move there "
+            "and back; expected more, or faster [limits]"
+        )
+
+
+def _there_and_back(
+    limits: tuple[Limits, ...],
+    middle: np.ndarray,
+    here: np.ndarray,
+    way: np.ndarray,
+    rng: np.random.Generator,
+) -> tuple[list[tuple[np.ndarray, float]], np.ndarray]:
+    """Steps and their speeds: to a random place, then along `way` over its range; and the place."""
+    reach = _MARGIN * np.array([(limit.upper - limit.lower) / 2 for limit in limits])
+    place = middle + reach * np.round(rng.uniform(-1, 1, len(limits)), 10)
+    first, last = _ends(place, way, middle - reach, middle + reach)
+    there, along = place + first * way, (last - first) * way
+    alone = [(sign * along, level) for level in _ALONE for sign in (1, -1)]
+    return [(there - here, 1.0), *alone], there
+
+
+def _ends(
+    place: np.ndarray, way: np.ndarray, lower: np.ndarray, upper: np.ndarray
+) -> tuple[float, float]:
+    """How far along `way` one can go from `place`, back and forth, within the range."""
+    moved = way != 0
+    sides = np.stack([(lower - place)[moved] / way[moved], (upper - place)[moved] / way[moved]])
+    return float(np.max(np.min(sides, axis=0))), float(np.min(np.max(sides, axis=0)))
+
+
+def exciting_reference(
+    limits: tuple[Limits, ...], duration: float, rate: float, seed: int
+) -> Reference:
+    """Point-to-point moves for the first half, a Fourier series for the rest, within the limits.
+
+    The moves are quintic polynomials at 10 to 100 % of the top speed, of all joints or of some of
+    them, so that friction is seen at several speeds and joints also move alone. The series
+    (Swevers et al. 1997, IEEE Trans. Robotics and Automation 13(5)) is faded in and out with a
+    quintic step.
+
+    Args:
+        limits: range of motion of each joint, in the order of q.
+        duration: s.
+        rate: samples per second.
+        seed: another seed gives another motion within the same limits.
+
+    Raises:
+        DataError: duration too short for one sample, or a rate not above 0.
+    """
+    path, time = _at_rest(limits, duration, rate)
+    rng = np.random.default_rng([seed, 2])
+    start = _add_moves(path, time, limits, duration / 2, rng)
+    _add_series(path, time, limits, start, float(time[-1]), rng)
+    return Reference(time, *path)
+
+
+def _at_rest(
+    limits: tuple[Limits, ...], duration: float, rate: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """(3, n, joints) positions in the middle of the range and their derivatives, and (n,) time."""
+    if not rate > 0 or not duration > 0 or not np.isfinite(duration * rate):
+        raise DataError(
+            f"reference motion: got duration {duration} s at {rate} samples per second; "
+            "expected both above 0"
+        )
+    count = round(duration * rate)
+    if count < 2:
+        raise DataError(
+            f"reference motion: duration {duration} s holds {count} samples at {rate} per second; "
+            "expected at least 2"
+        )
+    time = np.arange(count) / rate
+    middle = np.array([(limit.lower + limit.upper) / 2 for limit in limits])
+    path = np.zeros((3, count, len(limits)))
+    path[0] = middle
+    return path, time
+
+
+def _add_moves(
+    path: np.ndarray,
+    time: np.ndarray,
+    limits: tuple[Limits, ...],
+    until: float,
+    rng: np.random.Generator,
+    exciting: bool = True,
+) -> float:
+    """Moves from the middle and back to it; gives the time at which they end, 0 without any.
+
+    Exciting ones are of several speeds, some of only some joints, and none takes long.
+    """
+    speeds, longest = (_SPEEDS, _LONGEST) if exciting else (_AS_FAST_AS_CAN_BE, np.inf)
+    middle = path[0, 0].copy()
+    reach = _MARGIN * np.array([(limit.upper - limit.lower) / 2 for limit in limits])
+    now, here, turn = _PAUSE, middle.copy(), 0
+    while True:
+        level = speeds[turn % len(speeds)]
+        joins = rng.random(len(limits)) < (0.5 if exciting and turn % 3 == 2 else 1.1)
+        joins[rng.integers(len(limits))] = True
+        share = np.round(rng.uniform(-1, 1, len(limits)), 10)
+        target = np.where(joins, middle + reach * share, here)
+        needed = _move_time(target - here, limits, level)
+        target = here + (target - here) * min(1.0, longest / max(needed, 1e-9))
+        lasts = _move_time(target - here, limits, level)
+        home = _move_time(middle - target, limits, 1.0)
+        if now + lasts + home + 2 * _PAUSE > until:
+            break
+        _add_move(path, time, now, lasts, target - here)
+        now, here, turn = now + lasts + _PAUSE, target, turn + 1
+    back = _move_time(middle - here, limits, 1.0)
+    _add_move(path, time, now, back, middle - here)
+    return now + back + _PAUSE if turn else 0.0
+
+
+def _move_time(distance: np.ndarray, limits: tuple[Limits, ...], level: float) -> float:
+    """Duration of a quintic move of all joints together, none above level * top speed, s."""
+    speed = _MARGIN * level * np.array([limit.speed for limit in limits])
+    lift = _MARGIN * np.array([limit.acceleration for limit in limits])
+    length = np.abs(distance)
+    return float(
+        max(
+            np.max(_PEAK_SPEED * length / speed),
+            np.max(np.sqrt(_PEAK_ACCELERATION * length / lift)),
+        )
+    )
+
+
+def _add_move(
+    path: np.ndarray, time: np.ndarray, begin: float, lasts: float, distance: np.ndarray
+) -> None:
+    if lasts > 0:
+        step = _quintic_step((time - begin) / lasts)
+        for order in range(3):
+            path[order] += step[order][:, None] / lasts**order * distance
+
+
+def _quintic_step(s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """0 before s = 0, 1 after s = 1, with two continuous derivatives between; and these."""
+    x = np.clip(s, 0.0, 1.0)
+    value = x * x * x * (10 - 15 * x + 6 * x**2)
+    slope = 30 * x**2 * (1 - x) ** 2
+    bend = 60 * x * (1 - x) * (1 - 2 * x)
+    return value, slope, bend
+
+
+def _add_series(
+    path: np.ndarray,
+    time: np.ndarray,
+    limits: tuple[Limits, ...],
+    begin: float,
+    end: float,
+    rng: np.random.Generator,
+) -> None:
+    """A sum of harmonics for each joint, faded in from `begin` and out to `end`."""
+    lasts = end - begin
+    fade = min(1.0, lasts / 3)
+    lowest = max(_LOWEST, 1.0 / lasts)
+    rise = _quintic_step((time - begin) / fade)
+    fall = _quintic_step((time - (end - fade)) / fade)
+    window = [(rise[k] - fall[k]) / fade**k for k in range(3)]
+    for i, limit in enumerate(limits):
+        series = np.zeros((3, time.size))
+        for harmonic in range(1, _HARMONICS + 1):
+            omega = 2 * np.pi * lowest * harmonic * ten_digits(rng.uniform(0.9, 1.1))
+            phase = omega * (time - begin) + ten_digits(rng.uniform(0, 2 * np.pi))
+            size = ten_digits(rng.uniform(0.5, 1.0)) / harmonic
+            sine, cosine = sine_and_cosine(phase)
+            series += size * np.array([sine, omega * cosine, -(omega**2) * sine])
+        shaped = np.array([
+            window[0] * series[0],
+            window[1] * series[0] + window[0] * series[1],
+            window[2] * series[0] + 2 * window[1] * series[1] + window[0] * series[2],
+        ])  # fmt: skip
+        bounds = ((limit.upper - limit.lower) / 2, limit.speed, limit.acceleration)
+        peaks = np.max(np.abs(shaped), axis=1)
+        shares = [bound / peak for bound, peak in zip(bounds, peaks, strict=True) if peak > 0]
+        path[:, :, i] += shaped * _MARGIN * min(shares, default=0.0)
+
+
+# A commanded motion from a file: what `modeler excite` writes, or a log's commands.
+
+
+_DEGREE = 5  # of the spline through positions where derivatives are not given
+_LARGEST = 2**30  # bytes
+_FEWEST = _DEGREE + 1  # samples
+
+
+def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
+    """The motion of a CSV or Parquet file, with its own samples.
+
+    Columns by name: time, positions qc1.. (commanded) or else q1.., and qd1.., qdd1.. where all
+    joints have them; else the derivatives of a spline of degree five through the positions.
+
+    Args:
+        path: .csv or .parquet.
+        joints: names, in the order of the columns that are given back.
+
+    Raises:
+        DataError: no such file, a column that is missing or not a finite number, time that does
+            not increase, too few samples.
+    """
+    path = Path(path)
+    table = _table(path)
+    time = _column(table, path, "time")
+    if len(time) < _FEWEST:
+        raise DataError(f"{path}: got {len(time)} samples; expected {_FEWEST} or more")
+    if not np.all(np.diff(time) > 0.0):
+        row = int(np.argmin(np.diff(time) > 0.0)) + 2
+        raise DataError(f"{path}, row {row}: time does not increase; expected seconds in order")
+    prefix = "qc" if all(f"qc{joint}" in table.column_names for joint in joints) else "q"
+    path_of = {
+        p: np.column_stack([_column(table, path, f"{p}{joint}") for joint in joints])
+        for p in (prefix, "qd", "qdd")
+        if p == prefix or (prefix == "q" and f"{p}{joints[0]}" in table.column_names)
+    }
+    q = path_of[prefix]
+    if {"qd", "qdd"} <= path_of.keys():
+        return Reference(time - time[0], q, path_of["qd"], path_of["qdd"])
+    spline = make_interp_spline(time, q, k=_DEGREE)
+    return Reference(time - time[0], q, spline.derivative()(time), spline.derivative(2)(time))
+
+
+def at_rate(motion: Reference, rate: float) -> Reference:
+    """The motion at other samples: polynomials of degree five that meet all that is given."""
+    ends = np.stack([motion.q, motion.qd, motion.qdd], axis=1)
+    curve = BPoly.from_derivatives(motion.time, ends)
+    count = int(np.floor(motion.time[-1] * rate + 1e-9)) + 1
+    time = np.arange(count) / rate
+    at = np.minimum(time, motion.time[-1])
+    return Reference(time, curve(at), curve.derivative()(at), curve.derivative(2)(at))
+
+
+def _table(path: Path) -> pa.Table:
+    try:
+        content = read_file(path, _LARGEST)
+    except OSError as error:
+        raise DataError(
+            f"{path}: cannot be read ({error.strerror}); expected the file of a motion, or "
+            "exciting or point-to-point"
+        ) from None
+    if path.suffix not in (".parquet", ".csv"):
+        raise DataError(f"{path}: got suffix {path.suffix or '(none)'}; expected .csv or .parquet")
+    try:
+        if path.suffix == ".parquet":
+            file = pq.ParquetFile(io.BytesIO(content))
+            check_unpacked(path, 8 * file.metadata.num_rows * file.metadata.num_columns)
+            return file.read()
+        one_by_one = pacsv.ReadOptions(use_threads=False)  # which knows the row of an error
+        return pacsv.read_csv(io.BytesIO(content), one_by_one)
+    except (pa.ArrowException, OSError) as error:
+        first, table = (
+            str(error).splitlines()[0],
+            "CSV" if path.suffix == ".csv" else "Parquet file",
+        )
+        raise DataError(
+            f"{path}: cannot be read as a table of columns ({first}); correct it, or write the "
+            f"{table} again"
+        ) from None
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _column(table: pa.Table, path: Path, name: str) -> np.ndarray:
+    if name not in table.column_names:
+        raise DataError(
+            f"{path}: no column {name}; got {', '.join(table.column_names[:12])}; expected time "
+            "and q of every joint of the robot"
+        )
+    column = table[name].combine_chunks()
+    if not len(column):
+        raise DataError(f"{path}: got no rows; expected a motion of 6 samples or more")
+    if pa.types.is_string(column.type):
+        row = next((i for i, text in enumerate(column.to_pylist()) if not _is_number(text)), 0)
+        raise DataError(
+            f"{path}, row {row + 2}: {name} is {str(column[row])[:40]!r}; expected a number"
+        )
+    if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
+        raise DataError(f"{path}, column {name}: got {column.type}; expected numbers")
+    values = column.cast(pa.float64()).to_numpy(zero_copy_only=False)
+    if not np.all(np.isfinite(values)):
+        row = int(np.argmax(~np.isfinite(values))) + 2
+        raise DataError(f"{path}, row {row}: {name} is empty or not finite; expected a number")
+    return values
+
+
+# The range of motion a simulated robot is given.
+
+
+REVOLUTE = Limits(lower=-1.5, upper=1.5, speed=2.0, acceleration=8.0)
+"""Where the robot file says nothing: rad, rad/s, rad/s2."""
+
+PRISMATIC = Limits(lower=-0.3, upper=0.3, speed=0.5, acceleration=3.0)
+"""Where the robot file says nothing: m, m/s, m/s2."""
+
+
+_AROUND_HOME = 0.2  # of the defaults' range, for robots with loops
+
+
+def motion_limits(robot: Robot, changes: Mapping[str, Limits] | None = None) -> tuple[Limits, ...]:
+    """Limits in the order of `robot.moving`: `changes`, else the robot file, else the defaults.
+
+    A robot with loops moves around its home by default, and less: it could not close far away.
+
+    Raises:
+        RobotError: limits of a joint that is not there, or an empty range.
+    """
+    stated = {**robot.limits, **(changes or {})}
+    names = [joint.name for joint in robot.moving]
+    for name, limits in stated.items():
+        where = f"robot {robot.name}, limits of joint {name}"
+        if name not in names:
+            raise RobotError(f"{where}: no such moving joint; expected one of {', '.join(names)}")
+        _check(limits, where)
+    return tuple(stated.get(joint.name, _default(robot, joint)) for joint in robot.moving)
+
+
+def _default(robot: Robot, joint: Joint) -> Limits:
+    usual = REVOLUTE if joint.angular else PRISMATIC
+    if not robot.loops:
+        return usual
+    home, reach = robot.home.get(joint.name, 0.0), _AROUND_HOME * usual.upper
+    return Limits(home - reach, home + reach, usual.speed, usual.acceleration)
+
+
+def _check(limits: Limits, where: str) -> None:
+    values = (limits.lower, limits.upper, limits.speed, limits.acceleration)
+    if not all(math.isfinite(value) for value in values):
+        raise RobotError(f"{where}: got {values}; expected finite numbers")
+    if limits.lower >= limits.upper:
+        raise RobotError(
+            f"{where}: got lower {limits.lower}, upper {limits.upper}; expected lower < upper"
+        )
+    if limits.speed <= 0 or limits.acceleration <= 0:
+        raise RobotError(
+            f"{where}: got speed {limits.speed}, acceleration {limits.acceleration}; "
+            "expected both above 0"
+        )

@@ -1,0 +1,512 @@
+"""Measured against predicted: the numbers of each joint, as table and as JSON."""
+
+import dataclasses
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.core.json import nulled
+from modeler.core.result import Presented
+from modeler.core.table import POOLED, WORDS, aligned
+from modeler.numerics.spectra import OrderSpectrum, ResidualSpectrum, residual_spectrum, spans
+from modeler.validation.prediction import (
+    JointInfo,
+    Prediction,
+    check_prediction,
+    relative_error,
+    residual,
+    unit_errors,
+)
+from modeler.validation.repeatability import Repetition, Shares, repetitions, shares
+from modeler.validation.residual_structure import Structure, lines, ripple, structure
+
+if TYPE_CHECKING:
+    pass
+
+
+# The comparison as a table of plain text.
+
+
+_HEAD = ("joint", "error", "rms", "largest", "at", "R2", "repeatable", "noise", "bias")
+_LEFT = (0, 4)  # columns of text
+
+METHODS = {
+    "laps": "what returns in the other laps of the same log",
+    "logs": "what returns in the other logs of the same motion",
+    "smooth": "what smooth functions of the motion predict on stretches held out (no motion was "
+    "made twice)",
+}
+"""How the repeatable part of a residual was found."""
+
+
+def summary(comparison: "Comparison") -> str:
+    """One line per joint, units in the table; then what the shares mean, and each log."""
+    rows = [_HEAD, *(_row(item) for item in comparison.joints)]
+    lines = aligned(rows, _LEFT)
+    names = max((len(name) for name, _ in comparison.unjudged), default=0)
+    width = max(7, names + 1, *(len(row[0]) + 2 for row in rows))
+    lines += [f"{name:<{width}}not judged: {reason}" for name, reason in comparison.unjudged]
+    if len(comparison.by_unit) == 1:
+        lines.append(
+            f"{'all':<{width}}{or_dash(comparison.relative_error, '.1%')}  of "
+            f"{comparison.samples} samples"
+        )
+    else:  # N m and N add up to nothing
+        lines += [
+            f"{'all':<{width}}{or_dash(error, '.1%')}  of the {WORDS[unit]}s ({unit})"
+            for unit, error in comparison.by_unit.items()
+        ]
+        lines.append(f"{comparison.samples} samples")
+    lines += method_lines(comparison)
+    if len(comparison.logs) > 1:
+        lines += ["", *aligned(by_log(comparison), (0,))]
+    return "\n".join(line.rstrip() for line in lines)
+
+
+def share_text(share: float) -> str:
+    """A share of the variance in percent, two digits and more: small ones matter here."""
+    value = 100.0 * share
+    if abs(value) >= 10.0:
+        return f"{value:.1f}%"
+    return f"{value:.2g}%" if abs(value) >= 1e-4 else "0%"
+
+
+def method_lines(comparison: "Comparison") -> list[str]:
+    """What the shares are of, and how they were found, by method."""
+    methods = {item.shares.method for item in comparison.joints if item.shares is not None}
+    text = "R2, repeatable, noise: shares of the torque's variance; repeatable is "
+    return [f"{text}{METHODS[name]}" for name in METHODS if name in methods]
+
+
+def or_dash(value: float, form: str) -> str:
+    """A number, or a dash where it is not defined."""
+    return format(value, form) if math.isfinite(value) else "-"
+
+
+def _row(item: "JointComparison") -> tuple[str, ...]:
+    unit, found = item.joint.effort_unit, item.shares
+    return (
+        item.joint.name,
+        f"{item.relative_error:.1%}",
+        f"{item.rms:.3g} {unit:<3}",
+        f"{item.largest.value:.3g} {unit:<3}",
+        f"{item.largest.time:.2f} s of {item.largest.log}",
+        or_dash(item.r2, ".3f"),
+        "-" if found is None else share_text(found.systematic),
+        "-" if found is None else share_text(found.floor),
+        f"{item.bias:.2g} {unit:<3}",
+    )
+
+
+def by_log(comparison: "Comparison", error: str = "error") -> list[list[str]]:
+    """A head, and a row of each log; `error` is that of all joints together, by unit."""
+    units = comparison.by_unit
+    errors = [error] if len(units) == 1 else [f"{error} {unit}" for unit in units]
+    names = [f"joint {name}" for name, _ in comparison.logs[0].joints]
+    rows = [
+        [
+            item.log,
+            str(item.samples),
+            *(or_dash(error, ".1%") for error in item.by_unit.values()),
+            *(or_dash(error, ".1%") for _, error in item.joints),
+        ]
+        for item in comparison.logs
+    ]
+    return [["log", "samples", *errors, *names], *rows]
+
+
+# Where a joint fails: velocity regions and the worst moment.
+
+
+AROUND_ZERO = 0.05  # of the joint's own largest speed
+FAST = 0.4
+WINDOW = 0.5  # s
+
+REGIONS = ("fast -", "slow -", "around zero", "slow +", "fast +")
+
+
+@dataclass(frozen=True)
+class Region(Brief):
+    """Residual of one joint in one region of its velocity."""
+
+    name: str
+    low: float  # rad/s or m/s
+    high: float  # rad/s or m/s
+    samples: int
+    time_share: float  # of the samples that count
+    energy_share: float  # of the summed squared residual
+    rms: float  # N m or N; 0 without samples
+    bias: float  # mean residual, N m or N; 0 without samples
+
+
+@dataclass(frozen=True)
+class Window:
+    """The stretch of one log with the largest summed squared residual."""
+
+    log: str
+    segment: int
+    start: float  # s, as in the log
+    end: float  # s
+    energy_share: float  # of the joint's summed squared residual
+    time_share: float  # of the joint's samples that count
+    rms: float  # N m or N
+
+
+def velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...]:
+    """The five regions of REGIONS, thresholds as fractions of the largest speed.
+
+    Args:
+        qd: velocity of the rows that count, (n,).
+        e: residual of the same rows, (n,).
+    """
+    top = float(np.abs(qd).max())
+    edges = np.array([-FAST, -AROUND_ZERO, AROUND_ZERO, FAST]) * top
+    which = np.searchsorted(edges, qd, side="right")
+    which[np.abs(qd) <= AROUND_ZERO * top] = 2  # also a joint that never moves
+    limits = np.array([-top, *edges, top])
+    total = float(e @ e)
+    regions = []
+    for index, name in enumerate(REGIONS):
+        part = e[which == index]
+        energy = float(part @ part)
+        regions.append(
+            Region(
+                name=name,
+                low=float(limits[index]),
+                high=float(limits[index + 1]),
+                samples=part.size,
+                time_share=part.size / e.size,
+                energy_share=energy / total if total else 0.0,
+                rms=float(np.sqrt(energy / part.size)) if part.size else math.nan,
+                bias=float(part.mean()) if part.size else math.nan,
+            )
+        )
+    return tuple(regions)
+
+
+def worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -> Window:
+    """The window of `width` seconds, inside one segment, with the largest residual energy.
+
+    Args:
+        prediction: for log, segment and time of the rows.
+        e: residual of one joint on all rows, (n,), NaN where the row does not count.
+        width: s; a shorter segment is one window.
+    """
+    square = np.nan_to_num(e) ** 2
+    energy = np.concatenate(([0.0], np.cumsum(square)))
+    counted = np.concatenate(([0], np.cumsum(np.isfinite(e))))
+    best, first, last = -1.0, 0, 0
+    for span in spans(prediction.segment):
+        time = prediction.time[span]
+        # half a sample of slack, so that rounding of the time stamps does not cost a row
+        slack = 0.5 * float(np.median(np.diff(time))) if time.size > 1 else 0.0
+        stop = span.start + np.searchsorted(time, time + width - slack, side="right")
+        inside = energy[stop] - energy[span.start : span.stop]
+        top = int(np.argmax(inside))
+        if inside[top] > best:
+            best, first, last = float(inside[top]), span.start + top, int(stop[top])
+    rows = int(counted[last] - counted[first])
+    total = float(energy[-1])
+    return Window(
+        log=prediction.logs[prediction.run[first]],
+        segment=int(prediction.segment[first]),
+        start=float(prediction.time[first]),
+        end=float(prediction.time[last - 1]),
+        energy_share=best / total if total else 0.0,
+        time_share=rows / int(counted[-1]),
+        rms=float(np.sqrt(best / rows)) if rows else 0.0,
+    )
+
+
+_AGAINST = -0.7  # correlation of measured and predicted torque below which the sign is wrong
+_ALIKE = 0.9  # from which on they have one shape
+_OFF = 0.1  # a scale nearer to one is no wrong scale
+_EXPLAINS = 0.75  # of the squared residual, by the scale alone
+_FEWEST = 20  # samples
+
+
+@dataclass(frozen=True)
+class Scale:
+    """measured = factor * predicted + constant, by least squares."""
+
+    factor: float
+    correlation: float
+    mended: float  # share of the squared residual that the factor takes away
+
+    @property
+    def opposite(self) -> bool:
+        """True if the prediction has the wrong sign."""
+        return self.correlation < _AGAINST
+
+    @property
+    def off(self) -> bool:
+        """True if the prediction is right but for a factor."""
+        wrong = abs(self.factor - 1.0) > _OFF and self.mended > _EXPLAINS
+        return self.correlation > _ALIKE and wrong
+
+
+def scale(measured: np.ndarray, predicted: np.ndarray) -> Scale | None:
+    """The factor between two torques, (n,) each; None for too few samples or a constant."""
+    if measured.size < _FEWEST:
+        return None
+    m, p = measured - measured.mean(), predicted - predicted.mean()
+    squares, own = float(p @ p), float(m @ m)
+    if squares <= 0.0 or own <= 0.0:
+        return None
+    factor = float(m @ p) / squares
+    before, after = float(np.sum((m - p) ** 2)), float(np.sum((m - factor * p) ** 2))
+    return Scale(
+        factor=factor,
+        correlation=float(m @ p) / float(np.sqrt(squares * own)),
+        mended=1.0 - after / before if before > 0.0 else 0.0,
+    )
+
+
+@dataclass(frozen=True)
+class LogError(Brief):
+    """||measured - predicted|| / ||measured|| over the rows of one log that count."""
+
+    log: str
+    samples: int  # rows that count for at least one joint
+    relative_error: float  # all joints; NaN without torque
+    joints: tuple[tuple[str, float], ...]  # by joint name; NaN where nothing counts
+    by_unit: Mapping[str, float]  # all joints of one unit; NaN without torque
+
+
+def errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
+    """In the order of the logs."""
+    e = np.nan_to_num(residual(prediction))
+    measured = np.where(prediction.used, prediction.measured, 0.0)
+    found = []
+    for run, log in enumerate(prediction.logs):
+        rows = prediction.run == run
+        found.append(
+            LogError(
+                log=log,
+                samples=int(prediction.used[rows].any(axis=1).sum()),
+                relative_error=_relative(e[rows], measured[rows]),
+                joints=tuple(
+                    (info.name, _relative(e[rows, j], measured[rows, j]))
+                    for j, info in enumerate(prediction.joints)
+                ),
+                by_unit=unit_errors(prediction, rows),
+            )
+        )
+    return tuple(found)
+
+
+def _relative(e: np.ndarray, measured: np.ndarray) -> float:
+    size = float(np.linalg.norm(measured))
+    return float(np.linalg.norm(e)) / size if size > 0.0 else float("nan")
+
+
+@dataclass(frozen=True)
+class Moment:
+    """The sample with the largest absolute residual."""
+
+    value: float  # N m or N, absolute
+    log: str
+    time: float  # s, as in the log
+
+
+@dataclass(frozen=True, eq=False)
+class JointComparison(Brief):
+    """How one joint is predicted; N m for a revolute joint, N for a prismatic one."""
+
+    joint: JointInfo
+    index: int  # column of the prediction
+    samples: int  # rows that count
+    relative_error: float  # ||measured - predicted|| / ||measured||
+    rms: float  # of the residual
+    measured_rms: float
+    r2: float  # 1 - ||residual||^2 / ||measured - mean||^2; NaN for a constant torque
+    bias: float  # mean residual
+    largest: Moment
+    regions: tuple[Region, ...]
+    worst: Window
+    structure: Structure | None  # None: too few samples to tell
+    spectrum: ResidualSpectrum | None  # None: no segment long enough
+    shares: Shares | None  # None: too few samples to tell
+    scale: Scale | None  # None: too few samples, or a constant
+    orders: OrderSpectrum | None  # None: too few samples, or the joint rests
+    predicted_sigma: float | None  # rms standard deviation of the prediction; None: not known
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison(Presented):
+    """What `compare` found; carries the prediction so that pictures can be drawn from it."""
+
+    prediction: Prediction
+    samples: int  # rows that count for at least one joint
+    relative_error: float  # over all joints, rows stacked (N m and N together); NaN: no torque
+    joints: tuple[JointComparison, ...]
+    unjudged: tuple[tuple[str, str], ...]  # joint name, why
+    logs: tuple[LogError, ...]
+    repeated: tuple[Repetition, ...]  # empty: no motion was made twice
+    by_unit: Mapping[str, float]  # relative error over the joints of one unit; NaN: no torque
+
+    def as_dict(self) -> dict[str, Any]:
+        """The comparison as plain numbers and text; undefined numbers are None."""
+        return nulled({
+            "robot": self.prediction.robot,
+            "logs": list(self.prediction.logs),
+            "samples": self.samples,
+            "relative_error": self.relative_error,
+            "relative_error_pools": POOLED,
+            "by_unit": dict(self.by_unit),
+            "joints": {joint.joint.name: _joint_dict(joint) for joint in self.joints},
+            "unjudged": dict(self.unjudged),
+            "by_log": [_log_dict(log) for log in self.logs],
+            "repeated": [
+                {"method": item.kind, "periods": list(item.periods)} for item in self.repeated
+            ],
+        })  # fmt: skip
+
+    def to_json(self) -> str:
+        """JSON for scripts; fields may be added, never renamed."""
+        return json.dumps(self.as_dict(), indent=1, allow_nan=False) + "\n"
+
+    def summary(self) -> str:
+        """Plain-text table, one line per joint, units in the table."""
+        return summary(self)
+
+
+def compare(prediction: Prediction, looked: Prediction | None = None) -> Comparison:
+    """How well the torque is predicted, where it fails, and whether the residual has structure.
+
+    A joint none of whose rows count, or whose measured torque is zero in all of them, is listed
+    in `unjudged` with the reason.
+
+    Args:
+        prediction: measured and predicted.
+        looked: windows of long logs with the samples behind their rows, where ripple is looked for.
+
+    Raises:
+        ShapeError: an array of the prediction has the wrong shape.
+        DataError: nothing counts, or a value that counts is not finite.
+    """
+    check_prediction(prediction)
+    e = residual(prediction)
+    repeated = repetitions(prediction)
+    judged, unjudged = [], []
+    for index, info in enumerate(prediction.joints):
+        rows = prediction.used[:, index]
+        if not rows.any():
+            unjudged.append((info.name, "no sample counts (all masked)"))
+        elif not prediction.measured[rows, index].any():
+            unjudged.append((info.name, "measured torque is zero in every sample that counts"))
+        else:
+            judged.append(_compare_joint(prediction, index, e[:, index], repeated, looked))
+    used = prediction.used
+    return Comparison(
+        prediction=prediction,
+        samples=int(used.any(axis=1).sum()),
+        relative_error=relative_error(prediction),
+        joints=tuple(judged),
+        unjudged=tuple(unjudged),
+        logs=errors_by_log(prediction),
+        repeated=repeated,
+        by_unit=unit_errors(prediction),
+    )
+
+
+def _compare_joint(
+    prediction: Prediction, index: int, e: np.ndarray, repeated: tuple[Repetition, ...],
+    looked: Prediction | None,
+) -> JointComparison:  # fmt: skip
+    rows = prediction.used[:, index]
+    counted, measured = e[rows], prediction.measured[rows, index]
+    top = int(np.nanargmax(np.abs(e)))
+    spread = float(np.sum((measured - measured.mean()) ** 2))
+    energy = float(counted @ counted)
+    found = structure(prediction, index)
+    return JointComparison(
+        joint=prediction.joints[index],
+        index=index,
+        samples=int(rows.sum()),
+        relative_error=float(np.sqrt(energy) / np.linalg.norm(measured)),
+        rms=float(np.sqrt(energy / counted.size)),
+        measured_rms=float(np.sqrt(np.mean(measured**2))),
+        r2=1.0 - energy / spread if spread > 0.0 else math.nan,
+        bias=float(counted.mean()),
+        largest=Moment(
+            value=float(abs(e[top])),
+            log=prediction.logs[prediction.run[top]],
+            time=float(prediction.time[top]),
+        ),
+        regions=velocity_regions(prediction.qd[rows, index], counted),
+        worst=worst_window(prediction, e),
+        structure=found,
+        spectrum=residual_spectrum(prediction.time, prediction.segment, e),
+        shares=shares(prediction, index, e, repeated, found),
+        scale=scale(measured, prediction.predicted[rows, index]),
+        orders=ripple(looked or prediction, index),
+        predicted_sigma=None
+        if prediction.sigma is None
+        else float(np.sqrt(np.mean(prediction.sigma[rows, index] ** 2))),
+    )
+
+
+def _joint_dict(item: JointComparison) -> dict[str, Any]:
+    found, colour = item.structure, item.spectrum
+    return {
+        "relative_error": item.relative_error,
+        "rms": item.rms,
+        "max": item.largest.value,
+        "r2": item.r2,
+        "max_at": {"log": item.largest.log, "time": item.largest.time},
+        "unit": item.joint.effort_unit,
+        "samples": item.samples,
+        "bias": item.bias,
+        "predicted_sigma": item.predicted_sigma,
+        "regions": [dataclasses.asdict(region) for region in item.regions],
+        "worst_window": dataclasses.asdict(item.worst),
+        "structure": None
+        if found is None
+        else {
+            "shares": dict(found.shares),
+            "together": found.together,
+            "across": dict(found.across),
+            "motors": dict(found.motors),
+            "follows": dataclasses.asdict(found.follows),
+        },
+        "spectrum": None
+        if colour is None
+        else {
+            "memory": colour.memory,
+            "lag_one": float(colour.correlation[1]),
+            "peak": colour.peak,
+            "peak_share": colour.peak_share,
+        },
+        **_shares_dict(item),
+        "scale": None if item.scale is None else dataclasses.asdict(item.scale),
+        "orders": None
+        if item.orders is None
+        else [dataclasses.asdict(line) for line in lines(item.orders, item.joint.unit)],
+    }
+
+
+def _shares_dict(item: JointComparison) -> dict[str, Any]:
+    found = item.shares
+    return {
+        "explained": item.r2,
+        "systematic": None if found is None else found.systematic,
+        "floor": None if found is None else found.floor,
+        "method": None if found is None else found.method,
+        "systematic_sigma": None if found is None else found.sigma,
+    }
+
+
+def _log_dict(found: LogError) -> dict[str, Any]:
+    return {
+        "log": found.log,
+        "samples": found.samples,
+        "relative_error": found.relative_error,
+        "by_unit": dict(found.by_unit),
+        "joints": dict(found.joints),
+    }

@@ -1,0 +1,219 @@
+"""Forward dynamics of a fitted robot: M(q) qdd = tau - h(q, qd) - C(q)^T (a sign(C qd)).
+
+All from the compiled C: M is its inertia matrix; h + C^T a sign is its inverse dynamics less M qdd.
+What leaps where a shaft changes its direction is dry friction: C holds the shafts, a their torques,
+found by evaluating the C at both sides of standstill. They are apart because at standstill dry
+friction is no function of the speed: it takes any value between its bounds that holds the shaft.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.observation.low_speed import shafts
+from modeler.runtime.model import CompiledModel
+
+_CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
+_STILL = 1e-12  # below, a shaft stands
+_FLOOR = 1e-6  # least eigenvalue of M with unit diagonal, below which it is no inertia matrix
+
+
+@dataclass(frozen=True, eq=False)
+class Forces:
+    """What acts in states, b of them side by side, n joints, k shafts.
+
+    Attributes:
+        M: (b, n, n) inertia matrix.
+        smooth: (b, n) h, N m or N: all but inertia and dry friction.
+        C: (b, k, n) speeds of the shafts are C qd.
+        dry: (b, k) a, bounds of dry friction on the shafts.
+    """
+
+    M: np.ndarray
+    smooth: np.ndarray
+    C: np.ndarray
+    dry: np.ndarray
+
+
+class Plant:
+    """The robot of a model with its values.
+
+    Args:
+        model: its C.
+        beta: (c,) base parameters, SI units.
+
+    Attributes:
+        joints: n.
+        shafts: k.
+    """
+
+    def __init__(self, model: CompiledModel, beta: np.ndarray) -> None:
+        self.model, self.beta = model, np.asarray(beta, dtype=float)
+        self.joints = len(model.spec.joints)
+        closure = model.spec.closure
+        rubbing = {p.joint for p in model.spec.standard if p.kind == "friction"}
+        if closure is None:
+            self._rows = np.array([part.coefficients for part in shafts(model)])
+            self._rows = self._rows.reshape(-1, self.joints)
+            self._places: list[int] = []
+            self.shafts = len(self._rows)
+        else:
+            self._places = [i for i, name in enumerate(closure.variables) if name in rubbing]
+            self.shafts = len(self._places)
+        self._slips = [
+            (i, [joint.name for joint in model.spec.joints].index(signal.joint), signal.value)
+            for i, signal in enumerate(model.spec.signals)
+            if signal.kind == "slip"
+        ]
+
+    def reaches(self, q: np.ndarray) -> np.ndarray:
+        """(b,) True where the loops close; everywhere without loops."""
+        if self.model.spec.closure is None:
+            return np.ones(len(q), dtype=bool)
+        return np.asarray(self.model.closing_status(q) == 0)
+
+    def check_inertia(self, q: np.ndarray) -> None:
+        """Refuses values with which some posture among q (b, n) has no inertia.
+
+        Raises:
+            DataError: says how often, and which joint is lightest.
+        """
+        M = self.model.inertia_matrix(q, self.beta)
+        diagonal = np.abs(np.median(np.einsum("sjj->sj", M), axis=0))
+        scale = np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+        values, vectors = np.linalg.eigh(M / np.outer(scale, scale))
+        bad = values[:, 0] < _FLOOR
+        if bad.any():
+            light = int(np.argmax(np.abs(vectors[np.argmin(values[:, 0]), :, 0])))
+            raise DataError(
+                f"{self.model.spec.robot}: with the fitted values the inertia matrix is not "
+                f"positive definite in {100 * float(np.mean(bad)):.3g} % of the postures, most at "
+                f"joint {self.model.spec.joints[light].name}, so no motion follows from a torque; "
+                "expected the inertia of a body; fit with `--method consistent`, or record more "
+                "motion of that joint"
+            )
+
+    def forces(
+        self,
+        q: np.ndarray,
+        qd: np.ndarray,
+        qdd: np.ndarray,
+        s: np.ndarray | None,
+        dry: np.ndarray | None = None,
+    ) -> Forces:
+        """What acts in states.
+
+        Args:
+            q: (b, n) positions.
+            qd: (b, n) speeds.
+            qdd: about what the acceleration is: it enters friction that depends on the load.
+            s: (b, m) signals.
+            dry: (b, k) bounds of dry friction where they are known from a state nearby.
+        """
+        M = self.model.inertia_matrix(q, self.beta)
+        C = self.directions(q)
+        if not self.shafts:
+            return Forces(M, self._rest(M, q, qd, qdd, s), C, np.zeros((len(q), 0)))
+        away = _turning(C, qd)
+        if dry is None:
+            dry = self._dry(M, C, q, away, qdd, s)
+        told = np.einsum("bkn,bk->bn", C, dry * np.sign(_speeds(C, away)))
+        return Forces(M, self._rest(M, q, away, qdd, s) - told, C, dry)
+
+    def smooth(
+        self, forces: Forces, q: np.ndarray, qd: np.ndarray, s: np.ndarray | None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """M (b, n, n) and h (b, n) beside a state whose forces are known: its dry friction holds.
+
+        For difference quotients: steps that are small beside the state, or cross standstill.
+        """
+        M = self.model.inertia_matrix(q, self.beta)
+        rest = self._rest(M, q, qd, np.zeros_like(q), s)
+        C = forces.C if self.model.spec.closure is None else self.directions(q)
+        told = np.einsum("bkn,bk->bn", C, forces.dry * np.sign(_speeds(C, qd)))
+        return M, rest - told
+
+    def directions(self, q: np.ndarray) -> np.ndarray:
+        """(b, k, n) rows of C."""
+        if self.model.spec.closure is None:
+            return np.broadcast_to(self._rows, (len(q), *self._rows.shape))
+        return self.model.coupling(q)[:, self._places]
+
+    def turned(self, s: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """(b, m) signals after the joints have moved by `step` (b, n): bristles turn."""
+        if not self._slips:
+            return s
+        s = s.copy()
+        for place, joint, distance in self._slips:
+            s[:, place] = _turned(s[:, place], step[:, joint], distance)
+        return s
+
+    @property
+    def slipping(self) -> list[int]:
+        """Places in s of what is part of the state."""
+        return [place for place, _, _ in self._slips]
+
+    def _rest(
+        self,
+        M: np.ndarray,
+        q: np.ndarray,
+        qd: np.ndarray,
+        qdd: np.ndarray,
+        s: np.ndarray | None,
+    ) -> np.ndarray:
+        tau = self.model.inverse_dynamics(q, qd, qdd, self.beta, s)
+        return np.asarray(tau - np.einsum("bij,bj->bi", M, qdd))
+
+    def _dry(
+        self,
+        M: np.ndarray,
+        C: np.ndarray,
+        q: np.ndarray,
+        qd: np.ndarray,
+        qdd: np.ndarray,
+        s: np.ndarray | None,
+    ) -> np.ndarray:
+        """(b, k) half the leap of the torque where one shaft after the other turns."""
+        b, k, n = C.shape
+        way = np.linalg.solve(M, C.transpose(0, 2, 1))  # (b, n, k)
+        own = np.einsum("bkn,bnk->bk", C, way)
+        way = way / np.where(own > 0.0, own, 1.0)[:, None, :]
+        still = qd[:, None, :] - (way * _speeds(C, qd)[:, None, :]).transpose(0, 2, 1)
+        apart = _CREEP * way.transpose(0, 2, 1)
+        states = np.stack([still + apart, still - apart]).reshape(-1, n)  # (2 b k, n)
+
+        def tiled(values: np.ndarray) -> np.ndarray:
+            return np.tile(np.repeat(values, k, axis=0), (2, 1))
+
+        tau = self.model.inverse_dynamics(
+            tiled(q), states, tiled(qdd), self.beta, None if s is None else tiled(s)
+        )
+        leap = tau.reshape(2, b, k, n)
+        half = 0.5 * (leap[0] - leap[1])
+        squared = np.einsum("bkn,bkn->bk", C, C)
+        along = np.einsum("bkn,bkn->bk", C, half) / np.where(squared > 0.0, squared, 1.0)
+        return np.maximum(along, 0.0)  # below 0: no friction, but a fault of the fit; it stays in h
+
+
+def _turned(z: np.ndarray, step: np.ndarray, distance: float) -> np.ndarray:
+    """(b,) bristles z after a travel `step`: s + (z - s) exp(-|step|/distance), s its sign."""
+    way = np.sign(step)
+    return np.asarray(way + (z - way) * np.exp(-np.abs(step) / distance))
+
+
+def _speeds(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
+    return np.asarray(np.einsum("bkn,bn->bk", C, qd))
+
+
+def _turning(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
+    """qd with shafts that stand made to creep, so that the C and we see the same sign."""
+    speeds = _speeds(C, qd)
+    standing = np.abs(speeds) < _STILL
+    if not standing.any():
+        return qd
+    there = standing.any(axis=1)
+    pushed = np.where(standing[there], _CREEP, 0.0)
+    moved = qd.copy()
+    moved[there] += np.einsum("bnk,bk->bn", np.linalg.pinv(C[there]), pushed)
+    return moved

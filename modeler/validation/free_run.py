@@ -1,0 +1,555 @@
+"""A free run: windows from measured states, whole logs, and what the robot's nature adds."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.observation.log import Log
+from modeler.observation.low_speed import signals_of
+from modeler.observation.motion import Segment
+from modeler.observation.observation import Observation, observe
+from modeler.runtime.model import CompiledModel
+from modeler.validation.controlled import Gains, controlled
+from modeler.validation.forward_dynamics import Forces, Plant
+from modeler.validation.free_run_result import FreeRun, JointFreeRun, Path
+from modeler.validation.stability import (
+    Along,
+    Stability,
+    fit_percentage,
+    horizons,
+    ranges_of,
+    stability,
+)
+
+# Robots side by side under given torques: Adams and Bashforth, and dry friction that can hold.
+#
+# The smooth part goes by the rule of order 2. Dry friction is implicit, as Moreau's stepping has it
+# (J. J. Moreau, "Unilateral contact and dry friction in finite freedom dynamics", 1988): the torque
+# of a shaft at the end of a step is its bound against its speed there, or any value within the
+# bounds if it stands. So a shaft that friction holds stays where it is, without chatter at any
+# step.
+
+
+_SWEEPS = 60  # of the relaxation over shafts that stick or turn
+_SETTLED = 1e-10  # of the speed that dry friction takes in a step
+
+
+@dataclass(frozen=True, eq=False)
+class Lanes:
+    """What b robots are given over the same number of samples.
+
+    Attributes:
+        q, qd: (b, n) state at the start.
+        tau: (samples, b, n) torque at the samples, linear between them, N m or N.
+        signals: (samples, b, m) what effects read, or None.
+        step: s between samples.
+        far: (n,) rad or m from `around`, at which a robot is lost.
+        around: (samples, b, n) positions that were logged.
+    """
+
+    q: np.ndarray
+    qd: np.ndarray
+    tau: np.ndarray
+    signals: np.ndarray | None
+    step: float
+    far: np.ndarray
+    around: np.ndarray
+
+
+def walk(
+    plant: Plant,
+    lanes: Lanes,
+    inner: int,
+    ended: np.ndarray | None = None,
+    tell: Callable[[float], None] | None = None,
+) -> np.ndarray:
+    """(samples, b, n) positions; NaN from where a robot is lost or its loops no longer close.
+
+    Args:
+        plant: the robot.
+        lanes: what it is given.
+        inner: steps between two samples.
+        ended: (b,) sample after which a robot need not be followed.
+        tell: called with the share done.
+    """
+    samples, b, n = lanes.tau.shape
+    path = np.full((samples, b, n), np.nan)
+    state = _State.at(plant, lanes)
+    ended = np.full(b, samples - 1) if ended is None else ended
+    live = np.arange(b)
+    for k in range(samples):
+        path[k, live] = state.q[live]
+        live = live[ended[live] > k]
+        if k == samples - 1 or not len(live):
+            break
+        if tell is not None:
+            tell(k / samples)
+        state.read(plant, lanes.signals, k)
+        dry = None
+        for m in range(inner):
+            sound = _sound(plant, state, live, lanes.around[k], lanes.far)
+            live, dry = live[sound], None if dry is None else dry[sound]
+            if not len(live):
+                return path
+            share = m / inner  # the rule looks half a step ahead by itself
+            tau = (1.0 - share) * lanes.tau[k, live] + share * lanes.tau[k + 1, live]
+            dry = state.step(plant, live, tau, lanes.step / inner, dry)
+    return path
+
+
+@dataclass(eq=False)
+class _State:
+    """Of b robots; changed in place, those that are lost stay as they were."""
+
+    q: np.ndarray
+    qd: np.ndarray
+    qdd: np.ndarray
+    smooth: np.ndarray  # the acceleration without dry friction one step before
+    pull: np.ndarray  # dry friction as a share of its bounds
+    s: np.ndarray | None
+
+    @classmethod
+    def at(cls, plant: Plant, lanes: Lanes) -> "_State":
+        b, n = lanes.q.shape
+        signals = None if lanes.signals is None else lanes.signals[0].copy()
+        return cls(
+            lanes.q.copy(), lanes.qd.copy(), np.zeros((b, n)), np.full((b, n), np.nan),
+            np.zeros((b, plant.shafts)), signals,
+        )  # fmt: skip
+
+    def read(self, plant: Plant, signals: np.ndarray | None, k: int) -> None:
+        """Signals of sample k; bristles are part of the state and stay."""
+        if self.s is not None and signals is not None:
+            held = self.s[:, plant.slipping].copy()
+            self.s = signals[k].copy()
+            self.s[:, plant.slipping] = held
+
+    def step(
+        self, plant: Plant, live: np.ndarray, tau: np.ndarray, h: float, dry: np.ndarray | None
+    ) -> np.ndarray:
+        """One step of h s for those that live; the bounds of their dry friction."""
+        q, qd = self.q[live], self.qd[live]
+        own = None if self.s is None else self.s[live]
+        forces = plant.forces(q, qd, self.qdd[live], own, dry)
+        smooth = np.linalg.solve(forces.M, (tau - forces.smooth)[:, :, None])[:, :, 0]
+        before = self.smooth[live]
+        before = np.where(np.isnan(before), smooth, before)
+        free = qd + h * (1.5 * smooth - 0.5 * before)
+        speed, self.pull[live] = _rubbed(forces, free, self.pull[live], h)
+        moved = 0.5 * h * (qd + speed)
+        self.smooth[live], self.qdd[live] = smooth, (speed - qd) / h
+        self.q[live], self.qd[live] = q + moved, speed
+        if self.s is not None:
+            self.s[live] = plant.turned(self.s[live], moved)
+        return forces.dry
+
+
+def _sound(
+    plant: Plant, state: _State, live: np.ndarray, around: np.ndarray, far: np.ndarray
+) -> np.ndarray:
+    """(live,) True where the state is one that can be gone on from."""
+    q, qd = state.q[live], state.qd[live]
+    kept = np.isfinite(q).all(axis=1) & np.isfinite(qd).all(axis=1)
+    kept &= (np.abs(np.where(np.isfinite(q), q, np.inf) - around[live]) < far).all(axis=1)
+    if kept.any():
+        kept[kept] = plant.reaches(q[kept])
+    return np.asarray(kept)
+
+
+def _rubbed(
+    forces: Forces, free: np.ndarray, pull: np.ndarray, h: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Speeds (b, n) after dry friction, and its share of its bound, (b, k) in -1 ... 1.
+
+    Args:
+        forces: at the beginning of the step.
+        free: (b, n) speeds as they would be without it.
+        pull: (b, k) the last share, to start from.
+        h: s.
+    """
+    C, dry = forces.C, forces.dry
+    if not dry.size or not dry.any():
+        return free, np.zeros_like(pull)
+    way = np.linalg.solve(forces.M, C.transpose(0, 2, 1)) * (h * dry)[:, None, :]  # (b, n, k)
+    speeds = np.einsum("bkn,bn->bk", C, free)
+    taken = np.einsum("bkn,bnl->bkl", C, way)
+    sliding = np.sign(speeds) * (dry > 0.0)
+    after = speeds - np.einsum("bkl,bl->bk", taken, sliding)
+    turns = ((np.sign(after) != sliding) & (dry > 0.0)).any(axis=1)
+    found = sliding
+    if turns.any():
+        found[turns] = _relaxed(speeds[turns], taken[turns], dry[turns] > 0.0, pull[turns])
+    return free - np.einsum("bnk,bk->bn", way, found), found
+
+
+def _relaxed(
+    speeds: np.ndarray, taken: np.ndarray, rubs: np.ndarray, pull: np.ndarray
+) -> np.ndarray:
+    """(b, k) p in -1 ... 1: p = sign(u), or u = 0, u = speeds - taken p; one by one, repeated."""
+    p = np.where(rubs, pull, 0.0)
+    own = np.einsum("bkk->bk", taken)
+    own = np.where(own > 0.0, own, 1.0)
+    for _ in range(_SWEEPS):
+        change = 0.0
+        for k in range(p.shape[1]):
+            left = speeds[:, k] - np.einsum("bl,bl->b", taken[:, k], p)
+            new = np.where(rubs[:, k], np.clip(p[:, k] + left / own[:, k], -1.0, 1.0), 0.0)
+            change = max(change, float(np.abs(new - p[:, k]).max(initial=0.0)))
+            p[:, k] = new
+        if change < _SETTLED:
+            break
+    return p
+
+
+_LONGEST = 2e-3  # s, of a step
+_STABLE = 0.4  # of a step times the fastest mode
+_MOST_INNER = 200  # steps between two samples
+_FOLLOWED = 5.0  # windows that a start is followed for the horizon
+_MOST_WINDOWS = 100
+_WHOLE = 60.0  # s of a log that are followed from its start
+_LOST = 10.0  # ranges of motion from the log
+_POINTS = 2000  # at which the motion is linearised, over all logs
+_HALVED = 5  # windows that are run again at half the step
+_DOUBTFUL = 0.01  # of the range: a numerical error that is told
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is asked of a free run.
+
+    Attributes:
+        window: s.
+        bound: share of a joint's range of motion, for the horizon.
+        gains: of a controller, where one is given.
+    """
+
+    window: float = 1.0
+    bound: float = 0.05
+    gains: Gains | None = None
+
+
+@dataclass(frozen=True)
+class _Start:
+    """A robot set off at sample `first` of a segment, until `stop` at most."""
+
+    segment: int
+    first: int
+    stop: int
+
+
+def free_run(
+    model: IdentifiedModel,
+    logs: Sequence[Log],
+    compiled: CompiledModel,
+    asked: Asked | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> FreeRun:
+    """Positions that the fitted robot takes under the logged torques, beside the measured ones.
+
+    Args:
+        model: fitted.
+        logs: read with its manifest; torques in N m or N, positions in rad or m.
+        compiled: its robot.
+        asked: window, bound and controller.
+        progress: called with the share done.
+
+    Raises:
+        DataError: a number out of its range, logs shorter than a window, or values with which the
+            robot has no inertia.
+    """
+    asked = asked or Asked()
+    _check(asked)
+    observation = observe(compiled, logs, model.processing)
+    segments = [part.segment for part in observation.stretches]
+    starts = _starts(segments, asked.window)
+    plant = Plant(compiled, model.beta)
+    every = np.concatenate([segment.q[segment.whole] for segment in segments])
+    plant.check_inertia(every[:: max(1, len(every) // 500)])
+    nature = stability(plant, _along(observation, segments, compiled))
+    ranges = ranges_of(every, [joint.unit for joint in observation.joints])
+    field = _Field(plant, segments, nature.fastest, ranges, compiled)
+    return _run(model, compiled, observation, field, starts, nature, asked, progress)
+
+
+def _run(
+    model: IdentifiedModel,
+    compiled: CompiledModel,
+    observation: Observation,
+    field: "_Field",
+    starts: Sequence[_Start],
+    nature: Stability,
+    asked: Asked,
+    progress: Callable[[float], None] | None,
+) -> FreeRun:
+    tell = progress or (lambda share: None)
+    tell(0.1)
+    runs, numerical = _windows(field, starts, asked, tell)
+    whole = _whole(field, lambda share: tell(0.5 + 0.3 * share))
+    tell(0.8)
+    under, doubt = controlled(compiled, model.beta, observation, asked.gains)
+    tell(1.0)
+    every = range(len(field.ranges))
+    return FreeRun(
+        robot=observation.robot,
+        logs=observation.logs,
+        window=asked.window,
+        bound=asked.bound,
+        ranges=field.ranges,
+        windows=len(runs.paths),
+        longest=_FOLLOWED * asked.window,
+        joints=tuple(_joint(j, observation, runs, whole, asked, field.ranges) for j in every),
+        stability=nature,
+        numerical=numerical,
+        controlled=under,
+        paths=runs.paths,
+        doubts=tuple(_doubts(numerical, field.segments, starts, asked, nature, doubt)),
+    )
+
+
+def _check(asked: Asked) -> None:
+    for name, value in (("--window", asked.window), ("--bound", asked.bound)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise DataError(f"{name}: got {value:g}; expected a number above 0")
+
+
+def _seconds(segment: Segment) -> float:
+    return float(np.count_nonzero(segment.whole) * segment.step)
+
+
+def _inside(segment: Segment) -> tuple[int, int]:
+    """First sample off the edges of the filter, and the one after the last."""
+    whole = np.flatnonzero(segment.whole)
+    return (int(whole[0]), int(whole[-1]) + 1) if len(whole) else (0, 0)
+
+
+def _starts(segments: Sequence[Segment], window: float) -> list[_Start]:
+    """One window after the other; of many, some that are evenly spread."""
+    found = []
+    for i, segment in enumerate(segments):
+        first, stop = _inside(segment)
+        length = max(2, round(window / segment.step) + 1)
+        found += [_Start(i, k, stop) for k in range(first, stop - length + 1, length - 1)]
+    if not found:
+        longest = max(_seconds(segment) for segment in segments)
+        raise DataError(
+            f"--window {window:g}: the longest uninterrupted motion of these logs is "
+            f"{longest:.3g} s; expected a window that fits into it"
+        )
+    kept = np.unique(np.linspace(0, len(found) - 1, min(len(found), _MOST_WINDOWS)).astype(int))
+    return [found[k] for k in kept]
+
+
+def _along(
+    observation: Observation, segments: Sequence[Segment], compiled: CompiledModel
+) -> list[Along]:
+    samples = sum(segment.samples for segment in segments)
+    found = []
+    for segment in segments:
+        first, stop = _inside(segment)
+        thinned = slice(first, stop, max(1, samples // _POINTS))
+        signals = signals_of(compiled.spec, segment)
+        if len(segment.time[thinned]) > 1:
+            found.append(
+                Along(
+                    observation.logs[segment.run], segment.time[thinned], segment.q[thinned],
+                    segment.qd[thinned], segment.tau[thinned],
+                    None if signals is None else signals[thinned],
+                )
+            )  # fmt: skip
+    return found
+
+
+class _Field:
+    """Where robots run: the logged torques, and how finely."""
+
+    def __init__(
+        self,
+        plant: Plant,
+        segments: Sequence[Segment],
+        fastest: float,
+        ranges: np.ndarray,
+        compiled: CompiledModel,
+    ) -> None:
+        self.plant, self.segments, self.ranges = plant, segments, ranges
+        self.finest = min(_LONGEST, _STABLE / fastest if fastest > 0.0 else _LONGEST)
+        self.far = _LOST * np.where(np.isfinite(ranges), ranges, np.inf)
+        self.signals = [signals_of(compiled.spec, segment) for segment in segments]
+
+    def run(
+        self,
+        starts: Sequence[_Start],
+        seconds: float,
+        halved: bool = False,
+        tell: Callable[[float], None] | None = None,
+    ) -> tuple[list[np.ndarray], list[np.ndarray]]:
+        """Simulated and measured positions (p, n) of each start, p until its end or `seconds`."""
+        simulated: list[np.ndarray] = [np.empty(0)] * len(starts)
+        measured: list[np.ndarray] = [np.empty(0)] * len(starts)
+        steps = [float(f"{self.segments[start.segment].step:.6g}") for start in starts]
+        for step in sorted(set(steps)):
+            own = [i for i, other in enumerate(steps) if other == step]
+            length = round(seconds / step) + 1
+            chosen = [starts[i] for i in own]
+            counts = np.array([min(length, start.stop - start.first) for start in chosen])
+            lanes = self._lanes(chosen, int(counts.max()), step)
+            inner = min(_MOST_INNER, math.ceil(step / self.finest)) * (2 if halved else 1)
+            path = walk(self.plant, lanes, inner, counts - 1, tell)
+            for place, i in enumerate(own):
+                simulated[i] = path[: counts[place], place]
+                measured[i] = lanes.around[: counts[place], place]
+        return simulated, measured
+
+    def _lanes(self, starts: Sequence[_Start], length: int, step: float) -> Lanes:
+        def stacked(of: Callable[[int], np.ndarray]) -> np.ndarray:
+            return np.stack(
+                [
+                    of(start.segment)[np.minimum(start.first + np.arange(length), start.stop - 1)]
+                    for start in starts
+                ],
+                axis=1,
+            )
+
+        signals = None
+        if self.signals and self.signals[0] is not None:
+            signals = stacked(self._signals)
+        around = stacked(lambda i: self.segments[i].q)
+        speeds = np.stack([self.segments[s.segment].qd[s.first] for s in starts])
+        return Lanes(
+            around[0], speeds, stacked(lambda i: self.segments[i].tau), signals, step,
+            self.far, around,
+        )  # fmt: skip
+
+    def _signals(self, i: int) -> np.ndarray:
+        signals = self.signals[i]
+        assert signals is not None
+        return signals
+
+
+@dataclass(frozen=True, eq=False)
+class _Windows:
+    """Runs from measured states: paths of a window, going on at constant speed, horizons."""
+
+    paths: tuple[Path, ...]
+    straight: np.ndarray  # (samples, n) over all windows
+    longer: tuple[np.ndarray, ...]  # (p, n) errors as long as a start is followed
+    steps: tuple[float, ...]
+
+
+def _windows(
+    field: _Field, starts: Sequence[_Start], asked: Asked, tell: Callable[[float], None]
+) -> tuple[_Windows, float]:
+    window, bound = asked.window, asked.bound
+    simulated, measured = field.run(
+        starts, _FOLLOWED * window, tell=lambda share: tell(0.1 + 0.4 * share)
+    )
+    tell(0.5)
+    few = [starts[i] for i in np.unique(np.linspace(0, len(starts) - 1, _HALVED).astype(int))]
+    coarse, aside = field.run(few, window)
+    fine, _ = field.run(few, window, halved=True)
+    numerical = _changed(coarse, fine, aside, bound * field.ranges, field.ranges)
+    paths, straight = [], []
+    for start, ours, theirs in zip(starts, simulated, measured, strict=True):
+        segment = field.segments[start.segment]
+        count = min(len(ours), round(window / segment.step) + 1)
+        own = slice(start.first, start.first + count)
+        paths.append(Path(str(segment.run), segment.time[own], theirs[:count], ours[:count]))
+        gone = segment.time[own] - segment.time[start.first]
+        straight.append(theirs[0] + gone[:, None] * segment.qd[start.first])
+    return _Windows(
+        tuple(paths),
+        np.concatenate(straight),
+        tuple(a - b for a, b in zip(simulated, measured, strict=True)),
+        tuple(field.segments[start.segment].step for start in starts),
+    ), numerical
+
+
+def _changed(
+    coarse: Sequence[np.ndarray],
+    fine: Sequence[np.ndarray],
+    measured: Sequence[np.ndarray],
+    bound: np.ndarray,
+    ranges: np.ndarray,
+) -> float:
+    """Largest change of a position by halving the step, in ranges, while its error is in bounds."""
+    largest = 0.0
+    for ours, halved, theirs in zip(coarse, fine, measured, strict=True):
+        near = np.logical_and.accumulate(np.abs(halved - theirs) <= bound)
+        change = np.abs(ours - halved)[near] / np.broadcast_to(ranges, near.shape)[near]
+        largest = max(largest, float(change[np.isfinite(change)].max(initial=0.0)))
+    return largest
+
+
+def _whole(field: _Field, tell: Callable[[float], None]) -> tuple[np.ndarray, np.ndarray]:
+    """Simulated and measured positions of each segment from its start, one after the other."""
+    starts = [_Start(i, *_inside(segment)) for i, segment in enumerate(field.segments)]
+    simulated, measured = field.run([s for s in starts if s.stop - s.first > 1], _WHOLE, tell=tell)
+    return np.concatenate(simulated), np.concatenate(measured)
+
+
+def _joint(
+    j: int,
+    observation: Observation,
+    runs: _Windows,
+    whole: tuple[np.ndarray, np.ndarray],
+    asked: Asked,
+    ranges: np.ndarray,
+) -> JointFreeRun:
+    joint = observation.joints[j]
+    measured = np.concatenate([path.measured[:, j] for path in runs.paths])
+    simulated = np.concatenate([path.simulated[:, j] for path in runs.paths])
+    error = np.abs(simulated - measured)
+    largest = float(error[np.isfinite(error)].max(initial=0.0))
+    if not np.isfinite(ranges[j]):
+        return JointFreeRun(joint.name, joint.unit, None, None, None, None, 0, largest)
+    bound = asked.bound * ranges[j : j + 1]
+    until = np.array(
+        [
+            float(horizons(e[:, None, j : j + 1], bound, step)[0, 0])
+            for e, step in zip(runs.longer, runs.steps, strict=True)
+        ]
+    )
+    middle = float(np.quantile(until, 0.5, method="higher"))
+    return JointFreeRun(
+        joint.name,
+        joint.unit,
+        fit_percentage(measured, simulated),
+        fit_percentage(measured, runs.straight[:, j]),
+        fit_percentage(whole[1][:, j], whole[0][:, j]),
+        middle if np.isfinite(middle) else None,
+        int(np.isfinite(until).sum()),
+        largest,
+    )
+
+
+def _doubts(
+    numerical: float,
+    segments: Sequence[Segment],
+    starts: Sequence[_Start],
+    asked: Asked,
+    nature: Stability,
+    doubt: str,
+) -> list[str]:
+    found = [doubt] if doubt else []
+    if numerical > _DOUBTFUL:
+        found.append(
+            "the integration is not exact: halving its step moves a joint by "
+            f"{100 * numerical:.2g} % of its range within a window"
+        )
+    if nature.unstable and nature.rate * asked.window > np.log(10.0):
+        found.append(
+            f"within a window of {asked.window:g} s an error grows tenfold and more by nature; "
+            f"`--window {_rounded(1.0 / nature.rate)}` judges the model"
+        )
+    if any(_seconds(segment) > _WHOLE for segment in segments):
+        found.append(f"whole runs: the first {_WHOLE:g} s of each log")
+    if len(starts) == _MOST_WINDOWS:
+        found.append(f"{_MOST_WINDOWS} windows, evenly spread over the logs")
+    return found
+
+
+def _rounded(value: float) -> str:
+    return f"{float(f'{value:.1g}'):g}"

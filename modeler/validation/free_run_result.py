@@ -1,0 +1,280 @@
+"""What a free run ends in."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.core.figure import (
+    BLACK,
+    GREY,
+    ORANGE,
+    VERMILLION,
+    Curve,
+    Panel,
+    Picture,
+    Style,
+    thin_curves,
+)
+from modeler.core.json import nulled
+from modeler.core.result import Presented
+from modeler.validation.stability import Stability
+
+
+@dataclass(frozen=True)
+class JointFreeRun(Brief):
+    """One joint.
+
+    Attributes:
+        name: of the joint.
+        unit: "rad" or "m".
+        fit: 100 (1 - |q - q_s| / |q - mean q|) over all windows, %; 100 is perfect, 0 no better
+            than the mean position. None: the joint hardly moves.
+        constant_speed: the same of going on at the speed that it has at the start of a window.
+        whole: the same of the runs from the start of each log; None as above.
+        horizon: s, median over the windows' starts, until the error passes the bound; None: in more
+            than half of them it does not.
+        passed: starts after which it passed the bound.
+        largest: rad or m, largest error in a window.
+    """
+
+    name: str
+    unit: str
+    fit: float | None
+    constant_speed: float | None
+    whole: float | None
+    horizon: float | None
+    passed: int
+    largest: float
+
+
+@dataclass(frozen=True)
+class Controlled(Brief):
+    """The robot under a controller that follows the logged commands.
+
+    Attributes:
+        speed, ratio, integral, forward: of the cascade, see `estimate.direct`; speed in Hz.
+        given: its values were given; else those that bring the robot nearest to the log.
+        fit: by joint, % of the positions, as above.
+        tracking: by joint, 100 (1 - |q - q_s| / |q - q_c|), %: how much of what the controller
+            leaves of the command the simulated robot leaves too.
+        torque: by joint, % of the measured torque, after the filter of the fit.
+    """
+
+    speed: float
+    ratio: float
+    integral: float
+    forward: float
+    given: bool
+    fit: Mapping[str, float | None]
+    tracking: Mapping[str, float | None]
+    torque: Mapping[str, float | None]
+
+    def lines(self) -> list[str]:
+        """As text."""
+        parts = [("integral action", self.integral), ("feedforward", self.forward)]
+        fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts)
+        how = "given" if self.given else "nearest to the log of those tried; it is not known"
+        lines = [
+            f"under a controller ({how}): speed loops of {self.speed:.3g} Hz, position loops of "
+            f"{self.ratio:.2g} times that, {fed}",
+            f"{'joint':<8}{'position':>10}{'tracking error':>16}{'torque':>10}",
+        ]
+        for name, fit in self.fit.items():
+            lines.append(
+                f"{name:<8}{_percent(fit):>10}{_percent(self.tracking[name]):>16}"
+                f"{_percent(self.torque[name]):>10}"
+            )
+        return lines
+
+
+@dataclass(frozen=True, eq=False)
+class Path(Brief):
+    """Measured and simulated positions of one window, for pictures.
+
+    Attributes:
+        log: its name.
+        time: (p,) s.
+        measured, simulated: (p, n).
+    """
+
+    log: str
+    time: np.ndarray
+    measured: np.ndarray
+    simulated: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class FreeRun(Presented):
+    """The fitted robot left to itself under the logged torques.
+
+    Attributes:
+        robot: its name.
+        logs: their names.
+        window: s.
+        bound: share of a joint's range of motion.
+        ranges: (n,) those ranges, rad or m.
+        windows: number of them.
+        longest: s that a start was followed for the horizon.
+        joints: in the order of the manifest.
+        stability: whether errors grow whatever the model.
+        numerical: largest change of a position by halving the step, as a share of its range, while
+            its error is within the bound.
+        controlled: under a controller, where commands were logged.
+        paths: of the windows.
+        doubts: one sentence each.
+    """
+
+    robot: str
+    logs: tuple[str, ...]
+    window: float
+    bound: float
+    ranges: np.ndarray
+    windows: int
+    longest: float
+    joints: tuple[JointFreeRun, ...]
+    stability: Stability
+    numerical: float
+    controlled: Controlled | None
+    paths: tuple[Path, ...]
+    doubts: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        fits = ", ".join(f"{joint.name}: {_percent(joint.fit)}" for joint in self.joints)
+        return f"<FreeRun of {self.robot}, {self.windows} windows of {self.window:g} s, {fits}>"
+
+    def summary(self) -> str:
+        """As text."""
+        lines = [
+            f"{self.robot}: free run under the logged torques on {', '.join(self.logs)}: "
+            f"{self.windows} windows of {self.window:g} s, each from the measured state",
+            f"{'joint':<8}{'fit':>10}{'constant speed':>16}{'largest error':>18}"
+            f"{f'within {100 * self.bound:g} % for':>22}{'whole run':>14}",
+        ]
+        for joint in self.joints:
+            horizon = "" if joint.horizon is None else f"{joint.horizon:.2g} s"
+            if joint.horizon is None and joint.fit is not None:
+                horizon = f"over {self.longest:.2g} s"
+            lines.append(
+                f"{joint.name:<8}{_percent(joint.fit):>10}{_percent(joint.constant_speed):>16}"
+                f"{f'{joint.largest:.2g} {joint.unit}':>18}{horizon:>22}{_percent(joint.whole):>14}"
+            )
+        lines += ["", self.stability.sentence()]
+        if self.controlled is not None:
+            lines += ["", *self.controlled.lines()]
+        return "\n".join([*lines, *([""] if self.doubts else []), *self.doubts])
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        s = self.stability
+        return nulled({
+            "robot": self.robot,
+            "logs": list(self.logs),
+            "window": self.window,
+            "windows": self.windows,
+            "bound": self.bound,
+            "joints": {joint.name: _joint_json(joint) for joint in self.joints},
+            "stability": {
+                "unstable": s.unstable,
+                "rate": s.rate,
+                "doubling_time": s.doubling,
+                "seconds": s.seconds,
+                "steepest": {"rate": s.steepest, "log": s.log, "time": s.at},
+            },
+            "numerical_error": self.numerical,
+            "controller": None if self.controlled is None else vars(self.controlled) | {
+                "fit": dict(self.controlled.fit),
+                "tracking": dict(self.controlled.tracking),
+                "torque": dict(self.controlled.torque),
+            },
+            "doubts": list(self.doubts),
+        })  # fmt: skip
+
+
+def _joint_json(joint: JointFreeRun) -> dict[str, Any]:
+    return {name: value for name, value in vars(joint).items() if name != "name"}
+
+
+def _percent(value: float | None) -> str:
+    if value is None:
+        return "still"
+    return f"{value:.4g} %" if value > -1000.0 else "below -999 %"
+
+
+# Pictures of a free run: one a joint.
+
+
+_MEASURED = Style(BLACK, width=1.1)
+_SIMULATED = Style(ORANGE, width=1.6, opacity=0.9)
+_ERROR = Style(VERMILLION, width=1.0)
+_BOUND = Style(GREY, width=1.0, dash=True)
+
+
+def free_run_pictures(found: FreeRun) -> tuple[Picture, ...]:
+    """Positions above, their error below, window after window."""
+    return tuple(free_run_picture(found, j) for j in range(len(found.joints)))
+
+
+def free_run_picture(found: FreeRun, j: int) -> Picture:
+    """Position of joint `j` above, its error below."""
+    joint = found.joints[j]
+    above, below = _panels(found, j)
+    return Picture(
+        name=f"joint_{joint.name}_free_run",
+        title=f"Joint {joint.name}: measured and free-running position",
+        caption=(
+            f"Above: measured ({_MEASURED.named}) and simulated ({_SIMULATED.named}) under the "
+            f"logged torques, from the measured state at the start of each window of "
+            f"{found.window:g} s. Below ({_ERROR.named}): the difference, with the bound "
+            f"({_BOUND.named}) of {100 * found.bound:g} % of the range of motion."
+        ),
+        panels=((above,), (below,)),
+        heights=(0.58, 0.42),
+        widths=(1.0,),
+        height=440,
+        shared_time=True,
+    )
+
+
+def _panels(found: FreeRun, j: int) -> tuple[Panel, Panel]:
+    unit = found.joints[j].unit
+    time, measured, simulated = _running(found, j)
+    error = simulated - measured
+    kept = thin_curves((measured, simulated, error))
+    bound, ends = found.bound * float(found.ranges[j]), time[[0, -2]]
+    one = len(found.logs) == 1
+    label = f"time in {found.logs[0]} [s]" if one else "time, logs one after the other [s]"
+    bounds = [
+        Curve("bound", ends, np.full(2, sign * bound), _BOUND)
+        for sign in (1.0, -1.0)
+        if np.isfinite(bound)
+    ]
+    curves = (
+        Curve("measured", time[kept], measured[kept], _MEASURED),
+        Curve("simulated", time[kept], simulated[kept], _SIMULATED),
+    )
+    return (
+        Panel("Position", label, f"position [{unit}]", curves),
+        Panel(
+            "Error", label, f"error [{unit}]",
+            (Curve("error", time[kept], error[kept], _ERROR), *bounds), zero=True,
+        ),
+    )  # fmt: skip
+
+
+def _running(found: FreeRun, j: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Time on one axis, measured and simulated positions, a NaN between windows."""
+    times: list[np.ndarray] = []
+    measured: list[np.ndarray] = []
+    simulated: list[np.ndarray] = []
+    offset, last, log = 0.0, 0.0, found.paths[0].log
+    for path in found.paths:
+        if path.log != log:
+            offset, log = last - path.time[0], path.log
+        times.append(np.append(path.time, path.time[-1]) + offset)
+        last = float(times[-1][-1])
+        measured.append(np.append(path.measured[:, j], np.nan))
+        simulated.append(np.append(path.simulated[:, j], np.nan))
+    return np.concatenate(times), np.concatenate(measured), np.concatenate(simulated)

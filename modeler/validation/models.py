@@ -1,0 +1,348 @@
+"""Several models on the same rows: which predicts each joint best, and is that beyond doubt?"""
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.special import stdtr
+
+from modeler.core.brief import Brief
+from modeler.core.errors import DataError
+from modeler.core.json import nulled
+from modeler.core.result import Presented
+from modeler.diagnosis.score import percent
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.observation.log import Log
+from modeler.observation.observation import Observation
+from modeler.observation.processing import Processing
+from modeler.runtime.model import CompiledModel
+from modeler.validation.comparison import aligned
+from modeler.validation.predict import predict
+from modeler.validation.prediction import JointInfo, Prediction, relative_error, unit_errors
+
+DOUBT = 0.0027
+"""Chance that two models that are equally good are told apart on one joint: three deviations."""
+
+BLOCKS = 24
+"""Of time, at most: long enough that what models leave has forgotten itself at their ends."""
+
+SHORTEST = 1.0
+"""s, of a block; where there are fewer than `LEAST` of them nothing is beyond doubt."""
+
+LEAST = 6
+
+FELT = 0.01
+"""Share of an error by which it must change to be worth a word."""
+
+
+@dataclass(frozen=True)
+class JointContest(Brief):
+    """One joint; m models.
+
+    Attributes:
+        joint: it.
+        errors: (m,) ||measured - predicted|| / ||measured||.
+        rms: (m,) of the residual, N m or N.
+        best: index of the model that is better than every other beyond doubt; None: nobody is.
+        chance: two-sided, that the best and its nearest rival are equally good; 1 where nothing
+            can be told.
+    """
+
+    joint: JointInfo
+    errors: tuple[float, ...]
+    rms: tuple[float, ...]
+    best: int | None
+    chance: float
+
+
+@dataclass(frozen=True, eq=False)
+class Contest(Presented):
+    """Models side by side, m of them.
+
+    Attributes:
+        names: of the models.
+        predictions: of each, on the same rows.
+        samples: rows that count for at least one joint.
+        pooled: (m,) relative errors over all rows as numbers, as `compare` has it.
+        by_unit: (m,) relative errors by unit.
+        joints: those with rows and a torque.
+    """
+
+    names: tuple[str, ...]
+    predictions: tuple[Prediction, ...]
+    samples: int
+    pooled: tuple[float, ...]
+    by_unit: tuple[Mapping[str, float], ...]
+    joints: tuple[JointContest, ...]
+
+    def wins(self, model: int) -> list[str]:
+        """Joints that the model predicts best, beyond doubt."""
+        return [item.joint.name for item in self.joints if item.best == model]
+
+    def as_dicts(self) -> list[dict[str, Any]]:
+        """The `models` of `compare --json`: errors of each, and where it is the best."""
+        return nulled([
+            {
+                "model": name,
+                "relative_error": self.pooled[k],
+                "by_unit": self.by_unit[k],
+                "joints": {
+                    item.joint.name: {
+                        "relative_error": item.errors[k],
+                        "rms": item.rms[k],
+                        "unit": item.joint.effort_unit,
+                        "best": item.best == k,
+                        "chance": item.chance,
+                    }
+                    for item in self.joints
+                },
+                "best_on": self.wins(k),
+            }
+            for k, name in enumerate(self.names)
+        ])  # fmt: skip
+
+
+def contest(names: Sequence[str], predictions: Sequence[Prediction]) -> Contest:
+    """Who is better on which joint.
+
+    S_b and T_b are the summed squared residuals of two models on one joint over block b of time, S
+    and T those over all B blocks. log(S / T) is judged by Student's t with B - 1 degrees of
+    freedom against its standard error, whose square is B / (B - 1) sum_b (S_b / S - T_b / T)^2:
+    blocks are paired, and a block that makes most of a difference is no proof. The best of m models
+    beats m - 1 others, so the chance of an error is shared among them (Bonferroni).
+
+    Args:
+        names: of the models.
+        predictions: of each, on the same rows, from `predict_together`.
+
+    Raises:
+        DataError: fewer than two models.
+    """
+    if len(names) < 2 or len(names) != len(predictions):
+        raise DataError(f"got {len(predictions)} models to set side by side; expected two or more")
+    block = _blocks(predictions[0])
+    first = predictions[0]
+    return Contest(
+        names=tuple(names),
+        predictions=tuple(predictions),
+        samples=int(first.used.any(axis=1).sum()),
+        pooled=tuple(relative_error(prediction) for prediction in predictions),
+        by_unit=tuple(unit_errors(prediction) for prediction in predictions),
+        joints=tuple(
+            _joint(info, j, predictions, block)
+            for j, info in enumerate(first.joints)
+            if all(p.measured[p.used[:, j], j].any() for p in predictions)
+        ),
+    )
+
+
+def _joint(
+    info: JointInfo, j: int, predictions: Sequence[Prediction], block: np.ndarray
+) -> JointContest:
+    used = predictions[0].used[:, j]
+    left = [(p.measured - p.predicted)[used, j] for p in predictions]
+    size = [float(np.linalg.norm(p.measured[used, j])) for p in predictions]
+    norms = [float(np.linalg.norm(e)) for e in left]
+    errors = tuple(norm / whole for norm, whole in zip(norms, size, strict=True))
+    top = int(np.argmin(errors))
+    sums = [np.bincount(block[used], (e / whole) ** 2) for e, whole in zip(left, size, strict=True)]
+    rivals = [k for k in range(len(predictions)) if k != top]
+    chances = [_chance(sums[k], sums[top]) for k in rivals]
+    worth = all(errors[top] < (1.0 - FELT) * errors[k] for k in rivals)
+    return JointContest(
+        joint=info,
+        errors=errors,
+        rms=tuple(norm / math.sqrt(len(left[0])) for norm in norms),
+        best=top if worth and max(chances) < DOUBT / len(rivals) else None,
+        chance=max(chances),
+    )
+
+
+def _chance(other: np.ndarray, best: np.ndarray) -> float:
+    """Two-sided chance that two models that are equally good differ so much.
+
+    Args:
+        other: (blocks,) squared residuals.
+        best: (blocks,) those of the better model.
+    """
+    seen = (other > 0.0) | (best > 0.0)
+    count, sums = int(seen.sum()), (float(other.sum()), float(best.sum()))
+    if count < LEAST or min(sums) <= 0.0:
+        return 1.0 if sums[0] <= 0.0 or count < LEAST else 0.0
+    shares = other[seen] / sums[0] - best[seen] / sums[1]
+    spread = math.sqrt(float(shares @ shares) * count / (count - 1))
+    if spread <= 0.0:
+        return 1.0 if sums[0] <= sums[1] else 0.0
+    return float(2.0 * stdtr(count - 1, -math.log(sums[0] / sums[1]) / spread))
+
+
+def _blocks(prediction: Prediction) -> np.ndarray:
+    """(n,) number of the block of time of each row, none in two logs."""
+    runs = np.unique(prediction.run)
+    spans = {r: prediction.time[prediction.run == r] for r in runs}
+    length = max(SHORTEST, sum(float(np.ptp(time)) for time in spans.values()) / BLOCKS)
+    number, count = np.zeros(prediction.time.size, dtype=int), 0
+    for r, time in spans.items():
+        pieces = max(1, round(float(np.ptp(time)) / length))
+        share = (time - time.min()) / (float(np.ptp(time)) or 1.0)
+        number[prediction.run == r] = count + np.minimum((share * pieces).astype(int), pieces - 1)
+        count += pieces
+    return number
+
+
+# Several models on the same rows of the same logs.
+
+
+def predict_together(
+    models: Sequence[IdentifiedModel],
+    compiled: Sequence[CompiledModel],
+    logs: Sequence[Sequence[Log]],
+    names: Sequence[str],
+) -> tuple[list[Prediction], list[Observation]]:
+    """What each model says of the same rows.
+
+    All are processed as the first model's logs were, but for a delay, which belongs to its model; a
+    row counts if it counts for every model.
+
+    Args:
+        models: two or more, of robots with the same joints.
+        compiled: their robots.
+        logs: the same logs, as each robot reads them.
+        names: of the models, for errors.
+
+    Raises:
+        DataError: other joints, no usable row, or none that counts for every model.
+    """
+    check_joints(models, names)
+    first = models[0].processing
+    made = [
+        predict(_processed_as(model, first), read, own)
+        for model, own, read in zip(models, compiled, logs, strict=True)
+    ]
+    predictions = [prediction for prediction, _ in made]
+    used = np.logical_and.reduce(_used_of(predictions, names))
+    if not used.any():
+        raise DataError(
+            f"{', '.join(names)}: no row of these logs counts for every model; compare them one by "
+            "one to see why"
+        )
+    found = [_on(prediction, used) for prediction in predictions]
+    return found, [observation for _, observation in made]
+
+
+def _used_of(predictions: Sequence[Prediction], names: Sequence[str]) -> list[np.ndarray]:
+    """Rows that count for each model, if they are the same rows."""
+    for prediction, name in zip(predictions[1:], names[1:], strict=True):
+        if not _same_rows(predictions[0], prediction):
+            raise DataError(
+                f"{name}: its rows of these logs are not those of {names[0]}, so errors cannot be "
+                "set side by side; expected robots that read the same columns; compare them one "
+                "by one"
+            )
+    return [prediction.used for prediction in predictions]
+
+
+def _processed_as(model: IdentifiedModel, other: Processing) -> IdentifiedModel:
+    processing = dataclasses.replace(other, delay=model.processing.delay)
+    return dataclasses.replace(model, fit=dataclasses.replace(model.fit, processing=processing))
+
+
+def _on(prediction: Prediction, used: np.ndarray) -> Prediction:
+    """On the rows that count for every model; what counts for this one alone is masked unnamed."""
+    return dataclasses.replace(prediction, used=used, full=None)
+
+
+def _same_rows(one: Prediction, other: Prediction) -> bool:
+    return (
+        one.time.shape == other.time.shape
+        and np.array_equal(one.run, other.run)
+        and np.array_equal(one.time, other.time)
+    )
+
+
+def check_joints(models: Sequence[IdentifiedModel], names: Sequence[str]) -> None:
+    """Refuse models of robots whose joints differ.
+
+    Raises:
+        DataError: names the first of them.
+    """
+
+    def joints(model: IdentifiedModel) -> list[tuple[str, str]]:
+        return [(joint.name, joint.effort_unit) for joint in model.spec.joints]
+
+    for model, name in zip(models[1:], names[1:], strict=True):
+        if joints(model) != joints(models[0]):
+            said = [", ".join(f"{j} [{u}]" for j, u in joints(m)) for m in (models[0], model)]
+            raise DataError(
+                f"{name}: joints {said[1]}; expected those of {names[0]}, {said[0]}; only models "
+                "of robots with the same joints are set side by side"
+            )
+
+
+# Models side by side in words and as a table of text.
+
+
+MARK = "*"
+
+
+def contest_lines(found: Contest) -> list[str]:
+    """Errors by joint and model, the best beyond doubt marked; then who is better where."""
+    names = [name.removesuffix(".json").removesuffix(".model") for name in found.names]
+    rows = [["joint", *names, "unit", "rms", *[""] * (len(names) - 1)]]
+    for item in found.joints:
+        errors = [
+            percent(error) + (MARK if item.best == k else " ")
+            for k, error in enumerate(item.errors)
+        ]
+        sizes = [f"{rms:.3g}" for rms in item.rms]
+        rows.append([item.joint.name, *errors, item.joint.effort_unit, *sizes])
+    for unit in found.by_unit[0]:
+        errors = [percent(own[unit]) + " " for own in found.by_unit]
+        rows.append(["all", *errors, unit, *[""] * len(names)])
+    lines = [line.rstrip() for line in aligned(rows, (0, len(names) + 1))]
+    lines.append(f"{found.samples} samples; {MARK} better than every other beyond doubt")
+    return [*lines, "", *contest_sentences(found)]
+
+
+def contest_sentences(found: Contest) -> list[str]:
+    """Who predicts which joints best; what remains open."""
+    said = []
+    for k, name in enumerate(found.names):
+        won = found.wins(k)
+        if won:
+            said.append(f"{name} predicts {_joints(won)} best, beyond doubt.")
+    open_ = [item for item in found.joints if item.best is None]
+    if open_:
+        told = ", ".join(f"joint {item.joint.name} ({_open(item)})" for item in open_)
+        said.append(f"No model is the best beyond doubt on {told}.")
+    return said
+
+
+def headline_of(found: Contest) -> tuple[str, str]:
+    """Who wins on how many joints."""
+    wins = [len(found.wins(k)) for k in range(len(found.names))]
+    top = max(range(len(wins)), key=wins.__getitem__)
+    if not wins[top]:
+        return "no winner", "no model is better than the others beyond doubt on any joint"
+    count = f"{wins[top]} of {len(found.joints)}"
+    if wins.count(wins[top]) > 1:
+        tied = " and ".join(n for n, w in zip(found.names, wins, strict=True) if w == wins[top])
+        return f"{count} each", f"joints that {tied} predict best, beyond doubt"
+    lost = sum(wins) - wins[top]
+    rest = f"; others on {lost}" if lost else "; no other on any"
+    return count, f"joints that {found.names[top]} predicts best, beyond doubt{rest}"
+
+
+def _open(item: JointContest) -> str:
+    if item.chance >= 1.0 or item.chance < 1e-3:  # too short, or too small a difference
+        return "as good as alike" if item.chance < 1e-3 else "cannot be told"
+    return f"chance alone makes such a difference in {100.0 * item.chance:.2g} % of cases"
+
+
+def _joints(names: list[str]) -> str:
+    if len(names) == 1:
+        return f"joint {names[0]}"
+    return f"joints {', '.join(names[:-1])} and {names[-1]}"

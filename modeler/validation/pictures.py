@@ -1,0 +1,401 @@
+"""The residual of one joint against each coordinate, and its spectrum."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from modeler.core.figure import (
+    BLUE,
+    COLORS,
+    GREY,
+    ORANGE,
+    SLATE,
+    VERMILLION,
+    Bars,
+    Curve,
+    Heat,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Style,
+    thin_curves,
+    thin_points,
+)
+from modeler.validation.comparison import METHODS, REGIONS, Comparison, JointComparison
+from modeler.validation.prediction import Prediction, residual
+from modeler.validation.residual_structure import (
+    COORDINATES,
+    coordinate_unit,
+    coordinate_values,
+    coordinates_of,
+    lines,
+    waves,
+)
+from modeler.validation.time_picture import broken, masked_spans, running_time, told_masks
+
+_DOTS = 700
+_BINS = 24
+_FEWEST = 8  # samples of a bin whose mean is drawn
+_CLOUD = Style(GREY, width=2.6, opacity=0.45)
+_MEAN = Style(BLUE, width=1.6)
+_BACK = Style(VERMILLION, width=1.6)
+_FLOOR = Style(ORANGE, width=1.2, dash=True)
+_WAVES = Style(BLUE, width=0.8)
+_ACROSS = 3  # panels side by side
+
+
+def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
+    """A panel for each coordinate that the logs hold, then both spectra."""
+    drawn = [
+        _against(prediction, item, coordinate.id, coordinate.label)
+        for coordinate in coordinates_of(prediction, item.index)
+        if coordinate.id != "direction"
+    ]
+    drawn += [_spectrum_panel(item), _order_panel(item)]
+    drawn += [_EMPTY] * (-len(drawn) % _ACROSS)
+    rows = [tuple(drawn[k : k + _ACROSS]) for k in range(0, len(drawn), _ACROSS)]
+    name = item.joint.name
+    return Picture(
+        name=f"joint_{name}_residual",
+        title=f"Joint {name}: does the residual still have structure?",
+        caption=_residual_caption(any(panel.title.startswith("Temperature") for panel in drawn)),
+        panels=tuple(rows),
+        heights=tuple(1.0 / len(rows) for _ in rows),
+        widths=(1 / 3, 1 / 3, 1 / 3),
+        height=310 * len(rows),
+    )
+
+
+_EMPTY = Panel("", "", "", ())
+
+
+def _residual_caption(heated: bool) -> str:
+    """How to read the panels; `heated` where one of them is over temperature."""
+    return f"{_FIRST}{_HEATED if heated else ''} {_LAST}"
+
+
+_FIRST = (
+    f"{_CLOUD.named.capitalize()}: samples. {_MEAN.named.capitalize()}: mean of the residual in "
+    "each bin, whiskers two standard errors (from the spread between separate passes through the "
+    f"bin; none where there was only one). A {_MEAN.named} line that leaves zero by more than its "
+    "whiskers is a pattern the model does not have: a step at zero velocity looks like Coulomb "
+    "friction, a slope like viscous friction, a wave over position like gravity or ripple, a slope "
+    "over acceleration like inertia, a curve that starts anew at every reversal (travel) like "
+    "presliding."
+)
+_HEATED = (
+    f" Over temperature, {_MEAN.named} is motion in the positive and {_BACK.named} in the negative "
+    "direction: friction that changes moves them apart or together."
+)
+_LAST = (
+    "The percentage is the share of the residual variance that such a curve predicts on motion not "
+    "used to draw it; of a temperature, what it adds to the direction of motion. A flat spectrum "
+    "is noise, a narrow peak over frequency an oscillation, a narrow peak over waves per turn "
+    "something that turns: teeth, magnets, rollers. Waves per turn of the motor are those per turn "
+    "of the joint over the gear ratio, which a robot file does not hold."
+)
+
+
+def binned_means(x: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean of x, mean of e and two standard errors in up to 24 bins of x, half of them by count.
+
+    Consecutive samples share their noise, so the standard error comes from the spread between
+    separate passes through the bin: s^2 = G/(G-1) sum_g (sum_{i in g} (e_i - mean))^2 / n^2 with
+    G passes g. A bin with one pass has no whisker (NaN).
+
+    Args:
+        x: coordinate, (n,), in time order.
+        e: residual, (n,).
+    """
+    even = np.linspace(x.min(), x.max(), _BINS // 2 + 1)
+    dense = np.quantile(x, np.linspace(0.0, 1.0, _BINS // 2 + 1))
+    edges = np.unique(np.concatenate((even, dense)))
+    which = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, max(edges.size - 2, 0))
+    count = np.bincount(which)
+    filled = np.flatnonzero(count >= _FEWEST)
+    count = np.maximum(count, 1)
+    mean = np.bincount(which, e) / count
+    starts = np.concatenate(([0], np.flatnonzero(np.diff(which)) + 1))
+    deviation = np.add.reduceat(e - mean[which], starts)
+    passes = np.bincount(which[starts], minlength=count.size)
+    scatter = np.bincount(which[starts], deviation**2, minlength=count.size)
+    correction = np.where(passes > 1, passes / np.maximum(passes - 1, 1), np.nan)
+    error = 2.0 * np.sqrt(correction * scatter) / count
+    centre = np.bincount(which, x) / count
+    return centre[filled], mean[filled], error[filled]
+
+
+def _against(prediction: Prediction, item: JointComparison, coordinate: str, label: str) -> Panel:
+    rows = prediction.used[:, item.index]
+    e = (prediction.measured - prediction.predicted)[rows, item.index]
+    if coordinate == "time":
+        whole, _, marks = running_time(prediction)
+        x, label = whole[rows], "time, all logs"
+    else:
+        x, marks = coordinate_values(prediction, item.index, coordinate)[rows], ()
+    kept = thin_points(x, e, _DOTS)
+    title = label[0].upper() + label[1:]
+    if item.structure is not None:
+        title = f"{title}: {item.structure.share(coordinate):.0%}"
+    if coordinate == "temperature":
+        means = _by_direction(x, e, prediction.qd[rows, item.index])
+    else:
+        means = (Means("mean, 2 standard errors", *binned_means(x, e), _MEAN),)
+    return Panel(
+        title=title,
+        x_label=f"{label} [{coordinate_unit(prediction, item.index, coordinate)}]",
+        y_label=f"residual [{item.joint.effort_unit}]",
+        series=(Points("samples", x[kept], e[kept], _CLOUD), *means),
+        marks=tuple((place, "") for place, _ in marks[1:]),
+        zero=True,
+    )
+
+
+def _by_direction(x: np.ndarray, e: np.ndarray, qd: np.ndarray) -> tuple[Means, ...]:
+    """A line of means for either direction of motion that occurs."""
+    ways = (("moving in the positive direction", qd > 0.0, _MEAN),
+            ("moving in the negative direction", qd < 0.0, _BACK))  # fmt: skip
+    return tuple(
+        Means(text, *binned_means(x[own], e[own]), style) for text, own, style in ways if own.any()
+    )
+
+
+def _spectrum_panel(item: JointComparison) -> Panel:
+    unit = item.joint.effort_unit
+    colour = item.spectrum
+    nothing = np.array([np.nan])
+    title = "Spectrum"
+    if colour is not None:
+        title += f": {colour.peak_share:.0%} of the power near {colour.peak:.3g} Hz"
+    return Panel(
+        title=title,
+        x_label="frequency [Hz]",
+        y_label=f"density [({unit})^2/Hz]",
+        series=(
+            Curve(
+                "residual",
+                nothing if colour is None else colour.frequency,
+                nothing if colour is None else colour.density,
+                _MEAN,
+            ),
+        ),
+        scale="log",
+    )
+
+
+def _order_panel(item: JointComparison) -> Panel:
+    unit, nothing = item.joint.effort_unit, np.array([np.nan])
+    title, per = "Order spectrum", "turn" if item.joint.unit == "rad" else "m"
+    if item.orders is None:
+        x, y, floor = nothing, nothing, nothing
+    else:
+        x, _ = waves(item.orders, item.joint.unit)
+        y, floor = item.orders.amplitude, item.orders.floor
+        kept = thin_curves((y,))
+        x, y, floor = x[kept], y[kept], floor[kept]
+        found = lines(item.orders, item.joint.unit)
+        if found:
+            title += f": {found[0].waves:.4g} waves per {per}"
+    return Panel(
+        title=title,
+        x_label=f"waves per {per} of the joint [1/{per}]",
+        y_label=f"amplitude [{unit}]",
+        series=(Curve("residual", x, y, _WAVES), Curve("floor", x, floor, _FLOOR)),
+        scale="log",
+    )
+
+
+# All joints at once: how large the errors are, where, and what they follow.
+
+
+_READABLE = 8.0  # percent: a shorter stretch of a bar has no room for its number
+
+
+def overview_picture(comparison: Comparison) -> Picture:
+    """Relative error, regions of velocity; stacked shares; coordinates, other joints."""
+    names = tuple(item.joint.name for item in comparison.joints)
+    errors = np.array([100.0 * item.relative_error for item in comparison.joints])
+    bars = Bars("relative error", names, errors, tuple(f"{e:.1f}" for e in errors), Style(BLUE))
+    panels = (
+        (
+            Panel("Relative error", "joint", "||residual|| / ||torque|| [%]", (bars,)),
+            Panel("Where: share of squared residual [%]", "velocity", "joint",
+                  (_regions(comparison),)),
+        ),
+        share_panels(comparison),
+        (
+            Panel("Follows its own ... [%]", "coordinate", "joint", (_shares(comparison),)),
+            Panel("Follows the velocity of ... [%]", "joint or motor moving", "joint",
+                  (_across(comparison),)),
+        ),
+    )  # fmt: skip
+    return Picture(
+        name="overview",
+        title="All joints",
+        caption=_overview_caption(comparison),
+        panels=panels,
+        heights=(1 / 3, 1 / 3, 1 / 3),
+        widths=(0.5, 0.5),
+        height=max(780, 360 + 3 * 44 * len(names)),
+    )
+
+
+def _overview_caption(comparison: Comparison) -> str:
+    methods = {item.shares.method for item in comparison.joints if item.shares is not None}
+    how = "; ".join(METHODS[name] for name in METHODS if name in methods)
+    return (
+        "Relative error: unexplained share of each joint's own torque or force. Variance: of it, "
+        "and of what is left alone. "
+        + (f"Repeatable is {how}; noise is the rest. " if how else "")
+        + "Where: in which velocity region the squared residual sits, and in brackets the share of "
+        "the samples there; fast is beyond 40 %, around zero within 5 % of the joint's own top "
+        "speed. Follows: share of the residual variance that a curve over that coordinate predicts "
+        "on motion not used to fit it; noise gives 0. Coordinates move together: shares overlap. "
+        "Where the velocity of another joint or motor beats that of the joint itself, look for a "
+        "motor that turns with several joints: its friction follows the speed of the motor, and "
+        "that is a sum of joint speeds."
+    )
+
+
+def _regions(comparison: Comparison) -> Heat:
+    energy = np.array([[r.energy_share for r in item.regions] for item in comparison.joints])
+    texts = tuple(
+        tuple(f"{r.energy_share:.0%} ({r.time_share:.0%})" for r in item.regions)
+        for item in comparison.joints
+    )
+    return _heat(comparison, "share of squared residual", REGIONS, energy, texts)
+
+
+def _shares(comparison: Comparison) -> Heat:
+    held = {
+        coordinate.id
+        for item in comparison.joints
+        for coordinate in coordinates_of(comparison.prediction, item.index)
+    }
+    names = [coordinate.id for coordinate in COORDINATES if coordinate.id in held]
+    columns = (*names, "all motion")
+    rows = [
+        [np.nan] * len(columns)
+        if item.structure is None
+        else [*(item.structure.share(name) for name in names), item.structure.together]
+        for item in comparison.joints
+    ]
+    return _heat(comparison, "explained share", columns, np.array(rows), None)
+
+
+def _across(comparison: Comparison) -> Heat:
+    prediction = comparison.prediction
+    columns = (
+        *(f"joint {info.name}" for info in prediction.joints),
+        *(f"motor {motor.name}" for motor in prediction.motors),
+    )
+    rows = [
+        [np.nan] * len(columns)
+        if item.structure is None
+        else [share for _, share in (*item.structure.across, *item.structure.motors)]
+        for item in comparison.joints
+    ]
+    return _heat(comparison, "explained share", columns, np.array(rows), None)
+
+
+def _heat(
+    comparison: Comparison,
+    label: str,
+    columns: tuple[str, ...],
+    values: np.ndarray,
+    texts: tuple[tuple[str, ...], ...] | None,
+) -> Heat:
+    if texts is None:
+        texts = tuple(
+            tuple("" if np.isnan(value) else f"{100 * value:.0f}" for value in row)
+            for row in values
+        )
+    names = tuple(item.joint.name for item in comparison.joints)
+    return Heat(label, columns, names, 100.0 * values, texts, top=100.0)
+
+
+def share_panels(comparison: Comparison) -> tuple[Panel, Panel]:
+    """Shares of the torque's variance, and the same of what is not explained."""
+    items = [item for item in comparison.joints if item.shares is not None]
+    names = tuple(item.joint.name for item in items)
+    found = [item.shares for item in items if item.shares is not None]
+    repeats = np.array([100.0 * each.repeats for each in found])
+    # a prediction worse than a constant explains nothing: the rest is then all there is
+    explained = np.array([100.0 * max(0.0, each.explained) for each in found])
+    left = 100.0 - explained
+    systematic = left * repeats / 100.0
+    return (
+        Panel(
+            "Variance of the torque [%]", "joint", "share of the variance [%]",
+            _stacked(names, [("explained", explained, BLUE),
+                             ("repeatable, not explained", systematic, VERMILLION),
+                             ("noise", left - systematic, SLATE)]),
+        ),
+        Panel(
+            "Variance that is not explained [%]", "joint", "share of the residual [%]",
+            _stacked(names, [("repeatable, not explained", repeats, VERMILLION),
+                             ("noise", 100.0 - repeats, SLATE)]),
+        ),
+    )  # fmt: skip
+
+
+def _stacked(names: tuple[str, ...], parts: list[tuple[str, np.ndarray, str]]) -> tuple[Bars, ...]:
+    series, base = [], np.zeros(len(names))
+    for label, values, colour in parts:
+        texts = tuple(f"{value:.1f}" if value >= _READABLE else "" for value in values)
+        series.append(Bars(label, names, values, texts, Style(colour), base))
+        base = base + values
+    return tuple(series)
+
+
+# The residuals of several models over each other, and who gains where.
+
+
+_MOST = 2500  # points of a curve
+
+
+def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: int) -> Picture:
+    """One joint: residuals of all models against time, and their sums of squares so far.
+
+    Args:
+        names: of the models.
+        predictions: of each, on the same rows.
+        j: index of the joint.
+    """
+    first, joint = predictions[0], predictions[0].joints[j]
+    time, label, marks = running_time(first)
+    left = tuple(residual(prediction)[:, j] for prediction in predictions)
+    sums = [np.cumsum(np.nan_to_num(e) ** 2) for e in left]
+    whole = max(float(total[-1]) for total in sums) or 1.0
+    kept, segment = thin_curves(left, _MOST), first.segment
+    even = np.unique(np.linspace(0, time.size - 1, _MOST // 2).astype(int))
+    styles = [Style(COLORS[k % len(COLORS)], width=1.1, opacity=0.8) for k in range(len(names))]
+    residuals, gains = [], []
+    for name, style, e, total in zip(names, styles, left, sums, strict=True):
+        residuals.append(Curve(name, *broken(segment[kept], time[kept], e[kept]), style))
+        gains.append(Curve(name, time[even], 100.0 * total[even] / whole, style))
+    spans = masked_spans(first, j, time, np.arange(time.size))
+    return Picture(
+        name=f"joint_{joint.name}_models",
+        title=f"Joint {joint.name}: what each model leaves",
+        caption=_overlay_caption(names, styles, told_masks(first, j)),
+        panels=(
+            (Panel("Residual", label, f"residual [{joint.effort_unit}]", tuple(residuals),
+                   marks=marks, zero=True, spans=spans),),
+            (Panel("Squared residual so far", label, "sum [%]", tuple(gains), marks=marks),),
+        ),
+        heights=(0.6, 0.4),
+        widths=(1.0,),
+        height=430,
+        shared_time=True,
+    )  # fmt: skip
+
+
+def _overlay_caption(names: Sequence[str], styles: Sequence[Style], masks: str) -> str:
+    pairs = zip(names, styles, strict=True)
+    said = ", ".join(f"{style.named.capitalize()}: {name}" for name, style in pairs)
+    return (
+        f"{said}. Below: the squared residual summed up to that time, in percent of the largest "
+        f"sum at the end; where one curve is steeper, that model is worse there. {masks}"
+    ).strip()

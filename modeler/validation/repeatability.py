@@ -1,0 +1,272 @@
+"""What the variance of a joint's torque is made of: explained, repeatable, noise."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from modeler.numerics.noise import at
+from modeler.numerics.spectra import ALIKE, lap
+from modeler.validation.prediction import Prediction, full_rate
+from modeler.validation.residual_structure import Structure
+
+_MOVES = 0.01  # of the largest stroke: joints that move less are held, and wobble as they like
+_SAME = 0.05  # of the largest stroke: logs whose strokes differ by more are of other motion
+_OVERLAP = 0.75  # of the shorter log
+_SHIFTS = 400  # rows, to either side: how far the starts of two logs may be apart
+_MOST_LAPS = 20
+_POINTS = 4000  # of a log, looked at to find how far two motions are apart in time
+_GRID = 20  # shifts to either side of the best one so far
+
+Method = Literal["laps", "logs", "smooth"]
+_ENOUGH = 0.5  # of the rows must have been repeated
+_FEWEST = 50  # rows
+_NEIGHBOURS = 6  # rows
+
+
+@dataclass(frozen=True)
+class Partner:
+    """At t in log `run` and at t + shift in log `other` the robot did the same."""
+
+    run: int
+    other: int
+    shift: float  # s
+
+
+@dataclass(frozen=True)
+class Repetition:
+    """All partners of all logs."""
+
+    kind: Literal["laps", "logs"]
+    partners: tuple[Partner, ...]
+    periods: tuple[float, ...]  # s, of the logs that have laps
+
+
+def repetitions(prediction: Prediction) -> tuple[Repetition, ...]:
+    """Laps, then logs of the same motion; empty if no motion was made twice."""
+    motions = _motions(prediction)
+    found = [_laps(motions), _same_motion(motions)]
+    return tuple(item for item in found if item.partners)
+
+
+@dataclass(frozen=True, eq=False)
+class _Motion:
+    run: int
+    step: float  # s, between rows
+    time: np.ndarray  # (m,) s, full rate
+    q: np.ndarray  # (m, moving joints) rad or m
+    size: np.ndarray  # (moving joints,) standard deviations of q
+    ends: np.ndarray  # (2, joints) lowest and highest position
+
+
+def _motions(prediction: Prediction) -> list[_Motion]:
+    full, found = full_rate(prediction), []
+    strokes = np.nanmax(prediction.q, axis=0) - np.nanmin(prediction.q, axis=0)
+    moving = strokes > _MOVES * strokes.max()
+    for run in range(len(prediction.logs)):
+        rows, times = full.run == run, prediction.time[prediction.run == run]
+        rows &= np.isfinite(full.q).all(axis=1)
+        if times.size > 2 and rows.sum() > 2 and moving.any():
+            q, time = full.q[rows], full.time[rows]
+            every = max(1, time.size // (10 * _POINTS))
+            size = np.maximum(q[:, moving].std(axis=0), 1e-12)
+            ends = np.array([q.min(axis=0), q.max(axis=0)])
+            step = float(np.median(np.diff(times)))
+            found.append(_Motion(run, step, time[::every], q[::every, moving], size, ends))
+    return found
+
+
+def _laps(motions: list[_Motion]) -> Repetition:
+    partners, periods = [], []
+    for own in motions:
+        length = float(np.ptp(own.time))
+        even = np.arange(0.0, length, own.step)
+        rough = lap(even, _at(own, own.time[0] + even))
+        if rough == 0.0:
+            continue
+        period = _refined(own, rough)
+        periods.append(period)
+        for k in range(1, min(_MOST_LAPS, int(length / period)) + 1):
+            partners += [Partner(own.run, own.run, k * period), Partner(own.run, own.run,
+                                                                        -k * period)]  # fmt: skip
+    return Repetition("laps", tuple(partners), tuple(periods))
+
+
+def _refined(own: _Motion, period: float) -> float:
+    """The period from laps farther and farther apart: an error of it grows with their number."""
+    half, laps = own.step, 1
+    most = max(1, int(np.ptp(own.time) / period) - 1)
+    while True:
+        period = _best_shift(own, own, laps * period, laps * half) / laps
+        if laps == most:
+            return period
+        laps, half = min(2 * laps, most), half / 10
+
+
+def _same_motion(motions: list[_Motion]) -> Repetition:
+    """Each log beside the first one of the same motion, in groups."""
+    groups: list[list[tuple[_Motion, float]]] = []
+    for own in motions:
+        for group in groups:
+            shift = _shift(group[0][0], own)
+            if shift is not None:
+                group.append((own, shift))
+                break
+        else:
+            groups.append([(own, 0.0)])
+    partners = [
+        Partner(a.run, b.run, later - sooner)
+        for group in groups
+        for a, sooner in group
+        for b, later in group
+        if a is not b
+    ]
+    return Repetition("logs", tuple(partners), ())
+
+
+def _shift(first: _Motion, other: _Motion) -> float | None:
+    """s by which the clock of `other` is ahead for the same motion; None for another motion."""
+    stroke = float(np.ptp(first.ends, axis=0).max())
+    if np.abs(first.ends - other.ends).max() > _SAME * stroke:
+        return None
+    lengths = [float(np.ptp(m.time)) for m in (first, other)]
+    if min(lengths) < 4 * first.step:
+        return None
+    start = other.time[0] - first.time[0]
+    reach = min(int(0.25 * min(lengths) / first.step), _SHIFTS)
+    candidates = start + first.step * np.arange(-reach, reach + 1)
+    apart = [_apart(first, other, shift, _OVERLAP * min(lengths)) for shift in candidates]
+    best = _best_shift(first, other, float(candidates[int(np.argmin(apart))]), first.step)
+    # twice the variance, which is one: the mean squared difference of motions that are not alike
+    alike = 1.0 - _apart(first, other, best, 0.9 * _OVERLAP * min(lengths)) / 2.0
+    return best if alike > ALIKE else None
+
+
+def _best_shift(first: _Motion, other: _Motion, around: float, half: float) -> float:
+    """The shift near `around` at which the motions are least apart; a parabola between the grid."""
+    grid = around + half * np.linspace(-1.0, 1.0, 2 * _GRID + 1)
+    apart = np.array([_apart(first, other, shift, 0.0) for shift in grid])
+    best = int(np.argmin(apart))
+    if not 0 < best < grid.size - 1:
+        return float(grid[best])
+    before, here, after = apart[best - 1 : best + 2]
+    bend = before - 2.0 * here + after
+    part = 0.5 * (before - after) / bend if bend > 0.0 else 0.0
+    return float(grid[best] + part * (grid[1] - grid[0]))
+
+
+def _apart(first: _Motion, other: _Motion, shift: float, overlap: float) -> float:
+    """Mean squared difference of the joint that differs most; infinite with less overlap."""
+    begin = max(first.time[0], other.time[0] - shift)
+    end = min(first.time[-1], other.time[-1] - shift)
+    if end - begin < max(overlap, 2 * first.step):
+        return float("inf")
+    times = np.linspace(begin, end, int(min(_POINTS, (end - begin) / first.step + 2)))
+    apart = (_at(first, times) - _at(other, times + shift)) / first.size
+    return float(np.mean(apart**2, axis=0).max())
+
+
+def _at(own: _Motion, times: np.ndarray) -> np.ndarray:
+    return np.column_stack([np.interp(times, own.time, column) for column in own.q.T])
+
+
+@dataclass(frozen=True)
+class Shares:
+    """Of sum (measured - mean)^2; the three sum to one.
+
+    Explained is R^2, and negative for a prediction that is worse than the best constant.
+    """
+
+    explained: float
+    systematic: float  # repeatable, and not in the model
+    floor: float  # noise, as far as these logs can tell
+    method: Method  # how the last two were told apart
+    sigma: float | None  # standard error of both; None by the method "smooth"
+
+    @property
+    def repeats(self) -> float:
+        """Repeatable share of what is not explained; 0 if nothing is left."""
+        left = self.systematic + self.floor
+        return self.systematic / left if left > 0.0 else 0.0
+
+
+def shares(
+    prediction: Prediction,
+    joint: int,
+    e: np.ndarray,
+    repeated: tuple[Repetition, ...],
+    found: Structure | None,
+) -> Shares | None:
+    """Shares of one joint; None for a constant torque, or too few samples to tell.
+
+    Where the motion was repeated, the repeatable part is the mean product of the residual and that
+    of the same moment in another lap (or log): noise of different laps has mean product zero.
+    Otherwise it is the squared mean and what smooth functions of the motion predict of the rest on
+    blocks of time that were held out.
+
+    Args:
+        prediction: the rows.
+        joint: which one.
+        e: (n,) its residual, NaN where a row does not count.
+        repeated: laps, logs of one motion.
+        found: structure of the residual.
+    """
+    rows = np.flatnonzero(prediction.used[:, joint])
+    y = prediction.measured[rows, joint]
+    spread, energy = float(np.sum((y - y.mean()) ** 2)), float(e[rows] @ e[rows])
+    if spread <= 0.0:
+        return None
+    left = energy / spread
+    for repetition in repeated:
+        returning = _returning(prediction, joint, e, repetition)
+        if returning is not None:
+            again, error = returning
+            kind = repetition.kind
+            return Shares(1.0 - left, again * left, (1.0 - again) * left, kind, error * left)
+    if found is None or energy == 0.0:
+        return None if energy else Shares(1.0, 0.0, 0.0, "smooth", None)
+    offset = rows.size * float(e[rows].mean()) ** 2 / energy
+    smooth = max(found.together, found.follows.share)
+    again = offset + (1.0 - offset) * smooth
+    return Shares(1.0 - left, again * left, (1.0 - again) * left, "smooth", None)
+
+
+def _returning(
+    prediction: Prediction, joint: int, e: np.ndarray, repetition: Repetition
+) -> tuple[float, float] | None:
+    """Share of the squared residual that laps have in common, and its standard error.
+
+    The error comes from sums over half a dozen neighbouring rows, which may share their noise.
+    None with too few rows repeated.
+    """
+    full = full_rate(prediction)
+    products, squares, scatter = 0.0, 0.0, 0.0
+    repeated = np.zeros(e.size, dtype=bool)
+    for partner in repetition.partners:
+        rows = np.flatnonzero((prediction.run == partner.run) & np.isfinite(e))
+        there = full.run == partner.other
+        then = prediction.time[rows] + partner.shift
+        other = at(full.time[there], full.filtered[there, joint], then)
+        there = np.isfinite(other)
+        if not there.any():
+            continue
+        own = e[rows][there]
+        if _copies(own, other[there]):
+            continue
+        product = own * other[there]
+        parts = np.add.reduceat(product, np.arange(0, own.size, _NEIGHBOURS))
+        products += float(product.sum())
+        squares += float(own @ own)
+        # every pair of moments stands here twice, once from either side
+        scatter += 2.0 * float(parts @ parts)
+        repeated[rows[there]] = True
+    if repeated.sum() < max(_FEWEST, _ENOUGH * np.isfinite(e).sum()):
+        return None
+    if squares == 0.0:
+        return 0.0, 0.0
+    return float(np.clip(products / squares, 0.0, 1.0)), float(np.sqrt(scatter)) / squares
+
+
+def _copies(first: np.ndarray, second: np.ndarray) -> bool:
+    """True if these are the same measurements given twice: their noise is alike, too."""
+    return bool(np.median(np.abs(first - second) > 1e-3 * np.abs(first)) < 0.5)

@@ -1,0 +1,265 @@
+"""One joint against time: measured, predicted, residual, and a close look at the worst window."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from modeler.core.figure import (
+    BLACK,
+    COLOR_NAMES,
+    ORANGE,
+    PALE_BLUE,
+    PALE_BROWN,
+    PALE_GREEN,
+    PALE_ORANGE,
+    PALE_PINK,
+    PALE_YELLOW,
+    SHADE,
+    SKY,
+    VERMILLION,
+    Band,
+    Curve,
+    Panel,
+    Picture,
+    Series,
+    Span,
+    Style,
+    thin_curves,
+)
+from modeler.core.table import WORDS
+from modeler.observation.observation import MASKS, WHY
+from modeler.observation.segments import runs
+from modeler.validation.comparison import WINDOW, JointComparison
+from modeler.validation.prediction import DEVIATIONS, Prediction, residual
+
+# Rows that do not count, and gaps between rows, as shaded stretches of time.
+
+
+GAP = "no rows"
+OTHER = "left out"
+_COLORS = {
+    "low speed": PALE_BLUE,
+    "torque at its limit": PALE_ORANGE,
+    "no good value": PALE_PINK,
+    "impossible derivative": PALE_GREEN,
+    "filter end": PALE_YELLOW,
+    "loops open": PALE_PINK,
+    GAP: PALE_YELLOW,
+    OTHER: PALE_BROWN,
+}
+_WHY = WHY | {
+    GAP: "a gap in the log, with the start-up of the filter on either side",
+    OTHER: "left out of this comparison",
+}
+_CLOSE = 1.0 / 1500.0  # of the axis: stretches that no screen shows apart are drawn as one
+
+
+def masked_spans(
+    prediction: Prediction, j: int, time: np.ndarray, rows: np.ndarray
+) -> tuple[Span, ...]:
+    """The stretches of time of joint j that do not count, by reason.
+
+    Args:
+        prediction: with its masks.
+        j: index of the joint.
+        time: (n,) s, of all rows on the axis that is drawn.
+        rows: numbers of the rows that are drawn, ascending.
+    """
+    if rows.size < 2:
+        return ()
+    half = 0.5 * _spacing(prediction, time)
+    close = _CLOSE * float(np.ptp(time[rows]))
+    reasons = _reasons(prediction, j)[rows]
+    whole = prediction.segment[rows]
+    found = []
+    for name in _COLORS:
+        ends = _gaps(prediction, time, rows, half) if name == GAP else [
+            (time[rows[first]] - half, time[rows[last]] + half)
+            for first, last in _runs(reasons == name, whole)
+        ]  # fmt: skip
+        if ends:
+            found.append(Span(name, _joined(np.array(ends), close), _COLORS[name]))
+    return tuple(found)
+
+
+def told_masks(prediction: Prediction, j: int) -> str:
+    """Which colour means what, and how many rows it takes; "" where every row counts."""
+    reasons, rows = _reasons(prediction, j), prediction.time.size
+    told = [
+        f"{COLOR_NAMES[color]}, {name}: {_WHY[name]} ({int(np.sum(reasons == name))} of {rows} "
+        "rows)"
+        for name, color in _COLORS.items()
+        if np.any(reasons == name)
+    ]
+    if _gaps(prediction, prediction.time, np.arange(rows), 0.0):
+        told.append(f"{COLOR_NAMES[_COLORS[GAP]]}, {GAP}: {_WHY[GAP]}")
+    return f"Shaded rows do not count: {'; '.join(told)}." if told else ""
+
+
+def _reasons(prediction: Prediction, j: int) -> np.ndarray:
+    """(n,) names; "" where a row counts."""
+    used, masks = prediction.used[:, j], prediction.masks
+    if masks is None:
+        return np.where(used, "", OTHER)
+    names = np.array([*MASKS, OTHER])  # -1, a row that counts for its model, is the last
+    return np.where(used, "", names[masks[:, j]])
+
+
+def _runs(flags: np.ndarray, whole: np.ndarray) -> list[tuple[int, int]]:
+    """First and last of each run of True within one segment."""
+    pieces = np.split(np.arange(len(flags)), np.flatnonzero(np.diff(whole)) + 1)
+    return [(int(own[a]), int(own[b - 1])) for own in pieces for a, b in runs(flags[own])]
+
+
+def _gaps(
+    prediction: Prediction, time: np.ndarray, rows: np.ndarray, half: float
+) -> list[tuple[float, float]]:
+    """Between segments of one log."""
+    segment, run = prediction.segment[rows], prediction.run[rows]
+    at = np.flatnonzero((np.diff(segment) != 0) & (np.diff(run) == 0))
+    ends = [(time[rows[k]] + half, time[rows[k + 1]] - half) for k in at]
+    return [(start, end) for start, end in ends if end > start]
+
+
+def _spacing(prediction: Prediction, time: np.ndarray) -> float:
+    steps = np.diff(time)[np.diff(prediction.segment) == 0]
+    return float(np.median(steps)) if steps.size else 0.0
+
+
+def _joined(ends: np.ndarray, close: float) -> np.ndarray:
+    """(k, 2) intervals, those nearer than `close` made one."""
+    apart = np.flatnonzero(ends[1:, 0] - ends[:-1, 1] > close) + 1
+    first = np.concatenate([[0], apart])
+    last = np.concatenate([apart - 1, [len(ends) - 1]])
+    return np.column_stack([ends[first, 0], ends[last, 1]])
+
+
+_MEASURED = Style(BLACK, width=1.1)
+_PREDICTED = Style(ORANGE, width=1.6, opacity=0.9)
+_RESIDUAL = Style(VERMILLION, width=1.0)
+_BAND = Style(SKY, opacity=0.45)
+
+
+def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
+    """Two rows sharing time: torques above, residual below; all logs left, worst window right."""
+    window, time = item.worst, prediction.time
+    own = prediction.segment == window.segment
+    margin = 0.5 * WINDOW
+    near = own & (time >= window.start - margin) & (time <= window.end + margin)
+    running, label, marks = running_time(prediction)
+    start = float(running[own & (time == window.start)][0])
+    left = _column(prediction, item, np.arange(time.size), running, _whole_title(prediction), label)
+    right = _column(
+        prediction, item, np.flatnonzero(near), time, f"Worst {WINDOW} s",
+        f"time in {window.log} [s]", banded=True,
+    )  # fmt: skip
+    here, close = (start, start + window.end - window.start), (window.start, window.end)
+    name = item.joint.name
+    return Picture(
+        name=f"joint_{name}_time",
+        title=f"Joint {name}: measured and predicted torque",
+        caption=" ".join(_caption(prediction, item)),
+        panels=tuple(
+            (replace(all_logs, marks=marks, shade=here), replace(worst, shade=close))
+            for all_logs, worst in zip(left, right, strict=True)
+        ),
+        heights=(0.58, 0.42),
+        widths=(0.68, 0.32),
+        height=440,
+        shared_time=True,
+    )
+
+
+def _caption(prediction: Prediction, item: JointComparison) -> list[str]:
+    what = WORDS[item.joint.effort_unit]
+    lines = [
+        f"Above: measured ({_MEASURED.named}) and predicted ({_PREDICTED.named}) {what}; where you "
+        f"see no {_MEASURED.named}, they agree. Below ({_RESIDUAL.named}): the difference, on its "
+        f"own, finer scale. Shaded {COLOR_NAMES[SHADE]} from top to bottom: the {WINDOW} s "
+        "with the largest squared residual, enlarged on the right."
+    ]
+    if prediction.sigma is not None:
+        lines.append(
+            f"Broad {_BAND.named} there: two standard deviations of the predicted {what} on either "
+            "side, from the covariance of the fitted parameters alone: 95 % where the model is "
+            "right; it knows nothing of effects that the model lacks."
+        )
+    masks = told_masks(prediction, item.index)
+    return [*lines, masks] if masks else lines
+
+
+def running_time(
+    prediction: Prediction,
+) -> tuple[np.ndarray, str, tuple[tuple[float, str], ...]]:
+    """Time of all rows on one axis, (n,) s, its label, and where each log begins.
+
+    One log keeps its own time; several are put one after the other, each starting where the
+    one before ended.
+    """
+    if len(np.unique(prediction.run)) == 1:
+        return prediction.time, f"time in {prediction.logs[prediction.run[0]]} [s]", ()
+    whole = np.empty_like(prediction.time, dtype=float)
+    marks, offset = [], 0.0
+    for run in np.unique(prediction.run):
+        rows = prediction.run == run
+        own = prediction.time[rows]
+        whole[rows] = own - own.min() + offset
+        marks.append((offset, prediction.logs[run]))
+        offset += float(own.max() - own.min())
+    return whole, "time, logs one after the other [s]", tuple(marks)
+
+
+def _whole_title(prediction: Prediction) -> str:
+    return "All logs" if len(np.unique(prediction.run)) > 1 else "Whole log"
+
+
+def broken(segment: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The curve with a NaN between segments, so that no line is drawn across a gap."""
+    places = np.flatnonzero(np.diff(segment)) + 1
+    return np.insert(x, places, x[places]), np.insert(y, places, np.nan)
+
+
+def _column(
+    prediction: Prediction,
+    item: JointComparison,
+    rows: np.ndarray,
+    time: np.ndarray,
+    title: str,
+    label: str,
+    banded: bool = False,
+) -> tuple[Panel, Panel]:
+    unit, joint = item.joint.effort_unit, item.index
+    curves = (
+        prediction.measured[rows, joint].astype(float),
+        prediction.predicted[rows, joint].astype(float),
+        residual(prediction)[rows, joint],
+    )
+    kept = thin_curves(curves)
+    labels = ("measured", "predicted", "residual")
+    styles = (_MEASURED, _PREDICTED, _RESIDUAL)
+    series: list[Series] = []
+    for text, values, style in zip(labels, curves, styles, strict=True):
+        x, y = broken(prediction.segment[rows][kept], time[rows][kept], values[kept])
+        series.append(Curve(text, x, y, style))
+    spans = masked_spans(prediction, joint, time, rows)
+    bands = _bands(prediction, joint, rows[kept], time) if banded else ()
+    return (
+        Panel(title, label, f"{WORDS[unit]} [{unit}]", (*bands[:1], *series[:2]), spans=spans),
+        Panel(f"{title}: residual", label, f"residual [{unit}]", (*bands[1:], series[2]), zero=True,
+              spans=spans),
+    )  # fmt: skip
+
+
+def _bands(
+    prediction: Prediction, joint: int, rows: np.ndarray, time: np.ndarray
+) -> tuple[Band, ...]:
+    """About the prediction, and about zero."""
+    if prediction.sigma is None:
+        return ()
+    half = DEVIATIONS * prediction.sigma[rows, joint]
+    found = []
+    for middle in (prediction.predicted[rows, joint], np.zeros(rows.size)):
+        x, low = broken(prediction.segment[rows], time[rows], middle - half)
+        _, high = broken(prediction.segment[rows], time[rows], middle + half)
+        found.append(Band("95 % band of the prediction", x, low, high, _BAND))
+    return tuple(found)

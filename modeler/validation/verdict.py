@@ -1,0 +1,311 @@
+"""The comparison in plain sentences."""
+
+from modeler.core.table import WORDS
+from modeler.validation.comparison import Comparison, JointComparison, Region
+from modeler.validation.residual_structure import COORDINATES, NEARLY, Coordinate, lines, waves
+
+NOTICEABLE = 0.05  # share of the residual variance below which a pattern is not mentioned
+_STANDS_OUT = 3.0  # energy share over time share of a region or window worth a remark
+_MORE = 0.1  # share beyond what simpler functions explain from which on it is told
+_MEMORY = 3.5  # samples; filtering and decimation alone leave two or three
+_TOO_LARGE = 0.2  # relative error of which noise is no excuse
+_BURST = 0.5  # share of the squared residual in one short window: an event, not noise
+_LINE = 0.3  # share of the power in one narrow line
+
+
+def headline(comparison: Comparison) -> str:
+    """One sentence on the whole robot."""
+    if not comparison.joints:
+        return f"{comparison.prediction.robot}: no joint could be judged."
+    ranked = sorted(comparison.joints, key=lambda item: item.relative_error)
+    parts = [
+        f"{rounded_percent(error)} of the {WORDS[unit]}" for unit, error in told_units(comparison)
+    ]
+    text = f"{' and '.join(parts)} is unexplained"
+    if len(ranked) == 1:
+        return f"{text}."
+    best, worst = ranked[0], ranked[-1]
+    return (
+        f"{text}; joint by joint from {rounded_percent(best.relative_error)} (joint "
+        f"{best.joint.name}) to {rounded_percent(worst.relative_error)} (joint {worst.joint.name})."
+    )
+
+
+def told_units(comparison: Comparison) -> list[tuple[str, float]]:
+    """Units of the judged joints, and the error over the joints of each."""
+    judged = {item.joint.effort_unit for item in comparison.joints}
+    return [(unit, error) for unit, error in comparison.by_unit.items() if unit in judged]
+
+
+def verdict(comparison: Comparison) -> tuple[str, ...]:
+    """One line per joint: how good, what is left, when it is worst."""
+    lines = [joint_verdict(item) for item in comparison.joints]
+    lines += [f"Joint {name} is not judged: {reason}." for name, reason in comparison.unjudged]
+    return tuple(lines)
+
+
+def joint_verdict(item: JointComparison) -> str:
+    """The line of one joint."""
+    return (
+        f"Joint {item.joint.name}: {rounded_percent(item.relative_error)} of the "
+        f"{WORDS[item.joint.effort_unit]} is unexplained "
+        f"({item.rms:.2g} {item.joint.effort_unit} rms); {'; '.join(findings(item))}."
+    )
+
+
+def findings(item: JointComparison) -> list[str]:
+    """What is left in the residual of a joint, most useful first; never empty."""
+    if item.rms <= 1e-12 * item.measured_rms:
+        return ["prediction and measurement agree to rounding"]
+    wrong = wrong_scale(item)
+    if wrong:  # everything else would follow from it
+        return [wrong, _worst(item)]
+    told = (
+        _pattern(item),
+        _follows(item) or _other_joint(item),
+        _ripple(item),
+        _bias(item),
+        _returns(item),
+    )
+    found = [text for text in told if text]
+    line = _oscillation(item)
+    if line and not found:  # a pattern that follows the motion has the frequencies of the motion
+        found.append(line)
+    if not found:
+        found.append(_nothing(item))
+    found.append(_worst(item))
+    return found
+
+
+def wrong_scale(item: JointComparison) -> str | None:
+    """What to check where the prediction is right but for its sign or a factor."""
+    found, name = item.scale, item.joint.name
+    if found is None:
+        return None
+    times = f"measured is {found.factor:.3g} times predicted"
+    if found.opposite:
+        return (
+            f"the prediction of joint {name} has the opposite sign: {times}; check the sign of "
+            f"tau{name} (or of its drive gain) and of q{name} in this log"
+        )
+    if found.off:
+        return (
+            f"the prediction of joint {name} is off by a factor: {times}; check the unit and the "
+            "drive gain of this log, and what the robot carries"
+        )
+    return None
+
+
+def returns(item: JointComparison) -> float:
+    """Repeatable share of what is not explained; 0 if it is within three standard errors of 0."""
+    found = item.shares
+    if found is None or (found.sigma is not None and found.systematic < 3.0 * found.sigma):
+        return 0.0
+    return found.repeats
+
+
+def best_pattern(item: JointComparison) -> tuple[Coordinate, float] | None:
+    """The coordinate that explains most, or a simpler one nearly as good, and its share."""
+    if item.structure is None:
+        return None
+    top = max(share for _, share in item.structure.shares)
+    if top < NOTICEABLE:
+        return None
+    for coordinate in COORDINATES:
+        share = item.structure.share(coordinate.id)
+        if share >= NEARLY * top:
+            return coordinate, share
+    raise AssertionError("the best share is at least 0.9 of itself")
+
+
+def best_other(item: JointComparison) -> tuple[str, float] | None:
+    """What explains clearly more by its velocity than the joint itself, and its share.
+
+    "joint 3", or "the motor that turns with joints 5 and 6" where the model has friction there.
+    """
+    if item.structure is None:
+        return None
+    others = [(f"joint {k}", x) for k, x in item.structure.across if k != item.joint.name]
+    others += [(_motor(k), x) for k, x in item.structure.motors]
+    if not others:
+        return None
+    name, share = max(others, key=lambda entry: entry[1])
+    own = max(item.structure.share("velocity"), item.structure.share("direction"))
+    return (name, share) if share >= own + NOTICEABLE else None
+
+
+def _motor(name: str) -> str:
+    first, _, last = name.replace("+", ", ").rpartition(", ")
+    return f"the motor that turns with joints {first} and {last}"
+
+
+def kind_of_residual(item: JointComparison) -> str:
+    """`pattern`, `noise` or `other`: what a reader should see first."""
+    if wrong_scale(item) or _ripple(item) or _returns(item) or _follows(item):
+        return "pattern"
+    if best_pattern(item) is not None or best_other(item) is not None:
+        return "pattern"
+    return "noise" if looks_like_noise(item) else "other"
+
+
+def looks_like_noise(item: JointComparison) -> bool:
+    """No pattern, no memory, no line: as far as this page can see, noise."""
+    return (
+        item.structure is not None
+        and best_pattern(item) is None
+        and item.structure.together < NOTICEABLE
+        and best_other(item) is None
+        and _ripple(item) is None
+        and _returns(item) is None
+        and _follows(item) is None
+        and _bias(item) is None
+        and not _remembers(item)
+        and _oscillation(item) is None
+        and item.relative_error < _TOO_LARGE
+        and item.worst.energy_share < _BURST
+    )
+
+
+def rounded_percent(share: float) -> str:
+    """A share as text: two significant digits, none below 0.1 %."""
+    value = 100.0 * share
+    if value >= 10.0:
+        return f"{value:.0f} %"
+    return f"{value:.1f} %" if value >= 0.1 else "under 0.1 %"
+
+
+def _pattern(item: JointComparison) -> str | None:
+    found, structure = best_pattern(item), item.structure
+    if structure is None:
+        return None
+    if found is None:
+        if structure.together < NOTICEABLE:
+            return None
+        return (
+            f"{rounded_percent(structure.together)} of that is a repeatable function of the "
+            "joint's own motion, spread over several coordinates"
+        )
+    coordinate, share = found
+    text = f"{rounded_percent(share)} of that is a repeatable function of {coordinate.phrase}"
+    if coordinate.id in ("velocity", "direction"):
+        text += _mostly_where(item.regions)
+    if coordinate.id != "time" and structure.together > share + 0.1:
+        text += f" ({rounded_percent(structure.together)} with its other coordinates)"
+    return text
+
+
+def _mostly_where(regions: tuple[Region, ...]) -> str:
+    groups = {
+        "around zero speed": (2,),
+        "at low speed": (1, 2, 3),
+        "at high speed": (0, 4),
+        "moving in the negative direction": (0, 1),
+        "moving in the positive direction": (3, 4),
+    }
+    for text, members in groups.items():
+        energy = sum(regions[member].energy_share for member in members)
+        time = sum(regions[member].time_share for member in members)
+        if energy > 0.6 and energy > 1.5 * time:
+            return f", mostly {text}"
+    return ""
+
+
+def _other_joint(item: JointComparison) -> str | None:
+    found = best_other(item)
+    if found is None:
+        return None
+    text = (
+        f"{rounded_percent(found[1])} of that follows the velocity of {found[0]} more than its own"
+    )
+    if found[0].startswith("joint"):
+        text += ", as where one motor turns with both ([coupling] in the robot file)"
+    return text
+
+
+def _ripple(item: JointComparison) -> str | None:
+    if item.orders is None:
+        return None
+    orders, per = waves(item.orders, item.joint.unit)
+    # the slowest waves of the spectrum are patterns over position, named elsewhere
+    fast = [line for line in lines(item.orders, item.joint.unit) if line.waves > 2.0 * orders[0]]
+    strong = [line for line in fast if line.share >= NOTICEABLE]
+    if not strong:
+        return None
+    line = strong[0]
+    return (
+        f"it ripples with {line.waves:.4g} waves per {per}, {line.amplitude:.2g} "
+        f"{item.joint.effort_unit} high"
+    )
+
+
+def _follows(item: JointComparison) -> str | None:
+    """What all that was measured predicts, where it is clearly more than single coordinates do."""
+    found = item.structure
+    if found is None or found.follows.share < NOTICEABLE:
+        return None
+    single = (*found.shares, *found.across, *found.motors)
+    told = max(found.together, *(share for _, share in single))
+    if told > NOTICEABLE and found.follows.share < told + _MORE:
+        return None
+    name, coordinate = found.follows.joint, found.follows.coordinate or "motion"
+    whose = f"joint {name}" if name else "the joints together"
+    return f"{rounded_percent(found.follows.share)} of that follows the {coordinate} of {whose}"
+
+
+def _returns(item: JointComparison) -> str | None:
+    """The repeatable share, where it is more than the coordinates and the mean account for."""
+    share, found = returns(item), item.structure
+    told = item.bias**2 / item.rms**2 + (found.together if found is not None else 0.0)
+    if (
+        item.shares is None
+        or item.shares.method == "smooth"
+        or share < max(NOTICEABLE, told + 0.1 if told > NOTICEABLE else 0.0)
+    ):
+        return None
+    return {
+        "laps": f"{rounded_percent(share)} of it returns in every lap",
+        "logs": f"{rounded_percent(share)} of it returns in every log of this motion",
+    }[item.shares.method]
+
+
+def _bias(item: JointComparison) -> str | None:
+    if item.bias**2 < 2 * NOTICEABLE * item.rms**2:
+        return None
+    return f"the prediction is off by {item.bias:+.2g} {item.joint.effort_unit} on average"
+
+
+def _oscillation(item: JointComparison) -> str | None:
+    colour = item.spectrum
+    if colour is None or colour.peak_share < _LINE:
+        return None
+    # the lowest frequencies are slow patterns, named elsewhere, not oscillations
+    if colour.peak <= 4 * colour.frequency[0] or 5 / colour.frequency.size > 0.1:
+        return None
+    return f"{rounded_percent(colour.peak_share)} of it oscillates near {colour.peak:.3g} Hz"
+
+
+def _remembers(item: JointComparison) -> bool:
+    colour = item.spectrum
+    return colour is not None and colour.memory > _MEMORY * colour.period
+
+
+def _nothing(item: JointComparison) -> str:
+    if item.structure is None:
+        return f"too few samples ({item.samples}) to tell whether the residual has structure"
+    if _remembers(item) and item.spectrum is not None:
+        return (
+            f"no function of its own motion or of time explains it, yet it is not noise: it stays "
+            f"alike for {item.spectrum.memory:.2g} s (look at other joints, flexibility, contact)"
+        )
+    return "the residual looks like noise"
+
+
+def _worst(item: JointComparison) -> str:
+    window = item.worst
+    text = f"the worst moment is {window.start:.2f}-{window.end:.2f} s of {window.log}"
+    if window.energy_share > _STANDS_OUT * window.time_share and window.energy_share > 0.1:
+        text += (
+            f", {rounded_percent(window.energy_share)} of the squared residual in "
+            f"{rounded_percent(window.time_share)} of the time"
+        )
+    return text
