@@ -233,3 +233,8 @@ POOLED = (
     "||measured||; by_unit holds one error per unit"
 )
 """How the pooled error of a robot with both units comes about."""
+
+
+def percent(share: float, digits: int = 3) -> str:
+    """A share in percent, as in "3.41 %"; "-" where it is not known."""
+    return f"{100.0 * share:.{digits}g} %" if math.isfinite(share) else "-"

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.table import percent
 from modeler.diagnosis.gram import BLOCK, MOST
 
 SURE = 2.0
@@ -178,11 +179,6 @@ def errors_of(seen: Unseen) -> dict[str, float]:
     sizes = [(float(np.linalg.norm(e)), float(np.linalg.norm(y)))
              for e, y in zip(seen.residual, seen.torque, strict=True)]  # fmt: skip
     return {name: e / y for name, (e, y) in zip(seen.names, sizes, strict=True) if y > 0.0}
-
-
-def percent(share: float, digits: int = 3) -> str:
-    """A share in percent, as in "3.41 %"; "-" where it is not known."""
-    return f"{100.0 * share:.{digits}g} %" if math.isfinite(share) else "-"
 
 
 def printed(before: float, after: float) -> tuple[str, str]:

@@ -2,9 +2,10 @@
 
 import dataclasses
 
+from modeler.core.table import percent
 from modeler.diagnosis.orders import knocking
 from modeler.diagnosis.result import Diagnosis, Finding, Key
-from modeler.diagnosis.score import percent, printed
+from modeler.diagnosis.score import printed
 from modeler.diagnosis.search import Step
 from modeler.diagnosis.values import told_spread
 from modeler.effects.catalogue import effect_named

@@ -571,7 +571,6 @@ BODIES: tuple[Effect, ...] = (
 
 # The effects of every textbook model: rotor inertia, viscous and Coulomb friction, offset.
 
-
 _ROTOR_INERTIA = EffectColumn(
     "Ia", parse("a"), "kg m2", "kg", "rotor_inertia", EnergyBlock.KINETIC, True
 )

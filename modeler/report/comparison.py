@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeler.core.figure import Picture
-from modeler.diagnosis.score import percent
+from modeler.core.table import percent
 from modeler.report.figure_matplotlib import write_files
 from modeler.report.page import (
     Figure,

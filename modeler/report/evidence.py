@@ -22,9 +22,9 @@ from modeler.core.figure import (
     Series,
     Style,
 )
+from modeler.core.table import percent
 from modeler.diagnosis.judge import Judged
 from modeler.diagnosis.orders import order_spectrum
-from modeler.diagnosis.score import percent
 from modeler.diagnosis.search import Step
 from modeler.report.evidence_axes import bins_of
 from modeler.report.page import PageCell, PageTable

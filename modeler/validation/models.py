@@ -13,7 +13,7 @@ from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.core.json import nulled
 from modeler.core.result import Presented
-from modeler.diagnosis.score import percent
+from modeler.core.table import percent
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation
