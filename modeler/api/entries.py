@@ -8,10 +8,10 @@ from modeler.api.checks import free_run as free_run
 from modeler.api.checks import look_at as look_at
 from modeler.api.checks import on_gpu as on_gpu
 from modeler.api.checks import write_report as write_report
-from modeler.api.fit import Load as Load
-from modeler.api.fit import fit_gains as fit_gains
-from modeler.api.fit import side_by_side as side_by_side
-from modeler.api.fleet import fleet as fleet
+from modeler.api.fitting import Load as Load
+from modeler.api.fitting import fit_gains as fit_gains
+from modeler.api.fitting import side_by_side as side_by_side
+from modeler.api.fleets import fleet as fleet
 from modeler.api.improve import add as add
 from modeler.api.improve import auto as auto
 from modeler.api.improve import undo as undo
@@ -41,7 +41,7 @@ from modeler.api.motion import excite as excite
 from modeler.api.motion import home as home
 from modeler.api.motion import simulate as simulate
 from modeler.api.motion import tell_apart as tell_apart
-from modeler.api.physical import physical as physical
+from modeler.api.physical_parameters import physical as physical
 from modeler.codegen.derivation import Derivation as Derivation
 from modeler.core.manifest import Emitted as Emitted
 from modeler.diagnosis.result import Diagnosis as Diagnosis

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from modeler.api.fit import chosen_methods, observed_apart
+from modeler.api.fitting import chosen_methods, observed_apart
 from modeler.api.model import compile_model, derive, generate
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.lists import robot_of

@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from modeler.api.fit import Load, found_with_gains
+from modeler.api.fitting import Load, found_with_gains
 from modeler.api.model import compile_model, derive, generate, identified, read_logs
 from modeler.api.ways import OF_WINDOWS, WITHOUT_LOADS, Asked, estimated, judged
 from modeler.cli.console import Json, say, say_next, working

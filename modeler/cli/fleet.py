@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler.api import compile_model, derive, generate
-from modeler.api.fleet import file_and_at, reduce_logs
+from modeler.api.fleets import file_and_at, reduce_logs
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.lists import robot_of
 from modeler.cli.places import log_endings

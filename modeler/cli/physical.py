@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from modeler.api.physical import UNITS, Physical, PhysicalValues, physical
+from modeler.api.physical_parameters import UNITS, Physical, PhysicalValues, physical
 from modeler.cli.console import Json, note, progress, say, working
 from modeler.cli.lists import read_told
 from modeler.codegen.derivation import Derivation, derive
