@@ -52,6 +52,11 @@ def house_lines(imports: dict[str, set[str]]) -> list[tuple[str, str]]:
     )
 
 
+def _side(room: str) -> tuple[int, str]:
+    """What derives stands left, what only uses numbers right."""
+    return (0 if room in NORTH else 1 if room in AROUND else 2, room)
+
+
 def house_svg(package: Path) -> str:
     """The picture: the core at the foot, the command line on top.
 
@@ -60,7 +65,10 @@ def house_svg(package: Path) -> str:
     """
     imports = house_imports(package)
     levels = house_levels(imports)
-    rows = [sorted(r for r in levels if levels[r] == k) for k in range(max(levels.values()) + 1)]
+    rows = [
+        sorted((r for r in levels if levels[r] == k), key=_side)
+        for k in range(max(levels.values()) + 1)
+    ]
     place = {
         room: (WIDTH * (i + 1) / (len(row) + 1), 30 + HEIGHT * (len(rows) - 1 - k))
         for k, row in enumerate(rows)

@@ -8,14 +8,14 @@ from types import ModuleType
 from typing import Any
 
 STAGES = (
-    "robot", "symbolic", "base", "terms", "codegen", "compiled", "observation", "estimate", "fit",
-    "compare", "diagnose", "simulate", "excite", "improve",
+    "robot", "derivation", "formulas", "codegen", "runtime", "observation", "estimation",
+    "validation", "diagnosis", "fleet", "simulation", "papers",
 )  # fmt: skip
 """Stages with pages of their own, in the order of the data; `modeler.api` comes before them."""
 
 
 def interface_pages() -> dict[str, str]:
-    """{"python/fit.md": text} of `modeler.api`, of each stage, and an index of them."""
+    """{"python/estimation.md": text} of `modeler.api`, of each stage, and an index of them."""
     shown: set[str] = set()
     pages = {"python/api.md": _page("modeler.api", shown)}
     for stage in _stages():

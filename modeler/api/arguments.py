@@ -1,4 +1,4 @@
-"""The door of the API: what a function is given is of the kind that it declares.
+"""What a function of the API is given is of the kind that it declares, or a line says what is not.
 
 Without it, a wrong kind shows as an error of Python's deep inside.
 """

@@ -1,4 +1,4 @@
-"""Pages: one self-contained HTML file of whatever has one."""
+"""Is a model true? Pages, free runs, several models on the same rows, steps through a model."""
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext

@@ -1,4 +1,4 @@
-"""Logs of currents and a load that was weighed: the model with the gains of its drives."""
+"""Fits besides the usual one: drive gains from a weighed load, all estimators on one log."""
 
 import dataclasses
 from collections.abc import Callable, Sequence

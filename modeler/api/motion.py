@@ -1,4 +1,4 @@
-"""Motions that tell parameters, or two effects, apart."""
+"""Motions: those that excite, simulated measurements, assembly modes."""
 
 import dataclasses
 import math

@@ -1,4 +1,4 @@
-"""`modeler derive ROBOT`."""
+"""`modeler derive ROBOT` and `modeler generate ROBOT|MODEL --out DIR`."""
 
 import argparse
 import dataclasses

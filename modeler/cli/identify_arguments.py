@@ -1,4 +1,4 @@
-"""`modeler fit ROBOT LOG... --out MODEL` and `modeler compare MODEL LOG...`."""
+"""What is typed after the commands on logs: fit, compare, log, estimators, free-run, fleet."""
 
 import argparse
 from typing import get_args

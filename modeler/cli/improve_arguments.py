@@ -1,4 +1,4 @@
-"""`modeler diagnose MODEL LOG...`."""
+"""What is typed after diagnose, add, excite, simulate and completion."""
 
 import argparse
 

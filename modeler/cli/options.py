@@ -1,4 +1,4 @@
-"""What the parsers of several commands share."""
+"""What the parsers of several commands share: arguments, their order, the usage line."""
 
 import argparse
 import re

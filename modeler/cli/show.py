@@ -1,4 +1,4 @@
-"""`modeler convert FILE --out ROBOT.toml`."""
+"""`modeler show ROBOT`, and `modeler convert FILE --out ROBOT.toml`."""
 
 import argparse
 from pathlib import Path

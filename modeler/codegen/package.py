@@ -1,4 +1,4 @@
-"""What makes an emitted folder a package: its version, what is installed, texts of the build."""
+"""What makes an emitted folder a package: templates, version, what is installed."""
 
 import hashlib
 import re

@@ -1,4 +1,4 @@
-"""What emitted arithmetic is made of: the number type, its literals and the names of its functions.
+"""What emitted arithmetic is made of: number type, literals, functions; single precision.
 
 One emitter writes a function for doubles, for floats, and for a vector whose lanes are samples.
 """

@@ -1,4 +1,4 @@
-"""The errors a user may see: one line that says where, got, expected, what to do."""
+"""The errors a user may see, one line each; the choices that commands name; windows of a log."""
 
 from pathlib import Path
 from typing import Literal

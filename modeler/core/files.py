@@ -1,4 +1,4 @@
-"""Files: none is read without end, none half-written, and nothing but a file replaced."""
+"""Files: none is read without end, none half-written, and nothing but a file replaced; outputs."""
 
 import contextlib
 import enum

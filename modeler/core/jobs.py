@@ -1,4 +1,4 @@
-"""Jobs on a Dask cluster: other machines, or the processors of this one."""
+"""Work in many like pieces: here, in processes, or on a Dask cluster; the results do not differ."""
 
 import logging
 import multiprocessing

@@ -1,4 +1,4 @@
-"""Dataclasses from plain data, every entry checked against the type that the class declares."""
+"""JSON both ways: dataclasses from plain data, every entry checked; texts without NaN."""
 
 import dataclasses
 import json

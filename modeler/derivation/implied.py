@@ -1,4 +1,4 @@
-"""The constant of a linear relation between joints, as a combination of the robot's symbols.
+"""Linear relations that loops imply: constant ratios between joints, found and proven.
 
 u_p = sum c_k u_k + constant. How the constant depends on a symbol is seen by closing the loops anew
 with a slightly different value of it: the derivative is a rational number, of a length also a

@@ -1,4 +1,4 @@
-"""How sure a model is whose shapes were fitted too: sigmas and intervals that know of it."""
+"""The model with an effect: its robot file, its rows, how sure its values are, notes on it."""
 
 import dataclasses
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""What is wrong with the data itself, before any physics is blamed; one line each."""
+"""What is wrong with the data itself, before any physics is blamed: doubts, one line each."""
 
 from collections.abc import Sequence
 from functools import partial

@@ -1,4 +1,4 @@
-"""Something pushed for a while: a torque that lasts on one or more joints and comes only once."""
+"""What comes only once: pushes; and play in a gear, which knocks."""
 
 import dataclasses
 from collections.abc import Mapping

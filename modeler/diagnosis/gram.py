@@ -1,4 +1,4 @@
-"""Everything that ranking needs of the rows, as small matrices by block of time."""
+"""What ranking needs of the rows, as small matrices by block of time, and the blocks."""
 
 import dataclasses
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""What a diagnosis says, as plain data."""
+"""What a diagnosis says, as plain data; the share of the error that its effects close."""
 
 import math
 from collections.abc import Mapping, Sequence

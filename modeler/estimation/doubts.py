@@ -1,4 +1,4 @@
-"""What a fit found that physics does not allow, or that does not deserve trust: in sentences."""
+"""What of a fit deserves no trust, in sentences; logs that tell different values."""
 
 import dataclasses
 from collections.abc import Sequence

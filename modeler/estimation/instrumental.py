@@ -1,4 +1,4 @@
-"""Estimators along a motion that was not measured: commanded (iv), simulated (iv-direct, didim)."""
+"""Instrumental variables along a motion that was not measured: commanded, or simulated."""
 
 import dataclasses
 from collections.abc import Callable

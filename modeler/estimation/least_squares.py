@@ -1,4 +1,4 @@
-"""What each estimator is and when it is the wrong one: for help, pages and the fit's sentences."""
+"""Least squares of y = W beta by joints: weights, iterations, sigmas; list of estimators."""
 
 import dataclasses
 from collections.abc import Mapping

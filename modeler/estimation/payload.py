@@ -1,4 +1,4 @@
-"""Runs with a load on a link: its inertial parameters beside those of the robot."""
+"""Runs with a load on a link: its parameters beside those of the robot; mounted again."""
 
 import dataclasses
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""What a fit hands back: values, how sure they are, and how much they leave unexplained."""
+"""What a fit hands back: values, sigmas, errors by joint, the energy model, bodies."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""What positions must keep to besides the ranges of the motors: boxes, loops, joints behind."""
+"""A motion as a Fourier series, and what it must keep to: ranges, boxes, loops, torques."""
 
 import math
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""One quantity of one machine over its periods: does it stay, drift or jump?"""
+"""One quantity of one machine over its periods: does it stay, drift or jump; is a machine odd?"""
 
 import datetime
 import re

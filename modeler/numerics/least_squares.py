@@ -1,4 +1,4 @@
-"""Which columns the data can tell apart."""
+"""Ranks, triangles and weighted medians: what every least squares here is made of."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Values that stand alone: far above the noise of a channel and above all that happens nearby."""
+"""What stands alone in a channel, what a residual remembers, and the step of its resolution."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""Memory and spectrum of a residual, never across a segment."""
+"""Spectra of motions and residuals, orders of a shaft, laps of a motion that repeats."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The flexible rival: how well do smooth functions of all that was measured predict a residual?"""
+"""Smooth functions of all that was measured: how well do they predict a residual?"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""A log: what one run of the robot left behind, before any processing."""
+"""A log: what one run of the robot left behind; and whether two logs share rows."""
 
 import hashlib
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""Shafts with dry friction, and the samples at which they all but stand still."""
+"""Shafts with dry friction that all but stand still; inner states of bristles; signals."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

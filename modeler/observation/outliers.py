@@ -1,4 +1,4 @@
-"""What no robot does, in the channels of a log: found, told, and mended or left out."""
+"""What no robot does, in the channels of a log: found, told, and mended or left out; leaps."""
 
 import dataclasses
 from collections.abc import Callable, Iterator, Mapping, Sequence

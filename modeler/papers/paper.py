@@ -1,4 +1,4 @@
-"""What a paper prints, as short quotations, and what we conclude from it.
+"""What a paper prints, as short quotations, what we conclude from it, and the robots it derives.
 
 One file per paper in `library/`. A quotation is the print letter by letter, without the marks of
 typesetting: subscripts stand on the line, `^` is a power. What is compared is read from the

@@ -1,4 +1,4 @@
-"""The page of a comparison: one HTML file that needs no network."""
+"""Comparisons: the page of one model, of several, and the pictures of both."""
 
 import math
 import statistics

@@ -1,4 +1,4 @@
-"""Robots and what is derived from them."""
+"""Robots and what is derived from them: page, tables and figures of a notebook."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence

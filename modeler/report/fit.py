@@ -1,4 +1,4 @@
-"""Fits and models."""
+"""Fits and models: the page of a fit, tables and figures of a notebook."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The page of a fleet: what drifts where."""
+"""Fleets: the page of what drifts where, tables of a notebook."""
 
 from collections.abc import Callable, Sequence
 from functools import partial

@@ -1,4 +1,4 @@
-"""Comparisons and diagnoses."""
+"""Comparisons and diagnoses as tables and figures of a notebook."""
 
 from collections.abc import Callable
 from functools import partial

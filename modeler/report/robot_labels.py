@@ -1,4 +1,4 @@
-"""From where a robot is looked at: orthographic views, gravity down."""
+"""Views of a robot, gravity down, and where its names are written."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

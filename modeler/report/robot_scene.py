@@ -1,4 +1,4 @@
-"""What is drawn: parts that hang on frames, so that they move as the frames do."""
+"""What is drawn of a robot: parts and glyphs that hang on frames and move with them."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

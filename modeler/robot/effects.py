@@ -1,4 +1,4 @@
-"""The tables [own_effects.<id>] of a robot file: effects that the catalogue lacks."""
+"""Effects of a robot file: those it names, and [own_effects] that the catalogue lacks."""
 
 import dataclasses
 import re

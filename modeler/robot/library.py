@@ -1,4 +1,4 @@
-"""Robot files of other programs: which are read, and which are refused by name."""
+"""Built-in robot files, and those of other programs: which are read, which refused by name."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The `[loops]` and `[home]` of a robot file."""
+"""`[loops]`, `[home]`, `[relations]`, legs and platforms of a robot file."""
 
 import math
 import re

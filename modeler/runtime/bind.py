@@ -1,4 +1,4 @@
-"""The library's functions, declared from the manifest; with bind_fused.py all that knows cffi."""
+"""The library's functions, declared from the manifest: all that knows cffi."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""The C compiler of this machine: which one, and which of our flags it knows."""
+"""Compiling on this machine: the C compiler, its flags, the cache of libraries."""
 
 import contextlib
 import hashlib

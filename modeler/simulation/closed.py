@@ -1,4 +1,4 @@
-"""The simulated robot with loops as one ordinary differential equation in its coordinates."""
+"""Robots with loops, simulated: driven by a controller, or on the command exactly."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

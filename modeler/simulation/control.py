@@ -1,4 +1,4 @@
-"""What encoders and torque sensors read."""
+"""What encoders and torque sensors read, and the controller that sees it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Hidden torques that follow the position: springs, ripples, and transmissions that give way."""
+"""Hidden torques that follow the position: springs, ripples, transmissions that give way."""
 
 import casadi as ca
 import numpy as np

@@ -1,4 +1,4 @@
-"""Commanded motion that excites a robot: moves at several speeds, then a Fourier series."""
+"""Commanded motion: moves at several speeds, Fourier series, files; its limits."""
 
 import io
 import math

@@ -1,4 +1,4 @@
-"""Measured against predicted: the numbers of each joint, as table and as JSON."""
+"""Measured against predicted: numbers of each joint, regions, logs, scale; table and JSON."""
 
 import dataclasses
 import json

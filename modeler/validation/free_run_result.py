@@ -1,4 +1,4 @@
-"""What a free run ends in."""
+"""What a free run ends in: numbers, sentences, pictures."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The residual of one joint against each coordinate, and its spectrum."""
+"""Pictures of a comparison: residuals against coordinates, overview, overlay, shares."""
 
 from collections.abc import Sequence
 

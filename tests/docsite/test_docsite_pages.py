@@ -10,6 +10,7 @@ import pytest
 import modeler.api
 from docsite.commands import command_pages, commands
 from docsite.gallery import exhibit, gallery_index
+from docsite.house import house_svg
 from docsite.interface import exported, interface_pages
 from docsite.markdown import cell, code, table
 from docsite.notebook import executed, notebook_page
@@ -36,6 +37,24 @@ def test_every_place_has_its_page() -> None:
     made |= {f"notebooks/{path.stem}.md" for path in (ROOT / "docs").glob("*.ipynb")}
     written = {path.name for path in (ROOT / "docs").glob("*.md")}
     assert set(listed()) == made | written
+
+
+def test_the_picture_of_the_house_is_that_of_the_code(regenerate: bool) -> None:
+    picture = ROOT / "docs" / "house.svg"
+    drawn = house_svg(ROOT / "modeler")
+    if regenerate:
+        picture.write_text(drawn, encoding="utf-8")
+    assert picture.read_text(encoding="utf-8") == drawn, "run `make regenerate`"
+
+
+def test_files_that_the_house_page_names_are_there() -> None:
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    for paragraph in text.split("\n\n"):
+        room = ""
+        for name in re.findall(r"`((?:[a-z_]+/)?[a-z_]+\.py)`", paragraph):
+            room = name.rpartition("/")[0] or room
+            path = ROOT / name if room in ("docsite", "tests") else ROOT / "modeler" / room
+            assert (path / name.rpartition("/")[2]).exists() or path.is_file(), name
 
 
 def test_the_readme_leads_to_every_page_that_is_no_report() -> None:
