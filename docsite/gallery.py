@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from docsite.markdown import block, cell, code, table
 from modeler.codegen.derivation import Derivation, derive, generate
+from modeler.core.builtin import builtin_names, builtin_text
 from modeler.derivation.relations import as_markdown
 from modeler.report.robot_drawing import picture_bytes
 from modeler.report.showing import show
-from modeler.robot.library import builtin_names, builtin_text
 from modeler.robot.read import read_robot
 
 

@@ -12,7 +12,7 @@ from docsite.gallery import exhibits, gallery_index
 from docsite.interface import interface_pages
 from docsite.markdown import moved
 from docsite.notebook import executed, notebook_page
-from modeler.robot.library import builtin_names
+from modeler.core.builtin import builtin_names
 
 ROOT = Path(__file__).resolve().parents[1]
 KEPT = ("site.css", "iframe-worker/iframe-worker.js", "iframe-worker/LICENSE")

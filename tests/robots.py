@@ -1,6 +1,6 @@
 """The robots that every test of every stage runs over: a new built-in is tested by being there."""
 
-from modeler.robot.library import builtin_names
+from modeler.core.builtin import builtin_names
 from modeler.robot.read import read_robot
 
 ROBOTS = builtin_names()

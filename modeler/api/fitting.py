@@ -18,11 +18,11 @@ from modeler.api.model import (
 from modeler.api.ways import Way, judged
 from modeler.codegen.derivation import Derivation
 from modeler.core.errors import DataError, Method
+from modeler.core.estimators import ABOUT
 from modeler.core.manifest import ModuleSpec
 from modeler.estimation.doubts import Doubt, not_together, remounted
 from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.known import deviations
-from modeler.estimation.least_squares import ABOUT
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.payload import Payload, loaded_equations
 from modeler.estimation.side_by_side import SideBySide

@@ -11,13 +11,14 @@ from modeler.codegen.derivation import Derivation as Derivation
 from modeler.codegen.derivation import derive as derive
 from modeler.codegen.derivation import generate as generate_robot
 from modeler.codegen.derivation import load as load
+from modeler.core.builtin import builtin_names
 from modeler.core.errors import DataError, ManifestError, Method, Precision, file_and_window
+from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.table import Table
 from modeler.effects.catalogue import CATALOGUE
 from modeler.estimation.drive_gains import check_currents, in_drive_units
-from modeler.estimation.least_squares import ABOUT
 from modeler.estimation.model_file import (
     IdentifiedModel,
     fitted_spec,
@@ -36,7 +37,6 @@ from modeler.observation.processing import Processing
 from modeler.observation.read import read_log, source_of
 from modeler.observation.window import read_part, window
 from modeler.robot.edit import with_own_effect
-from modeler.robot.library import builtin_names
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel

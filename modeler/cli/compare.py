@@ -9,7 +9,7 @@ from modeler.api.model import Mapped, read_logs, recompile
 from modeler.cli.console import Json, note, progress, say, say_next, working
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError
-from modeler.estimation.least_squares import titled
+from modeler.core.estimators import titled
 from modeler.estimation.model_file import IdentifiedModel, load_model, with_essential_only
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_prediction

@@ -20,11 +20,9 @@ from modeler.cli.places import (
     log_endings,
     model_or_log,
 )
+from modeler.core.builtin import MOTIONS, OTHER_PROGRAMS, builtin_names, paper_names
+from modeler.core.estimators import ABOUT
 from modeler.effects.catalogue import CATALOGUE as EFFECTS
-from modeler.estimation.least_squares import ABOUT
-from modeler.papers.paper import paper_names
-from modeler.robot.library import OTHER_PROGRAMS, builtin_names
-from modeler.simulation.settings import MOTIONS
 
 _BASH = """\
 _modeler() {

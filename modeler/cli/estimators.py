@@ -8,8 +8,8 @@ from modeler.api.model import compile_model, derive, generate
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.lists import robot_of
 from modeler.core.errors import DataError, Method
+from modeler.core.estimators import ABOUT
 from modeler.core.table import aligned
-from modeler.estimation.least_squares import ABOUT
 from modeler.estimation.side_by_side import Tried, side_by_side
 from modeler.report.estimators import table_of, values_of, write_estimators
 

@@ -9,6 +9,7 @@ from modeler.api.motion import chosen_mode
 from modeler.api.motion import home as home_modes
 from modeler.cli.console import Json, say, working
 from modeler.cli.lists import read_told
+from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
 from modeler.core.errors import DataError
 from modeler.core.files import check_writable, write_atomically
 from modeler.derivation.assembly_modes import AssemblyMode
@@ -18,7 +19,6 @@ from modeler.report.robot import modes_html
 from modeler.report.robot_closing import Posture
 from modeler.report.robot_skeleton import PICTURE_KINDS, size_of, skeleton_of
 from modeler.robot.edit import home_lines, with_home_text
-from modeler.robot.library import OTHER_PROGRAMS, builtin_names
 from modeler.robot.loops import read_home
 from modeler.robot.robot import Place, Robot
 

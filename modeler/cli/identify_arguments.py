@@ -27,7 +27,7 @@ from modeler.cli.places import (
     model_or_log,
 )
 from modeler.core.errors import GAIN_METHOD, LOW_SPEED, TWO_STEPS, Derivatives, Method, ModelKind
-from modeler.estimation.least_squares import ABOUT, APART
+from modeler.core.estimators import ABOUT, APART
 
 _LOGS = (
     "Parquet, CSV, MAT, HDF5 or MCAP logs, ROS bags; FILE@START:END takes the rows between these "

@@ -22,8 +22,7 @@ from modeler.cli.places import (
     RobotOrModel,
     Word,
 )
-from modeler.effects.catalogue import CATALOGUE
-from modeler.simulation.settings import SimulationSettings
+from modeler.core.builtin import EFFECTS, MOTIONS, SIMULATED
 
 
 def add_diagnose(commands: Commands) -> None:
@@ -208,11 +207,11 @@ def add_simulate(commands: Commands) -> None:
     parser.add_argument(
         "--truth", metavar="FILE", type=Output, help="write the true parameters as JSON"
     )
-    _add_settings(parser, SimulationSettings())
+    _add_settings(parser)
     parser.add_argument(
         "--hide", metavar="EFFECT[@JOINT][:NAME=VALUE,...]", action="append", default=[], type=Word,
         help="physics that the machine has and the robot file lacks; may be repeated; joint and "
-        f"values left out are drawn from --parameter-seed: {', '.join(e.id for e in CATALOGUE)}",
+        f"values left out are drawn from --parameter-seed: {', '.join(EFFECTS)}",
     )  # fmt: skip
     parser.add_argument(
         "--drive-gain", metavar="JOINT=VALUE", action="append", default=[], type=Word,
@@ -223,9 +222,9 @@ def add_simulate(commands: Commands) -> None:
     parser.set_defaults(load=_simulate)
 
 
-def _add_settings(parser: argparse.ArgumentParser, default: SimulationSettings) -> None:
+def _add_settings(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "--motion", metavar="MOTION", type=MotionOrKind, default=default.motion,
+        "--motion", metavar="MOTION", type=MotionOrKind, default=MOTIONS[0],
         help="exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
         "[limits] allow; one-joint: one after the other alone; or a file of `modeler excite` or a "
         "log, whose (commanded) positions are then the motion, as long as it is (default "
@@ -233,21 +232,21 @@ def _add_settings(parser: argparse.ArgumentParser, default: SimulationSettings) 
     )  # fmt: skip
     add_number(
         parser, "--duration", "S", float,
-        f"seconds (default {default.duration:g}); not of a file, which is as long as it is",
+        f"seconds (default {SIMULATED['duration']:g}); not of a file, which is as long as it is",
     )  # fmt: skip
-    add_number(parser, "--rate", "HZ", float, "samples per second", default.rate)
-    add_number(parser, "--seed", "N", int, "of motion and noise", default.seed)
+    add_number(parser, "--rate", "HZ", float, "samples per second", SIMULATED["rate"])
+    add_number(parser, "--seed", "N", int, "of motion and noise", SIMULATED["seed"])
     add_number(
         parser, "--parameter-seed", "N", int,
-        "of parameters the file leaves open", default.parameter_seed,
+        "of parameters the file leaves open", SIMULATED["parameter_seed"],
     )  # fmt: skip
     add_number(
         parser, "--noise", "SHARE", float,
-        "torque noise, share of the rms torque", default.torque_noise,
+        "torque noise, share of the rms torque", SIMULATED["torque_noise"],
     )  # fmt: skip
     add_number(
         parser, "--process-noise", "SHARE", float,
-        "random torque on the machine, share of the rms torque", default.process_noise,
+        "random torque on the machine, share of the rms torque", SIMULATED["process_noise"],
     )  # fmt: skip
     parser.add_argument(
         "--controller", action="store_true",
@@ -255,7 +254,7 @@ def _add_settings(parser: argparse.ArgumentParser, default: SimulationSettings) 
     )  # fmt: skip
     add_number(
         parser, "--encoder-counts", "N", int,
-        "per turn, 0 for an ideal encoder", default.encoder_counts,
+        "per turn, 0 for an ideal encoder", SIMULATED["encoder_counts"],
     )  # fmt: skip
 
 

@@ -5,11 +5,12 @@ import math
 from collections.abc import Callable, Sequence
 
 from modeler.cli.console import Json, note, say, working
+from modeler.core.builtin import builtin_names
 from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE, effect_named
 from modeler.effects.effect import Acts, Effect, Form
 from modeler.robot.edit import with_effects, with_home_text
-from modeler.robot.library import builtin_names, conversion_notes
+from modeler.robot.library import conversion_notes
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.robot.robot import Robot, near
 

@@ -15,8 +15,8 @@ from modeler.cli.options import (
     add_robot,
 )
 from modeler.cli.places import DemoFolder, ModuleFolder, Output, RobotFile, RobotOrModel, Word
+from modeler.core.builtin import paper_names
 from modeler.core.errors import Precision
-from modeler.papers.paper import paper_names
 
 
 def add_derive(commands: Commands) -> None:

@@ -13,6 +13,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from modeler.core.builtin import MOTIONS, OTHER_PROGRAMS, builtin_file, builtin_names
 from modeler.core.errors import DataError, ModelerError, file_and_window
 from modeler.core.files import (
     Destination,
@@ -22,8 +23,6 @@ from modeler.core.files import (
     destination,
     page_place,
 )
-from modeler.robot.library import OTHER_PROGRAMS, builtin_file, builtin_names
-from modeler.simulation.settings import MOTIONS
 
 _MOTIONS = (".csv", ".parquet")
 _LOGS = (*_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy")

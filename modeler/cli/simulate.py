@@ -6,11 +6,11 @@ from pathlib import Path
 
 from modeler.cli.console import Json, progress, say
 from modeler.cli.lists import robot_of
+from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
 from modeler.robot.robot import Robot
 from modeler.simulation import (
     KEPT,
-    MOTIONS,
     Reference,
     SimulationSettings,
     at_rate,

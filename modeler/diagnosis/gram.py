@@ -286,7 +286,7 @@ def sigma_of(rows: Rows | Reduced, beta: np.ndarray | None = None) -> np.ndarray
     """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
 
     Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
-    fit (see `estimate.least_squares`): their sigma beside the torques that cancel in them is at
+    fit (see `estimation.least_squares`): their sigma beside the torques that cancel in them is at
     least that of the others beside the torques that are measured.
 
     Args:

@@ -104,7 +104,7 @@ def identify(
 
     Args:
         observation: of one or several logs.
-        method: the estimator, see `estimate.methods`.
+        method: the estimator, see `estimation.methods`.
         model: the compiled robot, for estimators that simulate it or know its nominal values.
         below: percent, of the rule by sigmas for what is essential; see `essential_parameters`.
 

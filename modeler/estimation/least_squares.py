@@ -1,140 +1,14 @@
-"""Least squares of y = W beta by joints: weights, iterations, sigmas; list of estimators."""
+"""Least squares of y = W beta by joints: weights, iterations, standard deviations."""
 
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import cast
 
 import numpy as np
 
-from modeler.core.errors import GAIN_METHOD, TWO_STEPS, Method
+from modeler.core.errors import Method
 from modeler.estimation.problem import Problem, residual_of
 from modeler.numerics.least_squares import Compressed, Rank, independent_columns
-
-
-@dataclass(frozen=True)
-class About:
-    """An estimator in words.
-
-    Attributes:
-        id: as typed.
-        title: as in "weighted least squares".
-        law: its equation.
-        source: where it comes from.
-        avoid: when not to use it.
-    """
-
-    id: str
-    title: str
-    law: str
-    source: str
-    avoid: str
-
-
-_EVERY = (
-    About(
-        "weighted",
-        "weighted least squares",
-        "min sum_j |y_j - W_j beta|^2 / sigma_j^2, sigma_j^2 the residual variance of joint j, "
-        "iterated to the fixed point",
-        "Gautier 1997, ICRA",
-        "where rows are wrong here and there (robust), or the motion is so noisy that W itself is "
-        "(iv, iv-direct): noise of W pulls values towards 0, and sigma does not say so",
-    ),
-    About(
-        "ordinary",
-        "ordinary least squares",
-        "min |y - W beta|^2; covariance with the residual variance of each joint",
-        "Gauss; White 1980",
-        "where joints differ in torque or noise: the loudest joint decides, and the others' "
-        "parameters are worse than they need be",
-    ),
-    About(
-        "robust",
-        "robust least squares",
-        "sum_i psi(r_i / sigma_j) w_i / sigma_j = 0, Huber's psi, then Tukey's bisquare; "
-        "sigma_j = 1.4826 median |r_i| of joint j; sandwich covariance",
-        "Huber 1964; Holland and Welsch 1977",
-        "where the model lacks an effect: the rows that show it lose their weight, and the fit "
-        "looks better than it is; with white noise it needs 5 % more rows",
-    ),
-    About(
-        "ridge",
-        "ridge",
-        "min |S^-1/2 (y - W beta)|^2 + lambda |D (beta - beta_0)|^2, beta_0 the nominal values of "
-        "the robot file or 0, lambda by the probability of the data",
-        "Hoerl and Kennard 1970; MacKay 1992",
-        "where the values themselves matter and the motion could be better: it hides what the data "
-        "do not tell, its values are biased towards the prior, and sigma knows no bias",
-    ),
-    About(
-        "iv",
-        "instrumental variables, commanded motion",
-        "(Z^T S^-1 W) beta = Z^T S^-1 y, Z the columns of W along the commanded motion",
-        "Young 2011; Janot, Vandanjon and Gautier 2014, IEEE TCST 22(1)",
-        "without logged commands qc, where the command follows the measurement (hand guiding, "
-        "impedance control), or where the position is clean: then sigma is larger for nothing",
-    ),
-    About(
-        "iv-direct",
-        "instrumental variables, simulated motion",
-        "(Z^T S^-1 W) beta = Z^T S^-1 y, Z the columns of W along the motion of the direct model, "
-        "repeated with its own values",
-        "Janot, Vandanjon and Gautier 2014, IEEE TCST 22(1)",
-        "without logged commands qc (it then follows the logged motion, and little is gained), or "
-        "where the fit cannot be simulated",
-    ),
-    About(
-        "didim",
-        "direct and inverse model identification",
-        "min sum_j |y_j - W_j(q_s) beta|^2 / sigma_j^2, q_s(beta) simulated in closed loop",
-        "Gautier, Janot and Vandanjon 2013, IEEE TCST 21(2)",
-        "where the controller of the log is not known and none comes near its motion: what they "
-        "differ by goes into the values; sigma is raised by as much",
-    ),
-    About(
-        "consistent",
-        "physically consistent least squares",
-        "min 1/2 |R (K chi - beta)|^2 + sum_j gamma_j D(P_j, P0_j), every pseudo-inertia P_j "
-        "positive definite, friction and rotor inertias not negative; ends in all standard "
-        "parameters chi",
-        "Sousa and Cortesao 2014, IJRR 33(6); Lee, Wensing and Park 2020, IEEE T-RO 36(2)",
-        "to see what is wrong: it hides a missing effect in the nearest machine; look at the "
-        "doubts of weighted first",
-    ),
-)
-ABOUT: dict[Method, About] = {cast(Method, about.id): about for about in _EVERY}
-"""By id, in the order in which they are told."""
-
-
-APART = (
-    About(
-        GAIN_METHOD,
-        "total least squares with drive gains",
-        "g_j V_j = W_j beta + m w_j: the smallest right singular vector of what QR of [W w] leaves "
-        "of the currents V, rows and columns in units of their noise",
-        "Briot and Gautier 2012; Van Huffel and Vandewalle 1991",
-        "without logs of currents and a run with a load of known mass",
-    ),
-    About(
-        TWO_STEPS,
-        "two-step least squares",
-        "inertia J_ii, gravity and friction of each joint that moves alone, then theta = Phi beta",
-        "Hanssen, Hovland and Brogardh 2000, section 4",
-        "where joints may move together: rows of such motion are left out",
-    ),
-)
-"""Beside the others: they take other logs."""
-
-
-def titled(method: str) -> str:
-    """Its title; the id itself if a later version wrote it."""
-    every = (*_EVERY, *APART)
-    return next((about.title for about in every if about.id == method), method)
-
-
-# Ordinary and weighted least squares with their covariance.
-
 
 MAX_ITERATIONS = 500
 _SETTLED = 1e-9  # relative change of the weights

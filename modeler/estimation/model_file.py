@@ -95,7 +95,7 @@ class Addition(Presented):
         shape_intervals: 95 % intervals of the shapes.
         joints: relative error before and with it, by joint, on the logs of `error`.
         changed: joints whose error surely changed.
-        falls: True if the error surely falls, and no joint is spoilt (see `scoring.score`).
+        falls: True if the error surely falls, and no joint is spoilt (see `diagnosis.score`).
     """
 
     effect: str

@@ -9,9 +9,9 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import Method, ModelerError
+from modeler.core.estimators import ABOUT
 from modeler.core.result import Presented
 from modeler.estimation.identify import identify
-from modeler.estimation.least_squares import ABOUT
 from modeler.estimation.result import FitResult
 from modeler.observation.observation import Observation
 from modeler.runtime.model import CompiledModel

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from modeler.codegen.derivation import derive, generate
+from modeler.core.builtin import builtin_text
 from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.payload import Payload, identify_with_payloads
 from modeler.observation.log import Log
@@ -26,7 +27,6 @@ from modeler.papers.method_report import (
     recovered,
 )
 from modeler.robot.edit import with_drive_gains
-from modeler.robot.library import builtin_text
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Limits, Robot
 from modeler.runtime.model import CompiledModel

@@ -1,5 +1,6 @@
 """What `modeler.papers` offers; loaded when the first of these is asked for."""
 
+from modeler.core.builtin import paper_names as paper_names
 from modeler.papers.check import Line as Line
 from modeler.papers.check import Verdict as Verdict
 from modeler.papers.check import check_line as check_line
@@ -9,6 +10,5 @@ from modeler.papers.paper import Derived as Derived
 from modeler.papers.paper import Paper as Paper
 from modeler.papers.paper import PrintedLine as PrintedLine
 from modeler.papers.paper import derived_robot as derived_robot
-from modeler.papers.paper import paper_names as paper_names
 from modeler.papers.paper import read_paper as read_paper
 from modeler.papers.wrist import coefficient_quotations as coefficient_quotations

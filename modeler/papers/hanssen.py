@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from modeler.codegen.derivation import Derivation, derive, generate
+from modeler.core.builtin import builtin_text
 from modeler.core.expression import parse
 from modeler.estimation.two_step import Directions
 from modeler.estimation.two_step_result import TwoStepFit, identify_in_two_steps
@@ -21,7 +22,6 @@ from modeler.observation.log import Log
 from modeler.observation.observation import observe
 from modeler.papers import Paper
 from modeler.papers.method_report import MethodTable, Outcome, Row, judged, quoted, recovered
-from modeler.robot.library import builtin_text
 from modeler.robot.motors import joint_directions
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Limits, Robot

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from modeler.codegen.derivation import derive, generate
+from modeler.core.builtin import builtin_text
 from modeler.estimation.energy import identify_energy
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult, friction_by_direction
@@ -17,7 +18,6 @@ from modeler.observation.log import Log
 from modeler.observation.observation import observe
 from modeler.papers import Paper
 from modeler.papers.method_report import MethodTable, Outcome, Row, judged, quoted, recovered
-from modeler.robot.library import builtin_text
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel

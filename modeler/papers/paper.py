@@ -21,6 +21,7 @@ from typing import Any
 
 import sympy
 
+from modeler.core.builtin import paper_names
 from modeler.core.errors import RobotError
 from modeler.core.expression import parse
 from modeler.core.json import built
@@ -134,11 +135,6 @@ class Paper:
     coefficients: str = ""
     slips: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     unchecked: Mapping[str, str] = field(default_factory=dict)
-
-
-def paper_names() -> tuple[str, ...]:
-    """Names of the papers that there are."""
-    return tuple(sorted(path.stem for path in _FOLDER.glob("*.toml")))
 
 
 def read_paper(name: str) -> Paper:

@@ -16,7 +16,7 @@ def write_estimators(
     Args:
         path: an `.html` file, or a folder, which then gets `estimators.html`.
         robot: its name.
-        tried: from `fit.side_by_side`.
+        tried: from `estimation.side_by_side`.
         provenance: lines on how the data came about.
 
     Raises:

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
+from modeler.core.estimators import titled
 from modeler.core.result import Figures, Presentation, Tables, present
 from modeler.core.table import Cell, Table
-from modeler.estimation.least_squares import titled
 from modeler.estimation.model_file import Addition, IdentifiedModel
 from modeler.estimation.result import FitResult, ParameterEstimate
 from modeler.estimation.side_by_side import SideBySide

@@ -1,7 +1,7 @@
 """Stage 1: what the user states. Data, no derivation."""
 
-from modeler.robot.library import builtin_names as builtin_names
-from modeler.robot.library import builtin_text as builtin_text
+from modeler.core.builtin import builtin_names as builtin_names
+from modeler.core.builtin import builtin_text as builtin_text
 from modeler.robot.read import read_robot as read_robot
 from modeler.robot.read import robot_from_text as robot_from_text
 from modeler.robot.robot import INERTIAL as INERTIAL

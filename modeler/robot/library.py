@@ -1,15 +1,11 @@
-"""Built-in robot files, and those of other programs: which are read, which refused by name."""
+"""Robot files of other programs: which are read, and which are refused by name."""
 
 from pathlib import Path
 
+from modeler.core.builtin import NOT_READ
 from modeler.core.errors import RobotError
 from modeler.core.files import read_file
 from modeler.robot.par_convert import Converted, par_to_toml
-
-_NOT_READ = {".urdf": "URDF", ".xacro": "xacro", ".sdf": "SDF", ".mjcf": "MJCF", ".xml": "XML"}
-
-OTHER_PROGRAMS = (".par", *_NOT_READ)
-"""Endings of their robot files: nothing of ours is ever written into one."""
 
 
 def converted(path: Path) -> Converted:
@@ -34,7 +30,7 @@ def check_known_format(path: Path) -> None:
     Raises:
         RobotError: says what to do instead.
     """
-    name = _NOT_READ.get(path.suffix.lower())
+    name = NOT_READ.get(path.suffix.lower())
     if name is not None:
         raise RobotError(
             f"{path}: {name} is not read yet; expected a robot file (TOML) or a SYMORO file "
@@ -46,30 +42,3 @@ def conversion_notes(robot: str) -> tuple[str, ...]:
     """What reading that file decided and left out; nothing for robot files and names."""
     path = Path(robot)
     return converted(path).notes if path.suffix.lower() == ".par" else ()
-
-
-# The robots that come with the tool: TOML files in `library/` beside this module.
-
-
-_LIBRARY = Path(__file__).resolve().parent / "library"
-
-
-def builtin_names() -> tuple[str, ...]:
-    """Names of the built-in robots, sorted."""
-    return tuple(sorted(file.stem for file in _LIBRARY.glob("*.toml")))
-
-
-def builtin_text(name: str) -> str:
-    """The TOML text of a built-in robot.
-
-    Raises:
-        KeyError: there is none of that name.
-    """
-    if name not in builtin_names():
-        raise KeyError(name)
-    return builtin_file(name).read_text(encoding="utf-8")
-
-
-def builtin_file(name: str) -> Path:
-    """Where the text of a built-in robot stands."""
-    return _LIBRARY / f"{name}.toml"

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from modeler.core.builtin import builtin_names, builtin_text
 from modeler.core.errors import RobotError
 from modeler.core.files import read_text
 from modeler.core.json import TomlError, parse_toml
@@ -25,7 +26,7 @@ from modeler.robot.cells import (
     text_at,
 )
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
-from modeler.robot.library import builtin_names, builtin_text, check_known_format, converted
+from modeler.robot.library import check_known_format, converted
 from modeler.robot.loops import (
     expanded,
     leg_names,

@@ -1,5 +1,6 @@
 """What `modeler.simulation` offers; loaded when the first of these is asked for."""
 
+from modeler.core.builtin import MOTIONS as MOTIONS
 from modeler.simulation.closed_motion import KEPT as KEPT
 from modeler.simulation.hidden import HIDDEN as HIDDEN
 from modeler.simulation.hidden import HiddenEffect as HiddenEffect
@@ -14,7 +15,6 @@ from modeler.simulation.parameters import PlantParameters as PlantParameters
 from modeler.simulation.parameters import plant_parameters as plant_parameters
 from modeler.simulation.run import drive_gains as drive_gains
 from modeler.simulation.run import simulate as simulate
-from modeler.simulation.settings import MOTIONS as MOTIONS
 from modeler.simulation.settings import SimulationSettings as SimulationSettings
 from modeler.simulation.trajectory import Reference as Reference
 from modeler.simulation.trajectory import at_rate as at_rate

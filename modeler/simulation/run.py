@@ -94,7 +94,7 @@ def simulate(
 ) -> SimulatedLog:
     """A measurement of `robot` under closed-loop control.
 
-    With loops the commanded motion is carried out exactly (see `simulate.closed`), unless the
+    With loops the commanded motion is carried out exactly (see `simulation.closed`), unless the
     settings ask for the controller.
 
     The robot's effects are simulated as physics, and so are those of `settings.hidden`, which the

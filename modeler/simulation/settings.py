@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.brief import Brief
+from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
 from modeler.robot.robot import Limits
 from modeler.simulation.hidden import HiddenEffect
@@ -17,9 +18,6 @@ from modeler.simulation.portable_math import exponential
 if TYPE_CHECKING:
     from modeler.simulation.trajectory import Reference
 
-
-MOTIONS = ("exciting", "point-to-point", "one-joint")
-"""What the commanded motion may be."""
 
 _MOST = {
     "seed": math.inf, "parameter_seed": math.inf, "encoder_counts": 1e12,

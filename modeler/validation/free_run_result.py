@@ -55,7 +55,7 @@ class Controlled(Brief):
     """The robot under a controller that follows the logged commands.
 
     Attributes:
-        speed, ratio, integral, forward: of the cascade, see `estimate.direct`; speed in Hz.
+        speed, ratio, integral, forward: of the cascade, see `estimation.direct_model`; speed in Hz.
         given: its values were given; else those that bring the robot nearest to the log.
         fit: by joint, % of the positions, as above.
         tracking: by joint, 100 (1 - |q - q_s| / |q - q_c|), %: how much of what the controller

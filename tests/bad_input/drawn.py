@@ -17,7 +17,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from modeler.robot.library import builtin_names, builtin_text
+from modeler.core.builtin import builtin_names, builtin_text
 from modeler.robot.read import read_robot
 from tests.bad_input.judge import clear, run_here, standing_in, within
 from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes, edited_structure, toml_text

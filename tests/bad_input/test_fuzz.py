@@ -16,7 +16,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from modeler.robot.library import builtin_text
+from modeler.core.builtin import builtin_text
 from tests.bad_input.judge import clear, run_here, standing_in, within
 from tests.bad_input.mutants import (
     NUMBERS,

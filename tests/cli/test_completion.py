@@ -14,9 +14,9 @@ import pytest
 
 from modeler.cli import main, parser
 from modeler.cli.completion import SCRIPTS, candidates
+from modeler.core.builtin import builtin_names
+from modeler.core.estimators import ABOUT
 from modeler.effects.catalogue import CATALOGUE
-from modeler.estimation.least_squares import ABOUT
-from modeler.robot.library import builtin_names
 
 
 @pytest.fixture

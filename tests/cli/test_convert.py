@@ -6,7 +6,7 @@ import shutil
 import pytest
 
 from modeler.cli import main
-from modeler.robot.library import builtin_file
+from modeler.core.builtin import builtin_file
 from modeler.robot.read import read_robot
 from tests.robot.par_files import par_text
 

@@ -9,8 +9,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler.cli import main
+from modeler.core.builtin import builtin_text
 from modeler.estimation.model_file import load_model
-from modeler.robot.library import builtin_text
 
 GAINS = {"11": 2110.0, "12": 2130.0, "13": 2070.0}
 MAKER = "\n[drive_gains]\n" + "".join(f"{joint} = 2001\n" for joint in GAINS)

@@ -10,7 +10,7 @@ import pytest
 from matplotlib.image import imread
 
 from modeler.cli import main
-from modeler.robot.library import builtin_text
+from modeler.core.builtin import builtin_text
 from modeler.robot.read import read_robot
 from tests.loops.test_loops_mistakes import CRANK
 from tests.robot.par_files import par_text

@@ -48,7 +48,7 @@ def chunked(monkeypatch):
                   "modeler.observation.chunked_report.LONG",
                   "modeler.api.checks.LONG"):  # fmt: skip
         monkeypatch.setattr(where, 4000)
-    for where in ("observation.log", "observation.seen", "api.looking"):
+    for where in ("observation.log", "observation.chunks", "api.checks"):
         monkeypatch.setattr(f"modeler.{where}.FINGER", 1024)
     monkeypatch.setattr("modeler.api.checks.WINDOW", 900)
     monkeypatch.setattr(

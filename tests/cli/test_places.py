@@ -22,7 +22,7 @@ from modeler.cli.places import (
     model_or_log,
 )
 from modeler.codegen.package import write_emitted
-from modeler.robot.library import builtin_file
+from modeler.core.builtin import builtin_file
 from tests.modules import module
 
 FILES = ("arm.toml", "arm.par", "m.json", "a.parquet", "b.csv", "other.parquet", "load.parquet",

@@ -11,12 +11,12 @@ from matplotlib.image import imread
 
 from modeler.api import load, show
 from modeler.cli import main
+from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError
 from modeler.derivation.derive import with_home
 from modeler.report.robot_closing import home_posture
 from modeler.report.robot_drawing import picture_bytes
 from modeler.report.robot_skeleton import skeleton_of
-from modeler.robot.library import builtin_text
 from modeler.robot.read import read_robot
 from tests.robot.par_files import par_text
 from tests.robots import ROBOTS

@@ -9,11 +9,11 @@ from functools import cache
 import numpy as np
 
 from modeler.codegen.emit import emit
+from modeler.core.builtin import builtin_text
 from modeler.core.manifest import ArgumentSpec, Emitted, FittedParameter, FittedSpec, ModuleSpec
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.robot.edit import with_effects
-from modeler.robot.library import builtin_text
 from modeler.robot.read import robot_from_text
 from modeler.runtime.build import build_library
 from tests.modules import Module, module

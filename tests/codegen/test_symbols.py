@@ -8,11 +8,11 @@ import pytest
 
 from modeler.codegen.emit import deciding_symbols, emit
 from modeler.codegen.package import write_emitted
+from modeler.core.builtin import builtin_text
 from modeler.core.manifest import Emitted
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.model import SymbolicModel
-from modeler.robot.library import builtin_text
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import load
 from tests.modules import STRICT, compiler, module, states

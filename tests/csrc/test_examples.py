@@ -10,9 +10,9 @@ import pytest
 
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
+from modeler.core.builtin import builtin_text
 from modeler.core.manifest import FittedSpec
 from modeler.robot.edit import with_effects
-from modeler.robot.library import builtin_text
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.simulation import HiddenEffect, SimulationSettings
 from tests.codegen.fitted_library import fitted_of, robot_module

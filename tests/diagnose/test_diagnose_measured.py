@@ -18,10 +18,10 @@ from modeler.api import (
     observe,
     read_logs,
 )
+from modeler.core.builtin import builtin_text
 from modeler.diagnosis.add import add_effect
 from modeler.diagnosis.added_model import Logs
 from modeler.estimation.model_file import IdentifiedModel
-from modeler.robot.library import builtin_text
 from modeler.runtime.model import load as load_compiled
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"

@@ -16,7 +16,7 @@ from docsite.markdown import cell, code, table
 from docsite.notebook import executed, notebook_page
 from modeler.api import derive, generate, load
 from modeler.cli import main
-from modeler.robot.library import builtin_names
+from modeler.core.builtin import builtin_names
 from tests.repository import ROOT
 
 

@@ -8,6 +8,7 @@ import pytest
 from scipy.optimize import least_squares as nonlinear
 
 from modeler.api import compile_model, derive, generate, load, read_currents
+from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation.doubts import mounted_differently, remounted
 from modeler.estimation.drive_gains import check_currents, identify_gains
@@ -17,7 +18,6 @@ from modeler.estimation.total_least_squares import mixed_tls
 from modeler.numerics.least_squares import compress
 from modeler.observation.observation import observe
 from modeler.robot.edit import with_drive_gains
-from modeler.robot.library import builtin_text
 from modeler.robot.read import robot_from_text
 from tests.drive_gains.runs import Runs, runs_of
 

@@ -13,10 +13,10 @@ from functools import lru_cache
 import numpy as np
 
 from modeler import api
+from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError
 from modeler.estimation.identify import identify
 from modeler.observation.log import Log
-from modeler.robot.library import builtin_text
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate

@@ -6,7 +6,7 @@ from typing import get_args
 import pytest
 
 from modeler.core.errors import DataError, Method
-from modeler.estimation.least_squares import ABOUT, titled
+from modeler.core.estimators import ABOUT, titled
 from modeler.estimation.methods import METHODS, method_of
 
 

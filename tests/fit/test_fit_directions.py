@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, generate
+from modeler.core.builtin import builtin_text
 from modeler.estimation.identify import identify
 from modeler.estimation.result import fit_from_json
 from modeler.estimation.verdict import with_verdict
@@ -13,7 +14,6 @@ from modeler.observation.log import Log
 from modeler.observation.observation import observe
 from modeler.observation.processing import Processing
 from modeler.robot.edit import with_effects
-from modeler.robot.library import builtin_text
 from modeler.robot.read import robot_from_text
 
 EVERY = ("viscous", "coulomb", "asymmetric_viscous", "offset")

@@ -9,7 +9,7 @@ import pytest
 from modeler.api import compile_model, derive, generate, load
 from modeler.cli import main
 from modeler.core.errors import TWO_STEPS
-from modeler.estimation.least_squares import ABOUT
+from modeler.core.estimators import ABOUT
 
 ROBOT, JOINTS, MASS = "demo-arm", 3, 2.0
 RESTING = [(0,), (1,), (2,), (0, 1, 2)]

@@ -9,8 +9,8 @@ import scipy.io
 
 from modeler.api import add, compare, undo
 from modeler.cli import main
+from modeler.core.builtin import builtin_text
 from modeler.estimation.model_file import load_model
-from modeler.robot.library import builtin_text
 from tests.logs.writers import parquet
 
 LOG = """

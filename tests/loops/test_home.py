@@ -6,12 +6,12 @@ from functools import cache
 import numpy as np
 import pytest
 
+from modeler.core.builtin import builtin_text
 from modeler.core.errors import LoopError
 from modeler.derivation.closing import SINGULAR
 from modeler.derivation.derive import derive_model, modes_near, with_home
 from modeler.derivation.home import HomeModes
 from modeler.derivation.walks import linkage_of
-from modeler.robot.library import builtin_text
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from tests.loops.test_loops_mistakes import CRANK

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.robot.library import builtin_text
+from modeler.core.builtin import builtin_text
 from modeler.robot.read import robot_from_text
 from modeler.simulation import SimulationSettings, simulate, write_log
 

@@ -17,12 +17,12 @@ import pytest
 from modeler.api import compile_model
 from modeler.codegen.derivation import derive, generate
 from modeler.codegen.emit import emit
+from modeler.core.builtin import builtin_names, builtin_text
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.columns import standard_columns
 from modeler.derivation.geometry import exact_geometry
 from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
-from modeler.robot.library import builtin_names, builtin_text
 from modeler.robot.read import read_robot, robot_from_text
 from tests.loops.drawn_robots import DRAWN, drawn
 from tests.loops.table_kinematics import Table

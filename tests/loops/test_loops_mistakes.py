@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
+from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError, LoopError, ModelerError
 from modeler.derivation.derive import derive_model
 from modeler.derivation.geometry import exact_geometry
 from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
-from modeler.robot.library import builtin_text
 from modeler.robot.read import robot_from_text
 from modeler.simulation import SimulationSettings, simulate
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import sympy
 
+from modeler.core.builtin import builtin_text
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import Sample, numeric_rank, random_states, regressor_values
-from modeler.robot.library import builtin_text
 from modeler.robot.read import read_robot, robot_from_text
 from tests.base.ranks import seen
 from tests.modules import module

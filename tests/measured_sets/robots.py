@@ -1,6 +1,6 @@
 """Robot files of machines that are not built in as they are measured here."""
 
-from modeler.robot.library import builtin_text
+from modeler.core.builtin import builtin_text
 
 DUALARM7 = """
 name = "dualarm7"

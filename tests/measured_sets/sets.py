@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from modeler.robot.library import builtin_text
+from modeler.core.builtin import builtin_text
 from tests.measured_sets.robots import DUALARM7, panda
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"

@@ -6,8 +6,9 @@ import re
 import pytest
 
 from modeler.cli import main
+from modeler.core.builtin import paper_names
 from modeler.core.errors import RobotError
-from modeler.papers import paper_names, read_paper
+from modeler.papers import read_paper
 from modeler.papers.method_report import MethodTable, Outcome, Row, figures, quoted, recovered
 from modeler.papers.run import METHODS
 

@@ -60,7 +60,7 @@ def tags_in(text: str) -> list[str]:
     return found
 
 
-NOTEBOOK = {"modeler/core/presented.py", "modeler/core/table.py"}
+NOTEBOOK = {"modeler/core/result.py", "modeler/core/table.py"}
 """Tables in a notebook are no pages: fragments of a few tags, and the core knows no jinja2."""
 
 

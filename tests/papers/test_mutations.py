@@ -7,11 +7,11 @@ from itertools import islice
 
 import pytest
 
+from modeler.core.builtin import paper_names
 from modeler.papers import (
     Verdict,
     check_line,
     coefficient_quotations,
-    paper_names,
     read_paper,
     written_out,
 )

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from modeler.papers import Verdict, check_line, coefficient_quotations, paper_names, read_paper
+from modeler.core.builtin import paper_names
+from modeler.papers import Verdict, check_line, coefficient_quotations, read_paper
 from modeler.papers.check import written_out
 from tests.papers.derived_papers import robots_of
 from tests.papers.oracles import holds

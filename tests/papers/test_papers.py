@@ -7,13 +7,13 @@ import re
 import pytest
 
 from modeler.cli import main
+from modeler.core.builtin import paper_names
 from modeler.papers import (
     PrintedLine,
     Verdict,
     check_line,
     check_paper,
     coefficient_quotations,
-    paper_names,
     read_paper,
 )
 from modeler.papers.quotation import QuotationError, numbers_of, read_sum, sum_text

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from modeler.papers import coefficient_quotations, paper_names, read_paper
+from modeler.core.builtin import paper_names
+from modeler.papers import coefficient_quotations, read_paper
 from tests.papers.derived_papers import robots_of
 
 PAPERS = Path(__file__).resolve().parents[3] / "shared" / "papers"

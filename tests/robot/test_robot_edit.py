@@ -4,9 +4,9 @@ import tomllib
 
 import pytest
 
+from modeler.core.builtin import builtin_names
 from modeler.core.errors import RobotError
 from modeler.robot.edit import with_effects
-from modeler.robot.library import builtin_names
 from modeler.robot.read import read_robot, robot_from_text
 
 ARM = """

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.robot.library import builtin_names
+from modeler.core.builtin import builtin_names
 from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL
 from tests.elementary_motions import frames, row_pose, shift, turn

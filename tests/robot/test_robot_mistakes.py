@@ -5,8 +5,8 @@ import re
 
 import pytest
 
+from modeler.core.builtin import builtin_names, builtin_text
 from modeler.core.errors import RobotError
-from modeler.robot.library import builtin_names, builtin_text
 from modeler.robot.read import read_robot, robot_from_text
 
 GOOD = """\

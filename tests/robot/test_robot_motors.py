@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from modeler.core.builtin import builtin_text
 from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.robot.edit import with_effect
-from modeler.robot.library import builtin_text
 from modeler.robot.motors import joint_directions
 from modeler.robot.read import read_robot, robot_from_text
 from tests.modules import compiled, module

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from modeler.core.builtin import builtin_names, builtin_text
 from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE
-from modeler.robot.library import builtin_names, builtin_text
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.robot.robot import EffectUse, JointKind, Limits
 

@@ -4,10 +4,10 @@ import casadi as ca
 import numpy as np
 import pytest
 
+from modeler.core.builtin import builtin_text
 from modeler.report.robot_closing import closed_from, gaps_of, home_posture, jacobian, residuals
 from modeler.report.robot_labels import good_view, joint_points
 from modeler.report.robot_skeleton import poses, skeleton_of
-from modeler.robot.library import builtin_text
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.simulation.closing import constraints_of, followed
 from modeler.simulation.rigid import world_frames

@@ -9,8 +9,8 @@ import pytest
 from closed_energy import energies, without_effects
 from simulated_robots import robot
 
+from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError, RobotError
-from modeler.robot.library import builtin_text
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.robot.robot import INERTIAL, Limits
 from modeler.simulation import SimulationSettings, motion_limits, plant_parameters, simulate

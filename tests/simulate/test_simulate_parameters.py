@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from simulated_robots import ARM, PENDULUM, SIX, TREE, robot
 
+from modeler.core.builtin import builtin_names
 from modeler.core.errors import RobotError
-from modeler.robot.library import builtin_names
 from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL, Limits
 from modeler.simulation import links, motion_limits, plant_parameters

@@ -13,7 +13,9 @@ import pytest
 from simulated_robots import ARM, PENDULUM, SIX, TREE, TWO_LINK, robot
 
 import modeler.simulation
+from modeler.core.builtin import EFFECTS, MOTIONS, SIMULATED
 from modeler.core.errors import DataError, ModelerError
+from modeler.effects.catalogue import CATALOGUE
 from modeler.robot.robot import Limits
 from modeler.simulation import (
     SimulatedLog,
@@ -278,7 +280,7 @@ def test_stiff_friction_is_still_integrated():
 
 
 def test_simulation_shares_no_code_with_the_model():
-    allowed = {"core", "robot", "simulate"}
+    allowed = {"core", "robot", "simulation"}
     files = list(Path(modeler.simulation.__file__).parent.rglob("*.py"))
     assert len(files) > 10
     for file in files:
@@ -299,3 +301,10 @@ def test_simulation_shares_no_code_with_the_model():
 def test_settings_beyond_any_sensor_are_refused(name):
     with pytest.raises(DataError, match=f"simulation, {name}: got 1e.300; expected 0 or more, at"):
         simulate(robot(ARM), dataclasses.replace(SHORT, **{name: 1e300}))
+
+
+def test_what_the_command_line_says_of_settings_and_effects_is_so() -> None:
+    settings = SimulationSettings()
+    assert MOTIONS[0] == settings.motion
+    assert {name: getattr(settings, name) for name in SIMULATED} == dict(SIMULATED)
+    assert tuple(effect.id for effect in CATALOGUE) == EFFECTS

@@ -2,11 +2,11 @@
 
 from functools import cache
 
+from modeler.core.builtin import builtin_text
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.model import SymbolicModel
 from modeler.formulas.coefficients import CoefficientTable, coefficient_table
-from modeler.robot.library import builtin_text
 from modeler.robot.read import read_robot, robot_from_text
 
 HEAD = 'name = "{name}"\ntitle = "{name}"\ngravity = {gravity}\n[symbols]\n{symbols}\n[mdh]\n'

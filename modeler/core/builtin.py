@@ -1,0 +1,62 @@
+"""What comes with the tool, by name: known before anything that takes long is loaded."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+
+_PACKAGE = Path(__file__).resolve().parents[1]
+
+NOT_READ = MappingProxyType(
+    {".urdf": "URDF", ".xacro": "xacro", ".sdf": "SDF", ".mjcf": "MJCF", ".xml": "XML"}
+)
+"""Endings of robot files of other programs that are not read, and what they are."""
+
+OTHER_PROGRAMS = (".par", *NOT_READ)
+"""Endings of their robot files: nothing of ours is ever written into one."""
+
+MOTIONS = ("exciting", "point-to-point", "one-joint")
+"""What the commanded motion of a simulation may be."""
+
+SIMULATED: Mapping[str, float] = MappingProxyType(
+    {
+        "duration": 20.0, "rate": 1000.0, "seed": 0, "parameter_seed": 0,
+        "encoder_counts": 1_000_000, "torque_noise": 0.01, "process_noise": 0.0,
+    }
+)  # fmt: skip
+"""What a simulation is unless something else is asked for."""
+
+EFFECTS = (
+    "rotor_inertia", "viscous", "coulomb", "offset", "coupled_inertia", "coupled_friction",
+    "asymmetric_viscous", "stribeck", "nonlinear_viscous", "load_friction", "position_friction",
+    "presliding", "cable_hysteresis", "temperature_friction", "passive_friction", "spring",
+    "counterbalance", "constant_force_spring", "payload", "link_inertia", "base_tilt",
+    "external_force", "elasticity", "backlash", "motor_ripple", "joint_ripple",
+    "encoder_eccentricity", "encoder_offset", "time_delay", "drive_gain", "drift",
+)  # fmt: skip
+"""Ids of the catalogue, in its order."""
+
+
+def builtin_names() -> tuple[str, ...]:
+    """Names of the built-in robots, sorted."""
+    return tuple(sorted(file.stem for file in (_PACKAGE / "robot" / "library").glob("*.toml")))
+
+
+def builtin_text(name: str) -> str:
+    """The TOML text of a built-in robot.
+
+    Raises:
+        KeyError: there is none of that name.
+    """
+    if name not in builtin_names():
+        raise KeyError(name)
+    return builtin_file(name).read_text(encoding="utf-8")
+
+
+def builtin_file(name: str) -> Path:
+    """Where the text of a built-in robot stands."""
+    return _PACKAGE / "robot" / "library" / f"{name}.toml"
+
+
+def paper_names() -> tuple[str, ...]:
+    """Names of the papers that there are."""
+    return tuple(sorted(path.stem for path in (_PACKAGE / "papers" / "library").glob("*.toml")))
