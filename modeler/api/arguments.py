@@ -7,6 +7,7 @@ import functools
 import inspect
 import types
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from numbers import Integral, Real
 from pathlib import Path
 from typing import Any, Literal, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -176,3 +177,12 @@ def _told(hint: Any) -> str:
     if origin is Callable:
         return "a function"
     return _KINDS.get(hint.__name__, hint.__name__)
+
+
+Steps = Callable[[str], AbstractContextManager[None]]
+"""Called with the title of a step, which lasts as long as the context."""
+
+
+def silent(title: str) -> AbstractContextManager[None]:
+    """Says nothing."""
+    return nullcontext()

@@ -1,7 +1,6 @@
-"""Is a model true? Pages, free runs, several models on the same rows, steps through a model."""
+"""Is a model true? Comparisons, free runs, several models on the same rows; and looks at logs."""
 
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from string import ascii_uppercase
 
@@ -15,32 +14,14 @@ from modeler.api.model import (
     read_logs,
     recompile,
 )
-from modeler.codegen.derivation import Derivation, generate
 from modeler.core.errors import DataError
-from modeler.diagnosis.candidates import Known
-from modeler.diagnosis.diagnosis import diagnose as find_missing
-from modeler.diagnosis.result import Diagnosis
 from modeler.estimation.model_file import IdentifiedModel
-from modeler.estimation.side_by_side import SideBySide
-from modeler.fleet.result import Fleet
 from modeler.logs.blocks import blocks_of, windows_of
 from modeler.logs.inspect import Look, look
 from modeler.logs.table import Part, Table
 from modeler.observation.log import FINGER, LONG, check_apart
 from modeler.observation.observation import Observation
 from modeler.observation.survey import WINDOW, WINDOWS, WholeNeeded
-from modeler.report.comparison import write_contest
-from modeler.report.comparison import write_report as write_comparison
-from modeler.report.diagnosis import write_diagnosis
-from modeler.report.estimators import write_estimators
-from modeler.report.fit import write_fit
-from modeler.report.fleet import write_fleet
-from modeler.report.history import write_additions
-from modeler.report.log import write_log_page
-from modeler.report.showing import show
-from modeler.robot.read import robot_from_text
-from modeler.robot.robot import Robot
-from modeler.runtime.gpu import GpuModel, load_gpu
 from modeler.runtime.model import CompiledModel
 from modeler.validation.comparison import Comparison
 from modeler.validation.comparison import compare as compare_prediction
@@ -50,52 +31,6 @@ from modeler.validation.free_run_result import FreeRun
 from modeler.validation.models import Contest, predict_together
 from modeler.validation.models import contest as judged
 from modeler.validation.predict import compare_long, predict
-
-Reported = Robot | Look | IdentifiedModel | Comparison | Contest | Diagnosis | SideBySide | Fleet
-"""What has a page."""
-
-
-def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -> Path:
-    """Write the page of a result; it needs no other file.
-
-    Args:
-        thing: a robot, a look at a log, a model (its fit; of one with additions, what they
-            gained), a comparison, models side by side, a diagnosis, estimators side by side, or a
-            fleet.
-        path: of an .html file.
-        notes: lines for the foot of the page: where the logs come from.
-
-    Raises:
-        DataError: no page shows it.
-        ModelerError: the place cannot be written.
-    """
-    place = Path(path)
-    if isinstance(thing, Robot):
-        show(thing, place)
-        return place
-    if isinstance(thing, Look):
-        return write_log_page(place, thing, thing.doubts, notes)
-    if isinstance(thing, SideBySide):
-        return write_estimators(place, thing.robot, thing.tried, [*thing.data, *notes])
-    if isinstance(thing, IdentifiedModel):
-        if thing.history:
-            return write_additions(place, thing, notes)
-        return write_fit(place, thing, notes)
-    if isinstance(thing, Comparison):
-        return write_comparison(place, thing, notes)
-    if isinstance(thing, Contest):
-        return write_contest(place, thing, notes)
-    if isinstance(thing, Diagnosis):
-        return write_diagnosis(place, thing, notes)
-    if isinstance(thing, Fleet):
-        return write_fleet(place, thing, notes)
-    raise DataError(
-        f"write_report: got {type(thing).__name__}; expected a robot, a model, a comparison, a "
-        "diagnosis, models side by side, estimators side by side or a fleet"
-    )
-
-
-# What a model predicts against what was measured, and what it lacks.
 
 
 def compare(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> Comparison:
@@ -135,23 +70,6 @@ def compared(
     check_apart(read, places=[str(log) for log in logs])
     prediction, observation = predict(model, read, compiled)
     return compare_prediction(prediction), observation
-
-
-def diagnose(
-    model: IdentifiedModel,
-    logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog] = (),
-    without: Sequence[str] = (),
-    progress: Callable[[float], None] | None = None,
-    mapping: Mapped = (),
-) -> Diagnosis:
-    """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
-    compiled = recompile(model)
-    robot = robot_from_text(model.robot_text, "robot of the model")
-    known = Known(robot.catalogue, robot.coupling)
-    given, kept = (read_logs(compiled, places, mapping) for places in (logs, holdout))
-    check_apart(given, kept)
-    return find_missing(model, compiled, given, kept, without, progress=progress, known=known)
 
 
 def contest(
@@ -234,30 +152,3 @@ def look_at(place: str | Path, compiled: CompiledModel | None = None, mapping: M
     seen = Part(windows_of(blocks, WINDOWS, WINDOW))
     every = (Table(Path(path), names, joints, part=Part(own)) for own in blocks.blocks(FINGER))
     return look(Table(Path(path), names, joints, part=seen), names, joints, span, every)
-
-
-# How long work says what it is doing: nothing, unless somebody wants to hear it.
-
-
-Steps = Callable[[str], AbstractContextManager[None]]
-"""Called with the title of a step, which lasts as long as the context."""
-
-
-def silent(title: str) -> AbstractContextManager[None]:
-    """Says nothing."""
-    return nullcontext()
-
-
-# The base regressor on a graphics processor.
-
-
-def on_gpu(derivation: Derivation) -> GpuModel:
-    """The base regressor of a robot without loops on the graphics processor of this machine.
-
-    It needs CuPy: `pip install '.[gpu]'`.
-
-    Raises:
-        BuildError: no CuPy, no graphics processor, or the compiler refused.
-        EmitError: the robot has loops.
-    """
-    return load_gpu(generate(derivation, cuda=True))

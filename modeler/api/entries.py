@@ -3,17 +3,15 @@
 import modeler.api.arguments as door
 from modeler.api.checks import compare as compare
 from modeler.api.checks import contest as contest
-from modeler.api.checks import diagnose as diagnose
 from modeler.api.checks import free_run as free_run
 from modeler.api.checks import look_at as look_at
-from modeler.api.checks import on_gpu as on_gpu
-from modeler.api.checks import write_report as write_report
 from modeler.api.fitting import Load as Load
 from modeler.api.fitting import fit_gains as fit_gains
 from modeler.api.fitting import side_by_side as side_by_side
 from modeler.api.fleets import fleet as fleet
 from modeler.api.improve import add as add
 from modeler.api.improve import auto as auto
+from modeler.api.improve import diagnose as diagnose
 from modeler.api.improve import undo as undo
 from modeler.api.model import AnyLog as AnyLog
 from modeler.api.model import Mapped as Mapped
@@ -28,6 +26,7 @@ from modeler.api.model import identified as identified
 from modeler.api.model import load as load
 from modeler.api.model import log_map as log_map
 from modeler.api.model import observe as observe
+from modeler.api.model import on_gpu as on_gpu
 from modeler.api.model import open_model as open_model
 from modeler.api.model import own_effect as own_effect
 from modeler.api.model import read_currents as read_currents
@@ -41,6 +40,7 @@ from modeler.api.motion import excite as excite
 from modeler.api.motion import home as home
 from modeler.api.motion import simulate as simulate
 from modeler.api.motion import tell_apart as tell_apart
+from modeler.api.pages import write_report as write_report
 from modeler.api.physical_parameters import physical as physical
 from modeler.codegen.derivation import Derivation as Derivation
 from modeler.core.manifest import Emitted as Emitted

@@ -3,8 +3,7 @@
 import dataclasses
 from collections.abc import Callable, Sequence
 
-from modeler.api.arguments import fitting
-from modeler.api.checks import Steps, silent
+from modeler.api.arguments import Steps, fitting, silent
 from modeler.api.model import (
     AnyLog,
     Mapped,

@@ -2,8 +2,13 @@
 
 from collections.abc import Callable, Sequence
 
-from modeler.api.checks import Steps, silent
-from modeler.api.model import AnyLog, Mapped, read_logs, recompile
+from modeler.api.arguments import Steps, silent
+from modeler.api.model import (
+    AnyLog,
+    Mapped,
+    read_logs,
+    recompile,
+)
 from modeler.core.errors import DataError
 from modeler.diagnosis.add import add_effect, add_findings, undone
 from modeler.diagnosis.added_model import Logs
@@ -14,6 +19,23 @@ from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import check_apart
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import CompiledModel
+
+
+def diagnose(
+    model: IdentifiedModel,
+    logs: Sequence[AnyLog],
+    holdout: Sequence[AnyLog] = (),
+    without: Sequence[str] = (),
+    progress: Callable[[float], None] | None = None,
+    mapping: Mapped = (),
+) -> Diagnosis:
+    """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
+    compiled = recompile(model)
+    robot = robot_from_text(model.robot_text, "robot of the model")
+    known = Known(robot.catalogue, robot.coupling)
+    given, kept = (read_logs(compiled, places, mapping) for places in (logs, holdout))
+    check_apart(given, kept)
+    return find_missing(model, compiled, given, kept, without, progress=progress, known=known)
 
 
 def add(

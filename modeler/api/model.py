@@ -39,6 +39,7 @@ from modeler.observation.window import read_part, window
 from modeler.robot.edit import with_own_effect
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.robot.robot import Robot
+from modeler.runtime.gpu import GpuModel, load_gpu
 from modeler.runtime.model import CompiledModel
 from modeler.runtime.model import load as load_compiled
 from modeler.simulation.log import SimulatedLog, write_log
@@ -368,3 +369,15 @@ def estimators() -> Table:
     rows = tuple((a.id, a.title, a.law, a.source, a.avoid) for a in ABOUT.values())
     names = ("method", "title", "law", "source", "when not to use it")
     return Table("estimators", tuple((name, "") for name in names), rows)
+
+
+def on_gpu(derivation: Derivation) -> GpuModel:
+    """The base regressor of a robot without loops on the graphics processor of this machine.
+
+    It needs CuPy: `pip install '.[gpu]'`.
+
+    Raises:
+        BuildError: no CuPy, no graphics processor, or the compiler refused.
+        EmitError: the robot has loops.
+    """
+    return load_gpu(generate(derivation, cuda=True))

@@ -9,10 +9,9 @@ from modeler.api.model import read_logs, recompile
 from modeler.cli.console import Json, progress, say, say_next, working
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.core.table import percent
+from modeler.core.table import DIGITS, percent
 from modeler.diagnosis.add import add_effect, undone
 from modeler.diagnosis.added_model import Logs, added, notes
-from modeler.diagnosis.score import DIGITS
 from modeler.estimation.model_file import IdentifiedModel, load_model, save_model
 from modeler.observation.log import check_apart
 from modeler.report.history import write_additions

@@ -235,6 +235,16 @@ POOLED = (
 """How the pooled error of a robot with both units comes about."""
 
 
+DIGITS = 4
+"""Most significant digits of an error that is printed: what does not differ in them is the same."""
+
+
 def percent(share: float, digits: int = 3) -> str:
     """A share in percent, as in "3.41 %"; "-" where it is not known."""
     return f"{100.0 * share:.{digits}g} %" if math.isfinite(share) else "-"
+
+
+def printed(before: float, after: float) -> tuple[str, str]:
+    """Two errors in percent, with a digit more where they are alike in three."""
+    pair, finer = ((percent(before, digits), percent(after, digits)) for digits in (3, DIGITS))
+    return finer if pair[0] == pair[1] and finer[0] != finer[1] else pair

@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 from modeler.codegen.derivation import derive, generate
 from modeler.core.errors import DataError, RobotError
 from modeler.core.manifest import ModuleSpec
+from modeler.core.table import printed
 from modeler.diagnosis.added_model import (
     Logs,
     Rows,
@@ -27,7 +28,7 @@ from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.judge import Judged
 from modeler.diagnosis.result import Pick
-from modeler.diagnosis.score import Score, Unseen, errors_of, printed, rms_error, scored, told
+from modeler.diagnosis.score import Score, Unseen, errors_of, rms_error, scored, told
 from modeler.diagnosis.search import extended, survey_of, surveyed
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.state import Data, State, state_of

@@ -14,10 +14,10 @@ from modeler.diagnosis.score import Unseen, told
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.signals import Reference, tilt_basis
 from modeler.diagnosis.state import Data, State, columns_of, state_of
-from modeler.diagnosis.values import told_spread
 from modeler.effects.catalogue import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, effect_named
 from modeler.effects.effect import Acts, Effect
 from modeler.estimation.model_file import Addition, IdentifiedModel
+from modeler.estimation.parameter import told_spread
 from modeler.observation.log import Log
 from modeler.observation.low_speed import shafts
 from modeler.observation.observation import Observation, model_torque, observed, observed_alike

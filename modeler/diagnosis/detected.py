@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from modeler.core.table import printed
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.events import BURST, LOUD, Window, burst_ratio
 from modeler.diagnosis.judge import GATE, SURE, Judged
 from modeler.diagnosis.orders import knocking
 from modeler.diagnosis.propose import ruled_out
 from modeler.diagnosis.result import Finding
-from modeler.diagnosis.score import Score, printed
+from modeler.diagnosis.score import Score
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
 from modeler.effects.effect import Acts, Effect

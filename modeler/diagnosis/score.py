@@ -10,14 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.table import percent
+from modeler.core.table import printed
 from modeler.diagnosis.gram import BLOCK, MOST
 
 SURE = 2.0
 """Standard errors beyond which differences over blocks of time are more than chance."""
-
-DIGITS = 4
-"""Most significant digits of an error that is printed: what does not differ in them is the same."""
 
 LEAST = 1e-3
 """Relative errors below are as good as none."""
@@ -179,12 +176,6 @@ def errors_of(seen: Unseen) -> dict[str, float]:
     sizes = [(float(np.linalg.norm(e)), float(np.linalg.norm(y)))
              for e, y in zip(seen.residual, seen.torque, strict=True)]  # fmt: skip
     return {name: e / y for name, (e, y) in zip(seen.names, sizes, strict=True) if y > 0.0}
-
-
-def printed(before: float, after: float) -> tuple[str, str]:
-    """Two errors in percent, with a digit more where they are alike in three."""
-    pair, finer = ((percent(before, digits), percent(after, digits)) for digits in (3, DIGITS))
-    return finer if pair[0] == pair[1] and finer[0] != finer[1] else pair
 
 
 def told(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:

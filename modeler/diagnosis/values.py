@@ -11,9 +11,6 @@ from modeler.diagnosis.signals import tilt_basis
 from modeler.diagnosis.state import State
 from modeler.effects.effect import Acts
 
-LOPSIDED = 2.0
-"""Ratio of the sides of an interval above which one standard deviation does not describe it."""
-
 
 @dataclass(frozen=True)
 class Values:
@@ -73,15 +70,6 @@ def named_intervals(along: Profile, named: Values) -> dict[str, tuple[float, flo
     own = zip(named.value, along.intervals(), strict=False)
     found = {name: (float(low), float(high)) for name, (low, high) in own}
     return found | along.shape_intervals()
-
-
-def told_spread(value: float, sigma: float, interval: tuple[float, float] | None) -> str:
-    """What stands behind a value: " +- sigma", or where that says little " (low to high)"."""
-    if interval is not None and interval[0] < interval[1]:
-        down, up = value - interval[0], interval[1] - value
-        if max(down, up) > LOPSIDED * min(down, up):
-            return f" ({interval[0]:.3g} to {interval[1]:.3g})"
-    return f" +- {sigma:.2g}" if sigma > 0.0 else ""
 
 
 def _units(state: State, pick: Candidate) -> dict[str, str]:

@@ -84,10 +84,9 @@ def identify_gains(
 ) -> GainFit:
     """One gain for each drive, base parameters and loads: g_j V = W beta + W_L chi_L.
 
-    V are the currents, W_L the columns of the loads, the weighed mass among chi_L known (Briot and
-    Gautier 2012, section 3; see `estimation.total_least_squares`). Sigmas are those of gains and parameters together,
-    raised for residuals that remember; the error of the scale, which the load's mass sets, is not
-    in them.
+    Gautier 2012, section 3; see `total_least_squares`). Sigmas are those of gains and parameters
+    together, raised for residuals that remember; the error of the scale, which the load's mass
+    sets, is not in them.
 
     Args:
         model: the robot, read with gains that are taken for starts: `in_drive_units`.

@@ -173,7 +173,7 @@ def iv(problem: Problem) -> Estimate:
 def iv_direct(problem: Problem) -> Estimate:
     """Instruments by the direct model: the regressor along the simulated motion, repeated.
 
-    The robot with the values of the last estimate follows the log (`estimation.direct_model`); the first
+    The robot with the values of the last estimate follows the log (`direct_model`); the first
     estimate is the weighted fit (Janot, Vandanjon and Gautier 2014).
 
     Raises:

@@ -6,6 +6,9 @@ from typing import Any
 
 import numpy as np
 
+LOPSIDED = 2.0
+"""Ratio of the sides of an interval above which one standard deviation does not describe it."""
+
 
 @dataclass(frozen=True)
 class ParameterEstimate:
@@ -111,3 +114,12 @@ def parameter_lines(
             f"{percent:>8}{column}  {parameter.unit}{mark}"
         )
     return lines
+
+
+def told_spread(value: float, sigma: float, interval: tuple[float, float] | None) -> str:
+    """What stands behind a value: " +- sigma", or where that says little " (low to high)"."""
+    if interval is not None and interval[0] < interval[1]:
+        down, up = value - interval[0], interval[1] - value
+        if max(down, up) > LOPSIDED * min(down, up):
+            return f" ({interval[0]:.3g} to {interval[1]:.3g})"
+    return f" +- {sigma:.2g}" if sigma > 0.0 else ""

@@ -12,7 +12,7 @@ from modeler.core.result import Figures, Presentation, Tables, present
 from modeler.core.table import Cell, MathCell, Table
 from modeler.derivation.home import HomeModes, written
 from modeler.derivation.relations import relation_latex, relation_text
-from modeler.report.figure_matplotlib import robot_figure
+from modeler.report.figures import robot_figure
 from modeler.report.page import (
     Block,
     Formulas,

@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.core.table import percent
+from modeler.core.table import percent, printed
 from modeler.diagnosis.result import Diagnosis, Finding
-from modeler.diagnosis.score import printed
 from modeler.diagnosis.search import Step
 from modeler.diagnosis.sentences import blind_spots, tie_names, tied, unit, where
 from modeler.effects.catalogue import effect_named

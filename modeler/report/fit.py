@@ -12,7 +12,7 @@ from modeler.estimation.model_file import Addition, IdentifiedModel
 from modeler.estimation.result import FitResult, ParameterEstimate
 from modeler.estimation.side_by_side import SideBySide
 from modeler.report.estimators import table_of, values_of
-from modeler.report.figure_matplotlib import parameters_figure, picture_figure
+from modeler.report.figures import parameters_figure, picture_figure
 from modeler.report.history import waterfall_picture
 from modeler.report.page import (
     Items,

@@ -21,7 +21,8 @@ from modeler.fleet.result import (
     rows_of,
     sentence,
 )
-from modeler.report.figure_matplotlib import Drawing, picture_figure
+from modeler.report.figure_matplotlib import Drawing
+from modeler.report.figures import picture_figure
 from modeler.report.page import (
     Figure,
     Items,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from modeler.core.result import Figures, Presentation, Tables, present
 from modeler.core.table import Table
-from modeler.report.figure_matplotlib import picture_figure
+from modeler.report.figures import picture_figure
 from modeler.validation.free_run_result import FreeRun, free_run_picture
 
 if TYPE_CHECKING:

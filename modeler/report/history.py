@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from modeler.core.figure import BLUE, GREEN, ORANGE, SKY, Bars, Panel, Picture, Style
-from modeler.core.table import WORDS, percent
-from modeler.diagnosis.score import DIGITS, printed
+from modeler.core.table import DIGITS, WORDS, percent, printed
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Effect
 from modeler.estimation.model_file import Addition, IdentifiedModel

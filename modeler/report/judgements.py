@@ -13,7 +13,7 @@ from modeler.diagnosis.result import Diagnosis, Finding
 from modeler.diagnosis.search import Step
 from modeler.diagnosis.sentences import blind_spots, lines
 from modeler.report.evidence import evidence_picture
-from modeler.report.figure_matplotlib import errors_picture, picture_figure
+from modeler.report.figures import errors_picture, picture_figure
 from modeler.report.shown import shown
 from modeler.validation.comparison import Comparison, method_lines
 from modeler.validation.models import Contest, contest_lines

@@ -25,7 +25,7 @@ from modeler.logs.inspect import Channel, Clock, Look
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation
 from modeler.observation.report import DataReport
-from modeler.report.figure_matplotlib import log_figure, picture_figure
+from modeler.report.figures import log_figure, picture_figure
 from modeler.report.page import (
     Code,
     Figure,

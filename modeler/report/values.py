@@ -3,9 +3,8 @@
 from collections.abc import Collection, Mapping, Sequence
 
 from modeler.core.manifest import BaseSpec, TermSpec
-from modeler.diagnosis.values import told_spread
 from modeler.estimation.model_file import Addition, IdentifiedModel
-from modeler.estimation.parameter import ParameterEstimate
+from modeler.estimation.parameter import ParameterEstimate, told_spread
 from modeler.estimation.result import FitResult
 from modeler.report.page import PageCell, PageTable
 

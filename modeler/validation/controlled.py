@@ -21,7 +21,7 @@ def controlled(
 ) -> tuple[Controlled | None, str]:
     """The robot under the given controller, or under one that comes nearest to the log.
 
-    The controller of a log is not known; it is estimated as for `didim`, see `estimation.direct_model`.
+    The controller of a log is not known; it is estimated as for `didim`, see `direct_model`.
 
     Returns:
         What became of it, and a doubt, "" without one. None: no commands were logged and none is

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from modeler.core.table import printed
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.score import printed
 from modeler.observation.log import Log
 from tests.diagnose.conftest import Case, motion, on_joint
 

@@ -12,9 +12,10 @@ from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.candidates import Known
 from modeler.diagnosis.search import extended, surveyed
 from modeler.diagnosis.state import Data, state_of
-from modeler.diagnosis.values import profile_of, told_spread
+from modeler.diagnosis.values import profile_of
 from modeler.estimation.identify import identify
 from modeler.estimation.model_file import load_model, save_model
+from modeler.estimation.parameter import told_spread
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
 

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from modeler.core.table import printed
 from modeler.diagnosis.candidates import Known, candidates, scales_of
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
-from modeler.diagnosis.score import printed
 from modeler.effects.catalogue import effect_named
 from modeler.observation.log import Log
 from modeler.report.diagnosis import write_diagnosis

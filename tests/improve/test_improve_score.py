@@ -5,7 +5,8 @@ import math
 
 import numpy as np
 
-from modeler.diagnosis.score import Score, Unseen, printed, scored, told
+from modeler.core.table import printed
+from modeler.diagnosis.score import Score, Unseen, scored, told
 
 RATE, SPAN = 20.0, 30.0
 

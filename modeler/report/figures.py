@@ -1,0 +1,114 @@
+"""Figures: matplotlib's, made without its global state, drawn by a notebook and saved by `savefig`.
+
+A figure of matplotlib stands in a notebook as a picture, works without a network, and goes into a
+paper; the pages that commands write have the ones that can be zoomed.
+"""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.figure import (
+    BLUE,
+    COLORS,
+    ORANGE,
+    Bars,
+    Curve,
+    Panel,
+    Picture,
+    Style,
+    thin_curves,
+)
+from modeler.estimation.result import FitResult
+from modeler.report.showing import show
+from modeler.robot.robot import Robot
+
+if TYPE_CHECKING:
+    from modeler.diagnosis.result import Diagnosis
+    from modeler.report.figure_matplotlib import Drawing
+
+
+_MOST_BARS = 40
+
+
+def picture_figure(picture: Picture) -> "Drawing":
+    """The picture as a figure."""
+    from modeler.report.figure_matplotlib import drawing  # it takes long to load
+
+    return drawing(picture)
+
+
+def robot_figure(robot: Robot) -> "Drawing":
+    """The robot at its [home], as wide as a column of a paper."""
+    from modeler.report.figure_matplotlib import Drawing
+    from modeler.report.robot_drawing import picture_figure as skeleton_figure
+
+    found = show(robot)
+    return skeleton_figure(found.skeleton, found.posture, Drawing)
+
+
+def parameters_figure(fit: FitResult) -> "Drawing":
+    """How sure each parameter is: its sigma in percent of its value."""
+    known = [p for p in fit.parameters if p.relative_sigma_percent is not None][:_MOST_BARS]
+    shares = np.array([min(p.relative_sigma_percent or 0.0, 100.0) for p in known])
+    texts = tuple(_rounded(p.relative_sigma_percent or 0.0) for p in known)
+    names = tuple(p.name for p in known)
+    bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
+    label = "sigma [% of the value], at most 100 drawn"
+    return picture_figure(Picture(
+        name="parameters", title=f"{fit.robot}: how sure the parameters are", caption="",
+        panels=((Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label,
+                       (bars,)),),),
+        heights=(1.0,), widths=(1.0,), height=380,
+    ))  # fmt: skip
+
+
+def errors_picture(diagnosis: "Diagnosis") -> Picture:
+    """Relative error of every joint, without and with the effects."""
+    panels = tuple(
+        Panel(title, "joint", "relative error [%]", (_error_bars(diagnosis, after),))
+        for title, after in (("as fitted", False), ("with the effects", True))
+    )
+    return Picture(
+        name="errors", title=f"{diagnosis.robot}: {diagnosis.verdict}", caption="",
+        panels=(panels,), heights=(1.0,), widths=(0.5, 0.5), height=380,
+    )  # fmt: skip
+
+
+def _error_bars(diagnosis: "Diagnosis", after: bool) -> Bars:
+    joints = diagnosis.joints.values()
+    values = np.array([100.0 * (j.error_after if after else j.error_before) for j in joints])
+    texts = tuple("" if np.isnan(value) else f"{value:.2f}" for value in values)
+    return Bars("error", tuple(diagnosis.joints), values, texts, Style(ORANGE if after else BLUE))
+
+
+def log_figure(
+    title: str, joints: Sequence[str], time: np.ndarray, q: np.ndarray, tau: np.ndarray
+) -> "Drawing":
+    """Positions and torques of all joints against time."""
+    panels = tuple(
+        (Panel(what, "time [s]", label, tuple(_curves(joints, time, values)), zero=True),)
+        for what, label, values in (
+            ("positions", "q [rad, m]", q),
+            ("torques", "tau [N m, N]", tau),
+        )
+    )
+    return picture_figure(Picture(
+        name="channels", title=title, caption="", panels=panels, heights=(1.0, 1.0),
+        widths=(1.0,), height=620, shared_time=True,
+    ))  # fmt: skip
+
+
+def _curves(joints: Sequence[str], time: np.ndarray, values: np.ndarray) -> list[Curve]:
+    found = []
+    for j, name in enumerate(joints):
+        rows = thin_curves((values[:, j],))
+        color = COLORS[j % len(COLORS)]
+        found.append(Curve(name, time[rows], values[rows, j], Style(color, dash=j >= len(COLORS))))
+    return found
+
+
+def _rounded(percent: float) -> str:
+    """Two digits, all of those before the point."""
+    return f"{percent:.2g}" if percent < 100.0 else f"{percent:.0f}" if percent < 1e4 else ">10000"
