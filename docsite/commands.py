@@ -3,7 +3,7 @@
 import argparse
 
 from docsite.markdown import block, cell, code, table
-from modeler.cli.parser import parser
+from modeler.cli.commands import parser
 
 
 def command_pages() -> dict[str, str]:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def parser() -> "argparse.ArgumentParser":
     """The parser of all commands."""
-    from modeler.cli.parser import parser as all_commands
+    from modeler.cli.commands import parser as all_commands
 
     return all_commands()
 

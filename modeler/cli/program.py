@@ -61,8 +61,8 @@ def _run(words: Sequence[str], phase: Phase) -> int:
 
 def _answer(words: Sequence[str], phase: Phase) -> None:
     with phase():
+        from modeler.cli.commands import parsed
         from modeler.cli.console import Loudness, tell_error, tell_start, told
-        from modeler.cli.parser import parsed
         from modeler.core.errors import ModelerError
 
         args, wanted = parsed(words)

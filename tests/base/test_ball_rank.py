@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from modeler.codegen.derivation import ball_rank as balls
 from modeler.core.errors import LoopError
+from modeler.derivation import ball_rank as balls
 from modeler.derivation.ball_rank import ball_rank
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.closed_states import closed_walk, closing_of

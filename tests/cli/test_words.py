@@ -8,8 +8,8 @@ import shlex
 import pytest
 
 from modeler.cli import main, parser
+from modeler.cli.commands import parsed
 from modeler.cli.options import arguments_of, options_of
-from modeler.cli.parser import parsed
 
 # What each argument of a command takes here; no file has to be there.
 WORDS = {

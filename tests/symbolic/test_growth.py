@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.codegen.derivation import field as field_module
 from modeler.core.errors import DerivationError
 from modeler.core.expression import parse
+from modeler.derivation import field as field_module
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.geometry import cos_sin, folded
