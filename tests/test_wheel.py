@@ -82,7 +82,7 @@ model = load_folder(sys.argv[1])
 assert not {"sympy", "casadi", "jinja2"} & set(sys.modules)
 
 from modeler.derivation import base_parameters
-from modeler.codegen import emit
+from modeler.codegen.emit import emit
 from modeler.robot import read_robot
 from modeler.derivation import derive_model
 symbolic = derive_model(read_robot("two-link"))

@@ -35,13 +35,13 @@ from modeler.api.model import recompile as recompile
 from modeler.api.model import reduced as reduced
 from modeler.api.model import robots as robots
 from modeler.api.model import save as save
-from modeler.api.motion import at_home as at_home
 from modeler.api.motion import excite as excite
-from modeler.api.motion import home as home
 from modeler.api.motion import simulate as simulate
 from modeler.api.motion import tell_apart as tell_apart
 from modeler.api.pages import write_report as write_report
 from modeler.api.physical_parameters import physical as physical
+from modeler.api.postures import at_home as at_home
+from modeler.api.postures import home as home
 from modeler.codegen.derivation import Derivation as Derivation
 from modeler.core.manifest import Emitted as Emitted
 from modeler.diagnosis.result import Diagnosis as Diagnosis

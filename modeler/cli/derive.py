@@ -14,11 +14,9 @@ from modeler.cli.formula_output import Words, check_loops, check_request, forms_
 from modeler.cli.lists import robot_of, robot_with_effects
 from modeler.cli.options import Form
 from modeler.codegen.derivation import Derivation, derive, generate
-from modeler.codegen.package import leftovers
 from modeler.core.errors import DataError, RobotError
 from modeler.core.manifest import Emitted, FittedSpec, FunctionSpec
 from modeler.derivation.columns import LinkColumn
-from modeler.derivation.lagrange import lagrange_torque
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.numeric_rank import random_states, regressor_values
 from modeler.derivation.relations import (
@@ -138,6 +136,8 @@ def second_opinion(derivation: Derivation, samples: int = 50) -> float:
     link = np.array([isinstance(column, LinkColumn) for column in model.columns])
     chi = np.where(link, rng.normal(size=len(link)), 0.0)
     tau = regressor_values(model, states) @ chi
+    from modeler.derivation.lagrange import lagrange_torque  # casadi takes long to load
+
     other = lagrange_torque(model, *states, chi)
     largest = float(np.max(np.abs(other)))
     return float(np.max(np.abs(tau - other))) / largest if largest else 0.0
@@ -159,6 +159,8 @@ def run_generate(args: argparse.Namespace) -> Json:
         say(f"  {name}")
     for function in spec.functions:
         say(_told(function))
+    from modeler.codegen.package import leftovers  # jinja2, which `derive` has no use for
+
     for name in leftovers(emitted, args.out):
         complain(
             f"{args.out}: {name} is of an earlier generate and belongs to this code no more; it "

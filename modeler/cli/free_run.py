@@ -9,7 +9,7 @@ from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import DataError
 from modeler.estimation.model_file import load_model
 from modeler.observation.log import check_apart
-from modeler.report.figure_matplotlib import write_files
+from modeler.report.figure_page import write_files
 from modeler.validation.controlled import Gains
 from modeler.validation.free_run import Asked, free_run
 from modeler.validation.free_run_result import free_run_pictures

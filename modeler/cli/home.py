@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.api.motion import chosen_mode
-from modeler.api.motion import home as home_modes
+from modeler.api.postures import chosen_mode
+from modeler.api.postures import home as home_modes
 from modeler.cli.console import Json, say, working
 from modeler.cli.lists import read_told
 from modeler.core.builtin import OTHER_PROGRAMS, builtin_names

@@ -31,7 +31,7 @@ from modeler.observation.findings import findings_of_fit
 from modeler.observation.observation import Observation
 from modeler.observation.read import source_of
 from modeler.observation.survey import WholeNeeded
-from modeler.report.figure_matplotlib import write_files
+from modeler.report.figure_page import write_files
 from modeler.report.log import channel_rows, clock_line, log_pictures, write_log_page
 from modeler.runtime.model import CompiledModel
 

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING
 
-from modeler.cli.console import INTERRUPTED, ending, loading
+from modeler.cli.interrupt import INTERRUPTED, ending, loading
 
 if TYPE_CHECKING:
     import argparse

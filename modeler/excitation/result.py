@@ -6,12 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import matplotlib
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError
@@ -259,6 +256,10 @@ def picture(motion: Exciting, compiled: CompiledModel, kind: str) -> bytes:
     Torques have a panel where parameters are known; where a joint has no limit they are shown as
     shares of their largest value.
     """
+    import matplotlib  # which takes long to load
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
     with matplotlib.rc_context(_SETTINGS):
         panels = _panels(motion, compiled)
         figure = Figure(figsize=(10.0, 1.0 + 1.9 * len(panels)), layout="constrained")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from modeler.core.figure import Picture
 from modeler.core.table import percent
-from modeler.report.figure_matplotlib import write_files
+from modeler.report.figure_page import write_files
 from modeler.report.page import (
     Figure,
     Items,

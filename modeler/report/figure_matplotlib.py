@@ -1,8 +1,6 @@
 """A picture as PNG or SVG, by matplotlib; no window, no global state."""
 
 import io
-from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import matplotlib
@@ -23,9 +21,7 @@ from modeler.core.figure import (
     Picture,
     Points,
     Series,
-    picture_csv,
 )
-from modeler.core.files import write_atomically
 
 if TYPE_CHECKING:
     pass
@@ -208,31 +204,3 @@ def _draw_heat(axes: Any, heat: Heat) -> None:
         for j, text in enumerate(row):
             dark = heat.values[i, j] > 0.55 * heat.top
             axes.text(j, i, text, ha="center", va="center", color="white" if dark else "black")
-
-
-# Pictures as files: PNG and SVG, and their numbers as CSV.
-
-
-def write_files(
-    folder: Path, pictures: Sequence[Picture], progress: Callable[[float], None] | None = None
-) -> tuple[Path, ...]:
-    """Write every picture; returns the paths written.
-
-    Args:
-        folder: made if it is not there.
-        pictures: what to draw.
-        progress: called with the share done, 0 to 1.
-
-    Raises:
-        ModelerError: the folder cannot be written.
-    """
-    written = []
-    for number, picture in enumerate(pictures, start=1):
-        files = {**images(picture), "csv": picture_csv(picture).encode()}
-        for kind, content in files.items():
-            place = Path(folder) / f"{picture.name}.{kind}"
-            write_atomically(place, content)
-            written.append(place)
-        if progress is not None:
-            progress(number / len(pictures))
-    return tuple(written)

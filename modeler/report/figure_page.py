@@ -2,12 +2,25 @@
 
 import base64
 import gzip
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
+from modeler.core.figure import (
+    Band,
+    Bars,
+    Curve,
+    Heat,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Series,
+    picture_csv,
+)
+from modeler.core.files import write_atomically
 
 # The numbers of all pictures of a page in one compressed block, each array once.
 
@@ -205,3 +218,30 @@ def _series(
     if isinstance(series, Points):
         return found | {"kind": "points"}
     return found | {"kind": "curve", "dash": style.dash}
+
+
+def write_files(
+    folder: Path, pictures: Sequence[Picture], progress: Callable[[float], None] | None = None
+) -> tuple[Path, ...]:
+    """Write every picture; returns the paths written.
+
+    Args:
+        folder: made if it is not there.
+        pictures: what to draw.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        ModelerError: the folder cannot be written.
+    """
+    from modeler.report.figure_matplotlib import images  # matplotlib takes long to load
+
+    written = []
+    for number, picture in enumerate(pictures, start=1):
+        files = {**images(picture), "csv": picture_csv(picture).encode()}
+        for kind, content in files.items():
+            place = Path(folder) / f"{picture.name}.{kind}"
+            write_atomically(place, content)
+            written.append(place)
+        if progress is not None:
+            progress(number / len(pictures))
+    return tuple(written)

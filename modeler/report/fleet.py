@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,7 +22,6 @@ from modeler.fleet.result import (
     rows_of,
     sentence,
 )
-from modeler.report.figure_matplotlib import Drawing
 from modeler.report.figures import picture_figure
 from modeler.report.page import (
     Figure,
@@ -36,6 +36,9 @@ from modeler.report.page import (
     Verdicts,
     write_page,
 )
+
+if TYPE_CHECKING:
+    from modeler.report.figure_matplotlib import Drawing
 
 _PICTURES = 12  # findings that are drawn
 _COLUMNS = 24  # machines of one map
@@ -254,5 +257,5 @@ def _figures(found: Fleet) -> Figures:
     return drawn
 
 
-def _drawn(found: Fleet, each: Followed) -> Drawing:
+def _drawn(found: Fleet, each: Followed) -> "Drawing":
     return picture_figure(quantity_picture(found, each))

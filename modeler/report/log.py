@@ -38,7 +38,7 @@ from modeler.report.page import (
     Section,
     write_page,
 )
-from modeler.simulation import SimulatedLog
+from modeler.simulation.log import SimulatedLog
 
 _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remarks")
 _LIMIT = 600  # points of one curve

@@ -4,8 +4,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.font_manager import FontProperties
-from matplotlib.textpath import TextPath
 
 from modeler.report.robot_closing import Posture
 from modeler.report.robot_skeleton import BASE, Skeleton, foot, poses
@@ -142,7 +140,6 @@ def _spread(flat: np.ndarray, size: float) -> float:
 
 
 _SIZE, _HIGH, _BLANK = 7.0, 7.5, 4.0  # points
-_FONT = FontProperties(weight="bold", size=_SIZE)
 _SAME = 4.0  # points: names nearer to each other are written together
 
 
@@ -216,7 +213,11 @@ class _Beside:
 
 
 def _wide(text: str) -> float:
-    return float(TextPath((0, 0), text, prop=_FONT).get_extents().width)
+    from matplotlib.font_manager import FontProperties  # matplotlib takes long to load
+    from matplotlib.textpath import TextPath
+
+    font = FontProperties(weight="bold", size=_SIZE)
+    return float(TextPath((0, 0), text, prop=font).get_extents().width)
 
 
 def _best(

@@ -26,8 +26,9 @@ from modeler.simulation.log import SimulatedLog, Truth
 from modeler.simulation.parameters import PlantParameters, plant_parameters
 from modeler.simulation.plant import Plant, torque_function
 from modeler.simulation.portable_math import portable
+from modeler.simulation.process import process_torques
 from modeler.simulation.rigid import RigidDynamics, rigid_dynamics
-from modeler.simulation.settings import SimulationSettings, process_torques
+from modeler.simulation.settings import SimulationSettings
 from modeler.simulation.shafts import ShaftEffects, shaft_effects
 from modeler.simulation.trajectory import Reference, motion_limits, reference_motion, widened
 

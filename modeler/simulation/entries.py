@@ -2,9 +2,9 @@
 
 from modeler.core.builtin import MOTIONS as MOTIONS
 from modeler.simulation.closed_motion import KEPT as KEPT
-from modeler.simulation.hidden import HIDDEN as HIDDEN
 from modeler.simulation.hidden import HiddenEffect as HiddenEffect
 from modeler.simulation.hidden import hidden_from_text as hidden_from_text
+from modeler.simulation.hidden_catalogue import HIDDEN as HIDDEN
 from modeler.simulation.log import SimulatedLog as SimulatedLog
 from modeler.simulation.log import Truth as Truth
 from modeler.simulation.log import check_suffix as check_suffix

@@ -6,9 +6,6 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from modeler.core.errors import DataError
-from modeler.simulation.hidden_friction import FRICTION, MEMORY
-from modeler.simulation.hidden_kind import HiddenKind
-from modeler.simulation.hidden_machine import MACHINE, SENSORS, SPRINGS
 
 _FORM = "EFFECT, EFFECT@JOINT or EFFECT@JOINT:name=value,..., as in stribeck@2:extra=3"
 
@@ -58,12 +55,3 @@ def _number(text: str, name: str, number: str) -> float:
     if not math.isfinite(value):
         raise DataError(f"hidden effect {text!r}, {name}: got {number!r}; expected a number")
     return value
-
-
-# All effects that can be hidden, by id.
-
-
-HIDDEN: Mapping[str, HiddenKind] = {
-    kind.effect: kind for kind in (*FRICTION, *MEMORY, *SPRINGS, *MACHINE, *SENSORS)
-}
-"""The effects that a simulated machine can have and its robot file not, by id."""

@@ -8,7 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from modeler.core.expression import parse
 from modeler.robot.robot import Robot
-from modeler.simulation.hidden import HIDDEN, HiddenEffect
+from modeler.simulation.hidden import HiddenEffect
+from modeler.simulation.hidden_catalogue import HIDDEN
 from modeler.simulation.parameters import PlantParameters
 from modeler.simulation.portable_math import ten_digits
 from modeler.simulation.rigid import Body, body_from_standard, gravity_vector, standard_from_body

@@ -11,8 +11,9 @@ from modeler.core.errors import RobotError
 from modeler.robot.robot import Limits, Robot
 from modeler.simulation.closed_motion import closed_motion
 from modeler.simulation.closing import constraints_of, motor_torques, rates, sampled
-from modeler.simulation.hidden import HIDDEN, HiddenEffect
+from modeler.simulation.hidden import HiddenEffect
 from modeler.simulation.hidden_bodies import last_link
+from modeler.simulation.hidden_catalogue import HIDDEN
 from modeler.simulation.hidden_kind import HiddenKind, Site
 from modeler.simulation.parameters import PlantParameters, joint_scales
 from modeler.simulation.physics import JointScale

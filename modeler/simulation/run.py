@@ -45,7 +45,8 @@ from modeler.simulation.plant import (
     steps_per_tick,
     tick_function,
 )
-from modeler.simulation.settings import SimulationSettings, check_settings, process_torques
+from modeler.simulation.process import process_torques
+from modeler.simulation.settings import SimulationSettings, check_settings
 from modeler.simulation.shafts import settled
 from modeler.simulation.trajectory import Reference, motion_limits, reference_motion, widened
 

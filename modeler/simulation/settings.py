@@ -6,14 +6,11 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from modeler.core.brief import Brief
 from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
 from modeler.robot.robot import Limits
 from modeler.simulation.hidden import HiddenEffect
-from modeler.simulation.portable_math import exponential
 
 if TYPE_CHECKING:
     from modeler.simulation.trajectory import Reference
@@ -114,29 +111,3 @@ def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> Non
                 f"simulation, torque_limits of joint {joint}: got {value}; expected a number "
                 "above 0"
             )
-
-
-# A random torque on the machine itself, as from seals, cables and the air.
-
-
-_CORRELATION = 0.03  # s
-
-
-def process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarray) -> np.ndarray:
-    """(ticks, joints) an Ornstein-Uhlenbeck process on each joint, stationary, held over ticks.
-
-    Args:
-        settings: share, rate and seed.
-        ticks: number of samples.
-        rms: (joints,) torque of which it is a share, N m or N.
-    """
-    shape = (ticks, rms.size)
-    if not settings.process_noise:
-        return np.zeros(shape)
-    from scipy.signal import lfilter  # it takes long to load
-
-    white = np.random.default_rng([settings.seed, 5]).normal(size=shape)
-    kept = float(exponential(-1 / (settings.rate * _CORRELATION)))
-    white[1:] *= np.sqrt(1 - kept**2)  # the first sample has the variance of all
-    noise = lfilter([1.0], [1.0, -kept], white, axis=0)
-    return settings.process_noise * rms * np.round(noise, 10)  # the same on every machine

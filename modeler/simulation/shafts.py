@@ -8,7 +8,8 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot.robot import Limits, Robot
-from modeler.simulation.hidden import HIDDEN, HiddenEffect
+from modeler.simulation.hidden import HiddenEffect
+from modeler.simulation.hidden_catalogue import HIDDEN
 from modeler.simulation.parameters import PlantParameters, effects_of
 from modeler.simulation.physics import Contribution, EffectPhysics, Shaft
 from modeler.simulation.rigid import RigidDynamics, world_frames

@@ -113,7 +113,7 @@ def test_what_is_missing_is_still_missed(capsys, words: str, missing: str) -> No
     with pytest.raises(SystemExit) as stop:
         main(words.split())
     assert stop.value.code == 2
-    assert f"the following arguments are required: {missing}\n" in capsys.readouterr().err
+    assert f"the following arguments are required: {missing}; write it" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", commands())
