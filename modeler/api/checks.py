@@ -18,14 +18,14 @@ from modeler.core.errors import DataError
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.logs.blocks import blocks_of, windows_of
 from modeler.logs.inspect import Look, look
-from modeler.logs.table import Part, Table
+from modeler.logs.table import LogTable, Part
 from modeler.observation.log import FINGER, LONG, check_apart
 from modeler.observation.observation import Observation
 from modeler.observation.survey import WINDOW, WINDOWS, WholeNeeded
 from modeler.runtime.model import CompiledModel
 from modeler.validation.comparison import Comparison
 from modeler.validation.comparison import compare as compare_prediction
-from modeler.validation.free_run import Asked
+from modeler.validation.free_run import FreeRunSettings
 from modeler.validation.free_run import free_run as run_freely
 from modeler.validation.free_run_result import FreeRun
 from modeler.validation.models import Contest, predict_together
@@ -110,7 +110,7 @@ def _lettered(models: Sequence[IdentifiedModel]) -> dict[str, IdentifiedModel]:
 def free_run(
     model: IdentifiedModel,
     logs: Sequence[AnyLog],
-    asked: Asked | None = None,
+    asked: FreeRunSettings | None = None,
     mapping: Mapped = (),
 ) -> FreeRun:
     """Positions of the fitted robot under the logged torques, beside the logged ones.
@@ -125,7 +125,9 @@ def free_run(
         DataError: a log cannot be run; says why.
     """
     compiled = recompile(model)
-    return run_freely(model, read_logs(compiled, logs, mapping), compiled, asked or Asked())
+    return run_freely(
+        model, read_logs(compiled, logs, mapping), compiled, asked or FreeRunSettings()
+    )
 
 
 # What is in a log, before anything is fitted to it.
@@ -147,8 +149,8 @@ def look_at(place: str | Path, compiled: CompiledModel | None = None, mapping: M
     joints = () if compiled is None else compiled.spec.joints
     blocks, span = blocks_of(Path(path)), span or (None, None)
     if blocks is None or blocks.rows <= LONG:
-        table = Table(Path(path), names, joints, any_topic=True)
+        table = LogTable(Path(path), names, joints, any_topic=True)
         return look(table, names, joints, span)
     seen = Part(windows_of(blocks, WINDOWS, WINDOW))
-    every = (Table(Path(path), names, joints, part=Part(own)) for own in blocks.blocks(FINGER))
-    return look(Table(Path(path), names, joints, part=seen), names, joints, span, every)
+    every = (LogTable(Path(path), names, joints, part=Part(own)) for own in blocks.blocks(FINGER))
+    return look(LogTable(Path(path), names, joints, part=seen), names, joints, span, every)

@@ -57,6 +57,5 @@ from modeler.robot.robot import Robot as Robot
 from modeler.runtime.gpu import GpuModel as GpuModel
 from modeler.runtime.model import CompiledModel as CompiledModel
 from modeler.validation.comparison import Comparison as Comparison
-from modeler.validation.free_run import Asked as Asked
 
 door.guard(globals())

@@ -6,7 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
-from modeler.api.ways import Asked, estimated, judged
+from modeler.api.ways import FitRequest, estimated, judged
 from modeler.codegen.derivation import Derivation as Derivation
 from modeler.codegen.derivation import derive as derive
 from modeler.codegen.derivation import generate as generate_robot
@@ -231,7 +231,7 @@ def fit(
     """
     _check_of_one_robot(derivation, emitted, observation)
     compiled = compile_model(emitted)
-    asked = Asked(method, energy, window, tuple(payloads), essential_below)
+    asked = FitRequest(method, energy, window, tuple(payloads), essential_below)
     way = estimated(asked, derivation.robot, compiled, observation)
     return identified(derivation, emitted, observation, judged(compiled, observation, way))
 

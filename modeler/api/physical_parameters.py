@@ -19,7 +19,7 @@ from modeler.formulas.solve import ClosedSolution, solve
 from modeler.formulas.sufficient_sets import KnownSets, easiest_set, known_sets, smallest_number
 from modeler.formulas.values import (
     VERIFIED,
-    Derived,
+    DerivedValue,
     Given,
     cad_from_file,
     cad_from_robot,
@@ -44,7 +44,7 @@ Source = Literal["base", "coefficients"]
 
 
 @dataclass(frozen=True, eq=False)
-class Fitted:
+class FittedSource:
     """Identified quantities of a model.
 
     Attributes:
@@ -71,7 +71,7 @@ class PhysicalValues(Presented):
     """
 
     system: PhysicalSystem
-    derived: Derived
+    derived: DerivedValue
     doubts: Mapping[str, str]
     tested: tuple[KnownAgainstFit, ...]
 
@@ -97,7 +97,7 @@ class Physical(Presented):
 
     system: PhysicalSystem
     derivation: Derivation
-    fitted: Fitted | None
+    fitted: FittedSource | None
 
     def formulas(self, known: str | Given) -> ClosedSolution:
         """The other parameters in closed form, checked exactly on random robots.
@@ -189,7 +189,7 @@ class Physical(Presented):
             fitted.aside,
         )  # fmt: skip
 
-    def _with_values(self) -> Fitted:
+    def _with_values(self) -> FittedSource:
         if self.fitted is None:
             raise DataError(
                 f"{self.system.robot}: a robot, with no identified values; expected a model"
@@ -215,7 +215,7 @@ def physical(thing: Robot | Derivation | IdentifiedModel, of: Source | None = No
     return Physical(system, derivation, None if model is None else _fitted(system, model))
 
 
-def _fitted(system: PhysicalSystem, model: IdentifiedModel) -> Fitted:
+def _fitted(system: PhysicalSystem, model: IdentifiedModel) -> FittedSource:
     """data = T beta, C = T C_beta T'."""
     names = [parameter.name for parameter in model.fit.parameters]
     missing = [name for name in system.base if name not in names]
@@ -232,7 +232,7 @@ def _fitted(system: PhysicalSystem, model: IdentifiedModel) -> Fitted:
         told = [system.base[k] for k in aside if T[i, k] != 0.0]
         if told:
             why[name] = f"the fit set {', '.join(told)} aside"
-    return Fitted(T @ model.beta[at], T @ model.covariance[np.ix_(at, at)] @ T.T, why)
+    return FittedSource(T @ model.beta[at], T @ model.covariance[np.ix_(at, at)] @ T.T, why)
 
 
 def values_table(found: PhysicalValues) -> Table:

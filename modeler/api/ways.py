@@ -33,7 +33,7 @@ OF_WINDOWS = ("weighted", "ordinary")
 
 
 @dataclass(frozen=True)
-class Asked:
+class FitRequest:
     """How a fit is to be made.
 
     Attributes:
@@ -72,7 +72,9 @@ class Way:
     equations: Equations | None = None
 
 
-def estimated(asked: Asked, robot: Robot, compiled: CompiledModel, observation: Observation) -> Way:
+def estimated(
+    asked: FitRequest, robot: Robot, compiled: CompiledModel, observation: Observation
+) -> Way:
     """The fit that is asked for.
 
     Raises:
@@ -112,7 +114,7 @@ def judged(
     return with_verdict(compiled, observation, way.result, told, way.equations, way.refit, data)
 
 
-def _check(asked: Asked) -> None:
+def _check(asked: FitRequest) -> None:
     """Refuse choices that do not go together."""
     if asked.method == GAIN_METHOD:
         raise DataError(

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from modeler.api.fitting import Load, found_with_gains
 from modeler.api.model import compile_model, derive, generate, identified, read_logs
-from modeler.api.ways import OF_WINDOWS, WITHOUT_LOADS, Asked, estimated, judged
+from modeler.api.ways import OF_WINDOWS, WITHOUT_LOADS, FitRequest, estimated, judged
 from modeler.cli.console import Json, say, say_next, working
 from modeler.cli.lists import robot_of
 from modeler.cli.long_logs import fit_if_long
@@ -77,10 +77,12 @@ def _load(args: argparse.Namespace) -> Load:
 # The options of `modeler fit` that choose a way to fit.
 
 
-def asked(args: argparse.Namespace, loaded: Sequence[Log]) -> Asked:
+def asked(args: argparse.Namespace, loaded: Sequence[Log]) -> FitRequest:
     """What the options ask for."""
     payloads = tuple(carried(args, loaded)) if loaded else ()
-    return Asked(args.method, args.model == "energy", args.window, payloads, args.essential_below)
+    return FitRequest(
+        args.method, args.model == "energy", args.window, payloads, args.essential_below
+    )
 
 
 def check_way(args: argparse.Namespace) -> None:

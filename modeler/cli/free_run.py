@@ -11,13 +11,13 @@ from modeler.estimation.model_file import load_model
 from modeler.observation.log import check_apart
 from modeler.report.figure_page import write_files
 from modeler.validation.controlled import Gains
-from modeler.validation.free_run import Asked, free_run
+from modeler.validation.free_run import FreeRunSettings, free_run
 from modeler.validation.free_run_result import free_run_pictures
 
 
 def run_free_run(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes the pictures."""
-    asked = Asked(args.window, args.bound, _gains(args.controller))
+    asked = FreeRunSettings(args.window, args.bound, _gains(args.controller))
     model = load_model(args.model)
     with working("deriving the robot of the model"):
         compiled = recompile(model)

@@ -7,7 +7,15 @@ from dataclasses import asdict
 
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import ModelerError
-from modeler.papers import Derived, Line, Paper, Verdict, check_paper, derived_robot, read_paper
+from modeler.papers import (
+    DerivedPaper,
+    Line,
+    LineVerdict,
+    Paper,
+    check_paper,
+    derived_robot,
+    read_paper,
+)
 from modeler.papers.method_report import MethodTable, Outcome
 from modeler.papers.paper import SLIPS
 from modeler.papers.run import run_methods
@@ -21,7 +29,7 @@ def run_reproduce(args: argparse.Namespace) -> Json:
     found: dict[str, object] = {"paper": paper.name}
     if args.section != "methods":
         lines = _lines(paper)
-        args.different += [line.printed for line in lines if line.verdict is Verdict.DIFFERENT]
+        args.different += [line.printed for line in lines if line.verdict is LineVerdict.DIFFERENT]
         found["lines"] = [asdict(line) | {"verdict": line.verdict.value} for line in lines]
     if args.section != "print":
         tables = _methods(paper)
@@ -45,7 +53,7 @@ def after_reproduce(args: argparse.Namespace) -> None:
 
 
 def _lines(paper: Paper) -> list[Line]:
-    found: dict[str, Derived] = {}
+    found: dict[str, DerivedPaper] = {}
     for name in paper.robots:
         with working(f"deriving {name}"):
             found[name] = derived_robot(name, paper.variants.get(name))
@@ -54,22 +62,22 @@ def _lines(paper: Paper) -> list[Line]:
         _say_robot(name, found[name], [line for line in lines if line.robot == name])
     say()
     for line in lines:
-        if line.verdict is Verdict.UNCHECKED:
+        if line.verdict is LineVerdict.UNCHECKED:
             say(f"  [{line.verdict.value}] {line.place}: {line.why}")
     say()
     say(_counted([line.verdict for line in lines]))
     return lines
 
 
-def _say_robot(name: str, derived: Derived, lines: Sequence[Line]) -> None:
+def _say_robot(name: str, derived: DerivedPaper, lines: Sequence[Line]) -> None:
     say()
     say(f"{name}: {derived.robot.title}")
     for line in lines:
-        slip = f": {SLIPS[line.slip]}" if line.verdict is Verdict.MISPRINT else ""
+        slip = f": {SLIPS[line.slip]}" if line.verdict is LineVerdict.MISPRINT else ""
         say(f"  [{line.verdict.value}{slip}] {line.place}: {line.printed}")
-        if line.verdict in (Verdict.MEASURED, Verdict.CONSISTENT):
+        if line.verdict in (LineVerdict.MEASURED, LineVerdict.CONSISTENT):
             say(f"      must hold: {line.derived}")
-        if line.verdict in (Verdict.MISPRINT, Verdict.DIFFERENT):
+        if line.verdict in (LineVerdict.MISPRINT, LineVerdict.DIFFERENT):
             say(f"      derived: {line.derived}")
         if line.why:
             say(f"      {line.why}")

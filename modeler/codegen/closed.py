@@ -20,8 +20,8 @@ from modeler.codegen.elimination import (
 )
 from modeler.codegen.functions import (
     Arguments,
+    CFunction,
     Closed,
-    Function,
     arguments_of,
     beta_symbols,
     dynamics_functions,
@@ -62,7 +62,7 @@ class Solving:
     sets: dict[str, tuple[int, ...]]
     eliminations: dict[str, Elimination]
     turns: Turns
-    functions: tuple[Function, ...]
+    functions: tuple[CFunction, ...]
 
     @property
     def values(self) -> list[Expr]:
@@ -128,12 +128,12 @@ def _array(name: str, length: int, meaning: str) -> ArgumentSpec:
 def _function(
     role: str, does: str, equation: str, inputs: Sequence[ArgumentSpec],
     output: ArgumentSpec, entries: Sequence[Expr],
-) -> Function:  # fmt: skip
-    return Function("", f"tree_{role}", does, equation, tuple(inputs), output,
+) -> CFunction:  # fmt: skip
+    return CFunction("", f"tree_{role}", does, equation, tuple(inputs), output,
                     entries_of(entries), internal=True)  # fmt: skip
 
 
-def _equations(solving: Solving) -> list[Function]:
+def _equations(solving: Solving) -> list[CFunction]:
     closure = solving.closure
     u = _array("q", len(closure.home), "free variables of the opened tree")
     values, f = solving.values, closure.equations
@@ -145,7 +145,7 @@ def _equations(solving: Solving) -> list[Function]:
     ]  # fmt: skip
 
 
-def _eliminations(solving: Solving, head: str, own: Elimination) -> list[Function]:
+def _eliminations(solving: Solving, head: str, own: Elimination) -> list[CFunction]:
     nonzeros, m = len(solving.pattern.entries), len(solving.closure.equations)
     J = _array("J", nonzeros, "nonzeros of df/du")
     K = _array("K", nonzeros, "the same elsewhere")
@@ -166,7 +166,7 @@ def _eliminations(solving: Solving, head: str, own: Elimination) -> list[Functio
     ]  # fmt: skip
 
 
-def _rows(solving: Solving, model: SymbolicModel, base: BaseParameters) -> Function:
+def _rows(solving: Solving, model: SymbolicModel, base: BaseParameters) -> CFunction:
     closure, own = solving.closure, solving.eliminations[""]
     n, g = len(closure.home), len(closure.given)
     inputs = (
@@ -177,7 +177,7 @@ def _rows(solving: Solving, model: SymbolicModel, base: BaseParameters) -> Funct
         _array("v", g, "speeds of the given variables"),
         _array("a", g, "their accelerations"),
     )
-    return Function(
+    return CFunction(
         "_base_regressor", "tree_rows", "Regressor of the base parameters, loops closed.",
         "tau = phi beta", inputs, ArgumentSpec("phi", (g, base.rank), "SI", "base regressor"),
         fused_regressor(model, base, closure.given, own, solving.turns), internal=True,
@@ -269,7 +269,7 @@ class _Frame:
 
 def closed_functions(
     model: SymbolicModel, base: BaseParameters, solving: Solving
-) -> tuple[Function, ...]:
+) -> tuple[CFunction, ...]:
     """All functions of the module of a robot with loops: internal ones, then the public ones.
 
     Args:
@@ -300,7 +300,7 @@ def closed_functions(
 
 def closed_dynamics(
     model: SymbolicModel, base: BaseParameters, beta: Mapping[int, Expr]
-) -> tuple[tuple[Function, ...], tuple[Function, ...]]:
+) -> tuple[tuple[CFunction, ...], tuple[CFunction, ...]]:
     """Those of the functions that read beta: of the opened tree, and public ones.
 
     Args:
@@ -341,7 +341,7 @@ def _renamed(given: Arguments, names: str) -> Arguments:
     )
 
 
-def _internal(model: SymbolicModel, base: BaseParameters, solving: Solving) -> list[Function]:
+def _internal(model: SymbolicModel, base: BaseParameters, solving: Solving) -> list[CFunction]:
     """Functions of the opened tree, of u."""
     closure = model.closure
     assert closure is not None
@@ -350,7 +350,7 @@ def _internal(model: SymbolicModel, base: BaseParameters, solving: Solving) -> l
         del found[role]
     given = arguments_of(model.robot.free, model, base)
     found["coriolis"] = _tree_coriolis(model, beta_symbols(model, base), given)
-    found["drift"] = Function(
+    found["drift"] = CFunction(
         "", "drift", "d/dt(df/du) ud.", "df/du udd + drift = 0", (given.q, given.qd),
         ArgumentSpec("values", (len(closure.drift),), "m/s2 or 1/s2", "drift"),
         entries_of(closure.drift),
@@ -359,12 +359,12 @@ def _internal(model: SymbolicModel, base: BaseParameters, solving: Solving) -> l
     return [*tree, *solving.functions]
 
 
-def _tree_coriolis(model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments) -> Function:
+def _tree_coriolis(model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments) -> CFunction:
     """The passive joints accelerate at qdd = 0 too: rotors on them belong to it."""
     rotors = {
         k: v for k, v in beta.items() if model.columns[k].kind in ("inertial", "rotor_inertia")
     }
-    return Function(
+    return CFunction(
         "", "coriolis", "Torques without gravity and friction.", "M(u) udd + c(u, ud)",
         (given.q, given.qd, given.qdd, given.beta), given.tau,
         entries_of(model.torque(rotors, gravity=False)),
@@ -373,7 +373,7 @@ def _tree_coriolis(model: SymbolicModel, beta: Mapping[int, Expr], given: Argume
 
 def _regressors(
     frame: _Frame, model: SymbolicModel, base: BaseParameters
-) -> tuple[Function, Function]:
+) -> tuple[CFunction, CFunction]:
     x, g = frame.given, len(frame.closure.given)
     found = []
     for role, width, kind in (
@@ -382,7 +382,7 @@ def _regressors(
     ):
         phi = ArgumentSpec("phi", (g, width), "SI", f"torque per unit of each {kind} parameter")
         found.append(
-            Function(
+            CFunction(
                 "_loops",
                 frame.head + role,
                 f"Regressor of the {kind} parameters.",
@@ -398,13 +398,13 @@ def _regressors(
     return found[0], found[1]
 
 
-def _dynamics(frame: _Frame) -> tuple[Function, ...]:
+def _dynamics(frame: _Frame) -> tuple[CFunction, ...]:
     x = frame.given
     q, qd, qdd, b, tau = x.q, x.qd, x.qdd, x.beta, x.tau
 
     def function(role: str, does: str, equation: str, inputs: tuple[ArgumentSpec, ...],
-                 closed: Closed) -> Function:  # fmt: skip
-        return Function("_loops", frame.head + role, does, equation, inputs, tau, (), closed)
+                 closed: Closed) -> CFunction:  # fmt: skip
+        return CFunction("_loops", frame.head + role, does, equation, inputs, tau, (), closed)
 
     return (
         function(
@@ -424,28 +424,28 @@ def _dynamics(frame: _Frame) -> tuple[Function, ...]:
     )  # fmt: skip
 
 
-def _inertia_matrix(frame: _Frame) -> Function:
+def _inertia_matrix(frame: _Frame) -> CFunction:
     _, g = frame.sizes
     M = ArgumentSpec("M", (g, g), "kg m2, kg m or kg", "inertia matrix")
-    return Function(
+    return CFunction(
         "_loops", "inertia_matrix", "Inertia matrix, rotor inertias included; symmetric.",
         "tau = M(q) qdd + ...", (frame.given.q, frame.given.beta), M, (),
         frame.closed("inertia_matrix", role="inertia_matrix", reads="u, beta"),
     )  # fmt: skip
 
 
-def _kinematics(frame: _Frame, model: SymbolicModel) -> Function:
+def _kinematics(frame: _Frame, model: SymbolicModel) -> CFunction:
     names = ", ".join(joint.name for joint in model.robot.moving)
     count = len(model.robot.moving)
     T = ArgumentSpec("T", (count, 3, 4), "1 | m", f"poses [R | p] of rows {names} in frame 0")
-    return Function(
+    return CFunction(
         "_loops", "forward_kinematics", "Pose of the frame of every moving row of the table.",
         "x0 = R x + p with T = [R | p], for a point x of the frame", (frame.given.q,), T, (),
         frame.closed("poses", role="forward_kinematics"),
     )  # fmt: skip
 
 
-def _postures(frame: _Frame) -> tuple[Function, ...]:
+def _postures(frame: _Frame) -> tuple[CFunction, ...]:
     """Closing alone, and G."""
     n, g = frame.sizes
     q = frame.given.q
@@ -453,12 +453,12 @@ def _postures(frame: _Frame) -> tuple[Function, ...]:
     start = ArgumentSpec("start", (n,), "rad or m", "a closed posture to start from")
     G = ArgumentSpec("G", (n, g), "SI", f"d u / d {q.name}")
     return (
-        Function("_loops", f"{frame.head}close", "Closed posture, on a straight way from home.",
+        CFunction("_loops", f"{frame.head}close", "Closed posture, on a straight way from home.",
                  "f(u) = 0", (q,), u, (), frame.closed("posture")),
-        Function("_loops", f"{frame.head}close_from",
+        CFunction("_loops", f"{frame.head}close_from",
                  "Closed posture, on a straight way from another one, such as the last.",
                  "f(u) = 0", (q, start), u, (), frame.closed("posture", start="start")),
-        Function("_loops", f"{frame.head}coupling",
+        CFunction("_loops", f"{frame.head}coupling",
                  "Speeds of the free variables; rows of the platform are its Jacobian.",
                  f"ud = G {frame.given.qd.name}", (q,), G, (), frame.closed("coupling")),
     )  # fmt: skip

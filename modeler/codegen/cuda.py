@@ -12,7 +12,7 @@ from typing import Any
 
 from modeler.codegen import functions as layout
 from modeler.codegen.block import Block, make_block
-from modeler.codegen.functions import Function
+from modeler.codegen.functions import CFunction
 from modeler.codegen.package import render
 from modeler.codegen.targets import DOUBLE
 from modeler.core.errors import EmitError
@@ -56,7 +56,7 @@ class _Shape:
 
 def cuda_files(
     spec: ModuleSpec,
-    blocks: Sequence[tuple[Function, Block | None]],
+    blocks: Sequence[tuple[CFunction, Block | None]],
     places: Mapping[str, str],
     values: Mapping[str, Any],
 ) -> dict[str, str]:

@@ -15,7 +15,7 @@ from modeler.codegen.block import Block, float_text, make_block
 from modeler.codegen.closed import closed_functions, closure_tables, solving_of
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
-from modeler.codegen.functions import Function, tree_functions
+from modeler.codegen.functions import CFunction, tree_functions
 from modeler.codegen.fused import UNIT as TILE_UNIT
 from modeler.codegen.fused import Tile, tile_of
 from modeler.codegen.names import (
@@ -63,7 +63,7 @@ from modeler.robot.robot import Joint, Robot
 
 
 def module_spec(
-    model: SymbolicModel, base: BaseParameters, blocks: Iterable[tuple[Function, Block | None]]
+    model: SymbolicModel, base: BaseParameters, blocks: Iterable[tuple[CFunction, Block | None]]
 ) -> ModuleSpec:
     """The manifest of the module with these functions; None is a function that is all zeros."""
     robot = model.robot
@@ -163,8 +163,8 @@ def _number(model: SymbolicModel, coefficient: sympy.Expr, values: Mapping[str, 
 
 def function_specs(
     prefix: str,
-    blocks: Sequence[tuple[Function, Block | None]],
-    called: Sequence[tuple[Function, Block | None]] = (),
+    blocks: Sequence[tuple[CFunction, Block | None]],
+    called: Sequence[tuple[CFunction, Block | None]] = (),
 ) -> tuple[FunctionSpec, ...]:
     """The public ones; one that closes loops has the operations of all that it calls, once each.
 
@@ -334,7 +334,7 @@ _RESTRICT = "MODELER_RESTRICT "
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Written(Function):
+class _Written(CFunction):
     """One function with its finished strings."""
 
     name: str
@@ -428,7 +428,7 @@ class _Module:
     """
 
     spec: ModuleSpec
-    blocks: list[tuple[Function, Block | None]]
+    blocks: list[tuple[CFunction, Block | None]]
     places: dict[str, str]
     values: dict[str, Any]
 
@@ -539,7 +539,7 @@ def _tile_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
 
 
 def _block(
-    function: Function,
+    function: CFunction,
     places: dict[str, str],
     precision: Precision,
     turning: Mapping[int, str] | None = None,
@@ -550,7 +550,7 @@ def _block(
     return make_block(outputs, places, turning, OF_PRECISION[precision])
 
 
-def _written(prefix: str, function: Function, block: Block | None) -> _Written:
+def _written(prefix: str, function: CFunction, block: Block | None) -> _Written:
     name = f"{prefix}_{function.role}"
     returns = "void" if function.closed is None else "int"
     if function.internal and function.unit == UNIT:

@@ -14,7 +14,7 @@ from typing import Any
 
 from modeler.codegen import functions as layout
 from modeler.codegen.closed import closed_dynamics
-from modeler.codegen.functions import Closed, Function, arguments_of, dynamics_functions
+from modeler.codegen.functions import CFunction, Closed, arguments_of, dynamics_functions
 from modeler.codegen.names import enumerators
 from modeler.core.errors import EmitError
 from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec
@@ -67,7 +67,7 @@ def check_values(base: BaseParameters, fitted: FittedSpec) -> None:
 
 def fitted_functions(
     model: SymbolicModel, base: BaseParameters, fitted: FittedSpec
-) -> tuple[Function, ...]:
+) -> tuple[CFunction, ...]:
     """Internal ones first, then those of the header: the twins without their argument beta."""
     values = {
         parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
@@ -81,7 +81,7 @@ def fitted_functions(
     return (*inner, *map(_public, public))
 
 
-def _public(function: Function) -> Function:
+def _public(function: CFunction) -> CFunction:
     """The function without beta."""
     return dataclasses.replace(
         function,
@@ -97,7 +97,9 @@ def _closed(closed: Closed) -> Closed:
     return dataclasses.replace(closed, tree=_TREE, reads=reads)
 
 
-def widths(prefix: str, model: SymbolicModel, functions: Sequence[Function]) -> Mapping[int, Width]:
+def widths(
+    prefix: str, model: SymbolicModel, functions: Sequence[CFunction]
+) -> Mapping[int, Width]:
     """{speed: its width} of the joints and motors of whose speed the functions read the sign.
 
     Joints that always move alike have one speed, and the width of the first of them; a joint and
@@ -118,7 +120,7 @@ def widths(prefix: str, model: SymbolicModel, functions: Sequence[Function]) -> 
     return found
 
 
-def _nodes(model: SymbolicModel, functions: Sequence[Function]) -> list[Node]:
+def _nodes(model: SymbolicModel, functions: Sequence[CFunction]) -> list[Node]:
     """All that the functions need."""
     values = [value for function in functions for _, value in function.entries]
     return [model.graph.nodes[index] for index in model.graph.reachable(values)]

@@ -17,7 +17,7 @@ from modeler.robot.robot import Joint
 
 
 @dataclass(frozen=True)
-class Function:
+class CFunction:
     """One function, still as expressions.
 
     Attributes:
@@ -108,7 +108,7 @@ def beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, Expr]:
     }
 
 
-def tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[Function, ...]:
+def tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[CFunction, ...]:
     """All functions of a module without loops, in the order of the header."""
     given = arguments_of(model.robot.free, model, base)
     beta = beta_symbols(model, base)
@@ -146,7 +146,7 @@ def _either(units: Sequence[str]) -> str:
 
 def _regressors(
     model: SymbolicModel, base: BaseParameters, given: Arguments
-) -> tuple[Function, ...]:
+) -> tuple[CFunction, ...]:
     joints, p, c = model.geometry.coordinates, len(model.columns), base.rank
     place = {parameter.column: i for i, parameter in enumerate(base.parameters)}
     values = {
@@ -158,19 +158,19 @@ def _regressors(
     inputs = given.motion
     per = "torque per unit of each"
     return (
-        Function(
+        CFunction(
             "_regressor", "regressor", "Regressor of the standard parameters.",
             "tau = phi chi", inputs,
             ArgumentSpec("phi", (joints, p), "SI", f"{per} standard parameter"),
             tuple((joint * p + k, value) for (joint, k), value in standard),
         ),
-        Function(
+        CFunction(
             "_base_regressor", "base_regressor", "Regressor of the base parameters.",
             "tau = phi beta", inputs,
             ArgumentSpec("phi", (joints, c), "SI", f"{per} base parameter"),
             tuple((joint * c + i, value) for (joint, i), value in kept),
         ),
-        Function(
+        CFunction(
             "_base_regressor", "base_regressor_nonzeros",
             "The entries of the base regressor that are not always 0.",
             "values[k] = phi[nonzero_row[k]][nonzero_column[k]]", inputs,
@@ -194,7 +194,7 @@ def _by_column(
 
 def dynamics_functions(
     model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments
-) -> tuple[Function, ...]:
+) -> tuple[CFunction, ...]:
     """Torques and their parts, without loops; `beta` gives the parameter of each column."""
     joints = model.geometry.coordinates
     q, qd, b = given.q, given.qd, given.beta
@@ -206,15 +206,15 @@ def dynamics_functions(
     friction = model.torque(losses, links=False)
 
     def function(role: str, does: str, equation: str, inputs: tuple[ArgumentSpec, ...],
-                 values: Sequence[Expr]) -> Function:  # fmt: skip
-        return Function("", role, does, equation, inputs, given.tau, entries_of(values))
+                 values: Sequence[Expr]) -> CFunction:  # fmt: skip
+        return CFunction("", role, does, equation, inputs, given.tau, entries_of(values))
 
     return (
         function(
             "inverse_dynamics", "Joint torques, by the Newton-Euler recursion.",
             "tau = M(q) qdd + c(q, qd) + g(q) + f(qd)", (*given.motion, b), model.torque(beta),
         ),
-        Function(
+        CFunction(
             "", "inertia_matrix", "Inertia matrix, rotor inertias included; symmetric.",
             "tau = M(q) qdd + ...", (q, b),
             ArgumentSpec("M", (joints, joints), "kg m2, kg m or kg", "inertia matrix"),
@@ -239,7 +239,7 @@ def reads_more(model: SymbolicModel) -> bool:
     )
 
 
-def _advance(model: SymbolicModel, given: Arguments) -> list[Function]:
+def _advance(model: SymbolicModel, given: Arguments) -> list[CFunction]:
     """The signals one sample later: time goes on, bristles turn; temperatures are measured."""
     if not model.signals:
         return []
@@ -258,7 +258,7 @@ def _advance(model: SymbolicModel, given: Arguments) -> list[Function]:
         values.append(s)
     after = ArgumentSpec("after", (len(values),), "see above", "signals now")
     return [
-        Function(
+        CFunction(
             "", "advance", "The signals one sample later; write temperatures yourself.",
             "z = sign(dq) + (z - sign(dq)) exp(-|dq|/d) for bristles",
             (travel, step, *given.signals), after, entries_of(values),
@@ -279,7 +279,7 @@ def _turned(model: SymbolicModel, signal: Signal, z: Expr) -> Expr:
     return way + (z - way) * graph.call("exp", -share)
 
 
-def grouping_function(model: SymbolicModel, base: BaseParameters, given: Arguments) -> Function:
+def grouping_function(model: SymbolicModel, base: BaseParameters, given: Arguments) -> CFunction:
     """The grouping relations as a function of the standard parameters."""
     place = {name: model.graph.symbol(f"chi[{k}]") for k, name in enumerate(model.names)}
     values = []
@@ -288,16 +288,16 @@ def grouping_function(model: SymbolicModel, base: BaseParameters, given: Argumen
         for term in parameter.terms:
             total = total + model.algebra.static(term.coefficient) * place[term.parameter]
         values.append(total)
-    return Function(
+    return CFunction(
         "", "base_parameters", "Base parameters from standard ones: the grouping relations.",
         "beta = K chi", (given.chi,), given.beta, entries_of(values),
     )  # fmt: skip
 
 
-def _kinematics(model: SymbolicModel, given: Arguments) -> Function:
+def _kinematics(model: SymbolicModel, given: Arguments) -> CFunction:
     poses = model.forward_kinematics()
     meaning = "poses [R | p] of the links' frames in frame 0"
-    return Function(
+    return CFunction(
         "", "forward_kinematics", "Poses of the frames of all moving rows of the table, in order.",
         "x0 = R x + p with T = [R | p], for a point x of the frame", (given.q,),
         ArgumentSpec("T", (len(poses), 3, 4), "1 | m", meaning),
@@ -365,7 +365,7 @@ def comment_line(text: str) -> str:
     return text.rstrip().replace("*/", "* /")
 
 
-def argument_lines(function: Function) -> list[str]:
+def argument_lines(function: CFunction) -> list[str]:
     """Comment lines that say of every argument its length, order and unit."""
     given = (*function.inputs, function.output)
     lengths = [" x ".join(str(size) for size in argument.shape) for argument in given]
@@ -378,7 +378,7 @@ def argument_lines(function: Function) -> list[str]:
     return lines
 
 
-def arguments(function: Function, restrict: str) -> list[str]:
+def arguments(function: CFunction, restrict: str) -> list[str]:
     """C parameters: inputs const; `restrict`, or nothing, is put before the output's name."""
     return [
         *(f"const double *{argument.name}" for argument in function.inputs),
@@ -423,7 +423,7 @@ def observation_prototype(
     return prototype(f"{prefix}_observation", ["size_t samples", *states, *outputs])
 
 
-def body_lines(function: Function, block: Block | None) -> list[str]:
+def body_lines(function: CFunction, block: Block | None) -> list[str]:
     """All statements of a function."""
     size = function.output.size
     written = {index for index, _ in function.entries}
@@ -464,7 +464,7 @@ def _mixed(statements: Sequence[str], more: Sequence[str]) -> tuple[str, ...]:
     return (*mixed, *more[done:])
 
 
-def unread(function: Function, block: Block | None) -> Iterable[str]:
+def unread(function: CFunction, block: Block | None) -> Iterable[str]:
     """Names of the inputs of which no entry is read."""
     read = block.symbols if block else frozenset()
     for argument in function.inputs:

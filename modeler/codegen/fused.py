@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.elimination import Elimination
-from modeler.codegen.functions import Function
+from modeler.codegen.functions import CFunction
 from modeler.codegen.targets import TILE
 from modeler.derivation.graph import Expr, Graph
 from modeler.derivation.model import SymbolicModel
@@ -208,7 +208,7 @@ class Tile:
 
 
 def tile_of(
-    functions: Iterable[Function],
+    functions: Iterable[CFunction],
     places: Mapping[str, str],
     nonzeros: Sequence[tuple[int, int]],
 ) -> Tile | None:

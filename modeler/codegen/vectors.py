@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.codegen.functions import Closed, Function, name_lines
+from modeler.codegen.functions import CFunction, Closed, name_lines
 from modeler.core.errors import EmitError
 from modeler.derivation.closed_states import closing_of
 from modeler.derivation.closing import moved_postures
@@ -41,7 +41,7 @@ Table = list[list[float]]
 """Numbers by state."""
 
 
-def stored_states(model: SymbolicModel, functions: Sequence[Function]) -> dict[str, Any]:
+def stored_states(model: SymbolicModel, functions: Sequence[CFunction]) -> dict[str, Any]:
     """What the template of the check stores: `tables` by name, and how many `states` they hold.
 
     Args:
@@ -87,7 +87,7 @@ def _inputs(model: SymbolicModel) -> dict[str, Table]:
 
 
 def _tables(
-    model: SymbolicModel, functions: Iterable[Function]
+    model: SymbolicModel, functions: Iterable[CFunction]
 ) -> tuple[dict[str, Table], dict[str, Table]]:
     """Inputs by name, and by role what the functions give there."""
     roles = {f.role: f for f in functions}

@@ -23,7 +23,7 @@ _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\s+|.", re.DOTALL)
 
 
 @dataclass(frozen=True)
-class Box:
+class LatexBox:
     """A piece of a formula.
 
     Attributes:
@@ -38,19 +38,19 @@ class Box:
     text: str
     width: float
     kind: str = ""
-    inside: tuple[tuple["Box", ...], ...] = ()
+    inside: tuple[tuple["LatexBox", ...], ...] = ()
     after: str = ""
 
 
 @dataclass(frozen=True)
-class Equation:
+class DisplayedEquation:
     """left = right; every text of `right` begins a line of its own."""
 
     left: str
     right: tuple[str, ...]
 
 
-def display(equations: Sequence[Equation], numbered: bool = False) -> str:
+def display(equations: Sequence[DisplayedEquation], numbered: bool = False) -> str:
     """An `align` (numbered) or `align*` of the equations, without a newline at its end."""
     name = "align" if numbered else "align*"
     room = TEXT_WIDTH - max(width(equation.left) for equation in equations) - _BINARY - 2.0
@@ -71,7 +71,7 @@ def broken(text: str, room: float = TEXT_WIDTH) -> list[str]:
     boxes = _parsed(text)
     if _total(boxes) <= room:
         return [text]
-    lines: list[list[Box]] = [[]]
+    lines: list[list[LatexBox]] = [[]]
     for part in _parts(boxes, room):
         if lines[-1] and _total(lines[-1]) + _total(part) > room:
             lines.append([])
@@ -84,11 +84,11 @@ def width(text: str) -> float:
     return _total(_parsed(text))
 
 
-def _total(boxes: Sequence[Box]) -> float:
+def _total(boxes: Sequence[LatexBox]) -> float:
     return sum(box.width for box in boxes)
 
 
-def _joined(boxes: Sequence[Box]) -> str:
+def _joined(boxes: Sequence[LatexBox]) -> str:
     """The texts, signs between spaces; a line that begins with a factor has a dot before it."""
     text = ""
     for box in boxes:
@@ -101,7 +101,7 @@ def _joined(boxes: Sequence[Box]) -> str:
     return text.strip()
 
 
-def _parts(boxes: Sequence[Box], room: float) -> Iterator[list[Box]]:
+def _parts(boxes: Sequence[LatexBox], room: float) -> Iterator[list[LatexBox]]:
     """Pieces between which lines may end, each as wide as it must be."""
     for part in _split(boxes):
         if _total(part) <= room:
@@ -112,19 +112,19 @@ def _parts(boxes: Sequence[Box], room: float) -> Iterator[list[Box]]:
             at = part.index(wide)
             yield from _parts([*part[:at], *_opened(wide), *part[at + 1 :]], room)
         elif any(box.kind == "times" for box in part):
-            dot = Box(r"\,", 7.3, "dot")
+            dot = LatexBox(r"\,", 7.3, "dot")
             yield from _parts([dot if box.kind == "times" else box for box in part], room)
         else:
             yield part
 
 
-def _split(boxes: Sequence[Box]) -> Iterator[list[Box]]:
+def _split(boxes: Sequence[LatexBox]) -> Iterator[list[LatexBox]]:
     """Before every sign, and before the factors of a product that has to be broken."""
     starts = [0, *(i for i, box in enumerate(boxes) if i and box.kind in _ENDS), len(boxes)]
     yield from (list(boxes[a:b]) for a, b in pairwise(starts) if a < b)
 
 
-def _opened(box: Box) -> list[Box]:
+def _opened(box: LatexBox) -> list[LatexBox]:
     """The same value, written so that it can be broken."""
     if box.kind == "bracket":
         return _bracketed(box.inside[0], box.after)
@@ -133,24 +133,24 @@ def _opened(box: Box) -> list[Box]:
     above, below = box.inside
     is_sum = any(piece.kind == "break" for piece in above) or above[0].text == "-"
     top = _bracketed(above) if is_sum else list(above)
-    return [*top, Box(r"\,", 1.7, "times"), *_bracketed(below, "^{-1}")]
+    return [*top, LatexBox(r"\,", 1.7, "times"), *_bracketed(below, "^{-1}")]
 
 
-def _bracketed(inside: Sequence[Box], after: str = "") -> list[Box]:
+def _bracketed(inside: Sequence[LatexBox], after: str = "") -> list[LatexBox]:
     close = rf"\bigr){after}"
-    return [Box(r"\bigl(", 5.0), *inside, Box(close, 5.0 + 5.0 * len(after))]
+    return [LatexBox(r"\bigl(", 5.0), *inside, LatexBox(close, 5.0 + 5.0 * len(after))]
 
 
-class _Reader:
+class _LatexReader:
     """The boxes of a formula, by recursive descent."""
 
     def __init__(self, text: str) -> None:
         self.tokens = _TOKEN.findall(text)
         self.at = 0
 
-    def boxes(self, end: str = "") -> tuple[Box, ...]:
+    def boxes(self, end: str = "") -> tuple[LatexBox, ...]:
         """Up to the token `end`, which is taken."""
-        found: list[Box] = []
+        found: list[LatexBox] = []
         while self.at < len(self.tokens):
             token = self._take()
             if token == end:
@@ -176,62 +176,62 @@ class _Reader:
         self.at += 1
         return str(token)
 
-    def _box(self, token: str, unary: bool) -> Box:
+    def _box(self, token: str, unary: bool) -> LatexBox:
         if token in "+-":
-            return Box(token, _SIGN) if unary else Box(token, _BINARY, "break")
+            return LatexBox(token, _SIGN) if unary else LatexBox(token, _BINARY, "break")
         if token == r"\quad":
-            return Box(token, 10.0, "break")
+            return LatexBox(token, 10.0, "break")
         if token == r"\,":
-            return Box(token, 1.7, "times")
+            return LatexBox(token, 1.7, "times")
         if token == "(":
             return self._bracket("(", ")")
         if token == r"\left":
             return self._bracket(token + self._take(), r"\right")
         if token in (r"\bigl", r"\bigr"):
-            return Box(token + self._take(), 5.0)
+            return LatexBox(token + self._take(), 5.0)
         if token == "{":
             inside = self.boxes("}")
-            return Box(f"{{{_joined(inside)}}}", _total(inside))
+            return LatexBox(f"{{{_joined(inside)}}}", _total(inside))
         if token.startswith("\\"):
             return self._command(token)
-        return Box(token, _letter(token))
+        return LatexBox(token, _letter(token))
 
-    def _bracket(self, opening: str, end: str) -> Box:
+    def _bracket(self, opening: str, end: str) -> LatexBox:
         inside = self.boxes(end)
         closing = end + (self._take() if end == r"\right" else "")
         margin = 8.0 if end == ")" else 17.0
         text = f"{opening}{_joined(inside)}{closing}"
         parts = (inside,) if closing[-1] == ")" else ()
-        return Box(text, _total(inside) + margin, "bracket", parts)
+        return LatexBox(text, _total(inside) + margin, "bracket", parts)
 
-    def _command(self, token: str) -> Box:
+    def _command(self, token: str) -> LatexBox:
         name = token[1:]
         if name in ("frac", "tfrac"):
             above, below = self._group(), self._group()
             text = f"{token}{{{_joined(above)}}}{{{_joined(below)}}}"
             size = max(_total(above), _total(below)) + 3.0
-            return Box(text, size, "fraction", (above, below) if name == "frac" else ())
+            return LatexBox(text, size, "fraction", (above, below) if name == "frac" else ())
         if name == "sqrt":
             return self._root()
         if name in ("mathit", "text", "operatorname"):
             word = self._word()
-            return Box(f"{token}{{{word}}}", sum(map(_letter, word)) + 3.7)
+            return LatexBox(f"{token}{{{word}}}", sum(map(_letter, word)) + 3.7)
         if name in ("dot", "ddot"):
             inside = self._group()
-            return Box(f"{token}{{{_joined(inside)}}}", _total(inside))
+            return LatexBox(f"{token}{{{_joined(inside)}}}", _total(inside))
         gap = " " if name[0].isalpha() and self._next()[:1].isalnum() else ""
-        return Box(token + gap, _WORDS.get(name, _command_width(name)))
+        return LatexBox(token + gap, _WORDS.get(name, _command_width(name)))
 
-    def _root(self) -> Box:
+    def _root(self) -> LatexBox:
         """A square root can be opened, a higher one not."""
         degree = ""
         while self._next() == "[" or (degree and degree[-1] != "]"):
             degree += self._take()
         inside = self._group()
         text = f"\\sqrt{degree}{{{_joined(inside)}}}"
-        return Box(text, _total(inside) + 10.0, "root", () if degree else (inside,))
+        return LatexBox(text, _total(inside) + 10.0, "root", () if degree else (inside,))
 
-    def _group(self) -> tuple[Box, ...]:
+    def _group(self) -> tuple[LatexBox, ...]:
         """What is between braces, or the one token without them."""
         if self._next() != "{":
             return (self._box(self._take(), True),)
@@ -247,22 +247,24 @@ class _Reader:
             word += token
         return word
 
-    def _script(self, found: list[Box], token: str) -> None:
+    def _script(self, found: list[LatexBox], token: str) -> None:
         """An index or exponent joins what it belongs to."""
         start = self.at
         size = _SCRIPT * _total(self._group()) + 0.6
         text = token + "".join(self.tokens[start : self.at])
         if not found:
-            found.append(Box("{}", 0.0))
+            found.append(LatexBox("{}", 0.0))
         base = found.pop()
         inner = base.inside if base.kind == "bracket" else ()
         found.append(
-            Box(base.text.rstrip() + text, base.width + size, base.kind, inner, base.after + text)
+            LatexBox(
+                base.text.rstrip() + text, base.width + size, base.kind, inner, base.after + text
+            )
         )
 
 
-def _parsed(text: str) -> tuple[Box, ...]:
-    return _Reader(text).boxes()
+def _parsed(text: str) -> tuple[LatexBox, ...]:
+    return _LatexReader(text).boxes()
 
 
 def _command_width(name: str) -> float:

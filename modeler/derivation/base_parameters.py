@@ -7,7 +7,7 @@ from modeler.derivation.elimination import TooLarge
 from modeler.derivation.field import ExactField, geometry_field
 from modeler.derivation.geometry import Geometry, exact_geometry
 from modeler.derivation.grouping import (
-    Relations,
+    GroupingRelations,
     base_from_relations,
     column_relations,
     with_closure_relations,
@@ -155,7 +155,7 @@ def _exact(
 
 def _relations(
     model: SymbolicModel, geometry: Geometry, K: ExactField, numeric: NumericRank, seed: int
-) -> Relations:
+) -> GroupingRelations:
     """All relations; raises NotProved where they are not as many as the torques say."""
     relations = column_relations(model, geometry, K, seed)
     if model.closure is not None and len(relations.kept) > numeric.rank:

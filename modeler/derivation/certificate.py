@@ -17,7 +17,7 @@ import sympy
 
 from modeler.derivation.columns import LinkColumn, ShaftColumn, StandardColumn, in_block
 from modeler.derivation.field import ExactField, cosine_letter
-from modeler.derivation.geometry import Geometry, Row, cos_sin
+from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
 from modeler.effects.effect import EnergyBlock
 
 # Vectors of residues modulo a prime: one entry per random point.
@@ -283,7 +283,7 @@ class ModularState:
             at = (identity, none, none, none) if row.parent is None else self.motion[row.parent]
             self.motion.append(self._frame(row, *at))
 
-    def _frame(self, row: Row, R: list, p: list, w: list, v: list) -> tuple:
+    def _frame(self, row: GeometryRow, R: list, p: list, w: list, v: list) -> tuple:
         p0, prime = p, self.prime
         R = turn(R, 2, *self._cos_sin(row.gamma), prime)
         p = shift(p, R, 2, self.value(row.b), prime)
@@ -307,7 +307,7 @@ class ModularState:
             w, v = (plus(w, own, prime), v) if row.joint.angular else (w, plus(v, own, prime))
         return R, p, w, v
 
-    def _combined(self, row: Row, free: Residues) -> Residues:
+    def _combined(self, row: GeometryRow, free: Residues) -> Residues:
         assert row.index is not None
         return self._sum(self.geometry.forms[row.index], free)
 
@@ -317,7 +317,7 @@ class ModularState:
             total = (total + rational(coefficient, self.prime) * free[k]) % self.prime
         return total
 
-    def _angle(self, row: Row) -> tuple[Residues, Residues]:
+    def _angle(self, row: GeometryRow) -> tuple[Residues, Residues]:
         """(cos, sin) of rate * the row's variable: powers of the free variables' angles."""
         assert row.index is not None
         total = (filled(1, self.points, self.prime), filled(0, self.points, self.prime))

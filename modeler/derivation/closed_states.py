@@ -10,7 +10,7 @@ from modeler.derivation.walks import Walk, walked
 
 
 @dataclass(frozen=True)
-class ClosedMotion:
+class ClosedStates:
     """How the free variables follow the coordinates, at n postures.
 
     Attributes:
@@ -76,7 +76,7 @@ def rounded_off(model: SymbolicModel, u: np.ndarray, rng: np.random.Generator) -
     return other
 
 
-def closed_motion(model: SymbolicModel, u: np.ndarray, qd: np.ndarray) -> ClosedMotion:
+def closed_motion(model: SymbolicModel, u: np.ndarray, qd: np.ndarray) -> ClosedStates:
     """G and gamma at closed postures.
 
     Args:
@@ -98,4 +98,4 @@ def closed_motion(model: SymbolicModel, u: np.ndarray, qd: np.ndarray) -> Closed
     rate = np.stack([np.broadcast_to(value, len(u)) for value in found], axis=1)
     drift = np.zeros_like(u)
     drift[:, solved] = -np.linalg.solve(J[:, :, solved], rate[:, :, None])[:, :, 0]
-    return ClosedMotion(G, drift)
+    return ClosedStates(G, drift)

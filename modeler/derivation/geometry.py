@@ -195,7 +195,7 @@ def geometric_symbol(name: str) -> sympy.Symbol:
 
 
 @dataclass(frozen=True)
-class Row(Brief):
+class GeometryRow(Brief):
     """One row of the table, exact.
 
     T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r), where theta = rate q + offset for a
@@ -234,7 +234,7 @@ class Geometry(Brief):
     """
 
     robot: Robot
-    rows: tuple[Row, ...]
+    rows: tuple[GeometryRow, ...]
     gravity: tuple[sympy.Expr, sympy.Expr, sympy.Expr]
     values: Mapping[str, float]
     forms: tuple[Mapping[int, Fraction], ...]
@@ -295,7 +295,7 @@ def exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
     )  # fmt: skip
 
 
-def _moved(row: Row, constants: Mapping[str, sympy.Expr], cells: "_Cells") -> Row:
+def _moved(row: GeometryRow, constants: Mapping[str, sympy.Expr], cells: "_Cells") -> GeometryRow:
     """The row with the constant of its variable's relation in theta or r."""
     constant = constants.get(row.joint.name, sympy.Integer(0))
     if constant == 0:
@@ -305,15 +305,15 @@ def _moved(row: Row, constants: Mapping[str, sympy.Expr], cells: "_Cells") -> Ro
     return replace(row, r=sympy.expand(row.r + row.rate * constant))
 
 
-def _rows(robot: Robot, cells: "_Cells") -> list[Row]:
-    rows: list[Row] = []
+def _rows(robot: Robot, cells: "_Cells") -> list[GeometryRow]:
+    rows: list[GeometryRow] = []
     places = {"0": None} | {joint.name: i for i, joint in enumerate(robot.joints)}
     index = 0
     for joint in robot.joints:
         theta, rate_theta = cells.affine(joint, "theta")
         r, rate_r = cells.affine(joint, "r")
         rows.append(
-            Row(
+            GeometryRow(
                 joint=joint,
                 parent=places[joint.antecedent],
                 index=index if joint.moves else None,

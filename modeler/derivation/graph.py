@@ -26,7 +26,7 @@ import sympy
 
 from modeler.core.errors import DerivationError
 from modeler.core.expression import FUNCTIONS
-from modeler.derivation.geometry import Geometry, Row, cos_sin
+from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
 
 if TYPE_CHECKING:
     pass
@@ -453,11 +453,11 @@ class Algebra(Protocol):
         """A geometric constant."""
         ...
 
-    def variable(self, row: Row) -> Scalar:
+    def variable(self, row: GeometryRow) -> Scalar:
         """rate * q + offset of a prismatic joint."""
         ...
 
-    def cos_sin(self, row: Row) -> tuple[Scalar, Scalar]:
+    def cos_sin(self, row: GeometryRow) -> tuple[Scalar, Scalar]:
         """Cosine and sine of theta = rate * q + offset."""
         ...
 
@@ -504,12 +504,12 @@ class GraphAlgebra:
         power = base**whole
         return power * self.graph.call("sqrt", base) if half else power
 
-    def variable(self, row: Row) -> Expr:
+    def variable(self, row: GeometryRow) -> Expr:
         """rate * q + offset of a prismatic joint."""
         q = self.combined("q", row)
         return (q if row.rate > 0 else -q) + self.static(row.r)
 
-    def combined(self, kind: str, row: Row) -> Expr:
+    def combined(self, kind: str, row: GeometryRow) -> Expr:
         """The variable of a moving row ("q"), or its derivative ("qd", "qdd")."""
         assert row.index is not None
         total = self.graph.constant(0)
@@ -517,7 +517,7 @@ class GraphAlgebra:
             total = total + self.graph.symbol(f"{kind}[{k}]") * coefficient
         return total
 
-    def cos_sin(self, row: Row) -> tuple[Expr, Expr]:
+    def cos_sin(self, row: GeometryRow) -> tuple[Expr, Expr]:
         """Cosine and sine of theta; right angles are taken out exactly."""
         if row.index is None or not row.joint.angular:
             c, s = cos_sin(row.theta)

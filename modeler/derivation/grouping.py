@@ -218,7 +218,7 @@ def priority_order(names: Sequence[str], patterns: Sequence[str]) -> list[int]:
 
 
 @dataclass(frozen=True)
-class Relations:
+class GroupingRelations:
     """Every linear relation among the columns, reduced: one row for each column that is not kept.
 
     Attributes:
@@ -234,7 +234,7 @@ class Relations:
 
 def column_relations(
     model: SymbolicModel, geometry: Geometry, K: ExactField, seed: int
-) -> Relations:
+) -> GroupingRelations:
     """The reduced relations of a robot, first-come by the priority order."""
     units = grouping_units(geometry, model.columns)
     order = priority_order(model.names, model.robot.kept_first)
@@ -259,19 +259,19 @@ def column_relations(
     reduced, dropped = reduced[first:], pivots[first:]
     gone = set(dropped)
     kept = [place for place in range(len(model.columns)) if place not in gone]
-    return Relations(tuple(reduced), tuple(dropped), tuple(kept))
+    return GroupingRelations(tuple(reduced), tuple(dropped), tuple(kept))
 
 
 def with_closure_relations(
-    model: SymbolicModel, geometry: Geometry, K: ExactField, relations: Relations, seed: int
-) -> Relations:
+    model: SymbolicModel, geometry: Geometry, K: ExactField, relations: GroupingRelations, seed: int
+) -> GroupingRelations:
     """The relations, and those among the kept columns that go around whole loops."""
     order = priority_order(model.names, model.robot.kept_first)
     kept = [i for i in order if i in relations.kept and has_energy(model.columns[i])]
     more = closure_relations(geometry, model.columns, K, kept, seed)
     reduced, dropped = sparse_row_reduce([*relations.rows, *more], order[::-1])
     left = [i for i in range(len(model.columns)) if i not in set(dropped)]
-    return Relations(tuple(reduced), tuple(dropped), tuple(left))
+    return GroupingRelations(tuple(reduced), tuple(dropped), tuple(left))
 
 
 def _link_relations(geometry: Geometry, K: ExactField, units: Units) -> list[dict[int, Element]]:
@@ -293,7 +293,7 @@ def _link_relations(geometry: Geometry, K: ExactField, units: Units) -> list[dic
 
 
 def base_from_relations(
-    columns: Sequence[StandardColumn], relations: Relations, K: ExactField
+    columns: Sequence[StandardColumn], relations: GroupingRelations, K: ExactField
 ) -> tuple[tuple[BaseParameter, ...], tuple[str, ...]]:
     """Base parameters with their terms, and the parameters without effect.
 

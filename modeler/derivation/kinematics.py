@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import sympy
 
 from modeler.core.brief import Brief
-from modeler.derivation.geometry import Geometry, Row, cos_sin
+from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
 from modeler.derivation.graph import Algebra, Scalar, Vector
 
 
@@ -79,7 +79,7 @@ def _back_x(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
     return [v[0], c * v[1] - s * v[2], s * v[1] + c * v[2]]
 
 
-def pose(row: Row, algebra: Algebra) -> Pose:
+def pose(row: GeometryRow, algebra: Algebra) -> Pose:
     """Pose of frame j in its antecedent, T = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r)."""
     gamma = _static_rotation(row.gamma, algebra)
     alpha = _static_rotation(row.alpha, algebra)

@@ -20,7 +20,7 @@ from modeler.derivation.graph import Expr, Graph, GraphAlgebra
 from modeler.derivation.kinematics import Pose, Screw, base_poses, plus, poses, screws, times
 from modeler.derivation.newton_euler import (
     Motion,
-    State,
+    MotionState,
     inertia_matrix,
     inverse_dynamics,
     motions,
@@ -111,7 +111,7 @@ class SymbolicModel(Brief):
     def _motions(
         self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: Sequence[Expr]
     ) -> list[Motion]:
-        state = State(self._row_values(qd), self._row_values(qdd), list(gravity))
+        state = MotionState(self._row_values(qd), self._row_values(qdd), list(gravity))
         return motions(self.geometry, self.frames, state, self.algebra)
 
     @cached_property

@@ -10,7 +10,7 @@ from typing import Any
 
 import sympy
 
-from modeler.derivation.geometry import Geometry, Row
+from modeler.derivation.geometry import Geometry, GeometryRow
 from modeler.derivation.graph import Algebra, Scalar, Vector
 from modeler.derivation.kinematics import Pose, Screw, cross, dot, plus, times
 
@@ -33,7 +33,7 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class State:
+class MotionState:
     """Joint speeds and accelerations, gravity in frame 0; zero where they are left out."""
 
     qd: Sequence[Scalar]
@@ -42,7 +42,7 @@ class State:
 
 
 def motions(
-    geometry: Geometry, frames: Sequence[Pose], state: State, algebra: Algebra
+    geometry: Geometry, frames: Sequence[Pose], state: MotionState, algebra: Algebra
 ) -> list[Motion]:
     """Motion of every row's link."""
     zero = algebra.static(sympy.Integer(0))
@@ -53,7 +53,7 @@ def motions(
     return found
 
 
-def _next(a: Motion, row: Row, frame: Pose, state: State) -> Motion:
+def _next(a: Motion, row: GeometryRow, frame: Pose, state: MotionState) -> Motion:
     w, wd = frame.to_link(a.w), frame.to_link(a.wd)
     vd = frame.to_link(plus(a.vd, [dot(line, frame.p) for line in a.U]))
     if row.index is not None:

@@ -6,7 +6,7 @@ from modeler.derivation.certificate import PRIME, ModularState, modular_rank
 from modeler.derivation.columns import StandardColumn, in_block
 from modeler.derivation.field import Element, ExactField
 from modeler.derivation.geometry import Geometry
-from modeler.derivation.grouping import Relations, friction_relations
+from modeler.derivation.grouping import GroupingRelations, friction_relations
 from modeler.derivation.result import ModularRank
 from modeler.effects.effect import EnergyBlock
 
@@ -21,7 +21,7 @@ def certificate(
     geometry: Geometry,
     columns: tuple[StandardColumn, ...],
     K: ExactField,
-    relations: Relations,
+    relations: GroupingRelations,
     seed: int,
 ) -> ModularRank:
     """The relations hold at random states and geometries, and the kept columns are independent.
@@ -46,7 +46,7 @@ def certificate(
 def _check_relations(
     columns: tuple[StandardColumn, ...],
     K: ExactField,
-    relations: Relations,
+    relations: GroupingRelations,
     state: ModularState,
 ) -> None:
     rows = np.vstack([state.energy_rows(columns), state.rayleigh_rows(columns)])
@@ -64,7 +64,7 @@ def _check_relations(
 
 
 def _modular_rank(
-    columns: tuple[StandardColumn, ...], relations: Relations, state: ModularState
+    columns: tuple[StandardColumn, ...], relations: GroupingRelations, state: ModularState
 ) -> int:
     kept = list(relations.kept)
     left = [columns[i] for i in kept]

@@ -8,7 +8,7 @@ from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
 from modeler.core.formula import Formula, latex_name, name, number, operator, row
-from modeler.core.latex_display import Equation, display
+from modeler.core.latex_display import DisplayedEquation, display
 from modeler.derivation.result import (
     BallRank,
     BaseParameter,
@@ -110,7 +110,7 @@ def as_markdown(base: BaseParameters) -> str:
 def as_latex(base: BaseParameters) -> str:
     """The relations as an align environment, in lines that fit the page."""
     sides = [relation_latex(p).split(" = ", 1) for p in base.parameters]
-    return display([Equation(left, (right,)) for left, right in sides], numbered=True)
+    return display([DisplayedEquation(left, (right,)) for left, right in sides], numbered=True)
 
 
 def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:

@@ -227,7 +227,7 @@ def tied_relations(
     return dependent_columns(geometry, _Energies(columns), K, energetic, set(energetic), seed)
 
 
-class Functions(Protocol):
+class ExactFunctions(Protocol):
     """Functions on the opened tree, numbered, of which relations are looked for."""
 
     def rows(self, state: ModularState, places: Sequence[int]) -> np.ndarray:
@@ -248,7 +248,7 @@ class _Energies:
 
 def dependent_columns(
     geometry: Geometry,
-    functions: Functions,
+    functions: ExactFunctions,
     K: ExactField,
     order: Sequence[int],
     wanted: Set[int],
@@ -290,7 +290,7 @@ def _interpolated(sampler: "_Sampler", wanted: Set[int]) -> list[dict[int, Eleme
 
 
 def _supports(
-    geometry: Geometry, functions: Functions, K: ExactField, order: Sequence[int], seed: int
+    geometry: Geometry, functions: ExactFunctions, K: ExactField, order: Sequence[int], seed: int
 ) -> dict[int, list[int]]:
     """For each dependent function the kept ones that it is a combination of."""
     state = ModularState(geometry, K, len(order) + _SPARE, seed, SMALL)
@@ -315,7 +315,7 @@ class _Sampler:
     def __init__(
         self,
         geometry: Geometry,
-        functions: Functions,
+        functions: ExactFunctions,
         K: ExactField,
         supports: Mapping[int, Sequence[int]],
         seed: int,

@@ -13,7 +13,7 @@ import sympy
 from sympy import QQ
 
 from modeler.derivation.field import Element, ExactField, times
-from modeler.derivation.geometry import Row
+from modeler.derivation.geometry import GeometryRow
 
 Matrix = list[list[Element]]
 """Rows of equal length."""
@@ -99,7 +99,7 @@ def transferred(step: Constant, parameters: Sequence[Element], K: ExactField) ->
     return _moved(step.R, step.p, parameters, K.zero)
 
 
-def placement(row: Row, K: ExactField) -> Constant:
+def placement(row: GeometryRow, K: ExactField) -> Constant:
     """Rz(gamma) Tz(b) Rx(alpha) Tx(d): the antecedent to the frame before the joint motion."""
     zero, one = K.zero, K.one
     gamma = rotation_z(*K.cos_sin(row.gamma), zero, one)
@@ -109,7 +109,7 @@ def placement(row: Row, K: ExactField) -> Constant:
     return Constant(R, [p[0], p[1], p[2] + K.element(row.b)])
 
 
-def joint_constant(row: Row, K: ExactField) -> Constant:
+def joint_constant(row: GeometryRow, K: ExactField) -> Constant:
     """The constant part that commutes with the joint motion: Tz(r) or Rz(theta), or both."""
     zero, one = K.zero, K.one
     turns = row.index is not None and row.joint.angular

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 from modeler.derivation.elimination import null_space, row_reduce
 from modeler.derivation.field import Element, ExactField
-from modeler.derivation.geometry import Geometry, Row
+from modeler.derivation.geometry import Geometry, GeometryRow
 from modeler.derivation.transfer import (
     Constant,
     Matrix,
@@ -79,7 +79,7 @@ def group_tree(
     groupings: list[LinkGrouping] = []
     for k, row in enumerate(geometry.rows):
         base = _base_reach(geometry, K) if row.parent is None else reaches[row.parent]
-        step = _Step(row, K, base)
+        step = _TreeStep(row, K, base)
         absent = [i for i in (INERTIA, OFFSET) if (k, i) not in joint_columns]
         groupings.append(step.grouping(absent))
         reaches.append(step.reach())
@@ -90,7 +90,7 @@ def _base_reach(geometry: Geometry, K: ExactField) -> Reach:
     return Reach([], [], [[*(K.element(g) for g in geometry.gravity), K.one]])
 
 
-class _Step:
+class _TreeStep:
     """One joint: from the reach of the antecedent to the grouping and the reach of the link.
 
     The conditions are written for the parameters at the frame that moves with the joint, before the
@@ -98,7 +98,7 @@ class _Step:
     third or fourth joint on, they hold rational numbers only.
     """
 
-    def __init__(self, row: Row, K: ExactField, antecedent: Reach) -> None:
+    def __init__(self, row: GeometryRow, K: ExactField, antecedent: Reach) -> None:
         self.K, self.row = K, row
         self.fixed_part = placement(row, K)
         self.before = _through(antecedent, self.fixed_part, K)

@@ -13,8 +13,8 @@ from modeler.core.errors import DataError, RobotError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import printed
 from modeler.diagnosis.added_model import (
+    HoldoutRows,
     Logs,
-    Rows,
     described,
     left_of,
     left_out,
@@ -182,7 +182,7 @@ class _Fitted:
     """
 
     model: IdentifiedModel
-    rows: Rows
+    rows: HoldoutRows
     free: np.ndarray | None = None
 
     def unseen(self, refitted: bool) -> Unseen:
@@ -411,7 +411,7 @@ def _finished(fitted: _Fitted) -> IdentifiedModel:
     return dataclasses.replace(model, fit=fit)
 
 
-def _fitted(text: str, seen: Callable[[CompiledModel], Rows]) -> _Fitted:
+def _fitted(text: str, seen: Callable[[CompiledModel], HoldoutRows]) -> _Fitted:
     """The robot of that file fitted to the logs."""
     derivation = derive(robot_from_text(text, "robot with the effect"))
     emitted = generate(derivation)

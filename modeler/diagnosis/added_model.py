@@ -9,10 +9,10 @@ import numpy as np
 from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.gram import base_of, blocks_of
-from modeler.diagnosis.profile import Problem, Profile, profile
+from modeler.diagnosis.profile import Profile, ProfileProblem, profile
 from modeler.diagnosis.score import Unseen, told
 from modeler.diagnosis.sentences import where
-from modeler.diagnosis.signals import Reference, tilt_basis
+from modeler.diagnosis.signals import SignalReference, tilt_basis
 from modeler.diagnosis.state import Data, State, columns_of, state_of
 from modeler.effects.catalogue import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, effect_named
 from modeler.effects.effect import Acts, Effect
@@ -96,9 +96,9 @@ def _alike(one: np.ndarray, other: np.ndarray) -> float:
     return abs(float(one @ other)) / size if size > 0.0 else 0.0
 
 
-def _problem(state: State, own: Sequence[int], pick: Candidate) -> Problem:
+def _problem(state: State, own: Sequence[int], pick: Candidate) -> ProfileProblem:
     rows = state.rows
-    return Problem(
+    return ProfileProblem(
         rows,
         state.data.observation,
         tuple(np.delete(w, own, axis=1) for w in rows.W),
@@ -140,7 +140,7 @@ def _widened(model: IdentifiedModel, along: Profile, own: Sequence[int]) -> Iden
 # The robot file with one effect more.
 
 
-def described(text: str, pick: Candidate, values: np.ndarray, reference: Reference) -> str:
+def described(text: str, pick: Candidate, values: np.ndarray, reference: SignalReference) -> str:
     """The robot file with the effect.
 
     Args:
@@ -175,7 +175,7 @@ def _passive(text: str, effect: Effect, joint: str) -> str:
     return text
 
 
-def _shapes(pick: Candidate, reference: Reference) -> dict[str, float]:
+def _shapes(pick: Candidate, reference: SignalReference) -> dict[str, float]:
     """The shapes of a joint's effect, and where its temperature or time is 0."""
     shapes = {} if pick.effect.acts is Acts.MOTOR else dict(pick.shapes)
     fixed = {s.name: s.grid[0] for s in pick.form.shapes if len(s.grid) == 1}
@@ -190,7 +190,7 @@ def _shapes(pick: Candidate, reference: Reference) -> dict[str, float]:
     return shapes
 
 
-def _is_first_moment(pick: Candidate, reference: Reference) -> bool:
+def _is_first_moment(pick: Candidate, reference: SignalReference) -> bool:
     """True if the model has sin(q - q0) on that joint already: gravity of its links."""
     model = reference.compiled
     joints = len(model.spec.joints)
@@ -210,7 +210,7 @@ def _depends(effect: Effect) -> bool:
     return effect.acts is Acts.POSITION or not names.isdisjoint({"load", "static", "torque"})
 
 
-def _referred(reference: Reference) -> dict[str, float]:
+def _referred(reference: SignalReference) -> dict[str, float]:
     """Standard parameters with the torques of the model: each base parameter in its own column."""
     known = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
     effects = {p.name: p.effect for p in reference.compiled.spec.standard}
@@ -221,7 +221,7 @@ def _referred(reference: Reference) -> dict[str, float]:
     }
 
 
-def _tilted(text: str, values: np.ndarray, reference: Reference) -> np.ndarray:
+def _tilted(text: str, values: np.ndarray, reference: SignalReference) -> np.ndarray:
     """Gravity with the tilt, of the length it had."""
     robot: Robot = robot_from_text(text, "robot of the model")
     symbols = {name: value.number() for name, value in robot.symbols.items()}
@@ -232,7 +232,7 @@ def _tilted(text: str, values: np.ndarray, reference: Reference) -> np.ndarray:
     return turned * (np.linalg.norm(gravity) / np.linalg.norm(turned))
 
 
-def _coupled(text: str, pick: Candidate, reference: Reference) -> str:
+def _coupled(text: str, pick: Candidate, reference: SignalReference) -> str:
     """The file with the motor's coupling, if it has none for that joint."""
     if "c" not in pick.shapes:
         return text
@@ -337,7 +337,7 @@ class Logs:
 
 
 @dataclass(frozen=True, eq=False)
-class Rows:
+class HoldoutRows:
     """Logs as one robot sees them.
 
     Attributes:
@@ -362,7 +362,7 @@ class Rows:
         """True if there are logs to judge on."""
         return len(self.seen) > 1
 
-    def of(self, compiled: CompiledModel) -> "Rows":
+    def of(self, compiled: CompiledModel) -> "HoldoutRows":
         """The rows of the same robot with other effects; nothing is filtered again."""
         if shafts(compiled) == shafts(self.compiled):
             seen = tuple(observed_alike(compiled, observation) for observation in self.seen)
@@ -370,7 +370,7 @@ class Rows:
         return _rows(compiled, self.logs, self.prepared)
 
 
-def rows_of(compiled: CompiledModel, logs: Logs, processing: Processing) -> Rows:
+def rows_of(compiled: CompiledModel, logs: Logs, processing: Processing) -> HoldoutRows:
     """The rows of logs.
 
     Args:
@@ -386,10 +386,10 @@ def rows_of(compiled: CompiledModel, logs: Logs, processing: Processing) -> Rows
     return _rows(compiled, logs, prepared)
 
 
-def _rows(compiled: CompiledModel, logs: Logs, prepared: tuple[Prepared, ...]) -> Rows:
+def _rows(compiled: CompiledModel, logs: Logs, prepared: tuple[Prepared, ...]) -> HoldoutRows:
     given = (logs.fitted, logs.held_out)[: len(prepared)]
     pairs = zip(given, prepared, strict=True)
-    return Rows(logs, compiled, prepared, tuple(observed(compiled, *pair) for pair in pairs))
+    return HoldoutRows(logs, compiled, prepared, tuple(observed(compiled, *pair) for pair in pairs))
 
 
 def left_of(model: IdentifiedModel, compiled: CompiledModel, observation: Observation) -> Unseen:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.cross_checks import Look
+from modeler.diagnosis.cross_checks import CrossCheck
 from modeler.diagnosis.data_checks import SHORT, doubts, length, one_speed
 from modeler.diagnosis.detected import detected
 from modeler.diagnosis.drive_gains import gain_deviations, gain_visible, is_gain
@@ -47,7 +47,8 @@ def _silent() -> None:
 
 def assembled(
     model: IdentifiedModel, found: Search, other: Data | None, window: Window | None,
-    looks: Sequence[tuple[Look, ...]] = (), faults: Sequence[Fault] = (), tick: Tick = _silent,
+    looks: Sequence[tuple[CrossCheck, ...]] = (), faults: Sequence[Fault] = (),
+    tick: Tick = _silent,
 ) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
@@ -116,7 +117,7 @@ def _findings(
     systematic: Sequence[float],
     seen: Sequence[Unseen],
     other: Data | None,
-    looks: Sequence[tuple[Look, ...]],
+    looks: Sequence[tuple[CrossCheck, ...]],
     tick: Callable[[], None],
 ) -> list[Finding]:
     """Effects that were put in and lower the error there, and those that are no columns."""

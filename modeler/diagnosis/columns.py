@@ -12,7 +12,7 @@ from scipy.sparse import csr_array
 from modeler.core.brief import Brief
 from modeler.core.manifest import ModuleSpec, ParameterSpec
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.signals import EVERY, WINDOW, Reference, Signals, tilt_columns
+from modeler.diagnosis.signals import EVERY, WINDOW, SignalReference, Signals, tilt_columns
 from modeler.effects.effect import Acts, Memory
 from modeler.numerics.filters import SPREAD, only
 from modeler.observation.observation import Observation
@@ -167,7 +167,7 @@ Evaluate = Callable[[int, slice], np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)
-class Block(Brief):
+class RowBlock(Brief):
     """Rows that lie beside each other, and the samples that they reach.
 
     Attributes:
@@ -201,7 +201,7 @@ class Rows(Brief):
     run: tuple[np.ndarray, ...]
     segment: tuple[np.ndarray, ...]
     filters: tuple[tuple[csr_array, ...], ...]
-    blocks: tuple[tuple[Block, ...], ...]
+    blocks: tuple[tuple[RowBlock, ...], ...]
     signals: tuple[Signals, ...]
     known: dict[Any, Any] = field(default_factory=dict)
 
@@ -210,7 +210,7 @@ class Rows(Brief):
         """Number of joints, J."""
         return len(self.y)
 
-    def about(self, reference: Reference) -> "Rows":
+    def about(self, reference: SignalReference) -> "Rows":
         """The same rows with effects linearised about another reference of the same robot."""
         signals = tuple(dataclasses.replace(s, reference=reference) for s in self.signals)
         return dataclasses.replace(self, signals=signals, known={})
@@ -281,13 +281,13 @@ class Rows(Brief):
             np.concatenate(own) if felt else None for own, felt in zip(parts, shown, strict=True)
         )
 
-    def _blocks(self, width: int) -> Iterator[tuple[int, Block]]:
+    def _blocks(self, width: int) -> Iterator[tuple[int, RowBlock]]:
         """Stretch by stretch: small ones where many values are evaluated for each sample."""
         for i, (blocks, filters) in enumerate(zip(self.blocks, self.filters, strict=True)):
             if width > _WIDE:
                 yield from ((i, block) for block in blocks)
             else:
-                yield i, Block(slice(0, len(self.signals[i].q)), filters)
+                yield i, RowBlock(slice(0, len(self.signals[i].q)), filters)
 
 
 def _or_none(columns: Sequence[np.ndarray | None]) -> Columns:
@@ -303,7 +303,7 @@ def dense(columns: Columns, j: int, rows: int) -> np.ndarray:
     return np.zeros((rows, next(c.shape[1] for c in columns if c is not None)))
 
 
-def rows_of(observation: Observation, reference: Reference) -> Rows:
+def rows_of(observation: Observation, reference: SignalReference) -> Rows:
     """The rows of an observation.
 
     Args:
@@ -336,7 +336,7 @@ def rows_of(observation: Observation, reference: Reference) -> Rows:
 
 
 def base_columns(
-    blocks: Sequence[Sequence[Block]], signals: Sequence[Signals]
+    blocks: Sequence[Sequence[RowBlock]], signals: Sequence[Signals]
 ) -> tuple[np.ndarray, ...]:
     """(rows_j, c) by joint, of the motion of some signals."""
     parts: list[list[np.ndarray]] = [[] for _ in blocks[0][0].filters]
@@ -348,7 +348,7 @@ def base_columns(
     return tuple(np.concatenate(own) for own in parts)
 
 
-def _blocks(filters: Sequence[csr_array], samples: int) -> tuple[Block, ...]:
+def _blocks(filters: Sequence[csr_array], samples: int) -> tuple[RowBlock, ...]:
     """Of one stretch: the rows whose first sample lies in one window, for one after the other."""
     starts = np.arange(0, samples, WINDOW)
     edges = []
@@ -363,7 +363,7 @@ def _blocks(filters: Sequence[csr_array], samples: int) -> tuple[Block, ...]:
             csr_array((data, indices - start, pointer), shape=(len(pointer) - 1, stop - start))
             for data, indices, pointer in parts
         ]
-        found.append(Block(slice(start, stop), tuple(made)))
+        found.append(RowBlock(slice(start, stop), tuple(made)))
     return tuple(found)
 
 
@@ -393,7 +393,7 @@ def _normed(weights: csr_array) -> csr_array:
     return csr_array((weights.data * share, weights.indices, weights.indptr), shape=weights.shape)
 
 
-def _signals(part: Stretch, reference: Reference, cutoff: float) -> Signals:
+def _signals(part: Stretch, reference: SignalReference, cutoff: float) -> Signals:
     """Columns are smooth beside the filter: its Gaussian needs one sample per width."""
     segment = part.segment
     every = max(1, int(SPREAD / (cutoff * segment.step))) if cutoff > 0.0 else 1

@@ -38,7 +38,7 @@ Key = tuple[str, str | None]
 
 
 @dataclass(frozen=True)
-class Look:
+class CrossCheck:
     """What another look says of one effect.
 
     Attributes:
@@ -96,7 +96,7 @@ def cut_off_otherwise(data: Data, logs: Sequence[Log]) -> Iterator[tuple[float, 
 
 def looked_again(
     found: Search, looks: Iterable[tuple[str, Data]], tick: Callable[[], None] = lambda: None
-) -> list[tuple[Look, ...]]:
+) -> list[tuple[CrossCheck, ...]]:
     """What the other looks say of every effect that was put in, in order.
 
     Args:
@@ -104,7 +104,7 @@ def looked_again(
         looks: others, one after the other: each is let go before the next is made.
         tick: called after each.
     """
-    said: list[list[Look]] = [[] for _ in found.steps]
+    said: list[list[CrossCheck]] = [[] for _ in found.steps]
     for what, data in looks if found.steps else ():
         for place, own in enumerate(said):
             own.append(_look(what, data, found, place))
@@ -113,7 +113,7 @@ def looked_again(
     return [(*own, *_ruled_out(found, s)) for own, s in zip(said, found.steps, strict=True)]
 
 
-def _ruled_out(found: Search, step: Step) -> list[Look]:
+def _ruled_out(found: Search, step: Step) -> list[CrossCheck]:
     """What would have been named had the user ruled nothing out, or explains as much as simply."""
     if not found.without:
         return []
@@ -132,21 +132,21 @@ def _ruled_out(found: Search, step: Step) -> list[Look]:
     best = next(alike, asked.best)
     if best is None or best.candidate.key == step.pick.key:
         return []
-    return [Look("ruled out", best.candidate.key, False)]
+    return [CrossCheck("ruled out", best.candidate.key, False)]
 
 
-def _look(what: str, data: Data, found: Search, place: int) -> Look:
+def _look(what: str, data: Data, found: Search, place: int) -> CrossCheck:
     step = found.steps[place]
     picks = [s.pick for s in found.steps[: place + 1]]
     if not all(_logged(data, pick) for pick in picks):
-        return Look(what, None, True)
+        return CrossCheck(what, None, True)
     state = _beside_earlier(data, picks[:-1], step.before)
     judged = _asked_again(state, step, found)
     best = decide(state, judged).best
     if best is None:
-        return Look(what, None, True)
+        return CrossCheck(what, None, True)
     alike = {best.candidate.key, *(j.candidate.key for j in tied(best, judged))}
-    return Look(what, best.candidate.key, step.pick.key in alike)
+    return CrossCheck(what, best.candidate.key, step.pick.key in alike)
 
 
 def _logged(data: Data, candidate: Candidate) -> bool:

@@ -89,7 +89,7 @@ def with_gains(state: State, joints: Sequence[int]) -> tuple[np.ndarray, np.ndar
     return None if found is None or found.order[0] else (found.beta, found.g)
 
 
-def _best(problem: "_Problem") -> "_Solution | None":
+def _best(problem: "_GainProblem") -> "_Solution | None":
     """The likeliest of the solutions from all starts, with the weights given and with none."""
     every = [p.weighed(start) for p in (problem, problem.level()) for start in p.starts()]
     found = [f for f in every if f is not None]
@@ -126,7 +126,7 @@ class _Solution:
 
 
 @dataclass(frozen=True, eq=False)
-class _Problem:
+class _GainProblem:
     """J joints; z columns: c of the base, then those of all picks that are no gains.
 
     Attributes:
@@ -166,7 +166,7 @@ class _Problem:
                 found.append(min(grid, key=lambda g: self._score(self._left(g, self._values(g)))))
         return found
 
-    def level(self) -> "_Problem":
+    def level(self) -> "_GainProblem":
         """With every joint weighed by its torque: no model has bent that."""
         return self.reweighed(self.torque)
 
@@ -210,7 +210,7 @@ class _Problem:
                 break
         return found
 
-    def reweighed(self, left: np.ndarray) -> "_Problem":
+    def reweighed(self, left: np.ndarray) -> "_GainProblem":
         """With sigma of each joint so that it leaves one for each row."""
         rows = np.maximum(self.rows, 1)
         least = _LEAST * np.sqrt(self.torque / rows)
@@ -341,7 +341,7 @@ def _grams(state: State) -> np.ndarray:
     return np.stack([own.T @ own for own in _weighted(state)])
 
 
-def _problem(state: State, gains: Sequence[int]) -> _Problem:
+def _problem(state: State, gains: Sequence[int]) -> _GainProblem:
     """With these gains, those of the robot, and all picks that are no gains."""
     grams, had = _grams(state), _own_gains(state)
     size, every = len(state.beta), grams.shape[1] - 1
@@ -357,7 +357,7 @@ def _problem(state: State, gains: Sequence[int]) -> _Problem:
         if is_gain(pick):
             given[pick.index] -= values[0]
     free = [*(int(i) for i in state.data.free if i not in had), *range(size, every)]
-    return _Problem(
+    return _GainProblem(
         rows=np.array([len(own) for own in state.rows.y]),
         grams=grams,
         free=np.array(free, dtype=int), fixed=fixed,

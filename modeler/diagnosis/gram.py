@@ -10,7 +10,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.diagnosis.columns import Columns, Rows
-from modeler.numerics.least_squares import Reduced, turn_of
+from modeler.numerics.least_squares import ReducedRows, turn_of
 from modeler.numerics.spectra import lap
 from modeler.observation.observation import Observation
 
@@ -98,14 +98,14 @@ class Base(Brief):
         return [pieces(own) for own in self.block]
 
     @cached_property
-    def crossed(self) -> "Crossed":
+    def crossed(self) -> "GramFolds":
         """Fits of the base to all folds but one."""
         if self.finer is not None:
             return dataclasses.replace(self.finer.crossed, place=np.arange(self.blocks))
         place = np.unique(self.fold, return_inverse=True)[1]
         count = int(place.max()) + 1
         inverse, beta = solved(but_one(self.G, place, count), but_one(self.u, place, count))
-        return Crossed(place, inverse, beta)
+        return GramFolds(place, inverse, beta)
 
     @cached_property
     def left_out(self) -> tuple[np.ndarray, ...]:
@@ -120,7 +120,7 @@ class Base(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Crossed(Brief):
+class GramFolds(Brief):
     """Fits of the base to all folds but one, F of them.
 
     Attributes:
@@ -282,7 +282,7 @@ def _sums(values: np.ndarray, start: np.ndarray) -> np.ndarray:
     return np.moveaxis(np.add.reduceat(values, start, axis=-1), -1, 0)
 
 
-def sigma_of(rows: Rows | Reduced, beta: np.ndarray | None = None) -> np.ndarray:
+def sigma_of(rows: Rows | ReducedRows, beta: np.ndarray | None = None) -> np.ndarray:
     """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
 
     Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
@@ -293,7 +293,7 @@ def sigma_of(rows: Rows | Reduced, beta: np.ndarray | None = None) -> np.ndarray
         rows: of the analysis.
         beta: (c,) parameters that are kept; None: fitted.
     """
-    count = rows.count if isinstance(rows, Reduced) else np.array([len(y) for y in rows.y])
+    count = rows.count if isinstance(rows, ReducedRows) else np.array([len(y) for y in rows.y])
     size = np.array([_rms(y, n) if n else 1.0 for y, n in zip(rows.y, count, strict=True)])
     floor = 1e-6 * np.maximum(size, 1e-6 * size.max()) + 1e-300
     free = size == 0.0
@@ -350,7 +350,7 @@ FOLDS = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Blocks(Brief):
+class TimeBlocks(Brief):
     """Of an observation.
 
     Attributes:
@@ -364,7 +364,7 @@ class Blocks(Brief):
     period: tuple[float, ...]
 
 
-def blocks_of(observation: Observation) -> Blocks:
+def blocks_of(observation: Observation) -> TimeBlocks:
     """Blocks of half a second, and eight folds.
 
     Each log is cut into eight stretches; where its motion repeats, one lap is, and the same phase
@@ -391,7 +391,7 @@ def blocks_of(observation: Observation) -> Blocks:
         middle /= np.bincount(block)
         number[own] = block + len(folds)
         folds += [(int(FOLDS * min(m, 0.999)) + log) % FOLDS for m in middle]
-    return Blocks(number, np.array(folds), tuple(periods))
+    return TimeBlocks(number, np.array(folds), tuple(periods))
 
 
 def _total(time: np.ndarray, run: np.ndarray) -> float:

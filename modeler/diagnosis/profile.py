@@ -57,7 +57,7 @@ class Point:
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class ProfileProblem:
     """What a profile is made from; J joints.
 
     Attributes:
@@ -227,7 +227,7 @@ class Profile:
         return np.asarray((apart * self.share[:, None]).T @ apart)
 
 
-def profile(problem: Problem, told: Candidate) -> Profile | None:
+def profile(problem: ProfileProblem, told: Candidate) -> Profile | None:
     """The likelihood along the shapes of an effect; None if it has none that could be others.
 
     Args:
@@ -271,7 +271,7 @@ def _kinds(told: Candidate) -> tuple[list[tuple[str, tuple[float, ...]]], list[S
 
 
 def _explored(
-    problem: Problem, start: Candidate, smooth: Sequence[Shape], least: float
+    problem: ProfileProblem, start: Candidate, smooth: Sequence[Shape], least: float
 ) -> list[Point]:
     """Points with weights, the smooth shapes over all that makes sense."""
     if not smooth:
@@ -346,7 +346,7 @@ def _squares(point: Point | None) -> float:
 
 
 def _around(
-    problem: Problem, start: Candidate, smooth: Sequence[Shape], lines: Sequence[_Line]
+    problem: ProfileProblem, start: Candidate, smooth: Sequence[Shape], lines: Sequence[_Line]
 ) -> list[Point]:
     """Points on a grid about the told shapes, along the axes of the likelihood there."""
     middle = np.array([line.told for line in lines])
@@ -365,7 +365,7 @@ def _around(
 
 
 def _axes(
-    problem: Problem, start: Candidate, smooth: Sequence[Shape], middle: np.ndarray
+    problem: ProfileProblem, start: Candidate, smooth: Sequence[Shape], middle: np.ndarray
 ) -> np.ndarray:
     """(s, s) root of the covariance of the coded shapes, by the slopes of the columns."""
     _, slopes = _slopes(problem, start, smooth, middle)
@@ -376,7 +376,10 @@ def _axes(
 
 
 def _slopes(
-    problem: Problem, told: Candidate, smooth: Sequence[Shape], middle: Sequence[float] | np.ndarray
+    problem: ProfileProblem,
+    told: Candidate,
+    smooth: Sequence[Shape],
+    middle: Sequence[float] | np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Own columns, and slopes of the effect by its coded shapes, off all else; rows of all joints.
 
@@ -399,7 +402,7 @@ def _slopes(
 
 
 def _factors(
-    problem: Problem, told: Candidate, smooth: Sequence[Shape], first: Point
+    problem: ProfileProblem, told: Candidate, smooth: Sequence[Shape], first: Point
 ) -> np.ndarray:
     """(k + s,) on the deviations of parameters and smooth shapes, 1 and more.
 

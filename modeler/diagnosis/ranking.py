@@ -83,14 +83,14 @@ def sifted(base: Base, pool: Pool) -> Sifted:
     return Sifted(fall(base, pool).sum(axis=0), tuple(np.split(value, pool.first[1:])))
 
 
-def _whole(base: Base, pool: Pool) -> "_Solved":
+def _whole(base: Base, pool: Pool) -> "_SolvedPool":
     """Fitted to all rows."""
     G, u, T, w, D = (g.sum(axis=0)[None] for g in (base.G, base.u, pool.T, pool.w, pool.D))
     return _solve(pool, *solved(G, u), u, T, w, D)
 
 
 @dataclass(frozen=True, eq=False)
-class _Solved:
+class _SolvedPool:
     beta: np.ndarray  # (F, r) of the base alone
     A: np.ndarray  # (F, r, K) candidates' columns in the base
     gamma: np.ndarray  # (F, K) candidates' parameters
@@ -107,7 +107,7 @@ def _solve(
     T: np.ndarray,
     w: np.ndarray,
     D: np.ndarray,
-) -> _Solved:
+) -> _SolvedPool:
     """F fits of every candidate beside the base, from their Gram matrices (F, ...)."""
     A = inverse @ T
     i, k = pool.pairs[:, 0], pool.pairs[:, 1]
@@ -130,11 +130,11 @@ def _solve(
         deviation[:, places] = np.sqrt(np.einsum("fnij,fnj->fni", vectors**2, inverted))
         visible[:, own] = np.sqrt(np.maximum(values[..., -1], 0.0))
         fitted[:, own] = np.sum(inverted * turned**2, axis=2)
-    return _Solved(beta, A, gamma, deviation, visible, fitted)
+    return _SolvedPool(beta, A, gamma, deviation, visible, fitted)
 
 
 def _in_blocks(
-    base: Base, pool: Pool, at: _Solved, place: np.ndarray
+    base: Base, pool: Pool, at: _SolvedPool, place: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """(blocks, N) e^T r and e^T e: r the residual of the base, e what is added.
 
@@ -155,7 +155,7 @@ def _in_blocks(
 
 
 def _by_fit(
-    base: Base, pool: Pool, at: _Solved, here: np.ndarray | slice, fit: slice
+    base: Base, pool: Pool, at: _SolvedPool, here: np.ndarray | slice, fit: slice
 ) -> tuple[np.ndarray, np.ndarray]:
     """The same in some blocks, with one fit for each of them or for all."""
     beta, gamma = at.beta[fit], at.gamma[fit]

@@ -11,7 +11,7 @@ from modeler.core.brief import Brief
 from modeler.core.json import nulled
 from modeler.core.result import Presented
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.cross_checks import Key, Look
+from modeler.diagnosis.cross_checks import CrossCheck, Key
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
@@ -135,7 +135,7 @@ class Finding(Brief):
     refines: bool
     objection: str = ""
     intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    looks: tuple[Look, ...] = ()
+    looks: tuple[CrossCheck, ...] = ()
     pick: Pick | None = field(default=None, repr=False, compare=False)
     event: bool = False
 

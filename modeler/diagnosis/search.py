@@ -59,7 +59,7 @@ WORTH = 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class Survey:
+class HypothesisScan:
     """Every candidate in a state.
 
     Attributes:
@@ -86,7 +86,7 @@ class Survey:
             if j.mends or 1.0 - gains.get(j.candidate.key, 0.0) > BETTER * (1.0 - j.gain)
         ]  # fmt: skip
 
-    def but(self, vetoed: Sequence[Judged]) -> "Survey":
+    def but(self, vetoed: Sequence[Judged]) -> "HypothesisScan":
         """The same without what was vetoed."""
         left = [i for i, c in enumerate(self.found) if not among(c, vetoed)]
         if len(left) == len(self.found):
@@ -98,7 +98,7 @@ class Survey:
         best = [j for j in self.best if j.candidate.key not in touched]
         best += judged_at(self.state, found, columns, again)
         best.sort(key=lambda j: -float(j.drop.sum()))
-        return Survey(self.state, found, columns, best, order, self.refined)
+        return HypothesisScan(self.state, found, columns, best, order, self.refined)
 
     def judged(
         self, vetoed: Sequence[Judged] = (), tick: Callable[[], None] = lambda: None
@@ -160,23 +160,23 @@ class Survey:
 
 def surveyed(
     state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
-) -> Survey:
+) -> HypothesisScan:
     """All candidates in a state, or those of one effect, or of one joint."""
     return survey_of(
         state, [c for c in proposals(state, only, without) if joint in (None, c.joint)]
     )
 
 
-def survey_of(state: State, found: Sequence[Candidate]) -> Survey:
+def survey_of(state: State, found: Sequence[Candidate]) -> HypothesisScan:
     """Some candidates in a state; those that show."""
     columns = all_columns_about(state, found)
     seen = [i for i, c in enumerate(columns) if visible(c)]
     found, columns = _picked(found, seen), _picked(columns, seen)
     if not found:
-        return Survey(state, (), (), (), ())
+        return HypothesisScan(state, (), (), (), ())
     order = sift(state, found, columns)
     best = judged_at(state, found, columns, leading(found, order))
-    return Survey(state, found, columns, best, order)
+    return HypothesisScan(state, found, columns, best, order)
 
 
 def _picked(items: Sequence[_T], places: Sequence[int]) -> list[_T]:
@@ -316,7 +316,7 @@ def _doubted(refused: Sequence[Judged], best: Judged) -> list[Judged]:
 
 
 @dataclass(frozen=True, eq=False)
-class Asked:
+class TriedEffect:
     """An effect that led, with what speaks against its values, and the state with it.
 
     `later` is None where it was refused: `judged.why` says why, if it is not by held-out motion.
@@ -326,19 +326,19 @@ class Asked:
     later: State | None
 
 
-def put_in(state: State, best: Judged, veto: Veto | None) -> Asked:
+def put_in(state: State, best: Judged, veto: Veto | None) -> TriedEffect:
     """The effect, and the state with it."""
     later = extended(state, best.candidate)
     if drives(state, later, best.candidate):
-        return Asked(dataclasses.replace(best, possible=False, why=DRIVES), None)
+        return TriedEffect(dataclasses.replace(best, possible=False, why=DRIVES), None)
     if veto is not None and veto(state, later, best):
-        return Asked(best, None)
+        return TriedEffect(best, None)
     why = _objection(later)
-    return Asked(dataclasses.replace(best, why=why) if why else best, later)
+    return TriedEffect(dataclasses.replace(best, why=why) if why else best, later)
 
 
 def _instead(
-    survey: Survey, refused: Sequence[Judged], asked: Asked, tick: Callable[[], None]
+    survey: HypothesisScan, refused: Sequence[Judged], asked: TriedEffect, tick: Callable[[], None]
 ) -> Judgement | None:
     """What leads without an effect that was refused, or is doubted, if another explains as much.
 

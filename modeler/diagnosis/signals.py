@@ -28,7 +28,7 @@ WINDOW = 2048
 
 
 @dataclass(frozen=True, eq=False)
-class Reference(Brief):
+class SignalReference(Brief):
     """The model about which effects that depend on torques are linearised.
 
     Attributes:
@@ -82,7 +82,7 @@ class Signals(Brief):
     q: np.ndarray
     v: np.ndarray
     a: np.ndarray
-    reference: Reference
+    reference: SignalReference
 
     @property
     def step(self) -> float:
@@ -283,7 +283,7 @@ def tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
     return frame_slopes(signals.reference.compiled, q).reshape(*q.shape, -1) @ weights
 
 
-def tilt_weights(reference: Reference) -> np.ndarray | None:
+def tilt_weights(reference: SignalReference) -> np.ndarray | None:
     """(rows 3 4, k): `tilt_columns` of the entries of `frame_slopes`; None if it has none."""
     basis = tilt_basis(reference)
     if basis is None:
@@ -322,7 +322,7 @@ def _weights(axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
     return (axis[None, :, None] * moments[:, None, :]).ravel()
 
 
-def tilt_basis(reference: Reference) -> list[tuple[np.ndarray, np.ndarray]] | None:
+def tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]] | None:
     """Axes and first moments of the columns of `tilt_columns`."""
     model = reference.compiled
     if model.spec.closure is not None:
@@ -349,7 +349,7 @@ def tilt_basis(reference: Reference) -> list[tuple[np.ndarray, np.ndarray]] | No
     return found + _woken(slopes, axes, down, len(rows))
 
 
-def _stands_for(reference: Reference, rows: list[str]) -> np.ndarray:
+def _stands_for(reference: SignalReference, rows: list[str]) -> np.ndarray:
     """(rows, 4) first moments and masses that give the model's torques: the base columns' own."""
     chi = np.zeros((len(rows), 4))
     for base, value in zip(reference.compiled.spec.base, reference.links, strict=True):

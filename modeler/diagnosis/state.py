@@ -11,11 +11,20 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate, JointScale, Known, scales_of
 from modeler.diagnosis.columns import Columns, Rows, rows_of
-from modeler.diagnosis.gram import Base, Blocks, Pool, base_of, blocks_of, folded, pool_of, sigma_of
+from modeler.diagnosis.gram import (
+    Base,
+    Pool,
+    TimeBlocks,
+    base_of,
+    blocks_of,
+    folded,
+    pool_of,
+    sigma_of,
+)
 from modeler.diagnosis.ranking import Ranking, Sifted, rank, sifted
-from modeler.diagnosis.signals import Reference, frame_slopes, tilt_weights
+from modeler.diagnosis.signals import SignalReference, frame_slopes, tilt_weights
 from modeler.effects.effect import Acts
-from modeler.numerics.least_squares import Reduced, Reduction, reduction, turn_of
+from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
 from modeler.observation.observation import Observation
 
 if TYPE_CHECKING:
@@ -40,7 +49,7 @@ class Data(Brief):
     known: Known = field(default_factory=Known)
 
     @cached_property
-    def blocks(self) -> Blocks:
+    def blocks(self) -> TimeBlocks:
         """Blocks and folds."""
         return blocks_of(self.observation)
 
@@ -49,14 +58,14 @@ class Data(Brief):
         """All rows; effects are not linearised about anything yet."""
         beta = np.zeros(len(self.compiled.spec.base))
         return rows_of(
-            self.observation, Reference(self.compiled, beta, *_references(self.observation))
+            self.observation, SignalReference(self.compiled, beta, *_references(self.observation))
         )
 
     def rows_about(self, beta: np.ndarray) -> Rows:
         """The rows with effects linearised about beta (c,)."""
         return self.about(dataclasses.replace(self.rows.signals[0].reference, beta=beta))
 
-    def about(self, reference: Reference) -> Rows:
+    def about(self, reference: SignalReference) -> Rows:
         """The same about a reference; the last few are remembered."""
         key = reference.beta.tobytes(), _clock(reference)
         found = self._about.pop(key, None) or self.rows.about(reference)
@@ -108,7 +117,7 @@ _FREE = ("friction", "offset")
 _REMEMBERED = 3  # references: that of a state, and those of the next
 
 
-def _clock(reference: Reference) -> tuple[Any, ...]:
+def _clock(reference: SignalReference) -> tuple[Any, ...]:
     """What the time and the temperature of effects are counted from."""
     return reference.time, *sorted(reference.temperature.items())
 
@@ -127,7 +136,7 @@ class State(Brief):
 
     data: Data
     picks: tuple[Candidate, ...]
-    reference: Reference
+    reference: SignalReference
     rows: Rows
     extra: tuple[Columns, ...]
     cache: dict = field(default_factory=dict)
@@ -164,7 +173,7 @@ class State(Brief):
         return folded(self.base)
 
     @cached_property
-    def reduced(self) -> Reduced:
+    def reduced(self) -> ReducedRows:
         """The rows of the model so far, reduced to few."""
         return self.data.reduction.beside(self.extra)
 

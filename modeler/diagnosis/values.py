@@ -6,14 +6,14 @@ import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.columns import body_parameters
-from modeler.diagnosis.profile import Problem, Profile, profile
+from modeler.diagnosis.profile import Profile, ProfileProblem, profile
 from modeler.diagnosis.signals import tilt_basis
 from modeler.diagnosis.state import State
 from modeler.effects.effect import Acts
 
 
 @dataclass(frozen=True)
-class Values:
+class EffectValues:
     """By name of the parameter: value, its standard deviation, unit; SI."""
 
     value: dict[str, float]
@@ -21,7 +21,9 @@ class Values:
     unit: dict[str, str]
 
 
-def values_of(state: State, pick: Candidate, values: np.ndarray, deviations: np.ndarray) -> Values:
+def values_of(
+    state: State, pick: Candidate, values: np.ndarray, deviations: np.ndarray
+) -> EffectValues:
     """What people read of an effect.
 
     A body on a link has its mass and the inertial parameters that the robot feels; a tilted base
@@ -36,7 +38,7 @@ def values_of(state: State, pick: Candidate, values: np.ndarray, deviations: np.
     if pick.effect.acts is Acts.GRAVITY:
         return _tilt(state, values, deviations)
     units = _units(state, pick)
-    return Values(
+    return EffectValues(
         dict(zip(units, map(float, values), strict=True)),
         dict(zip(units, map(float, deviations), strict=False)),
         units,
@@ -54,7 +56,7 @@ def profile_of(state: State, place: int) -> Profile | None:
     first = state.W[0].shape[1] - sum(sizes[place:])
     own = slice(first, first + sizes[place])
     pick = state.picks[place]
-    problem = Problem(
+    problem = ProfileProblem(
         state.rows,
         state.data.observation,
         tuple(np.delete(w, own, axis=1) for w in state.W),
@@ -65,7 +67,7 @@ def profile_of(state: State, place: int) -> Profile | None:
     return profile(problem, pick)
 
 
-def named_intervals(along: Profile, named: Values) -> dict[str, tuple[float, float]]:
+def named_intervals(along: Profile, named: EffectValues) -> dict[str, tuple[float, float]]:
     """95 % intervals of the parameters and shapes of an effect, by name."""
     own = zip(named.value, along.intervals(), strict=False)
     found = {name: (float(low), float(high)) for name, (low, high) in own}
@@ -98,14 +100,14 @@ def shape_units(state: State, pick: Candidate) -> dict[str, str]:
     return {shape.name: shape.unit(_linear(state, pick)) for shape in pick.form.shapes}
 
 
-def _tilt(state: State, values: np.ndarray, deviations: np.ndarray) -> Values:
+def _tilt(state: State, values: np.ndarray, deviations: np.ndarray) -> EffectValues:
     basis = tilt_basis(state.reference)
     assert basis is not None
     axes = np.array([axis for axis, _ in basis[:2]])
     change = values[:2] @ axes
     spread = np.sqrt(deviations[:2] ** 2 @ axes**2)
     names = ("gx", "gy", "gz")
-    return Values(
+    return EffectValues(
         dict(zip(names, map(float, change), strict=True)),
         dict(zip(names, map(float, spread), strict=True)),
         dict.fromkeys(names, "m/s^2"),

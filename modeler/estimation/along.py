@@ -40,7 +40,7 @@ FUNCTIONS: dict[str, _Function] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Along:
+class SingleJointMotion:
     """The torque of one joint while one moves alone: sum of theta * function, theta = V beta.
 
     Attributes:
@@ -73,7 +73,9 @@ class Alone:
     span: tuple[float, float]
 
 
-def along(model: CompiledModel, alone: Alone, felt: np.ndarray) -> tuple[Along | None, ...]:
+def along(
+    model: CompiledModel, alone: Alone, felt: np.ndarray
+) -> tuple[SingleJointMotion | None, ...]:
     """The torques felt by some joints while one moves alone; None for what is no such sum.
 
     Args:
@@ -99,7 +101,7 @@ def along(model: CompiledModel, alone: Alone, felt: np.ndarray) -> tuple[Along |
     return tuple(_along(matrix, np.einsum("tjc,j->tc", rows, way)) for way in felt)
 
 
-def _along(matrix: np.ndarray, values: np.ndarray) -> Along | None:
+def _along(matrix: np.ndarray, values: np.ndarray) -> SingleJointMotion | None:
     """values (t, c) = matrix (t, functions) V, functions without weight left out.
 
     None where other functions are needed, and where nothing is felt.
@@ -109,4 +111,4 @@ def _along(matrix: np.ndarray, values: np.ndarray) -> Along | None:
     if size == 0.0 or np.abs(matrix @ weights - values).max() > _EXACT * size:
         return None
     kept = np.flatnonzero(np.abs(weights).max(axis=1) > _EXACT * size)
-    return Along(tuple(np.array([*FUNCTIONS])[kept].tolist()), weights[kept])
+    return SingleJointMotion(tuple(np.array([*FUNCTIONS])[kept].tolist()), weights[kept])

@@ -48,7 +48,7 @@ Motion = np.ndarray
 
 
 @dataclass(frozen=True)
-class Loop:
+class ControlLoop:
     """A controller.
 
     Attributes:
@@ -108,7 +108,7 @@ class DirectModel:
 
         return self.observation.filtered(evaluate)[self.observation.used]
 
-    def chosen(self, beta: np.ndarray) -> Loop:
+    def chosen(self, beta: np.ndarray) -> ControlLoop:
         """The controller that brings the robot nearest to the logged positions.
 
         Expects commanded positions. Without them the nearest is the fastest, see `gentlest`.
@@ -118,7 +118,7 @@ class DirectModel:
         step, speeds = self._speeds()
         rough = self._nearest(
             beta, pieces,
-            [Loop(speed, *kind, forward) for speed in speeds for kind in KINDS
+            [ControlLoop(speed, *kind, forward) for speed in speeds for kind in KINDS
              for forward in (0.0, 1.0)],
         )  # fmt: skip
         for width in _FINER if np.isfinite(rough.distance) else ():
@@ -129,10 +129,10 @@ class DirectModel:
                  for a in factors for b in factors if rough.speed * a * step < _STABLE],
             )  # fmt: skip
         if not np.isfinite(rough.distance) or rough.distance > 1.0:
-            return Loop(np.inf, 0.0, 0.0, 1.0, 1.0)
+            return ControlLoop(np.inf, 0.0, 0.0, 1.0, 1.0)
         return rough
 
-    def gentlest(self, beta: np.ndarray, misfit: Callable[[list[Motion]], float]) -> Loop:
+    def gentlest(self, beta: np.ndarray, misfit: Callable[[list[Motion]], float]) -> ControlLoop:
         """The controller along whose motion the torques fit best, where no command was logged.
 
         The reference is the logged motion itself. Its positions say nothing of the controller: the
@@ -141,9 +141,9 @@ class DirectModel:
         taken, and its speed by `misfit`, the criterion of the fit along a motion.
         """
         ratio, integral = KINDS[0]
-        found = Loop(np.inf, 0.0, 0.0, 1.0, np.inf)
+        found = ControlLoop(np.inf, 0.0, 0.0, 1.0, np.inf)
         for speed in self._speeds()[1]:
-            loop = Loop(speed, ratio, integral, 1.0)
+            loop = ControlLoop(speed, ratio, integral, 1.0)
             try:
                 far = misfit(self.followed(beta, loop))
             except DataError:
@@ -157,7 +157,9 @@ class DirectModel:
         step = min(_LONGEST, min(segment.step for segment in self.segments))
         return step, [2 * np.pi * f for f in BANDWIDTHS if 2 * np.pi * f * step < _STABLE]
 
-    def _nearest(self, beta: np.ndarray, pieces: list[_Piece], loops: list[Loop]) -> Loop:
+    def _nearest(
+        self, beta: np.ndarray, pieces: list[_Piece], loops: list[ControlLoop]
+    ) -> ControlLoop:
         ways = self._walked(beta, pieces * len(loops), [loop for loop in loops for _ in pieces])
         far = [
             self._distance(pieces, ways[i : i + len(pieces)])
@@ -166,7 +168,7 @@ class DirectModel:
         best = int(np.argmin(far))
         return dataclasses.replace(loops[best], distance=far[best])
 
-    def followed(self, beta: np.ndarray, loop: Loop) -> list[Motion]:
+    def followed(self, beta: np.ndarray, loop: ControlLoop) -> list[Motion]:
         """The motion of the robot with these parameters, one per segment.
 
         Raises:
@@ -239,7 +241,9 @@ class DirectModel:
         total = float(np.mean(error[moved] / scale[moved])) if moved.any() else 0.0
         return float(np.sqrt(total)) if np.isfinite(total) else np.inf
 
-    def _walked(self, beta: np.ndarray, pieces: list[_Piece], loops: list[Loop]) -> list[Motion]:
+    def _walked(
+        self, beta: np.ndarray, pieces: list[_Piece], loops: list[ControlLoop]
+    ) -> list[Motion]:
         """The pieces, each with its loop, simulated side by side; NaN where the robot is lost."""
         steps = [float(f"{self.segments[piece.segment].step:.4g}") for piece in pieces]
         ways: dict[int, Motion] = {}
@@ -326,7 +330,7 @@ def _walk(
     reference: np.ndarray,
     signals: np.ndarray | None,
     step: float,
-    loops: list[Loop],
+    loops: list[ControlLoop],
 ) -> np.ndarray:
     """(3, samples, pieces, joints) the motion, by Adams and Bashforth of order 2."""
     inner = max(1, int(np.ceil(step / _LONGEST)))
@@ -362,7 +366,7 @@ def _walk(
     return motion
 
 
-def _gains(loops: list[Loop]) -> np.ndarray:
+def _gains(loops: list[ControlLoop]) -> np.ndarray:
     """(4, pieces, 1) speed, ratio, integral, forward."""
     return np.array([(o.speed, o.ratio, o.integral, o.forward) for o in loops]).T[:, :, None]
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from modeler.core.manifest import BaseSpec, ModuleSpec
-from modeler.estimation.identify import Crossed, Equations, base_equations, fit_equations
+from modeler.estimation.identify import CrossValidation, Equations, base_equations, fit_equations
 from modeler.estimation.least_squares import least_squares
 from modeler.estimation.payload import Payload, loaded_equations
 from modeler.estimation.result import FitResult, ParameterEstimate
@@ -137,7 +137,7 @@ def systematic(result: FitResult, lasting: np.ndarray) -> list[Doubt]:
     ]
 
 
-def scarce(result: FitResult, seen: Crossed) -> list[Doubt]:
+def scarce(result: FitResult, seen: CrossValidation) -> list[Doubt]:
     """Joints whose torques the fit does not predict where it was not fitted: rows are too few."""
     lost = [
         (joint.name, error)
@@ -167,7 +167,7 @@ def scarce(result: FitResult, seen: Crossed) -> list[Doubt]:
     ]
 
 
-def unshown(result: FitResult, seen: Crossed, scale: np.ndarray) -> list[Doubt]:
+def unshown(result: FitResult, seen: CrossValidation, scale: np.ndarray) -> list[Doubt]:
     """Joints whose torques are described worse on all rows than windows of them let expect.
 
     Relatively, and in N m too: where the windows show a faster motion, noise alone is a larger

@@ -351,7 +351,7 @@ _SEEN = 1e-8  # pivot of a scaled column below which a fold does not see a direc
 
 
 @dataclass(frozen=True, eq=False)
-class Crossed:
+class CrossValidation:
     """Errors of the fit on stretches that it was not fitted to.
 
     Attributes:
@@ -380,7 +380,7 @@ def crossed(
     rows: np.ndarray,
     sigma: np.ndarray,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
-) -> Crossed:
+) -> CrossValidation:
     """Cross-validation over stretches of half a swing.
 
     A stretch is as long as the motion needs to turn round, pi rms(qd) / rms(qdd), the median over
@@ -408,7 +408,7 @@ def crossed(
         else:
             beta = refit(np.searchsorted(seen, number) % FOLDS == k)
         residual[own] = equations.residual(beta, own)
-    found = Crossed(np.full(len(sigma), np.nan), swing, len(seen), residual)
+    found = CrossValidation(np.full(len(sigma), np.nan), swing, len(seen), residual)
     return replace(found, errors=found.on(equations, rows))
 
 

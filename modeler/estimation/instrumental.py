@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.estimation.direct_model import DirectModel, Loop, Motion
+from modeler.estimation.direct_model import ControlLoop, DirectModel, Motion
 from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
 from modeler.estimation.problem import Problem
 from modeler.numerics.least_squares import compress, independent_columns, triangle
@@ -224,15 +224,15 @@ def _misfit(problem: Problem, start: Estimate, W: np.ndarray, beta: np.ndarray) 
     return float(np.sqrt(np.mean(residual**2)))
 
 
-def _loop(problem: Problem, robot: DirectModel, start: Estimate, beta: np.ndarray) -> Loop:
+def _loop(problem: Problem, robot: DirectModel, start: Estimate, beta: np.ndarray) -> ControlLoop:
     if robot.commanded:
         return robot.chosen(beta)
     return robot.gentlest(beta, lambda way: _misfit(problem, start, robot.columns(way), beta))
 
 
 def _followed(
-    problem: Problem, robot: DirectModel, start: Estimate, beta: np.ndarray, loop: Loop
-) -> tuple[list[Motion], Loop]:
+    problem: Problem, robot: DirectModel, start: Estimate, beta: np.ndarray, loop: ControlLoop
+) -> tuple[list[Motion], ControlLoop]:
     """The simulated motion; where the loop was not in the log, by another one if it must be."""
     try:
         return robot.followed(beta, loop), loop
@@ -291,7 +291,7 @@ def _worse(problem: Problem, method: str, start: Estimate, beta: np.ndarray) -> 
     ]
 
 
-def _told(problem: Problem, robot: DirectModel, loop: Loop, error: np.ndarray) -> list[str]:
+def _told(problem: Problem, robot: DirectModel, loop: ControlLoop, error: np.ndarray) -> list[str]:
     worst = int(np.argmax(error))
     joint = problem.observation.joints[worst].name
     near = f"within {100 * error[worst]:.2g} % of the range of joint {joint}, the farthest"

@@ -28,7 +28,7 @@ from modeler.observation.processing import Processing
 from modeler.observation.read import Source
 from modeler.observation.reduce import with_stretch
 from modeler.observation.stretch import Stretch
-from modeler.observation.survey import Known, Survey, WholeNeeded, survey
+from modeler.observation.survey import KnownFacts, Survey, WholeNeeded, survey
 from modeler.observation.tally import Facts
 from modeler.runtime.fused import no_rows
 
@@ -201,7 +201,7 @@ def all_rows(
         DataError: as `stream`.
     """
     _check_memory(model, sources)
-    known = Known()
+    known = KnownFacts()
     for number in range(1, PASSES + 1):
         found = survey(model, sources, processing or Processing(), known, rows)
         every = list(_all_logs(model, sources, found, reducer, progress))
@@ -262,7 +262,7 @@ def _all_logs(
         yield whole
 
 
-def _again(facts: Sequence[Facts], found: Survey, known: Known) -> Known | None:
+def _again(facts: Sequence[Facts], found: Survey, known: KnownFacts) -> KnownFacts | None:
     """What another pass is to know; None if this one was given all."""
     low = found.chosen[0].processing.low_speed
     floors = {name: low * top for own in facts for name, top in own.awake.items()}
@@ -273,7 +273,7 @@ def _again(facts: Sequence[Facts], found: Survey, known: Known) -> Known | None:
         k: tuple(zip(own.ranges.low[1].tolist(), own.ranges.high[1].tolist(), strict=True))
         for k, own in enumerate(facts)
     }
-    return Known({**known.floors, **floors}, extremes)
+    return KnownFacts({**known.floors, **floors}, extremes)
 
 
 def _check(model: "CompiledModel", sources: Sequence[Source], facts: Sequence[Facts]) -> None:

@@ -23,7 +23,7 @@ from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, modul
 from modeler.core.result import Presented
 from modeler.estimation.essential import Reduced
 from modeler.estimation.result import FitResult, fit_from_json
-from modeler.observation.log import Rows, shared_rows
+from modeler.observation.log import LogRows, shared_rows
 from modeler.observation.processing import Processing
 from modeler.observation.report import DataReport
 
@@ -72,7 +72,7 @@ class LogProvenance:
     start: float
     end: float
 
-    def shares_rows(self, log: Rows) -> bool:
+    def shares_rows(self, log: LogRows) -> bool:
         """True if rows of `log` were fitted."""
         return shared_rows(log, self.content, self.start, self.end)
 

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 
 from modeler.core.errors import DataError
-from modeler.estimation.along import Alone, Along, along
+from modeler.estimation.along import Alone, SingleJointMotion, along
 from modeler.estimation.covariance import autocorrelation
 from modeler.estimation.least_squares import Estimate, least_squares
 from modeler.numerics.filters import LEAST_WEIGHT
@@ -178,7 +178,7 @@ class Felt:
     """
 
     joint: int
-    along: Along
+    along: SingleJointMotion
     Q: np.ndarray
     R: np.ndarray
     projected: np.ndarray
@@ -374,7 +374,7 @@ def _usable(usable: np.ndarray, directions: Directions, i: int) -> tuple[np.ndar
     return own, others
 
 
-def _solved(joint: int, found: Along, filtered: np.ndarray) -> Felt | None:
+def _solved(joint: int, found: SingleJointMotion, filtered: np.ndarray) -> Felt | None:
     """Step 1 from its columns and torque; None where the rows do not tell the coefficients."""
     X, y = filtered[:, :-1], filtered[:, -1]
     rows, count = X.shape

@@ -24,7 +24,7 @@ _SEED = 1872
 
 
 @dataclass(frozen=True)
-class Excitation:
+class PersistentExcitation:
     """Phi of the inertia of one joint: J(configuration) = Phi beta.
 
     Attributes:
@@ -83,7 +83,7 @@ def excitations(
     observation: Observation,
     directions: Directions,
     configurations: Sequence[Configuration],
-) -> tuple[Excitation, ...]:
+) -> tuple[PersistentExcitation, ...]:
     """Of every joint that moved alone; what is possible is what random poses give.
 
     Robots with loops cannot take any pose: theirs are those of the logs.
@@ -101,7 +101,9 @@ def excitations(
         rows, best = (inertia_rows(model, q, directions.rows[i]) for q in (own, poses))
         every = _values(best)
         usual = every[-1] / every[0]
-        found.append(Excitation(directions.names[i], len(own), _values(rows), len(every), usual))
+        found.append(
+            PersistentExcitation(directions.names[i], len(own), _values(rows), len(every), usual)
+        )
     return tuple(found)
 
 
@@ -130,7 +132,7 @@ class TwoStepFit:
 
     result: FitResult
     steps: TwoStep
-    excitation: tuple[Excitation, ...]
+    excitation: tuple[PersistentExcitation, ...]
     one_step: FitResult
 
     def lines(self) -> list[str]:

@@ -24,7 +24,7 @@ from modeler.estimation.doubts import (
     unshown,
 )
 from modeler.estimation.identify import (
-    Crossed,
+    CrossValidation,
     Equations,
     alive_rows,
     all_rows,
@@ -198,7 +198,9 @@ def with_verdict(
     return dataclasses.replace(result, verdict=verdict, directions=directions)
 
 
-def _predicts(equations: Equations, rows: np.ndarray, result: FitResult, seen: Crossed) -> str:
+def _predicts(
+    equations: Equations, rows: np.ndarray, result: FitResult, seen: CrossValidation
+) -> str:
     """What for a usable fit is good for; no better than it does where it was fitted."""
 
     def largest(errors: np.ndarray, joints: Sequence[JointFit]) -> str:

@@ -19,7 +19,7 @@ _ALIKE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Columns:
+class MotionColumns:
     """phi of tau = phi beta along motions of a robot.
 
     Attributes:
@@ -104,7 +104,7 @@ class Columns:
 
 def columns_of(
     compiled: CompiledModel, middle: np.ndarray, half: np.ndarray, speed: np.ndarray
-) -> Columns:
+) -> MotionColumns:
     """The columns of a robot, with the jumps found by looking at both sides of rest."""
     joints, wide = len(half), len(compiled.spec.base)
     rng = np.random.default_rng(0)
@@ -121,7 +121,7 @@ def columns_of(
         # A jump that hangs on the posture, as of joints without motor, is left as it is.
         if np.ptp(jump, axis=0).max() < _ALIKE:
             flips[j] = np.where(np.abs(jump[0]) > _ALIKE, jump[0], 0.0)
-    return Columns(compiled, half, speed, flips)
+    return MotionColumns(compiled, half, speed, flips)
 
 
 def signals(spec: ModuleSpec, q: np.ndarray, time: np.ndarray) -> np.ndarray | None:

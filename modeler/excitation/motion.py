@@ -113,7 +113,7 @@ _STEP = 1e-5  # of the half ranges
 
 
 @dataclass(frozen=True, eq=False)
-class Posture:
+class PostureLimits:
     """Shares of limits that hang on the positions alone.
 
     Loops stay away from singular postures by G of ud = G qd: near one, joints that follow are
@@ -174,14 +174,14 @@ class Posture:
         return slope
 
 
-def posture_of(compiled: CompiledModel, bounds: Bounds) -> Posture:
+def posture_of(compiled: CompiledModel, bounds: Bounds) -> PostureLimits:
     """What the positions of a robot must keep to.
 
     Raises:
         DataError: home itself is outside.
     """
     closure = compiled.spec.closure
-    plain = Posture(compiled, bounds)
+    plain = PostureLimits(compiled, bounds)
     if closure is None or bounds.home is None:
         return plain
     driven = set(closure.given)
@@ -190,9 +190,9 @@ def posture_of(compiled: CompiledModel, bounds: Bounds) -> Posture:
         for kind in ("rad", "m")
     ]
     kinds = tuple(group for group in places if len(group))
-    loops = Posture(compiled, bounds, kinds, ())
+    loops = PostureLimits(compiled, bounds, kinds, ())
     home = loops.sizes(bounds.home[None, :])[0]
-    found = Posture(compiled, bounds, kinds, tuple(FARTHEST * home))
+    found = PostureLimits(compiled, bounds, kinds, tuple(FARTHEST * home))
     at_home = found.shares(bounds.home[None, :])
     if not np.abs(at_home).max(initial=0.0) < 1.0:
         raise DataError(

@@ -11,7 +11,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.diagnosis.candidates import Candidate, JointScale, over_grid
 from modeler.diagnosis.columns import all_columns
-from modeler.diagnosis.signals import Reference, Signals
+from modeler.diagnosis.signals import SignalReference, Signals
 from modeler.effects.effect import Acts, Effect
 from modeler.excitation.criterion import condition
 from modeler.excitation.motion import Bounds
@@ -140,7 +140,7 @@ class _Pair:
         self, task: Task, question: Question, drawn: list[np.ndarray], laps: int, on: Deadline
     ) -> None:
         self.task, self._laps = task, laps
-        self._reference = Reference(task.columns.compiled, question.beta, 0.0, {})
+        self._reference = SignalReference(task.columns.compiled, question.beta, 0.0, {})
         loads = [self._signals(x).load for x in on.through(drawn[:5])]
         load = np.sqrt(np.mean(np.concatenate(loads) ** 2, axis=0))
         self._grids = [self._grid(whose, load) for whose in question.effects]

@@ -6,8 +6,8 @@ from functools import cached_property
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError
-from modeler.excitation.criterion import NEAR_REST, Columns, Criterion
-from modeler.excitation.motion import Bounds, Posture, Series
+from modeler.excitation.criterion import NEAR_REST, Criterion, MotionColumns
+from modeler.excitation.motion import Bounds, PostureLimits, Series
 from modeler.numerics.optimize import evolve
 
 _POSTURES = 200  # drawn, to rest in
@@ -35,13 +35,13 @@ class Task:
         share: (J,) of the torque limits that is used, to be sure between samples.
     """
 
-    columns: Columns
+    columns: MotionColumns
     bounds: Bounds
     series: Series
     criterion: Criterion
     weights: np.ndarray
     kept: np.ndarray
-    posture: Posture
+    posture: PostureLimits
     beta: np.ndarray | None = None
     share: float = 0.98
 

@@ -20,7 +20,7 @@ _MOST_PRIOR = 12.0  # degrees of freedom that other quantities may stand for
 
 
 @dataclass(frozen=True, eq=False)
-class Series:
+class PeriodSeries:
     """Values of one quantity of one machine; p periods.
 
     Attributes:
@@ -62,12 +62,12 @@ class Scatter:
     degrees: float
     factor: float
 
-    def sigmas(self, series: Series) -> np.ndarray:
+    def sigmas(self, series: PeriodSeries) -> np.ndarray:
         """(p,) standard deviations of the values of a series that stays."""
         return np.hypot(series.sigmas, self.extra)
 
 
-def scatters(groups: Sequence[Sequence[Series]]) -> list[Scatter]:
+def scatters(groups: Sequence[Sequence[PeriodSeries]]) -> list[Scatter]:
     """The scatter of each quantity, from all machines, moderated by all other quantities.
 
     Few changes say little of a variance: that of each quantity is drawn to the usual one, the more
@@ -118,7 +118,7 @@ def _usual(squares: np.ndarray, degrees: np.ndarray) -> tuple[float, float]:
 
 
 @dataclass(frozen=True)
-class Move:
+class Drift:
     """The change that describes a series best.
 
     Attributes:
@@ -140,7 +140,7 @@ class Move:
     chance: float
 
 
-def move_of(series: Series, scatter: Scatter) -> Move | None:
+def move_of(series: PeriodSeries, scatter: Scatter) -> Drift | None:
     """The best description of what a series does; None for one period.
 
     Weighted least squares of a constant and one shape, each shape in turn; the chance is that of
@@ -152,7 +152,7 @@ def move_of(series: Series, scatter: Scatter) -> Move | None:
     tried = [_moved(series, sigma, *shape) for shape in _shapes(series.at)]
     best = max(tried, key=lambda move: abs(move.score))
     chance = 2.0 * float(stdtr(scatter.degrees, -abs(best.score))) * len(tried)
-    return Move(best.shape, best.begin, best.change, best.sigma, best.level, best.score,
+    return Drift(best.shape, best.begin, best.change, best.sigma, best.level, best.score,
                 min(1.0, chance))  # fmt: skip
 
 
@@ -167,23 +167,25 @@ def _shapes(at: np.ndarray) -> list[tuple[Shape, int, np.ndarray]]:
     return found
 
 
-def _moved(series: Series, sigma: np.ndarray, shape: Shape, begin: int, column: np.ndarray) -> Move:
+def _moved(
+    series: PeriodSeries, sigma: np.ndarray, shape: Shape, begin: int, column: np.ndarray
+) -> Drift:
     weights = 1.0 / sigma**2
     centre = np.sum(weights * column) / weights.sum()
     spread = float(np.sum(weights * (column - centre) ** 2))
     change = float(np.sum(weights * (column - centre) * series.values)) / spread
     level = float(np.sum(weights * (series.values - change * column)) / weights.sum())
     score = change * np.sqrt(spread)
-    return Move(shape, begin, change, float(1.0 / np.sqrt(spread)), level, float(score), 1.0)
+    return Drift(shape, begin, change, float(1.0 / np.sqrt(spread)), level, float(score), 1.0)
 
 
-def line_of(move: Move, at: np.ndarray) -> np.ndarray:
+def line_of(move: Drift, at: np.ndarray) -> np.ndarray:
     """(p,) what a move adds to the level at each period."""
     columns = {(shape, begin): column for shape, begin, column in _shapes(at)}
     return move.change * columns[move.shape, move.begin]
 
 
-def least_told(series: Series, scatter: Scatter, level: float) -> float:
+def least_told(series: PeriodSeries, scatter: Scatter, level: float) -> float:
     """The smallest straight drift over all periods that would be told at this chance.
 
     Args:

@@ -8,8 +8,8 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.fleet.drift import LEAST, in_time, line_of
 from modeler.fleet.joint_fit import joint_fit, layout_of
-from modeler.fleet.judge import FALSE_ALARM, Judged, judged
-from modeler.fleet.result import Finding, Fleet, Followed, Values
+from modeler.fleet.judge import FALSE_ALARM, JudgedQuantity, judged
+from modeler.fleet.result import Fleet, FleetFinding, Followed, Values
 from modeler.fleet.summary import Left, LogSummary, of_another_robot
 from modeler.fleet.unseen import not_seen, scatter_known
 from modeler.fleet.warmth import warmth_of
@@ -81,7 +81,7 @@ def _check(used: Sequence[LogSummary], left: Sequence[tuple[str, str]]) -> None:
                 )
 
 
-def _drifting(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
+def _drifting(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFinding]:
     findings = []
     for (m, i), move in found.moves.items():
         own, quantity = found.known(m, i), found.quantities[i]
@@ -93,7 +93,7 @@ def _drifting(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
         ]
         line = line_of(move, found.at[own])
         findings.append(
-            Finding(
+            FleetFinding(
                 machine=logs[own[0]].named.machine,
                 quantity=quantity,
                 shape=move.shape,
@@ -112,13 +112,13 @@ def _drifting(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
     return findings
 
 
-def _apart(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
+def _apart(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFinding]:
     findings = []
     for (m, i), odd in found.odd.items():
         own, quantity = found.known(m, i), found.quantities[i]
         mean = float(np.average(found.values[own, i], weights=found.sigmas[own, i] ** -2.0))
         findings.append(
-            Finding(
+            FleetFinding(
                 machine=logs[own[0]].named.machine,
                 quantity=quantity,
                 shape="odd machine",
@@ -137,7 +137,7 @@ def _apart(found: Judged, logs: Sequence[LogSummary]) -> list[Finding]:
     return findings
 
 
-def _followed(found: Judged, logs: Sequence[LogSummary]) -> tuple[Followed, ...]:
+def _followed(found: JudgedQuantity, logs: Sequence[LogSummary]) -> tuple[Followed, ...]:
     followed = []
     for i, quantity in enumerate(found.quantities):
         machines, scores = {}, {}
@@ -182,7 +182,7 @@ def _machines(logs: Sequence[LogSummary]) -> dict[str, tuple[str, ...]]:
     return machines
 
 
-def _notes(found: Judged, logs: Sequence[LogSummary]) -> list[str]:
+def _notes(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[str]:
     machines = _machines(logs)
     said = [*not_seen(found, logs), *scatter_known(found, len(logs))]
     single = [name for name, periods in machines.items() if len(periods) < 2]

@@ -163,7 +163,7 @@ class LogFit:
 
 
 @dataclass(frozen=True, eq=False)
-class JointFit:
+class FleetFit:
     """The fit of the fleet.
 
     Attributes:
@@ -179,7 +179,7 @@ class JointFit:
     loaded: tuple[LogFit, ...]
 
 
-def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> JointFit:
+def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> FleetFit:
     """The fit of all logs together.
 
     Raises:
@@ -207,7 +207,7 @@ def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> JointFit:
             break
         scale = updated
     loaded = _loaded(layout, summaries, sigmas, theta)
-    return JointFit(theta, aside, logs, loaded)
+    return FleetFit(theta, aside, logs, loaded)
 
 
 def _common(

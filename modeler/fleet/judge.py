@@ -7,17 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.fleet.drift import (
-    Move,
+    Drift,
     Odd,
+    PeriodSeries,
     Scatter,
-    Series,
     least_told,
     line_of,
     move_of,
     odd_ones,
     scatters,
 )
-from modeler.fleet.joint_fit import GAIN, LOAD, JointFit, Layout, Quantity
+from modeler.fleet.joint_fit import GAIN, LOAD, FleetFit, Layout, Quantity
 from modeler.fleet.summary import LogSummary
 
 FALSE_ALARM = 0.05
@@ -25,7 +25,7 @@ FALSE_ALARM = 0.05
 
 
 @dataclass(frozen=True, eq=False)
-class Judged:
+class JudgedQuantity:
     """What was tested; k logs machine after machine in time, d quantities.
 
     Attributes:
@@ -47,7 +47,7 @@ class Judged:
     values: np.ndarray
     sigmas: np.ndarray
     scatters: tuple[Scatter, ...] = ()
-    moves: dict[tuple[int, int], Move] = dataclasses.field(default_factory=dict)
+    moves: dict[tuple[int, int], Drift] = dataclasses.field(default_factory=dict)
     odd: dict[tuple[int, int], Odd] = dataclasses.field(default_factory=dict)
     scores: dict[tuple[int, int], float] = dataclasses.field(default_factory=dict)
     loaded: frozenset[int] | None = None
@@ -65,10 +65,10 @@ class Judged:
         """Indices of the logs of a machine that tell a quantity."""
         return np.flatnonzero((self.machine == m) & np.isfinite(self.values[:, i]))
 
-    def series(self, m: int, i: int) -> Series:
+    def series(self, m: int, i: int) -> PeriodSeries:
         """A quantity of a machine."""
         own = self.known(m, i)
-        return Series(self.at[own], self.values[own, i], self.sigmas[own, i])
+        return PeriodSeries(self.at[own], self.values[own, i], self.sigmas[own, i])
 
     def told(self, i: int) -> float | None:
         """The smallest straight drift that the machine seen best would show."""
@@ -85,7 +85,9 @@ class Judged:
         return 0.5 * FALSE_ALARM / (self.machines * len(self.quantities))
 
 
-def judged(layout: Layout, fit: JointFit, logs: Sequence[LogSummary], at: np.ndarray) -> Judged:
+def judged(
+    layout: Layout, fit: FleetFit, logs: Sequence[LogSummary], at: np.ndarray
+) -> JudgedQuantity:
     """Tests all quantities of all machines; look-alikes are told by what they explain.
 
     A load enters the torques of several joints, a gain those of one: of machines whose load seems
@@ -96,7 +98,7 @@ def judged(layout: Layout, fit: JointFit, logs: Sequence[LogSummary], at: np.nda
     names = list(dict.fromkeys(each.named.machine for each in logs))
     machine = np.array([names.index(each.named.machine) for each in logs])
     values, sigmas = _arrays(layout, fit)
-    found = Judged(layout.quantities, machine, at, values, sigmas)
+    found = JudgedQuantity(layout.quantities, machine, at, values, sigmas)
     found = dataclasses.replace(found, scatters=_scatters(found))
     if fit.loaded:
         found = _with_loads(found, layout, fit)
@@ -107,7 +109,7 @@ def judged(layout: Layout, fit: JointFit, logs: Sequence[LogSummary], at: np.nda
     return found
 
 
-def _arrays(layout: Layout, fit: JointFit) -> tuple[np.ndarray, np.ndarray]:
+def _arrays(layout: Layout, fit: FleetFit) -> tuple[np.ndarray, np.ndarray]:
     """(k, d) values and sigmas, of friction and gains as without loads."""
     values = np.array([log.values for log in fit.logs])
     sigmas = np.array([log.sigmas for log in fit.logs])
@@ -120,14 +122,14 @@ def _arrays(layout: Layout, fit: JointFit) -> tuple[np.ndarray, np.ndarray]:
     return values, sigmas
 
 
-def _scatters(found: Judged) -> tuple[Scatter, ...]:
+def _scatters(found: JudgedQuantity) -> tuple[Scatter, ...]:
     groups = [
         [found.series(m, i) for m in range(found.machines)] for i in range(len(found.quantities))
     ]
     return tuple(scatters(groups))
 
 
-def _with_loads(found: Judged, layout: Layout, fit: JointFit) -> Judged:
+def _with_loads(found: JudgedQuantity, layout: Layout, fit: FleetFit) -> JudgedQuantity:
     """The fits with a load in place of gains, of machines that these describe better."""
     load = len(found.quantities) - 1
     tested = _tested(found, [load])
@@ -147,7 +149,7 @@ def _with_loads(found: Judged, layout: Layout, fit: JointFit) -> Judged:
     return dataclasses.replace(found, values=values, sigmas=sigmas, loaded=frozenset(loaded))
 
 
-def _tested(found: Judged, places: Sequence[int]) -> Judged:
+def _tested(found: JudgedQuantity, places: Sequence[int]) -> JudgedQuantity:
     """With the drifts and the odd machines of some quantities."""
     moves, odd, scores = dict(found.moves), dict(found.odd), dict(found.scores)
     level, families = found.level, len(found.quantities)
@@ -167,7 +169,7 @@ def _tested(found: Judged, places: Sequence[int]) -> Judged:
 
 
 def _means(
-    found: Judged, moves: dict[tuple[int, int], Move], i: int
+    found: JudgedQuantity, moves: dict[tuple[int, int], Drift], i: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """(machines,) means over the periods and their sigmas; NaN of machines that drift."""
     means, spreads = (np.full(found.machines, np.nan) for _ in range(2))
@@ -180,7 +182,7 @@ def _means(
     return means, spreads
 
 
-def _without_gains(found: Judged) -> Judged:
+def _without_gains(found: JudgedQuantity) -> JudgedQuantity:
     """Friction and offset of joints whose gain drifts, or is apart, in units without that."""
     values, sigmas = found.values.copy(), found.sigmas.copy()
     for (m, g), scale in _gain_scales(found).items():
@@ -192,7 +194,7 @@ def _without_gains(found: Judged) -> Judged:
     return dataclasses.replace(found, values=values, sigmas=sigmas)
 
 
-def _gain_scales(found: Judged) -> dict[tuple[int, int], np.ndarray]:
+def _gain_scales(found: JudgedQuantity) -> dict[tuple[int, int], np.ndarray]:
     """(periods,) 1 + gain / 100 of each gain that drifts or is apart."""
     scales = {
         key: 1.0 + line_of(move, found.series(*key).at) / 100.0

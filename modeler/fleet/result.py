@@ -35,7 +35,7 @@ class Warmth:
 
 
 @dataclass(frozen=True)
-class Finding(Brief):
+class FleetFinding(Brief):
     """A machine that drifts, or is apart from the others.
 
     Attributes:
@@ -136,7 +136,7 @@ class Fleet(Presented):
     robot: str
     unit: Unit
     machines: Mapping[str, tuple[str, ...]]
-    findings: tuple[Finding, ...]
+    findings: tuple[FleetFinding, ...]
     followed: tuple[Followed, ...]
     false_alarm: float
     aside: tuple[str, ...]
@@ -175,7 +175,7 @@ class Fleet(Presented):
         })  # fmt: skip
 
 
-def _finding(found: Finding) -> dict[str, Any]:
+def _finding(found: FleetFinding) -> dict[str, Any]:
     warmth = found.warmth
     return {
         "machine": found.machine,
@@ -232,7 +232,7 @@ def effect_title(quantity: Quantity) -> str:
     return quantity.effect.replace("_", " ") if effect is None else effect.title
 
 
-def sentence(found: Finding, unit: Unit) -> str:
+def sentence(found: FleetFinding, unit: Unit) -> str:
     """One finding, with what it may be instead."""
     quantity = found.quantity
     where = f"machine {found.machine}" + (
@@ -255,7 +255,7 @@ def _warmth(warmth: Warmth | None) -> str:
     return f"{told}, and may be the cause: compare periods of one temperature"
 
 
-def _happens(found: Finding, unit: Unit) -> str:
+def _happens(found: FleetFinding, unit: Unit) -> str:
     up = found.change > 0.0
     size = _size(found)
     after = f"{found.before:.4g} to {found.before + found.change:.4g} {found.quantity.unit}"
@@ -271,14 +271,14 @@ def _happens(found: Finding, unit: Unit) -> str:
     return f"{verb} by {size} at {found.begin}{_stays(found)}, {told}"
 
 
-def _stays(found: Finding) -> str:
+def _stays(found: FleetFinding) -> str:
     """What is known of the time after a leap: of one in the last period, nothing."""
     if found.shape != "jump":
         return " and is back after it"
     return " and stays" if found.since > 1 else ", the last period (whether it stays is not known)"
 
 
-def _size(found: Finding) -> str:
+def _size(found: FleetFinding) -> str:
     if found.percent is None:
         return f"{abs(found.change):.3g} {found.quantity.unit}"
     return f"{abs(found.percent):.3g} %"

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from modeler.fleet.joint_fit import LOAD
-from modeler.fleet.judge import Judged
+from modeler.fleet.judge import JudgedQuantity
 from modeler.fleet.summary import LogSummary
 
 FAR = 5.0
@@ -15,7 +15,7 @@ FEW = 5
 """Changes from period to period below which the scatter of a quantity is not known by them."""
 
 
-def not_seen(found: Judged, logs: Sequence[LogSummary]) -> list[str]:
+def not_seen(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[str]:
     """A sentence on each machine that would hide a drift which the others would show."""
     names = list(dict.fromkeys(each.named.machine for each in logs))
     sigmas = np.array([[_sigma(found, m, i) for i in range(len(found.quantities))]
@@ -40,7 +40,7 @@ def not_seen(found: Judged, logs: Sequence[LogSummary]) -> list[str]:
     return said
 
 
-def _sigma(found: Judged, m: int, i: int) -> float:
+def _sigma(found: JudgedQuantity, m: int, i: int) -> float:
     """Usual sigma of one log; infinite if none tells it, NaN of gains that a load stands for."""
     own = found.known(m, i)
     if own.size:
@@ -53,7 +53,7 @@ def _count(times: float) -> str:
     return f"{times:.2g} times" if np.isfinite(times) else "not at all"
 
 
-def scatter_known(found: Judged, logs: int) -> list[str]:
+def scatter_known(found: JudgedQuantity, logs: int) -> list[str]:
     """A sentence if the scatter from period to period comes from few changes."""
     count = max(sum(len(found.series(m, i).changes) for m in range(found.machines))
                 for i in range(len(found.quantities)))  # fmt: skip

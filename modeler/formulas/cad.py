@@ -11,7 +11,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.formulas.physical_system import PhysicalSystem
 from modeler.formulas.solve import ClosedSolution, solve
-from modeler.formulas.values import Numbers, derive_values
+from modeler.formulas.values import SolvedNumbers, derive_values
 
 FALSE_ALARM = 0.01  # of a whole table
 _ROUNDS = 30
@@ -191,7 +191,7 @@ def compare_cad(
     left_out = {d: f"no CAD value of {', '.join(some)}" for d, some in missing.items() if some}
     left_out |= unknown_data or {}
     kept = [i for i, name in enumerate(system.data) if name not in left_out]
-    problem = _Problem(system, kept, np.asarray(data), covariance, cad, sigmas or {})
+    problem = _CadProblem(system, kept, np.asarray(data), covariance, cad, sigmas or {})
     rows = problem.rows(covariance, depends)
     bad = {x for row in rows if row.suspicious for x in row.letters}
     good = {x for row in rows if not row.suspicious for x in row.letters}
@@ -210,7 +210,7 @@ def _letters(system: PhysicalSystem, name: str) -> tuple[str, ...]:
     return tuple(x for x in system.letters if x in used)
 
 
-class _Problem:
+class _CadProblem:
     """Residuals of the compared quantities for any values of the parameters."""
 
     def __init__(
@@ -219,7 +219,7 @@ class _Problem:
     ) -> None:  # fmt: skip
         self.system, self.kept = system, list(kept)
         self.data = data[self.kept]
-        self.polys = [Numbers(system.definitions[system.data[i]]) for i in self.kept]
+        self.polys = [SolvedNumbers(system.definitions[system.data[i]]) for i in self.kept]
         self.start = np.zeros(len(system.names))
         for name, value in (*system.constants.items(), *cad.items()):
             if name in system.place:
@@ -318,7 +318,7 @@ def _inverse_root(covariance: np.ndarray) -> np.ndarray:
 
 
 def _explanations(
-    problem: _Problem, letters: Sequence[str], most: int = 6
+    problem: _CadProblem, letters: Sequence[str], most: int = 6
 ) -> tuple[Explanation, ...]:
     found: list[Explanation] = []
     for size in (1, 2):

@@ -30,7 +30,7 @@ import sympy
 
 from modeler.core.errors import RobotError
 from modeler.derivation.columns import ShaftColumn, effect_entries, in_block
-from modeler.derivation.geometry import Geometry, Row
+from modeler.derivation.geometry import Geometry, GeometryRow
 from modeler.derivation.graph import Expr, Graph, GraphAlgebra
 from modeler.derivation.kinematics import Screw, Vector, cross, dot, gravity_in_frames, plus, screws
 from modeler.derivation.model import SymbolicModel
@@ -125,13 +125,13 @@ def _angles(geometry: Geometry, algebra: GraphAlgebra) -> list[Expr]:
     return found
 
 
-def _flip(row: Row) -> int:
+def _flip(row: GeometryRow) -> int:
     """1 if z is parallel to that of the antecedent, -1 if opposite, 0 if neither."""
     quarters = row.alpha / (sympy.pi / 2)
     return {0: 1, 2: -1}.get(int(quarters) % 4, 0) if quarters.is_Integer else 0
 
 
-def _turn(row: Row, algebra: GraphAlgebra) -> Expr:
+def _turn(row: GeometryRow, algebra: GraphAlgebra) -> Expr:
     """Rate * q and constant of a row that turns, right angles left out."""
     angle = algebra.graph.constant(0)
     if row.index is not None and row.joint.angular:

@@ -43,7 +43,7 @@ _MOMENTS = {"MX": 0, "MY": 1, "MZ": 2}
 
 
 @dataclass(frozen=True)
-class Dynamics:
+class EnergyDynamics:
     """tau_i = sum_j M_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k + g_i.
 
     Attributes:
@@ -57,7 +57,7 @@ class Dynamics:
     gravity: Entries
 
 
-def dynamics(model: SymbolicModel, ring: TrigRing, columns: Sequence[int]) -> Dynamics:
+def dynamics(model: SymbolicModel, ring: TrigRing, columns: Sequence[int]) -> EnergyDynamics:
     """The entries of the dynamics for those columns; friction and offsets have none.
 
     Raises:
@@ -70,7 +70,7 @@ def dynamics(model: SymbolicModel, ring: TrigRing, columns: Sequence[int]) -> Dy
     inertia = _inertia(carried, wanted, ring)
     _add_rotors(inertia, wanted, ring)
     down = [ring_vector(v, ring) for v in gravity_in_frames(model.geometry, frames, ring)]
-    return Dynamics(
+    return EnergyDynamics(
         _without_zeros(inertia),
         _without_zeros(_christoffel(inertia, model.geometry.coordinates, ring)),
         _without_zeros(_gravity(carried, down, wanted, ring)),

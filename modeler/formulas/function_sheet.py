@@ -15,9 +15,9 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core.formula import latex_name
-from modeler.core.latex_display import Equation, display
+from modeler.core.latex_display import DisplayedEquation, display
 from modeler.derivation.graph import Expr, Graph
-from modeler.formulas.text import LATEX, TEXT, Style, signed_sum
+from modeler.formulas.text import LATEX, TEXT, TextStyle, signed_sum
 
 SHORT = 7
 """Characters up to which a quantity is written wherever it is read."""
@@ -311,7 +311,7 @@ class SheetStyle:
         style: of products, powers and numbers.
     """
 
-    style: Style
+    style: TextStyle
 
     @property
     def latex(self) -> bool:
@@ -384,7 +384,7 @@ def _collected(terms: Iterable[Term]) -> dict[tuple[Factor, ...], Term]:
 class SheetPrinter:
     """Writes the values of one sheet in one style."""
 
-    def __init__(self, sheet: Sheet, style: Style = TEXT) -> None:
+    def __init__(self, sheet: Sheet, style: TextStyle = TEXT) -> None:
         self.sheet = sheet
         self.style = SheetStyle(style)
 
@@ -562,15 +562,15 @@ def sheet_latex(sheet: Sheet, heading: Callable[[str], str] | None = None) -> st
     """
     heading = heading or _comment
     printer, known = SheetPrinter(sheet, LATEX), set(sheet.trig.values())
-    blocks: dict[str, list[Equation]] = {"sines and cosines": []}
+    blocks: dict[str, list[DisplayedEquation]] = {"sines and cosines": []}
     for label, ref in sheet.angles.items():
         for letter, function in (("s", r"\sin"), ("c", r"\cos")):
             if letter + label in known:
                 name = printer.style.trig(letter + label)
                 right = f"{function}({printer.sum(ref)})"
-                blocks["sines and cosines"].append(Equation(name, (right,)))
+                blocks["sines and cosines"].append(DisplayedEquation(name, (right,)))
     for definition in sheet.definitions:
-        line = Equation(printer.name(definition), (printer.value(definition),))
+        line = DisplayedEquation(printer.name(definition), (printer.value(definition),))
         blocks.setdefault(definition.section, []).append(line)
     return "".join(
         f"{heading(title)}\n{display(lines)}\n" for title, lines in blocks.items() if lines

@@ -35,7 +35,7 @@ Matrix = list[list[Expr]]
 
 
 @dataclass(frozen=True)
-class Block:
+class JacobianBlock:
     """Equations that share unknown speeds.
 
     Attributes:
@@ -96,7 +96,7 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> LoopForm:
     return LoopForm(tuple(_words(model, closure, complete, spheres)), complete)
 
 
-def _blocks(closure: Closure, given: Sequence[int], count: int) -> list[Block]:
+def _blocks(closure: Closure, given: Sequence[int], count: int) -> list[JacobianBlock]:
     """Connected equations, in the order of their unknowns."""
     unknown = [k for k in range(count) if k not in given]
     found: list[tuple[set[int], set[int]]] = []
@@ -106,7 +106,7 @@ def _blocks(closure: Closure, given: Sequence[int], count: int) -> list[Block]:
         found = [part for part in found if part not in touched]
         rows = {r}.union(*(part[0] for part in touched))
         found.append((rows, reads.union(*(part[1] for part in touched))))
-    blocks = [Block(tuple(sorted(rows)), tuple(sorted(reads))) for rows, reads in found]
+    blocks = [JacobianBlock(tuple(sorted(rows)), tuple(sorted(reads))) for rows, reads in found]
     return sorted(blocks, key=lambda block: block.unknown)
 
 
@@ -159,7 +159,7 @@ def _generators(model: SymbolicModel, ring: TrigRing) -> list[Expr]:
 
 
 def _write_block(
-    closure: Closure, block: Block, given: Sequence[int], names: Sequence[str], letter: str,
+    closure: Closure, block: JacobianBlock, given: Sequence[int], names: Sequence[str], letter: str,
     writer: SheetWriter, rates: dict[int, dict[int, Expr]], bias: dict[int, Expr],
 ) -> None:  # fmt: skip
     """L = -B^-1 A and -B^-1 h of one block."""

@@ -90,7 +90,7 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
     known = {*static, *zeros}
     letters = [name for name in _letters(links.values()) if name not in known] + rotors
     ring = PolyRing(letters + static, QQ, lex)
-    standard = _standard(model, links, _Reader(model, ring, zeros))
+    standard = _standard(model, links, _PhysicalReader(model, ring, zeros))
     masses = [x.mass.text for x in links.values() if x.mass.text in letters]
     alone = {x.inertia[i].text for x in links.values() for i in _DIAGONAL} | set(rotors)
     moments = tuple(name for name in letters if name in alone)
@@ -164,7 +164,7 @@ def _gravity_only(algebra: TrigRing) -> frozenset[str]:
 
 
 @dataclass(frozen=True)
-class _Reader:
+class _PhysicalReader:
     """Reads entries of `[physical]` as polynomials of `ring`."""
 
     model: SymbolicModel
@@ -205,7 +205,7 @@ def _rational(value: Fraction) -> Any:
 
 
 def _standard(
-    model: SymbolicModel, links: Mapping[str, PhysicalLink], read: _Reader
+    model: SymbolicModel, links: Mapping[str, PhysicalLink], read: _PhysicalReader
 ) -> dict[int, Poly]:
     found: dict[int, Poly] = {}
     tables: dict[int, dict[str, Poly]] = {}
@@ -220,7 +220,7 @@ def _standard(
     return found
 
 
-def _at_origin(link: PhysicalLink, joint: str, read: _Reader) -> dict[str, Poly]:
+def _at_origin(link: PhysicalLink, joint: str, read: _PhysicalReader) -> dict[str, Poly]:
     m = read(link.mass, joint)
     x, y, z = (read(entry, joint) for entry in link.centre)
     names = ("XX", "XY", "XZ", "YY", "YZ", "ZZ")

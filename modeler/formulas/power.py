@@ -19,7 +19,7 @@ STATE = "tan(q/2) = (1/2, -1/3, 2/5), qd = (1, -2, 3) rad/s"
 
 
 @dataclass(frozen=True)
-class ExactState:
+class PowerState:
     """Rational numbers for everything, so that a law holds exactly or not at all.
 
     Attributes:
@@ -57,7 +57,7 @@ def example_values(table: CoefficientTable, twin: bool = False) -> dict[str, Fra
     return {**values, **table.printed.twin} if twin else values
 
 
-def exact_state(table: CoefficientTable) -> ExactState:
+def exact_state(table: CoefficientTable) -> PowerState:
     """The test state of the example; physical parameters that it leaves out are 0."""
     motion: list[Fraction] = []
     for index, joint in enumerate(table.closed.algebra.motions):
@@ -70,10 +70,10 @@ def exact_state(table: CoefficientTable) -> ExactState:
     chi = {c: poly_value(poly, physical) for c, poly in table.physical.standard.items()}
     count = table.closed.algebra.geometry.coordinates
     speeds = tuple(_SPEEDS[i % len(_SPEEDS)] for i in range(count))
-    return ExactState(tuple(motion), speeds, tuple(physical[shift:]), chi)
+    return PowerState(tuple(motion), speeds, tuple(physical[shift:]), chi)
 
 
-def power_balance(table: CoefficientTable, state: ExactState) -> Fraction:
+def power_balance(table: CoefficientTable, state: PowerState) -> Fraction:
     """qd'S - qd' (dM/dt) qd / 2 of the derived functions, which is 0 for any mechanism, W."""
     total = Fraction(0)
     for function in table.closed.functions:
@@ -87,7 +87,7 @@ def power_balance(table: CoefficientTable, state: ExactState) -> Fraction:
 
 def _half_slope_power(
     table: CoefficientTable,
-    state: ExactState,
+    state: PowerState,
     joints: tuple[int, ...],
     at: Exponents,
     vector: Mapping[Any, Any],

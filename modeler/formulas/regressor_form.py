@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from modeler.core.errors import RobotError
 from modeler.core.formula import Formulas
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.newton_euler import Motion, State, motions
+from modeler.derivation.newton_euler import Motion, MotionState, motions
 from modeler.derivation.result import BaseParameter, BaseParameters
 from modeler.formulas.closed_form import (
     fresh_model,
@@ -131,7 +131,7 @@ def _propose_motion(model: SymbolicModel, writer: SheetWriter) -> None:
     speeds = [model.algebra.combined("qd", row) for row in geometry.rows if row.index is not None]
     growth = [model.algebra.combined("qdd", row) for row in geometry.rows if row.index is not None]
     gravity = [model.algebra.static(entry) for entry in geometry.gravity]
-    moved = motions(geometry, model.frames, State(speeds, growth, gravity), model.algebra)
+    moved = motions(geometry, model.frames, MotionState(speeds, growth, gravity), model.algebra)
     for row, motion, chain in zip(geometry.rows, moved, model.carried, strict=True):
         name = row.joint.name
         writer.section(f"motion of link {name}, in frame {name}")

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core.json import nulled
-from modeler.core.latex_display import Equation, display
+from modeler.core.latex_display import DisplayedEquation, display
 from modeler.formulas.closed_form import ClosedForm, Function
 from modeler.formulas.coefficients import Coefficient, CoefficientTable
 from modeler.formulas.function_sheet import sheet_json, sheet_latex, sheet_lines, sheet_markdown
@@ -15,7 +15,7 @@ from modeler.formulas.relations import inverse_map
 from modeler.formulas.text import (
     LATEX,
     TEXT,
-    Style,
+    TextStyle,
     combination_text,
     form_text,
     monomial_text,
@@ -48,11 +48,11 @@ def closed_form_latex(closed: ClosedForm) -> str:
             f"{sign} {_product(coefficient, monomial, LATEX)}"
             for sign, coefficient, monomial in _signed(closed, function, LATEX)
         ]
-        out.append(display([Equation(latex_function(function.name), tuple(lines))]) + "\n")
+        out.append(display([DisplayedEquation(latex_function(function.name), tuple(lines))]) + "\n")
     return "".join(out) + sheet_latex(closed.effects)
 
 
-def _signed(closed: ClosedForm, function: Function, style: Style) -> list[tuple[str, str, str]]:
+def _signed(closed: ClosedForm, function: Function, style: TextStyle) -> list[tuple[str, str, str]]:
     """(sign, coefficient, monomial); sums stand in brackets behind a plus."""
     found = []
     for form, monomial in _terms(closed, function, style):
@@ -64,7 +64,7 @@ def _signed(closed: ClosedForm, function: Function, style: Style) -> list[tuple[
     return found
 
 
-def _product(coefficient: str, monomial: str, style: Style) -> str:
+def _product(coefficient: str, monomial: str, style: TextStyle) -> str:
     return coefficient if monomial == "1" else f"{coefficient}{style.times}{monomial}"
 
 
@@ -106,7 +106,7 @@ def equation(closed: ClosedForm) -> str:
     return f"{EQUATION} + {factor}g_i" + (" + e_i" if closed.effects.definitions else "")
 
 
-def _terms(closed: ClosedForm, function: Function, style: Style) -> list[tuple[str, str]]:
+def _terms(closed: ClosedForm, function: Function, style: TextStyle) -> list[tuple[str, str]]:
     algebra = closed.algebra
     motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
     return [
@@ -121,7 +121,7 @@ def latex_function(name: str) -> str:
 
 
 @dataclass(frozen=True)
-class Line:
+class FormulaLine:
     """One coefficient, printed but not yet laid out."""
 
     name: str
@@ -132,16 +132,16 @@ class Line:
     physical: str
 
 
-def table_lines(table: CoefficientTable, style: Style = TEXT) -> list[Line]:
+def table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list[FormulaLine]:
     """All coefficients as strings, in order."""
     return [_line(table, coefficient, style) for coefficient in table.coefficients]
 
 
-def _line(table: CoefficientTable, coefficient: Coefficient, style: Style) -> Line:
+def _line(table: CoefficientTable, coefficient: Coefficient, style: TextStyle) -> FormulaLine:
     algebra = table.closed.algebra
     motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
     combination = table.relations.combinations[coefficient.name]
-    return Line(
+    return FormulaLine(
         style.name(coefficient.name),
         coefficient.function,
         monomial_text(coefficient.exponents, motion, style),
@@ -183,7 +183,7 @@ def coefficients_markdown(table: CoefficientTable) -> str:
 def coefficients_latex(table: CoefficientTable) -> str:
     """An `align*` of LaTeX: every coefficient, of which monomial in which function it is."""
     equations = [
-        Equation(
+        DisplayedEquation(
             x.name,
             (
                 f"{x.relation if x.relation != x.name else x.physical}"

@@ -17,7 +17,7 @@ from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyElement, PolyRing
 
 from modeler.core.errors import DerivationError
-from modeler.derivation.geometry import Geometry, Row
+from modeler.derivation.geometry import Geometry, GeometryRow
 
 # Which sines, cosines and travels the configuration of a robot is written in.
 #
@@ -37,7 +37,7 @@ own: gear ratios are not worth multiplying out."""
 
 
 @dataclass(frozen=True)
-class Motion:
+class RingMotion:
     """One angle with the places of its sine and cosine, or one travel with its place.
 
     Attributes:
@@ -66,7 +66,7 @@ class Motions:
     """
 
     names: tuple[str, ...]
-    each: tuple[Motion, ...]
+    each: tuple[RingMotion, ...]
     turns: Mapping[int, Mapping[int, int]]
 
     def travel(self, k: int) -> int:
@@ -80,7 +80,7 @@ def motions_of(geometry: Geometry) -> Motions:
     """The motions of all rows, in table order."""
     parts = _parts(geometry)
     names: list[str] = []
-    each: list[Motion] = []
+    each: list[RingMotion] = []
     turns: dict[int, Mapping[int, int]] = {}
     for row in sorted(geometry.rows, key=lambda row: not _is_free(row, geometry)):
         if row.index is None:
@@ -96,7 +96,7 @@ def motions_of(geometry: Geometry) -> Motions:
             whose = row.joint.name
             if free and parts.get(min(form), 1) > 1:
                 whose, form = f"{whose}_{parts[min(form)]}", divided
-            each.append(Motion(whose, len(names), len(names) + 1, None, form))
+            each.append(RingMotion(whose, len(names), len(names) + 1, None, form))
             names += [f"s{whose}", f"c{whose}"]
             found = _in_known(geometry.forms[row.index], each)
             assert found is not None, "an angle is a multiple of itself"
@@ -104,19 +104,19 @@ def motions_of(geometry: Geometry) -> Motions:
     return Motions(tuple(names), tuple(each), turns)
 
 
-def _is_free(row: Row, geometry: Geometry) -> bool:
+def _is_free(row: GeometryRow, geometry: Geometry) -> bool:
     return row.joint.name not in geometry.robot.relations
 
 
 def _add_travels(
-    form: Mapping[int, Fraction], geometry: Geometry, names: list[str], each: list[Motion]
+    form: Mapping[int, Fraction], geometry: Geometry, names: list[str], each: list[RingMotion]
 ) -> None:
     """The free variables themselves, for rows that travel by them."""
     known = [motion.form for motion in each if motion.variable is not None]
     for k in form:
         if {k: Fraction(1)} not in known:
             joint = geometry.robot.free[k].name
-            each.append(Motion(joint, None, None, len(names), {k: Fraction(1)}))
+            each.append(RingMotion(joint, None, None, len(names), {k: Fraction(1)}))
             names.append(f"q{joint}")
 
 
@@ -131,7 +131,7 @@ def _parts(geometry: Geometry) -> dict[int, int]:
     return found
 
 
-def _in_known(form: Mapping[int, Fraction], each: list[Motion]) -> dict[int, int] | None:
+def _in_known(form: Mapping[int, Fraction], each: list[RingMotion]) -> dict[int, int] | None:
     """The angle as whole multiples of known motions; None if it is none, or too many."""
     for place, motion in enumerate(each):
         if motion.sine is not None and motion.form == form:
@@ -204,7 +204,7 @@ class TrigRing:
         """
         return self.normal(_polynomial(sympy.expand_trig(value), self.ring, self._place))
 
-    def variable(self, row: Row) -> Poly:
+    def variable(self, row: GeometryRow) -> Poly:
         """Rate * q + offset of a prismatic joint."""
         assert row.index is not None
         total = self.static(row.r)
@@ -213,7 +213,7 @@ class TrigRing:
             total = total + self.ring.gens[self._found.travel(k)] * factor
         return total
 
-    def cos_sin(self, row: Row) -> tuple[Poly, Poly]:
+    def cos_sin(self, row: GeometryRow) -> tuple[Poly, Poly]:
         """Cosine and sine of theta = rate * q + offset, by the addition theorem."""
         c, s = self.static(sympy.cos(row.theta)), self.static(sympy.sin(row.theta))
         if row.index is None or not row.joint.angular:
@@ -250,7 +250,7 @@ class TrigRing:
                 )
         return total
 
-    def _slope(self, poly: Poly, motion: Motion) -> Poly:
+    def _slope(self, poly: Poly, motion: RingMotion) -> Poly:
         """The derivative by the angle or travel of one motion."""
         if motion.variable is not None:
             return poly.diff(self.ring.gens[motion.variable])

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.formulas.physical_system import PhysicalSystem
-from modeler.formulas.values import Numbers
+from modeler.formulas.values import SolvedNumbers
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ def rated(
     for name, value in (*system.constants.items(), *values.items()):
         if name in system.place:
             point[system.place[name]] = value
-    polys = [Numbers(system.definitions[d]) for d in system.data]
+    polys = [SolvedNumbers(system.definitions[d]) for d in system.data]
     J = np.array([poly.slopes(point) for poly in polys])
     data = np.array([poly.value(point) for poly in polys])
     found = []

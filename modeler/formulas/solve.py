@@ -12,20 +12,20 @@ from typing import Any, Literal
 
 from modeler.core.errors import ModelerError
 from modeler.core.formula import latex_name, latex_text
-from modeler.core.latex_display import Equation, display
+from modeler.core.latex_display import DisplayedEquation, display
 from modeler.formulas.identifiability import SEED, value_modulo
 from modeler.formulas.physical_system import PhysicalSystem
 from modeler.formulas.relations import independent_modulo
 from modeler.formulas.ring import Poly
 from modeler.formulas.sufficient_sets import EASE
-from modeler.formulas.text import LATEX, TEXT, Style, physical_text, polynomial_text
+from modeler.formulas.text import LATEX, TEXT, TextStyle, physical_text, polynomial_text
 
 _EASY = ("mass", "length", "centre", "inertia", "rotor inertia")
 _LARGEST = 400  # terms of a polynomial that is worth factoring
 
 
 @dataclass(frozen=True)
-class Step:
+class SolvingStep:
     """One parameter that follows.
 
     Attributes:
@@ -60,7 +60,7 @@ class ClosedSolution:
 
     system: PhysicalSystem
     known: tuple[str, ...]
-    steps: tuple[Step, ...]
+    steps: tuple[SolvingStep, ...]
     undetermined: tuple[str, ...]
     without_formula: tuple[str, ...]
     missing: int
@@ -136,9 +136,9 @@ class _Elimination:
         self.equations = self.defined
         self.open, self.wanted = set(unknown), set(follow)
 
-    def run(self) -> list[Step]:
+    def run(self) -> list[SolvingStep]:
         """The steps, in order."""
-        steps: list[Step] = []
+        steps: list[SolvingStep] = []
         while self.wanted:
             step = self._direct(self.wanted) or self._from_several()
             if step is None:
@@ -148,7 +148,7 @@ class _Elimination:
             self.wanted.discard(step.letter)
         return steps
 
-    def _from_several(self) -> Step | None:
+    def _from_several(self) -> SolvingStep | None:
         """The unknown that the fewest equations tell, by elimination in these."""
         unsolved = set(self.open)
         for letter, needed in self._needed():
@@ -203,7 +203,7 @@ class _Elimination:
         """Is it zero for every robot, as far as a consistent random point tells?"""
         return value_modulo(poly, self.point, self.prime) == 0
 
-    def _direct(self, wanted: set[str]) -> Step | None:
+    def _direct(self, wanted: set[str]) -> SolvingStep | None:
         """A quotient for an unknown that stands alone in an equation, the shortest first."""
         for poly in sorted(self.equations, key=len):
             letters = self._unknowns(poly)
@@ -213,16 +213,16 @@ class _Elimination:
                     return step
         return None
 
-    def _root(self, letter: str) -> Step | None:
+    def _root(self, letter: str) -> SolvingStep | None:
         """A polynomial of the one unknown, of the lowest degree."""
         alone = [p for p in self.equations if self._unknowns(p) == {letter}]
         if not alone:
             return None
         ring = self.system.ring
         best = min(alone, key=lambda p: (_degree(p, self.place[letter]), len(p)))
-        return Step(letter, ring.zero, ring.one, best)
+        return SolvingStep(letter, ring.zero, ring.one, best)
 
-    def _quotient(self, poly: Poly, letter: str) -> Step | None:
+    def _quotient(self, poly: Poly, letter: str) -> SolvingStep | None:
         """The letter from a linear equation; None if it is not linear or tells nothing."""
         place = self.place[letter]
         if _degree(poly, place) != 1:
@@ -231,7 +231,7 @@ class _Elimination:
         if self._zero(slope):
             return None
         numerator, denominator = _reduced(-rest, slope)
-        return Step(letter, numerator, denominator)
+        return SolvingStep(letter, numerator, denominator)
 
     def _eliminate(self, wanted: str) -> bool:
         """Take an unknown out of all equations but one, where that is linear in it."""
@@ -264,7 +264,7 @@ class _Elimination:
             len(poly),
         )
 
-    def _without(self, poly: Poly, step: Step) -> Poly:
+    def _without(self, poly: Poly, step: SolvingStep) -> Poly:
         """The equation with the step put in, and only its factor that is zero."""
         place = self.place[step.letter]
         top = _degree(poly, place)
@@ -321,7 +321,7 @@ SolutionForm = Literal["text", "latex", "python"]
 """How formulas are printed."""
 
 
-def formula(step: Step, system: PhysicalSystem, style: Style = TEXT) -> str:
+def formula(step: SolvingStep, system: PhysicalSystem, style: TextStyle = TEXT) -> str:
     """The right side of a step's formula; the polynomial that is zero where there is none."""
     if step.equation is not None:
         return _by_powers(step, system, style)
@@ -343,7 +343,7 @@ def _bracketed(text: str, factors: bool = False) -> str:
     return f"({text})"
 
 
-def _by_powers(step: Step, system: PhysicalSystem, style: Style) -> str:
+def _by_powers(step: SolvingStep, system: PhysicalSystem, style: TextStyle) -> str:
     """A polynomial in one letter, highest power first."""
     assert step.equation is not None
     at = system.place[step.letter]
@@ -380,12 +380,12 @@ def _text(solution: ClosedSolution) -> list[str]:
 def _latex(solution: ClosedSolution) -> list[str]:
     system = solution.system
     rows = [
-        Equation(latex_name(name), (_latex_quotient(name, text, system),))
+        DisplayedEquation(latex_name(name), (_latex_quotient(name, text, system),))
         for name, text in system.abbreviations.items()
     ]
     for step in solution.steps:
         left = latex_name(step.letter) if step.equation is None else "0"
-        rows.append(Equation(left, (formula(step, system, LATEX),)))
+        rows.append(DisplayedEquation(left, (formula(step, system, LATEX),)))
     lines = display(rows).splitlines() if rows else []
     return [r"\begingroup\allowdisplaybreaks", *lines, r"\endgroup"]
 
@@ -430,7 +430,7 @@ def _python(solution: ClosedSolution) -> list[str]:
     return [*head, "", "", *lines] if head else lines
 
 
-def _python_roots(step: Step, system: PhysicalSystem) -> str:
+def _python_roots(step: SolvingStep, system: PhysicalSystem) -> str:
     assert step.equation is not None
     at = system.place[step.letter]
     top = max(exponents[at] for exponents in step.equation)

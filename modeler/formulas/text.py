@@ -11,7 +11,7 @@ from modeler.formulas.ring import Poly
 
 
 @dataclass(frozen=True)
-class Style:
+class TextStyle:
     """How signs of operation look.
 
     Attributes:
@@ -45,8 +45,8 @@ class Style:
         return str(value)
 
 
-TEXT = Style("*", False)
-LATEX = Style(r"\,", True)
+TEXT = TextStyle("*", False)
+LATEX = TextStyle(r"\,", True)
 
 
 def latex_letter(name: str) -> str:
@@ -57,13 +57,13 @@ def latex_letter(name: str) -> str:
     return r"\pi" if name == "pi" else latex_name(name)
 
 
-def monomial_text(exponents: Sequence[int], names: Sequence[str], style: Style = TEXT) -> str:
+def monomial_text(exponents: Sequence[int], names: Sequence[str], style: TextStyle = TEXT) -> str:
     """The monomial, as "c2*s1**2"; cosines before sines, "1" for the empty product."""
     factors = [(name, e) for name, e in zip(names, exponents, strict=True) if e]
     return style.times.join(style.power(name, e) for name, e in sorted(factors)) or "1"
 
 
-def polynomial_text(poly: Poly, names: Sequence[str], style: Style = TEXT) -> str:
+def polynomial_text(poly: Poly, names: Sequence[str], style: TextStyle = TEXT) -> str:
     """A polynomial, highest monomial first; "0" if it has none."""
     return signed_sum(
         ((as_fraction(value), _plain(at, names, style)) for at, value in poly.terms()), style
@@ -71,7 +71,7 @@ def polynomial_text(poly: Poly, names: Sequence[str], style: Style = TEXT) -> st
 
 
 def form_text(form: Mapping[int, Poly], parameters: Sequence[str], names: Sequence[str],
-              style: Style = TEXT) -> str:  # fmt: skip
+              style: TextStyle = TEXT) -> str:  # fmt: skip
     """A linear form of parameters, e.g. "2*XZ3 - 2*bl1*MX3"."""
     terms: list[tuple[Fraction, str]] = []
     for column, factor in form.items():
@@ -87,7 +87,7 @@ def form_text(form: Mapping[int, Poly], parameters: Sequence[str], names: Sequen
 
 
 def physical_text(poly: Poly, names: Sequence[str], masses: Iterable[str],
-                  style: Style = TEXT) -> str:  # fmt: skip
+                  style: TextStyle = TEXT) -> str:  # fmt: skip
     """A polynomial of physical parameters with each mass in front of its own bracket."""
     wanted = [i for i, name in enumerate(names) if name in set(masses)]
     loose: dict[tuple[int, ...], Any] = {}
@@ -115,12 +115,12 @@ def physical_text(poly: Poly, names: Sequence[str], masses: Iterable[str],
     return signed_sum(terms, style)
 
 
-def combination_text(combination: Mapping[str, Fraction], style: Style = TEXT) -> str:
+def combination_text(combination: Mapping[str, Fraction], style: TextStyle = TEXT) -> str:
     """A combination of named coefficients: "2*PJ1 + 2*PJ3", "-PJ5/2"."""
     return signed_sum(((value, style.name(name)) for name, value in combination.items()), style)
 
 
-def signed_sum(terms: Iterable[tuple[Fraction, str]], style: Style = TEXT) -> str:
+def signed_sum(terms: Iterable[tuple[Fraction, str]], style: TextStyle = TEXT) -> str:
     """Sum of number * text with the signs pulled out; an empty text is 1."""
     out = ""
     for value, text in terms:
@@ -147,7 +147,7 @@ def as_fraction(value: Any) -> Fraction:
     return Fraction(int(value.numerator), int(value.denominator))
 
 
-def _plain(at: Sequence[int], names: Sequence[str], style: Style) -> str:
+def _plain(at: Sequence[int], names: Sequence[str], style: TextStyle) -> str:
     """The monomial in the order of its generators; empty for 1."""
     return style.times.join(style.power(name, e) for name, e in zip(names, at, strict=True) if e)
 

@@ -18,7 +18,7 @@ from modeler.formulas.identifiability import SEED, value_modulo
 from modeler.formulas.physical_system import PhysicalSystem
 from modeler.formulas.printed import read_print
 from modeler.formulas.ring import Poly
-from modeler.formulas.solve import ClosedSolution, Step
+from modeler.formulas.solve import ClosedSolution, SolvingStep
 from modeler.robot.robot import Robot, near
 
 _REAL = 1e-6  # imaginary parts below this share of a root are rounding
@@ -27,7 +27,7 @@ VERIFIED = 20
 
 
 @dataclass(frozen=True, eq=False)
-class Derived:
+class DerivedValue:
     """Physical parameters with values.
 
     Attributes:
@@ -89,7 +89,7 @@ def random_rationals(system: PhysicalSystem, chance: random.Random) -> dict[str,
     return values
 
 
-def _holds(step: Step, point: Sequence[Any], system: PhysicalSystem) -> bool:
+def _holds(step: SolvingStep, point: Sequence[Any], system: PhysicalSystem) -> bool:
     if step.equation is not None:
         return bool(poly_value(step.equation, point) == 0)
     down = poly_value(step.denominator, point)
@@ -97,7 +97,7 @@ def _holds(step: Step, point: Sequence[Any], system: PhysicalSystem) -> bool:
     return bool(down != 0 and poly_value(step.numerator, point) == truth * down)
 
 
-def _holds_modulo(step: Step, point: list[int], prime: int, system: PhysicalSystem) -> bool:
+def _holds_modulo(step: SolvingStep, point: list[int], prime: int, system: PhysicalSystem) -> bool:
     if step.equation is not None:
         return value_modulo(step.equation, point, prime) == 0
     down = value_modulo(step.denominator, point, prime)
@@ -105,7 +105,7 @@ def _holds_modulo(step: Step, point: list[int], prime: int, system: PhysicalSyst
     return down != 0 and (up - down * point[system.place[step.letter]]) % prime == 0
 
 
-class Numbers:
+class SolvedNumbers:
     """Polynomials of a system as arrays: values and slopes quickly."""
 
     def __init__(self, poly: Poly) -> None:
@@ -135,7 +135,7 @@ def derive_values(
     known: Mapping[str, float],
     sigmas: Mapping[str, float] | None = None,
     near: Mapping[str, float] | None = None,
-) -> Derived:
+) -> DerivedValue:
     """The parameters that follow, with sigma.
 
     x = g(data, known); var x = G_d C G_d' + sum (G_k sigma_k)^2, G = dg along the steps.
@@ -167,10 +167,12 @@ def derive_values(
     shares = np.divide(
         parts, variance[:, None], out=np.zeros_like(parts), where=variance[:, None] > 0
     )
-    return Derived(solution.follows, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful)
+    return DerivedValue(
+        solution.follows, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful
+    )
 
 
-def impossible(derived: Derived, system: PhysicalSystem) -> dict[str, str]:
+def impossible(derived: DerivedValue, system: PhysicalSystem) -> dict[str, str]:
     """Why a value is that of no body: a mass that is not above 0, a moment of inertia below it.
 
     A moment may be 0; it is told if it is below by more than 3 sigma.
@@ -206,19 +208,19 @@ def _start(
 
 
 def _advance(
-    step: Step, solution: ClosedSolution, point: np.ndarray, gradient: np.ndarray, C: np.ndarray,
-    doubtful: dict[str, str], near: Mapping[str, float],
+    step: SolvingStep, solution: ClosedSolution, point: np.ndarray, gradient: np.ndarray,
+    C: np.ndarray, doubtful: dict[str, str], near: Mapping[str, float],
 ) -> None:  # fmt: skip
     """One step more: value and slopes of its letter."""
     system = solution.system
     at = system.place[step.letter]
     if step.equation is not None:
         point[at] = _one_root(step, system, point, near)
-        slopes = Numbers(step.equation).slopes(point)
+        slopes = SolvedNumbers(step.equation).slopes(point)
         own, slopes[at] = slopes[at], 0.0
         gradient[at] = -(slopes @ gradient) / own
         return
-    up, down = Numbers(step.numerator), Numbers(step.denominator)
+    up, down = SolvedNumbers(step.numerator), SolvedNumbers(step.denominator)
     bottom = down.value(point)
     if bottom == 0.0:
         raise DataError(
@@ -237,7 +239,7 @@ def _advance(
     gradient[at] = slopes @ gradient
 
 
-def roots(step: Step, system: PhysicalSystem, point: np.ndarray) -> list[float]:
+def roots(step: SolvingStep, system: PhysicalSystem, point: np.ndarray) -> list[float]:
     """The real roots of a step's equation at a point; only positive ones for a mass."""
     assert step.equation is not None
     at = system.place[step.letter]
@@ -255,7 +257,7 @@ def roots(step: Step, system: PhysicalSystem, point: np.ndarray) -> list[float]:
 
 
 def _one_root(
-    step: Step, system: PhysicalSystem, point: np.ndarray, near: Mapping[str, float]
+    step: SolvingStep, system: PhysicalSystem, point: np.ndarray, near: Mapping[str, float]
 ) -> float:
     found = roots(step, system, point)
     if found and step.letter in near:

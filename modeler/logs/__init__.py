@@ -3,4 +3,4 @@
 from modeler.logs.mapping import LogMap as LogMap
 from modeler.logs.mapping import map_from_table as map_from_table
 from modeler.logs.mapping import map_from_words as map_from_words
-from modeler.logs.table import Table as Table
+from modeler.logs.table import LogTable as LogTable

@@ -44,7 +44,7 @@ class Held:
         return tuple(self.data.shape[::-1] if self.flipped else self.data.shape)
 
 
-class _Reader:
+class _MatReader:
     """Reads the arrays of one file; keeps the last, whose columns come one after the other."""
 
     def __init__(self, path: Path, what: str) -> None:
@@ -62,7 +62,7 @@ class _Reader:
 class _Slice:
     """One column of an array."""
 
-    reader: _Reader
+    reader: _MatReader
     held: Held
     place: int
     across: bool  # rows of the array are the columns
@@ -99,7 +99,7 @@ def columns_of(
             f"{path}: no array of {LEAST_ROWS} rows or more; expected the samples of a motion as "
             f"arrays (n,) or (n, joints); it holds {_listed([_told(a) for a in arrays])}"
         )
-    reader, found = _Reader(path, what), list[tuple[str, Column]]()
+    reader, found = _MatReader(path, what), list[tuple[str, Column]]()
     units, left = dict[str, str](), list[str]()
     for held in arrays:
         slices = _slices(reader, held, rows)
@@ -138,7 +138,7 @@ def _rows(arrays: Sequence[Held]) -> int | None:
     return max(counts, key=lambda n: (counts[n], n), default=None)
 
 
-def _slices(reader: _Reader, held: Held, rows: int) -> list[tuple[str, Column]]:
+def _slices(reader: _MatReader, held: Held, rows: int) -> list[tuple[str, Column]]:
     shape = held.shape
     if shape in ((rows,), (rows, 1), (1, rows)):
         return [(held.name, _Slice(reader, held, 0, shape == (1, rows)))]
@@ -154,11 +154,11 @@ def with_fields(name: str, data: Any, **more: Any) -> list[Held]:
     if data.dtype.names is None:
         return [Held(name, data, **more)]
     head = f"{name}." if name else ""
-    return [Held(f"{head}{field}", _Field(data, field), **more) for field in data.dtype.names]
+    return [Held(f"{head}{field}", _MatField(data, field), **more) for field in data.dtype.names]
 
 
 @dataclass(frozen=True, eq=False)
-class _Field:
+class _MatField:
     """One field of an array of records, which may be on disk still."""
 
     data: Any

@@ -16,7 +16,15 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.files import check_unpacked
-from modeler.logs.columns import Column, Columns, Stream, Values, Wanted, missing_package, reading
+from modeler.logs.columns import (
+    Column,
+    Columns,
+    ColumnValues,
+    Stream,
+    Wanted,
+    missing_package,
+    reading,
+)
 
 LONGEST = 64
 """Entries of an array that become columns; longer ones are images and the like."""
@@ -85,7 +93,7 @@ class Recording:
         parts = sorted(self._parts.values(), key=lambda part: -len(part.stamps))
         clock = _clock(path, parts, wanted)
         start, stamps = clock.stamps[0], np.array(clock.stamps, dtype=np.int64)
-        found: dict[str, Column] = {"time": Values((stamps - start) / 1e9)}
+        found: dict[str, Column] = {"time": ColumnValues((stamps - start) / 1e9)}
         notes = [
             f"rows are the messages of {clock.topic}, time from the first, by "
             + ("their headers" if clock.stamped else "when they were received")
@@ -100,7 +108,7 @@ class Recording:
                 )
             for k, label in enumerate(part.labels):
                 name = f"{part.topic.strip('/')}.{label}"
-                found.setdefault(name, Values(table[:, k]))
+                found.setdefault(name, ColumnValues(table[:, k]))
         if self.unreadable:
             notes.append(f"{', '.join(self.unreadable)} left out: messages of unknown types")
         streams = [Stream(p.topic, p.kind, len(p.stamps), p is clock) for p in parts]

@@ -15,7 +15,7 @@ import pyarrow.parquet
 
 from modeler.core.errors import DataError
 from modeler.core.files import check_unpacked
-from modeler.logs.columns import Columns, NotNumbers, Values, Wanted, unreadable
+from modeler.logs.columns import Columns, ColumnValues, NotNumbers, Wanted, unreadable
 
 _UNEVEN = re.compile(r"Row #(\d+): Expected (\d+) columns, got (\d+): (.*)", re.DOTALL)
 """What Arrow says of a row; it counts the header."""
@@ -359,7 +359,7 @@ def windows_of(blocks: Blocks, count: int, size: int) -> Columns:
     """Windows spread over a file, one after the other; columns that hold numbers in all of them."""
     found = [dict(blocks.window((k + 0.5) / count, size).columns) for k in range(count)]
     values = tuple(
-        (name, Values(np.concatenate([own[name].numbers() for own in found])))
+        (name, ColumnValues(np.concatenate([own[name].numbers() for own in found])))
         for name in found[0]
         if all(own[name].numeric for own in found)
     )

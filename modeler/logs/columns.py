@@ -86,7 +86,7 @@ class Wanted:
 
 
 @dataclass(frozen=True, eq=False)
-class Values:
+class ColumnValues:
     """A column that is in memory already."""
 
     values: np.ndarray

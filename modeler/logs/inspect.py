@@ -15,7 +15,7 @@ from modeler.logs.columns import Stream
 from modeler.logs.guess import Guess, absent_roles, guesses, log_text, unlike_si
 from modeler.logs.mapping import LogMap, unit_named
 from modeler.logs.rates import moves, rate_doubts
-from modeler.logs.table import Table
+from modeler.logs.table import LogTable
 
 _GAP = 1.5  # of the median step
 _HELD = 3  # rows in a row at the extreme value that make it a limit
@@ -133,11 +133,11 @@ class Look(Presented):
 
 
 def look(
-    table: Table,
+    table: LogTable,
     mapping: LogMap,
     joints: Sequence[JointSpec] = (),
     span: tuple[float | None, float | None] = (None, None),
-    every: Iterable[Table] | None = None,
+    every: Iterable[LogTable] | None = None,
 ) -> Look:
     """What is in a log.
 
@@ -204,14 +204,14 @@ def _dead(
     ]
 
 
-def _numbers(block: Table, names: Iterable[str]) -> dict[str, np.ndarray]:
+def _numbers(block: LogTable, names: Iterable[str]) -> dict[str, np.ndarray]:
     """Columns of a block; one that turns out to hold text has no values there."""
     none = np.full(block.rows, np.nan)
     return {name: block.measured(name) if block.is_numeric(name) else none for name in names}
 
 
 def _within(
-    table: Table, found: Sequence[Guess], blocks: Iterable[dict[str, np.ndarray]],
+    table: LogTable, found: Sequence[Guess], blocks: Iterable[dict[str, np.ndarray]],
     span: tuple[float | None, float | None],
 ) -> dict[str, np.ndarray]:  # fmt: skip
     """The rows of a span of time."""
@@ -251,7 +251,7 @@ Drawn = tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]
 
 
 def _all_rows(
-    table: Table, blocks: Iterable[dict[str, np.ndarray]], found: Sequence[Guess],
+    table: LogTable, blocks: Iterable[dict[str, np.ndarray]], found: Sequence[Guess],
     seen: Clock | None, whole: bool,
 ) -> tuple[int, Clock | None, dict[str, list[_Extent]], Drawn]:  # fmt: skip
     """Rows, clock, extents by channel, and what is drawn; `seen`: of the windows of a long log."""
@@ -309,7 +309,7 @@ def _clock_over(seen: Clock, clocks: Sequence[Clock], time: np.ndarray) -> Clock
 
 
 def _clock(
-    table: Table, values: Mapping[str, np.ndarray], found: Sequence[Guess],
+    table: LogTable, values: Mapping[str, np.ndarray], found: Sequence[Guess],
     seen: Clock | None = None,
 ) -> tuple[np.ndarray, Clock | None]:  # fmt: skip
     """Times of rows, and their clock, by the usual step of `seen` or their own."""
@@ -354,7 +354,12 @@ def _tick(steps: np.ndarray, step: float) -> float:
 
 
 def _channel(
-    table: Table, name: str, values: np.ndarray, guessed: str, parts: Sequence[_Extent], rows: int
+    table: LogTable,
+    name: str,
+    values: np.ndarray,
+    guessed: str,
+    parts: Sequence[_Extent],
+    rows: int,
 ) -> Channel:
     """Of values in windows, and extents of all rows."""
     stated, missing = table.unit(name), sum(own.missing for own in parts)

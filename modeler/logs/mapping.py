@@ -238,7 +238,7 @@ JOINT = "<j>"
 
 
 @dataclass(frozen=True)
-class Entry:
+class MappedColumn:
     """A column of ours from one of the file: value [unit] = sign * scale * number + offset.
 
     Attributes:
@@ -258,12 +258,12 @@ class Entry:
     where: str = ""
     strict: bool = False
 
-    def like(self, other: "Entry") -> bool:
+    def like(self, other: "MappedColumn") -> bool:
         """True if the same number means the same to both."""
         kept = ("unit", "sign", "scale", "offset")
         return all(getattr(self, name) == getattr(other, name) for name in kept)
 
-    def of(self, joint: str, place: int, name: str) -> "Entry":
+    def of(self, joint: str, place: int, name: str) -> "MappedColumn":
         """The entry of a pattern for one joint."""
         tokens = {"{j}": joint, "{n}": f"{place + 1}", "{n-1}": f"{place}", "{name}": name}
         written = []
@@ -285,7 +285,7 @@ class LogMap:
         rate: Hz, of a log without a time column.
     """
 
-    layers: tuple[Mapping[str, Entry], ...] = ()
+    layers: tuple[Mapping[str, MappedColumn], ...] = ()
     names: Mapping[str, str] = field(default_factory=lambda: _NONE)
     topic: str = ""
     rate: float | None = None
@@ -299,9 +299,9 @@ class LogMap:
             self.rate or other.rate,
         )
 
-    def entries(self, joints: Sequence[JointSpec]) -> dict[str, Entry]:
+    def entries(self, joints: Sequence[JointSpec]) -> dict[str, MappedColumn]:
         """Our name -> entry, for the joints of a robot; an entry of its own beats a pattern."""
-        found: dict[str, Entry] = {}
+        found: dict[str, MappedColumn] = {}
         for layer in self.layers:
             for key in sorted(layer, key=lambda key: JOINT not in key):
                 if JOINT not in key:
@@ -405,7 +405,7 @@ def _of_file(path: Path) -> LogMap:
     return map_from_table(document.get("log", document), f"{path}: [log]", strict=True)
 
 
-def _entry(value: Any, where: str, key: str) -> Entry:
+def _entry(value: Any, where: str, key: str) -> MappedColumn:
     if key.count(JOINT) > 1 or not key.strip():
         raise DataError(f"{where}: expected a name such as q2, or a pattern such as q{JOINT}")
     table = {"column": value} if isinstance(value, str) else value
@@ -429,7 +429,7 @@ def _entry(value: Any, where: str, key: str) -> Entry:
         raise DataError(f"{where}: sign is {sign:g}; expected 1 or -1; a factor is called scale")
     if scale == 0.0:
         raise DataError(f"{where}: scale is 0; expected what the number is multiplied by")
-    return Entry(columns, _stated_unit(unit, where), sign, scale, offset, where)
+    return MappedColumn(columns, _stated_unit(unit, where), sign, scale, offset, where)
 
 
 def _bracket(column: str) -> tuple[tuple[str, ...], str | None]:

@@ -10,7 +10,7 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.logs.arrays import LEAST_ROWS
 from modeler.logs.columns import Column, Columns, NotNumbers, Wanted
-from modeler.logs.mapping import Entry, LogMap, Unit, find_unit, near, si_unit
+from modeler.logs.mapping import LogMap, MappedColumn, Unit, find_unit, near, si_unit
 from modeler.logs.readers import read_columns
 
 _TINY, _HUGE = 1e-100, 1e100  # in any unit; squares of what is beyond are no numbers any more
@@ -31,7 +31,7 @@ class Part:
     before: int = 0
 
 
-class Table:
+class LogTable:
     """The columns of one log by our names; numbers are converted when they are asked for.
 
     Attributes:
@@ -124,7 +124,7 @@ class Table:
         stated = entry.unit if entry is not None and own in self._taken else None
         if stated is None and (text := self.found.units.get(column)):
             stated = find_unit(text)
-            entry = Entry((), where=f"{self.path}: column {column}")
+            entry = MappedColumn((), where=f"{self.path}: column {column}")
         where = entry.where if entry is not None else ""
         return None if stated is None else si_unit(own, where or own, stated, self._joints)
 

@@ -195,7 +195,7 @@ def compress(
 
 
 @dataclass(frozen=True, eq=False)
-class Reduced(Brief):
+class ReducedRows(Brief):
     """As many rows as there are columns, with the same squares and products; J joints.
 
     Attributes:
@@ -221,7 +221,7 @@ class Reduction(Brief):
     Q: tuple[np.ndarray, ...]
     R: tuple[np.ndarray, ...]
 
-    def beside(self, extra: Sequence[Sequence[np.ndarray | None]]) -> Reduced:
+    def beside(self, extra: Sequence[Sequence[np.ndarray | None]]) -> ReducedRows:
         """The rows with further columns, (rows_j, k) each by joint; None where they are zero."""
         sizes = [next(c.shape[1] for c in columns if c is not None) for columns in extra]
         W, y = [], []
@@ -232,7 +232,7 @@ class Reduction(Brief):
             whole = np.hstack([np.vstack([R, below]), more])
             W.append(np.delete(whole, R.shape[1] - 1, axis=1))
             y.append(whole[:, R.shape[1] - 1])
-        return Reduced(tuple(W), tuple(y), np.array([len(Q) for Q in self.Q]))
+        return ReducedRows(tuple(W), tuple(y), np.array([len(Q) for Q in self.Q]))
 
 
 def reduction(W: Sequence[np.ndarray], y: Sequence[np.ndarray]) -> Reduction:

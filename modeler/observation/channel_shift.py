@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.observation.channels import SCALE, WRONG, Fault, turns
 from modeler.observation.observation import Observation
-from modeler.observation.thinned import Rows, thinned
+from modeler.observation.thinned import ThinnedRows, thinned
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel
@@ -138,7 +138,7 @@ def _left(X: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def _changes(
-    compiled: "CompiledModel", observation: Observation, rows: Rows, joints: list[int]
+    compiled: "CompiledModel", observation: Observation, rows: ThinnedRows, joints: list[int]
 ) -> list[_Change]:
     """What each change of the channels leaves; only those that describe every joint."""
     found = [*_torques(observation, rows, joints)]
@@ -155,7 +155,7 @@ def _change(line: str, errors: list[float]) -> _Change:
     return _Change(line, float(np.linalg.norm(errors)), max(errors))
 
 
-def _torques(observation: Observation, rows: Rows, joints: list[int]) -> Iterator[_Change]:
+def _torques(observation: Observation, rows: ThinnedRows, joints: list[int]) -> Iterator[_Change]:
     names = [joint.name for joint in observation.joints]
     for j in joints if len(joints) > 1 else ():
         gain = _gain(rows.W, rows.tau, rows.used, joints, j)
@@ -182,7 +182,7 @@ def _torques(observation: Observation, rows: Rows, joints: list[int]) -> Iterato
 
 
 def _driven(
-    compiled: "CompiledModel", observation: Observation, rows: Rows, beta: np.ndarray,
+    compiled: "CompiledModel", observation: Observation, rows: ThinnedRows, beta: np.ndarray,
     errors: dict[int, float],
 ) -> tuple[Fault, ...]:  # fmt: skip
     """Joints whose friction, as it was fitted, gives energy, or whose inertia pushes back.
@@ -226,7 +226,7 @@ def _own_friction(compiled: "CompiledModel", joint: str) -> list[int]:
     ]  # fmt: skip
 
 
-def _pushes_back(compiled: "CompiledModel", rows: Rows, beta: np.ndarray, j: int) -> float:
+def _pushes_back(compiled: "CompiledModel", rows: ThinnedRows, beta: np.ndarray, j: int) -> float:
     """Share of the torque that the inertia M_jj makes, if it is negative wherever the joint was.
 
     M_jj qdd_j is the torque at rest with that acceleration less the torque at rest. 0 if M_jj is

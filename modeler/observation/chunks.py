@@ -10,7 +10,7 @@ from modeler.numerics.filters import filter_at
 from modeler.observation.chunk import Chunk
 from modeler.observation.consistency import Consistency, Contradiction, consistency
 from modeler.observation.log import FINGER, Log, finger
-from modeler.observation.low_speed import IDLE_TRAVEL, TOP, Shaft, moving
+from modeler.observation.low_speed import IDLE_TRAVEL, TOP, FrictionShaft, moving
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.outliers import Defects, Usual, defects
 from modeler.observation.prepare import believed, check_size, closed
@@ -45,7 +45,7 @@ class Chosen:
     logged: bool
     usual: Usual
     extremes: tuple[tuple[float, float], ...]
-    shafts: tuple[Shaft, ...]
+    shafts: tuple[FrictionShaft, ...]
     step: float
     own: int
     beside: int

@@ -10,7 +10,7 @@ import numpy as np
 from modeler.observation.channel_shift import faults_of_fit
 from modeler.observation.channels import Fault, faults
 from modeler.observation.observation import Observation
-from modeler.observation.thinned import Rows, thinned
+from modeler.observation.thinned import ThinnedRows, thinned
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel
@@ -107,7 +107,7 @@ def late_channels(compiled: "CompiledModel", observation: Observation) -> tuple[
 
 
 def _channels(
-    compiled: "CompiledModel", observation: Observation, rows: Rows, joints: Sequence[int]
+    compiled: "CompiledModel", observation: Observation, rows: ThinnedRows, joints: Sequence[int]
 ) -> list[tuple[str, str, float, Columns]]:
     """What may be late, what would then be early, the sign of its lateness, and its columns."""
     n = rows.tau.shape[1]
@@ -143,7 +143,7 @@ def _channels(
 class _Fit:
     """Fits in which every joint weighs the same."""
 
-    def __init__(self, rows: Rows, joints: Sequence[int], observation: Observation) -> None:
+    def __init__(self, rows: ThinnedRows, joints: Sequence[int], observation: Observation) -> None:
         self._rows, self._joints = rows, joints
         self._sizes = {
             j: max(float(np.linalg.norm(rows.tau[rows.used[:, j], j])), 1e-300) for j in joints

@@ -16,7 +16,7 @@ _NONE: Mapping = MappingProxyType({})
 _FINE = 1e-7  # of a step; over the rows of a block, less than a row
 
 
-class Rows(Protocol):
+class LogRows(Protocol):
     """Rows of a file: a log, or what is kept of it."""
 
     @property
@@ -146,7 +146,7 @@ def _digest(measurements: Sequence[np.ndarray]) -> bytes:
     return content.digest()
 
 
-def shared_rows(log: Rows, content: str, start: float, end: float) -> bool:
+def shared_rows(log: LogRows, content: str, start: float, end: float) -> bool:
     """True if `log` holds rows of the file with that fingerprint from `start` to `end`, s."""
     same = log.content != "" and log.content == content
     return same and log.span[0] <= end and start <= log.span[1]
@@ -156,7 +156,7 @@ def shared_rows(log: Rows, content: str, start: float, end: float) -> bool:
 
 
 def check_apart(
-    logs: Sequence[Rows], holdout: Sequence[Rows] = (), places: Sequence[str] = ()
+    logs: Sequence[LogRows], holdout: Sequence[LogRows] = (), places: Sequence[str] = ()
 ) -> None:
     """Refuse rows that are given twice, and held-out rows that are also explained.
 
@@ -187,5 +187,5 @@ def check_apart(
                 )
 
 
-def _shared(log: Rows, other: Rows) -> bool:
+def _shared(log: LogRows, other: LogRows) -> bool:
     return shared_rows(log, other.content, *other.span)

@@ -22,7 +22,7 @@ IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as
 
 
 @dataclass(frozen=True)
-class Shaft:
+class FrictionShaft:
     """A rotating part whose friction leaps when its speed changes sign.
 
     Attributes:
@@ -42,7 +42,7 @@ class Shaft:
         return qd @ np.asarray(self.coefficients)
 
 
-def shafts(model: "CompiledModel") -> tuple[Shaft, ...]:
+def shafts(model: "CompiledModel") -> tuple[FrictionShaft, ...]:
     """The shafts whose columns leap at standstill, found by creeping both ways past it.
 
     Each base column's leap is measured while one joint after the other creeps forwards and
@@ -57,7 +57,7 @@ def shafts(model: "CompiledModel") -> tuple[Shaft, ...]:
     forwards = model.base_regressor(state, creep, still, signals)
     backwards = model.base_regressor(state, -creep, still, signals)
     leap = 0.5 * (forwards - backwards)  # (moved, row, column)
-    found: dict[tuple[float, ...], Shaft] = {}
+    found: dict[tuple[float, ...], FrictionShaft] = {}
     scale = np.max(np.abs(leap), axis=(0, 1))
     for column in np.flatnonzero(scale > 1e-3):
         share = leap[:, :, column] / scale[column]
@@ -71,7 +71,7 @@ def shafts(model: "CompiledModel") -> tuple[Shaft, ...]:
         key = tuple(round(float(c), 9) for c in coefficients)
         acted = rows if key not in found else tuple(sorted({*rows, *found[key].joints}))
         names = "+".join(model.spec.joints[j].name for j in moved)
-        found[key] = Shaft(names, key, acted, model.spec.joints[moved[0]].unit)
+        found[key] = FrictionShaft(names, key, acted, model.spec.joints[moved[0]].unit)
     return tuple(found.values())
 
 
@@ -92,7 +92,7 @@ def _anywhere(model: "CompiledModel") -> np.ndarray:
     return home
 
 
-def with_every_joint(model: "CompiledModel") -> tuple[Shaft, ...]:
+def with_every_joint(model: "CompiledModel") -> tuple[FrictionShaft, ...]:
     """The shafts, and every joint with a motor that is none of them.
 
     For looking at dry friction that the model lacks.
@@ -102,12 +102,12 @@ def with_every_joint(model: "CompiledModel") -> tuple[Shaft, ...]:
     for j, joint in enumerate(joints):
         if joint.actuated and joint.name not in names:
             own = tuple(float(i == j) for i in range(len(joints)))
-            found.append(Shaft(joint.name, own, (j,), joint.unit))
+            found.append(FrictionShaft(joint.name, own, (j,), joint.unit))
     return tuple(found)
 
 
 def floors_of(
-    processing: Processing, parts: Sequence[Shaft], segments: Sequence[Segment]
+    processing: Processing, parts: Sequence[FrictionShaft], segments: Sequence[Segment]
 ) -> dict[str, float]:
     """Speed of each shaft below which its rows are masked; infinite for one that stands still.
 
@@ -128,7 +128,9 @@ def floors_of(
     return floors
 
 
-def moving(segment: Segment, parts: Sequence[Shaft], floors: Mapping[str, float]) -> np.ndarray:
+def moving(
+    segment: Segment, parts: Sequence[FrictionShaft], floors: Mapping[str, float]
+) -> np.ndarray:
     """(n, joints) False where a shaft that acts on the joint is slower than its floor."""
     fast = np.ones(segment.qd.shape, dtype=bool)
     for part in parts:

@@ -14,7 +14,7 @@ from modeler.core.result import Presented
 from modeler.numerics.filters import row_filter
 from modeler.observation.log import Log
 from modeler.observation.low_speed import (
-    Shaft,
+    FrictionShaft,
     floors_of,
     moving,
     shafts,
@@ -37,7 +37,7 @@ from modeler.observation.report import DataReport, JointReport, LogReport
 from modeler.observation.stretch import Stretch, stretch
 
 if TYPE_CHECKING:
-    from modeler.runtime.fused import Pattern, Triangles
+    from modeler.runtime.fused import NonzeroPattern, Triangles
     from modeler.runtime.model import CompiledModel
 
 
@@ -144,7 +144,7 @@ class Evaluated:
         return self._model.base_regressor(s.q[w], s.qd[w], s.qdd[w], self._read(s, w))
 
     @property
-    def pattern(self) -> "Pattern":
+    def pattern(self) -> "NonzeroPattern":
         """Which columns can enter the torque of each joint."""
         return self._model.pattern
 
@@ -266,7 +266,7 @@ def observed_alike(model: "CompiledModel", like: Observation) -> Observation:
     )
 
 
-def _stretch(segment: Segment, parts: Sequence[Shaft], processing: Processing) -> Stretch:
+def _stretch(segment: Segment, parts: Sequence[FrictionShaft], processing: Processing) -> Stretch:
     assert processing.parallel_cutoff is not None
     assert processing.speed_floors is not None
     usable = segment.valid & moving(segment, parts, processing.speed_floors)
@@ -369,7 +369,7 @@ def _counts(stretches: Sequence[Stretch]) -> dict[str, Any]:
 
 def joint_reports(
     joints: Sequence[JointSpec],
-    parts: Sequence[Shaft],
+    parts: Sequence[FrictionShaft],
     floors: Mapping[str, float],
     counts: Mapping[str, Any],
 ) -> tuple[JointReport, ...]:

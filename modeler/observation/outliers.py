@@ -66,7 +66,7 @@ class Leap:
 
 
 @dataclass(frozen=True, eq=False)
-class Walk:
+class LeapWalk:
     """Steps of positions (n, J) with uniform time but for jitter, from each sample to the next.
 
     Attributes:
@@ -84,7 +84,7 @@ class Walk:
 
 def walked(
     time: np.ndarray, q: np.ndarray, revolute: np.ndarray, resolution: np.ndarray
-) -> Walk | None:
+) -> LeapWalk | None:
     """The steps of one stretch without gaps; None if it is too short to tell.
 
     Args:
@@ -107,10 +107,10 @@ def walked(
                 whole = steps[:, j] - _TURN * turns[:, j]
                 speed[:, j] = running_median(whole / dt)
                 excess[:, j] = _excess(whole, speed[:, j], dt, usual)
-    return Walk(q, turns, speed, excess)
+    return LeapWalk(q, turns, speed, excess)
 
 
-def floors(walks: Sequence[Walk], resolution: np.ndarray) -> np.ndarray:
+def floors(walks: Sequence[LeapWalk], resolution: np.ndarray) -> np.ndarray:
     """(J,) rad or m that a step must have too much to be a leap, over all stretches of a log.
 
     What is lone, and more than the step that the joint makes at its top speed: a smaller leap is
@@ -140,7 +140,7 @@ def surely_none(time: np.ndarray, q: np.ndarray, known: np.ndarray) -> bool:
     return bool(np.all(most.max(axis=0) <= np.minimum(known, 0.5 * _TURN)))
 
 
-def floors_here(walks: Sequence[Walk], known: np.ndarray) -> np.ndarray:
+def floors_here(walks: Sequence[LeapWalk], known: np.ndarray) -> np.ndarray:
     """(J,) `floors` of a whole log for a part of it, higher where the part is rougher."""
     if not walks:
         return known
@@ -172,7 +172,7 @@ def _whole_turns(excess: np.ndarray, resolution: float) -> np.ndarray:
     return np.asarray(turns)
 
 
-def leaps_of(walk: Walk, time: np.ndarray, j: int, floor: float) -> list[Leap]:
+def leaps_of(walk: LeapWalk, time: np.ndarray, j: int, floor: float) -> list[Leap]:
     """The leaps of joint j, increasing in time.
 
     Args:
@@ -216,7 +216,7 @@ def _sudden(excess: np.ndarray, places: np.ndarray) -> list[int]:
     return found
 
 
-def _frozen_until(walk: Walk, time: np.ndarray, j: int, k: int) -> int:
+def _frozen_until(walk: LeapWalk, time: np.ndarray, j: int, k: int) -> int:
     """Samples up to k that repeat the one before them, if the leap after k makes up for them."""
     q = walk.q[:, j]
     start = k
@@ -232,7 +232,7 @@ def _frozen_until(walk: Walk, time: np.ndarray, j: int, k: int) -> int:
     return held if way != 0.0 and abs(leap - way) < _MADE_UP * abs(way) else 0
 
 
-def _spike_leap(walk: Walk, j: int, k: int, later: list[int]) -> Leap | None:
+def _spike_leap(walk: LeapWalk, j: int, k: int, later: list[int]) -> Leap | None:
     """The samples after k that are elsewhere, if a leap leads back."""
     size = float(walk.excess[k, j])
     left, farthest = size, abs(size)
@@ -247,7 +247,7 @@ def _spike_leap(walk: Walk, j: int, k: int, later: list[int]) -> Leap | None:
     return None
 
 
-def _loses_rows(walk: Walk, k: int) -> bool:
+def _loses_rows(walk: LeapWalk, k: int) -> bool:
     """True if one and the same lost time explains the leaps of all joints between two samples."""
     speed, excess = walk.speed[k], walk.excess[k]
     size = float(np.linalg.norm(excess))
@@ -419,7 +419,7 @@ def _at(leap: Leap, rows: np.ndarray, log: Log) -> Found:
     return Found(leap.kind, start, stop, leap.size, float(log.time[start]))
 
 
-def _mended(walk: Walk, j: int, leaps: Sequence[Leap]) -> np.ndarray:
+def _mended(walk: LeapWalk, j: int, leaps: Sequence[Leap]) -> np.ndarray:
     """(n,) the positions of joint j: counted on, joined, and NaN where they are wrong."""
     q = walk.q[:, j].copy()
     offset, edges = np.zeros(len(q)), [0]

@@ -12,7 +12,7 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.logs.blocks import Blocks, ParquetBlocks, blocks_of
 from modeler.logs.mapping import LogMap
-from modeler.logs.table import Part, Table
+from modeler.logs.table import LogTable, Part
 from modeler.observation.log import MOST_WHOLE, Log, fingerprint
 
 _SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms
@@ -37,7 +37,7 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
     """
     path = Path(path)
     _check_fits(path)
-    table = Table(path, mapping, spec.joints)
+    table = LogTable(path, mapping, spec.joints)
     log = log_of(table, spec)
     ranges = Ranges.of(log)
     doubts = ranges.doubts(log.step, spec)
@@ -60,7 +60,7 @@ def _check_fits(path: Path) -> None:
         )
 
 
-def log_of(table: Table, spec: ModuleSpec) -> Log:
+def log_of(table: LogTable, spec: ModuleSpec) -> Log:
     """The rows of a table as a log, each looked at by itself.
 
     Raises:
@@ -87,7 +87,7 @@ def log_of(table: Table, spec: ModuleSpec) -> Log:
     )
 
 
-def needed(table: Table, spec: ModuleSpec) -> list[str]:
+def needed(table: LogTable, spec: ModuleSpec) -> list[str]:
     """The file's names of the columns that a fit of these joints reads."""
     used = _used_names(spec) | {"time", "segment"}
     return [
@@ -98,7 +98,7 @@ def needed(table: Table, spec: ModuleSpec) -> list[str]:
     ]  # fmt: skip
 
 
-def _time(table: Table) -> np.ndarray:
+def _time(table: LogTable) -> np.ndarray:
     time, name = table.numbers("time"), table.called("time")
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
@@ -115,7 +115,7 @@ def _time(table: Table) -> np.ndarray:
     return time
 
 
-def backwards(table: Table, row: int, before: float, time: float) -> DataError:
+def backwards(table: LogTable, row: int, before: float, time: float) -> DataError:
     """The error of a row, counted from 0, whose time is not after the one before it."""
     return DataError(
         f"{table.path}: column {table.called('time')}, row {row + 1}: {time:.9g} s after "
@@ -134,7 +134,7 @@ def check_step(path: Path, name: str, step: float) -> None:
         )
 
 
-def _position(table: Table, joint: JointSpec, spec: ModuleSpec) -> np.ndarray:
+def _position(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> np.ndarray:
     name = f"q{joint.name}"
     if name not in table and not joint.actuated:
         raise DataError(
@@ -145,7 +145,7 @@ def _position(table: Table, joint: JointSpec, spec: ModuleSpec) -> np.ndarray:
     return table.measured(name)
 
 
-def _torque(table: Table, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str]:
+def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str]:
     tau, current = f"tau{joint.name}", f"current{joint.name}"
     if tau in table:
         return table.measured(tau), table.source(tau)
@@ -166,7 +166,9 @@ def _torque(table: Table, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarra
     )
 
 
-def _optional(table: Table, prefix: str, spec: ModuleSpec, notes: list[str]) -> np.ndarray | None:
+def _optional(
+    table: LogTable, prefix: str, spec: ModuleSpec, notes: list[str]
+) -> np.ndarray | None:
     names = [f"{prefix}{joint.name}" for joint in spec.joints]
     there = [name for name in names if name in table]
     if len(there) == len(names):
@@ -180,7 +182,7 @@ def _optional(table: Table, prefix: str, spec: ModuleSpec, notes: list[str]) -> 
     return None
 
 
-def _segment(table: Table) -> np.ndarray | None:
+def _segment(table: LogTable) -> np.ndarray | None:
     if "segment" not in table:
         return None
     values = table.numbers("segment")
@@ -198,7 +200,7 @@ def _used_names(spec: ModuleSpec) -> set[str]:
     return {f"{prefix}{joint.name}" for prefix in prefixes for joint in spec.joints}
 
 
-def _extra(table: Table, spec: ModuleSpec, notes: list[str]) -> dict[str, np.ndarray]:
+def _extra(table: LogTable, spec: ModuleSpec, notes: list[str]) -> dict[str, np.ndarray]:
     known = _used_names(spec) | {"time", "segment"}
     # A current beside a torque is a measurement of its own: temperature and gain effects want it.
     known -= {f"current{joint.name}" for joint in spec.joints if f"tau{joint.name}" in table}
@@ -211,7 +213,7 @@ def _extra(table: Table, spec: ModuleSpec, notes: list[str]) -> dict[str, np.nda
 
 
 def _temperatures(
-    table: Table, extra: dict[str, np.ndarray], notes: list[str]
+    table: LogTable, extra: dict[str, np.ndarray], notes: list[str]
 ) -> dict[str, np.ndarray]:
     """Temperatures, which are slow: between logged values they are taken from a straight line."""
     found = {}
@@ -234,7 +236,7 @@ def _temperatures(
     return found
 
 
-def _missing(table: Table, spec: ModuleSpec) -> dict[str, int]:
+def _missing(table: LogTable, spec: ModuleSpec) -> dict[str, int]:
     names = [name for name in table.names if name in _used_names(spec) and table.is_numeric(name)]
     counts = {name: int(np.isnan(table.measured(name)).sum()) for name in names}
     return {name: count for name, count in counts.items() if count}
@@ -403,8 +405,8 @@ class FileSource:
         log = log_of(self._table(Part(columns, int(share * self.rows))), self._spec)
         return dataclasses.replace(log, notes=self._notes, extra=_carried(log, {}))
 
-    def _table(self, part: Part) -> Table:
-        return Table(self._path, self._mapping, self._spec.joints, part=part)
+    def _table(self, part: Part) -> LogTable:
+        return LogTable(self._path, self._mapping, self._spec.joints, part=part)
 
 
 def _carried(log: Log, last: dict[str, float]) -> dict[str, np.ndarray]:

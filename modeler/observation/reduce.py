@@ -12,7 +12,7 @@ import numpy as np
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Evaluated, Observation, near
 from modeler.observation.stretch import Stretch
-from modeler.runtime.fused import Pattern, Triangles, no_rows, of_rows
+from modeler.runtime.fused import NonzeroPattern, Triangles, no_rows, of_rows
 
 KEPT = 2**26
 """Bytes of the filtered regressor up to which it is kept."""
@@ -141,6 +141,6 @@ def _stretches(observation: Observation) -> Iterator[tuple[Stretch, slice]]:
         first += count
 
 
-def _every(observation: Observation) -> Pattern:
+def _every(observation: Observation) -> NonzeroPattern:
     every = np.arange(len(observation.names), dtype=np.intc)
-    return Pattern((every,) * len(observation.joints), len(every))
+    return NonzeroPattern((every,) * len(observation.joints), len(every))

@@ -12,7 +12,7 @@ from modeler.numerics.filters import spacing
 from modeler.observation.chunk import chunk_rows, margin
 from modeler.observation.chunks import Chosen
 from modeler.observation.log import FINGER, Log
-from modeler.observation.low_speed import Shaft, shafts
+from modeler.observation.low_speed import FrictionShaft, shafts
 from modeler.observation.observation import Observation, observed
 from modeler.observation.prepare import Prepared, prepare, with_floors
 from modeler.observation.processing import Processing
@@ -71,7 +71,7 @@ class Survey:
 
 
 @dataclass(frozen=True, eq=False)
-class Known:
+class KnownFacts:
     """What an earlier pass over the logs found, that the windows did not show.
 
     Attributes:
@@ -87,7 +87,7 @@ def survey(
     model: "CompiledModel",
     sources: Sequence[Source],
     processing: Processing,
-    known: Known,
+    known: KnownFacts,
     rows: int = FINGER,
 ) -> Survey:
     """Looks at windows of the logs and chooses.
@@ -191,7 +191,7 @@ def _chosen(
     place: tuple[int, Log],
     prepared: tuple[Prepared, int],
     processing: Processing,
-    parts: tuple[Shaft, ...],
+    parts: tuple[FrictionShaft, ...],
     extremes: Extremes | None,
     rows: int,
 ) -> Chosen:

@@ -22,7 +22,7 @@ _TAPS = 16  # samples of each row, of the many over which the parallel filter ta
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class ThinnedPart:
     """A stretch with some of its rows, and some of the samples that those reach."""
 
     segment: Segment
@@ -62,7 +62,7 @@ class Part:
 
 
 @dataclass(frozen=True, eq=False)
-class Rows:
+class ThinnedRows:
     """Some rows of an observation.
 
     Attributes:
@@ -77,7 +77,7 @@ class Rows:
     tau: np.ndarray
     used: np.ndarray
     speed: np.ndarray
-    parts: tuple[Part, ...]
+    parts: tuple[ThinnedPart, ...]
 
     def turned(self, compiled: "CompiledModel", turn: np.ndarray) -> np.ndarray:
         """(m, n, c) columns of the motion q turn."""
@@ -88,7 +88,7 @@ class Rows:
         return np.concatenate([part.shifted(compiled, shift) for part in self.parts])
 
 
-def thinned(compiled: "CompiledModel", observation: Observation) -> Rows:
+def thinned(compiled: "CompiledModel", observation: Observation) -> ThinnedRows:
     """At most 1200 of the rows of the observation, evenly; fewer of many joints."""
     most = max(1, min(_MOST, _CELLS // len(observation.joints)))
     every = max(1, -(-len(observation.time) // most))
@@ -100,7 +100,7 @@ def thinned(compiled: "CompiledModel", observation: Observation) -> Rows:
         if rows.size:
             parts.append(_part(compiled, part, rows))
     place = np.concatenate(chosen)
-    return Rows(
+    return ThinnedRows(
         W=columns_at(observation, place),
         tau=observation.torque[place],
         used=observation.used[place],
@@ -109,13 +109,13 @@ def thinned(compiled: "CompiledModel", observation: Observation) -> Rows:
     )
 
 
-def _part(compiled: "CompiledModel", part: Stretch, rows: np.ndarray) -> Part:
+def _part(compiled: "CompiledModel", part: Stretch, rows: np.ndarray) -> ThinnedPart:
     weights = part.rows.weights[rows]
     width = max(1, int(np.max(np.diff(weights.indptr))))
     reached = np.unique(weights.indices)
     samples = reached[reached % max(1, width // _TAPS) == 0]
     read = signals_of(compiled.spec, part.segment)
-    return Part(
+    return ThinnedPart(
         segment=part.segment,
         samples=samples,
         rows=RowFilter(weights[:, samples], part.rows.centres[rows]),

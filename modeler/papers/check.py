@@ -13,7 +13,7 @@ from modeler.papers.readings import READINGS
 from modeler.papers.wrist import coefficient_quotations
 
 
-class Verdict(enum.Enum):
+class LineVerdict(enum.Enum):
     """How a line stands to what is derived."""
 
     EQUAL = "printed and equal"
@@ -44,7 +44,7 @@ class Line:
     place: str
     printed: str
     derived: str
-    verdict: Verdict
+    verdict: LineVerdict
     slip: str
     why: str
 
@@ -59,7 +59,7 @@ def check_paper(paper: Paper, derived: Robots) -> list[Line]:
     lines = [*paper.lines, *coefficient_quotations(paper, derived)]
     checked = [check_line(paper, one, derived) for line in lines for one in written_out(line)]
     return checked + [
-        Line("", place, "", "", Verdict.UNCHECKED, "", why)
+        Line("", place, "", "", LineVerdict.UNCHECKED, "", why)
         for place, why in paper.unchecked.items()
     ]
 
@@ -78,25 +78,25 @@ def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> Line:
         found = READINGS[line.check](paper, line, derived)
         equal, exact = same(found, line)
     except (QuotationError, ExpressionError, RobotError) as error:
-        return _told(line, str(error), Verdict.DIFFERENT)
+        return _told(line, str(error), LineVerdict.DIFFERENT)
     return _told(line, found.text, _verdict(line, equal, exact, found.weak))
 
 
-def _verdict(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> Verdict:
+def _verdict(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> LineVerdict:
     if not equal:
-        return Verdict.DIFFERENT
+        return LineVerdict.DIFFERENT
     if line.ours:
-        return Verdict.OURS
+        return LineVerdict.OURS
     if line.slip:
-        return Verdict.MISPRINT
+        return LineVerdict.MISPRINT
     if line.measured:
-        return Verdict.MEASURED
+        return LineVerdict.MEASURED
     if weak:
-        return Verdict.CONSISTENT
-    return Verdict.EQUAL if exact else Verdict.ROUNDED
+        return LineVerdict.CONSISTENT
+    return LineVerdict.EQUAL if exact else LineVerdict.ROUNDED
 
 
-def _told(line: PrintedLine, derived: str, verdict: Verdict) -> Line:
+def _told(line: PrintedLine, derived: str, verdict: LineVerdict) -> Line:
     leg = line.legs[0] if len(line.legs) == 1 else ""
     place = line.place + (f", i = {leg}" if leg else "")
     printed = "; ".join((line.text, *line.given))

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from modeler.papers.paper import Derived, Paper, PrintedLine
+from modeler.papers.paper import DerivedPaper, Paper, PrintedLine
 from modeler.papers.quotation import Amount, Monomial, Sum, added, read_sum, times
 
 _SLACK = 1 + 1e-9
@@ -32,7 +32,7 @@ class Compared:
     weak: bool = False
 
 
-Robots = Mapping[str, Derived]
+Robots = Mapping[str, DerivedPaper]
 Reading = Callable[[Paper, PrintedLine, Robots], Compared]
 
 

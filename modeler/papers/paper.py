@@ -189,7 +189,7 @@ def _line(entry: Mapping[str, Any]) -> PrintedLine:
 
 
 @dataclass(frozen=True)
-class Derived:
+class DerivedPaper:
     """A robot with its model and base parameters."""
 
     robot: Robot
@@ -246,7 +246,7 @@ class Derived:
         return free | tied
 
 
-def derived_robot(name: str, variant: Variant | None = None) -> Derived:
+def derived_robot(name: str, variant: Variant | None = None) -> DerivedPaper:
     """A built-in robot, or one of that name that differs from a built-in one as `variant` says."""
     robot = read_robot(name if variant is None else variant.of)
     if variant is not None:
@@ -255,7 +255,7 @@ def derived_robot(name: str, variant: Variant | None = None) -> Derived:
             x, y, z = (parse(text) for text in variant.gravity)
             robot = replace(robot, gravity=(x, y, z))
     model = derive_model(robot)
-    return Derived(robot, model, base_parameters(model))
+    return DerivedPaper(robot, model, base_parameters(model))
 
 
 def sum_of(expression: sympy.Expr) -> Sum:
@@ -334,7 +334,7 @@ _ARITHMETIC: Mapping[str, Any] = {
 }  # fmt: skip
 
 
-def quantities(derived: Derived) -> dict[str, Any]:
+def quantities(derived: DerivedPaper) -> dict[str, Any]:
     """What can be asked of a robot: sets of names, by pattern, and what counts them.
 
     `standard`, `base`, `zero` (without effect), `grouped` (neither base nor zero), `joints`,
@@ -376,7 +376,7 @@ def _pattern(members: frozenset[str]) -> Callable[..., frozenset[str]]:
     return chosen
 
 
-def _within(derived: Derived, own: frozenset[str], others: frozenset[str]) -> frozenset[str]:
+def _within(derived: DerivedPaper, own: frozenset[str], others: frozenset[str]) -> frozenset[str]:
     """What of `own` is grouped and a combination of `others` and of what is kept of `own`."""
     columns = derived.grouping
     basis = [columns[name] for name in sorted(others | (own & derived.kept)) if any(columns[name])]
@@ -385,7 +385,7 @@ def _within(derived: Derived, own: frozenset[str], others: frozenset[str]) -> fr
     return frozenset(n for n in grouped if sympy.Matrix([*basis, columns[n]]).rank() == rank)
 
 
-def _coefficients(derived: Derived) -> dict[str, Any]:
+def _coefficients(derived: DerivedPaper) -> dict[str, Any]:
     """Of a robot whose links have a paper's letters."""
     table = derived.table
     known = table.identifiability
@@ -401,7 +401,7 @@ def _coefficients(derived: Derived) -> dict[str, Any]:
     }
 
 
-def _missing(derived: Derived, letter: str) -> frozenset[str]:
+def _missing(derived: DerivedPaper, letter: str) -> frozenset[str]:
     """Functions that are zero: S_ijk with j > k by convention, and those that vanish."""
     names = [joint.name for joint in derived.robot.moving]
     every = {letter + i + j + k for i in names for j in names for k in names}

@@ -87,7 +87,7 @@ def read_sum(text: str, rename: Callable[[str], str], legs: Iterable[str] = ()) 
         return "(" + " + ".join(re.sub(r"(?<=\d)i\b", leg, term) for leg in legs) + ")"
 
     tokens = _tokens(_SUM.sub(written_out, text))
-    reader = _Reader(tokens, rename)
+    reader = _QuotationReader(tokens, rename)
     found = reader.sum()
     if reader.at != len(tokens):
         raise QuotationError(f'"{text}" cannot be read from "{"".join(tokens[reader.at :])}" on')
@@ -105,7 +105,7 @@ def _tokens(text: str) -> list[str]:
     return found
 
 
-class _Reader:
+class _QuotationReader:
     """Sum, product, factor: each method reads on from token `at`."""
 
     def __init__(self, tokens: list[str], rename: Callable[[str], str]) -> None:

@@ -8,11 +8,11 @@ from typing import Any
 
 import sympy
 
-from modeler.derivation.geometry import Row
+from modeler.derivation.geometry import GeometryRow
 from modeler.derivation.kinematics import base_poses, pose, poses
 from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered, renamer
 from modeler.papers.paper import (
-    Derived,
+    DerivedPaper,
     Paper,
     PrintedLine,
     evaluate,
@@ -76,7 +76,7 @@ def _assumed(paper: Paper, line: PrintedLine) -> dict[str, Sum]:
     return puts
 
 
-def _of_a_leg(leg: Derived, whole: Derived) -> dict[str, Sum]:
+def _of_a_leg(leg: DerivedPaper, whole: DerivedPaper) -> dict[str, Sum]:
     """Base parameters of an isolated leg, written for every leg of the robot."""
     found: dict[str, Sum] = {}
     for index in _LEGS[:3]:
@@ -90,7 +90,7 @@ def _of_a_leg(leg: Derived, whole: Derived) -> dict[str, Sum]:
     return found
 
 
-def _indexed(name: str, index: str, leg: Derived, whole: Derived) -> str:
+def _indexed(name: str, index: str, leg: DerivedPaper, whole: DerivedPaper) -> str:
     return name if name in leg.values and name in whole.values else name + index
 
 
@@ -211,13 +211,13 @@ def _column(numbers: list[int]) -> Sum:
     return added(numbered(numbers), {(("entries", 1),): Amount(Fraction(len(numbers)))})
 
 
-def _elements(derived: Derived, rows: tuple[str, ...]) -> list[sympy.Expr]:
+def _elements(derived: DerivedPaper, rows: tuple[str, ...]) -> list[sympy.Expr]:
     """What the six inertias of the last link are multiplied with in its kinetic energy."""
     w = dict(zip(_W, _rotation(derived, rows), strict=True))
     return [sympy.expand(_ENERGY.diff(p).subs(w)) for p in _PARAMETERS[:6]]
 
 
-def _rotation(derived: Derived, rows: tuple[str, ...]) -> list[sympy.Expr]:
+def _rotation(derived: DerivedPaper, rows: tuple[str, ...]) -> list[sympy.Expr]:
     """w_j = R^T w_(j-1) + qd_j z_j from a base at rest; a slide adds nothing."""
     by_name = {row.joint.name: row for row in derived.model.geometry.rows}
     w = [sympy.Integer(0)] * 3
@@ -238,10 +238,10 @@ class _Moved:
     def static(self, value: sympy.Expr) -> sympy.Expr:
         return value
 
-    def variable(self, row: Row) -> sympy.Expr:
+    def variable(self, row: GeometryRow) -> sympy.Expr:
         return row.r + self.values.get(row.joint.name, 0)
 
-    def cos_sin(self, row: Row) -> tuple[sympy.Expr, sympy.Expr]:
+    def cos_sin(self, row: GeometryRow) -> tuple[sympy.Expr, sympy.Expr]:
         angle = row.theta + int(row.joint.angular) * self.values.get(row.joint.name, 0)
         return sympy.cos(angle), sympy.sin(angle)
 
@@ -413,7 +413,7 @@ def _with_deltas(text: str, leg: int) -> str:
     return re.sub(r"(bar)?deltai(?:\+(\d))?", number, text)
 
 
-def _placed(derived: Derived, name: str, first: str) -> tuple[sympy.Matrix, sympy.Matrix]:
+def _placed(derived: DerivedPaper, name: str, first: str) -> tuple[sympy.Matrix, sympy.Matrix]:
     """(rotation of the row `first`, place of the origin of the row `name`), both in frame 0."""
     geometry = derived.model.geometry
     free = [sympy.Symbol(joint.variable) for joint in geometry.robot.free]

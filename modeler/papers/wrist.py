@@ -23,7 +23,7 @@ from modeler.formulas.printed import Print
 from modeler.formulas.text import monomial_text
 from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered
 from modeler.papers.paper import (
-    Derived,
+    DerivedPaper,
     Paper,
     PrintedLine,
     expression_of,
@@ -142,7 +142,7 @@ def _values(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     return Compared(read_sum(text, str), derived, f"{name} = {sum_text(derived)}")
 
 
-def _terms(derived: Derived, function: str) -> list[tuple[str, Sum]]:
+def _terms(derived: DerivedPaper, function: str) -> list[tuple[str, Sum]]:
     """(coefficient, its monomial) of a function, in order of the coefficients."""
     algebra = derived.table.closed.algebra
     names = algebra.names[: algebra.moving]

@@ -11,7 +11,7 @@ from modeler.report.figure_page import write_files
 from modeler.report.page import (
     Figure,
     Items,
-    Judged,
+    JudgedLine,
     Origin,
     Page,
     PageCell,
@@ -332,13 +332,13 @@ def _facts_on_data(comparison: Comparison) -> list[str]:
     return lines
 
 
-def _judged(comparison: Comparison) -> list[Judged]:
+def _judged(comparison: Comparison) -> list[JudgedLine]:
     lines = []
     for item in comparison.joints:
         kind, (first, _, rest) = kind_of_residual(item), joint_verdict(item).partition(": ")
-        lines.append(Judged(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
+        lines.append(JudgedLine(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
     lines += [
-        Judged("", "not judged", f"Joint {name}", f"{reason}.")
+        JudgedLine("", "not judged", f"Joint {name}", f"{reason}.")
         for name, reason in comparison.unjudged
     ]
     return lines

@@ -15,7 +15,7 @@ from modeler.derivation.relations import relation_latex, relation_text
 from modeler.report.figures import robot_figure
 from modeler.report.page import (
     Block,
-    Formulas,
+    FormulaBlock,
     Origin,
     Page,
     PageCell,
@@ -232,7 +232,7 @@ def write_derivation(path: Path, robot: Robot, derived: Derived, given: str) -> 
         ),
         sections=[
             Section("Table", _table(robot, derived.tied)),
-            Section("Base parameters", [Formulas(derived.relations)]),
+            Section("Base parameters", [FormulaBlock(derived.relations)]),
             Section("Parameters without effect", [Paragraph(f"{none}.")]),
             Section("Proof", [Paragraph(line) for line in lines]),
         ],

@@ -16,7 +16,7 @@ from modeler.report.figures import parameters_figure, picture_figure
 from modeler.report.history import waterfall_picture
 from modeler.report.page import (
     Items,
-    Judged,
+    JudgedLine,
     Origin,
     Page,
     PageCell,
@@ -239,8 +239,8 @@ def _judged(fit: FitResult) -> list[Verdicts | Items]:
     blocks: list[Verdicts | Items] = []
     if fit.verdict is not None:
         kind, tag = ("noise", "usable") if fit.verdict.usable else ("pattern", "not usable")
-        lines = [Judged(kind, tag, "This fit", fit.verdict.line)]
-        lines += [Judged("other", "doubt", f"Doubt {k}", text)
+        lines = [JudgedLine(kind, tag, "This fit", fit.verdict.line)]
+        lines += [JudgedLine("other", "doubt", f"Doubt {k}", text)
                   for k, text in enumerate(fit.verdict.doubts, start=1)]  # fmt: skip
         blocks.append(Verdicts(lines))
     if fit.sentences:

@@ -11,8 +11,8 @@ from modeler.core.figure import BLUE, COLORS, GREY, Curve, Heat, Means, Panel, P
 from modeler.core.result import Figures, Presentation, Tables, present
 from modeler.core.table import Cell, Table
 from modeler.fleet.result import (
-    Finding,
     Fleet,
+    FleetFinding,
     Followed,
     Values,
     effect_title,
@@ -26,7 +26,7 @@ from modeler.report.figures import picture_figure
 from modeler.report.page import (
     Figure,
     Items,
-    Judged,
+    JudgedLine,
     Origin,
     Page,
     PageCell,
@@ -102,18 +102,18 @@ def _verdict(found: Fleet) -> Verdicts | Paragraph:
     if not found.findings:
         return Paragraph("No machine drifts and none is apart from the others, beyond doubt.")
     return Verdicts([
-        Judged("pattern", one.shape, f"{one.machine}, {_short(one)}", sentence(one, found.unit),
+        JudgedLine("pattern", one.shape, f"{one.machine}, {_short(one)}", sentence(one, found.unit),
                _id(k) if k < _PICTURES else "")
         for k, one in enumerate(found.findings)
     ])  # fmt: skip
 
 
-def _short(one: Finding) -> str:
+def _short(one: FleetFinding) -> str:
     joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
     return joint + effect_title(one.quantity)
 
 
-def finding_picture(found: Fleet, one: Finding) -> Picture:
+def finding_picture(found: Fleet, one: FleetFinding) -> Picture:
     """The values of that machine over its periods, before those of all others."""
     each = next(each for each in found.followed if each.quantity == one.quantity)
     others = [own for name, own in each.machines.items() if name != one.machine]

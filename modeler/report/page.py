@@ -243,7 +243,7 @@ class Items:
 
 
 @dataclass(frozen=True)
-class Judged:
+class JudgedLine:
     """One line of a verdict.
 
     Attributes:
@@ -265,7 +265,7 @@ class Judged:
 class Verdicts:
     """A list of judgements."""
 
-    lines: Sequence[Judged]
+    lines: Sequence[JudgedLine]
     block: str = "verdicts"
 
 
@@ -279,7 +279,7 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class Formulas:
+class FormulaBlock:
     """Formulas below one another, each in pieces between which a line may break, and its unit."""
 
     rows: Sequence[tuple[Sequence[Formula], str]]
@@ -294,7 +294,7 @@ class Code:
     block: str = "code"
 
 
-Block = PageTable | Paragraph | Items | Verdicts | Figure | Formulas | Code
+Block = PageTable | Paragraph | Items | Verdicts | Figure | FormulaBlock | Code
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from matplotlib.patches import Circle, FancyArrowPatch, Polygon
 
 from modeler.report.robot_closing import Posture
 from modeler.report.robot_labels import Name, good_view, placed_names
-from modeler.report.robot_scene import BASE, Dot, Face, Line, Point, Scene, gap_lines, scene_of
+from modeler.report.robot_scene import BASE, Dot, Face, Point, Scene, SceneLine, gap_lines, scene_of
 from modeler.report.robot_skeleton import Skeleton, poses
 
 SETTINGS: Any = {"svg.hashsalt": "modeler", "svg.fonttype": "none", "font.size": 7}
@@ -32,7 +32,7 @@ _METADATA: dict[str, Any] = {
 
 
 @dataclass(frozen=True)
-class Sheet:
+class PaperSheet:
     """Where points of the robot lie on the paper.
 
     Attributes:
@@ -84,21 +84,21 @@ def saved(axes: Any, suffix: str) -> bytes:
     return stream.getvalue()
 
 
-def draw_parts(axes: Any, scene: Scene, sheet: Sheet, size: float) -> None:
+def draw_parts(axes: Any, scene: Scene, sheet: PaperSheet, size: float) -> None:
     """All parts but the names; `size` is a length of the robot, m."""
     parts = [*_faces(scene, sheet), *_lines(scene, sheet, size), *_dots(scene, sheet)]
     for order, (_, draw) in enumerate(sorted(parts, key=lambda part: part[0])):
         draw(axes, 2.0 + 1e-3 * order)
 
 
-def outline(scene: Scene, sheet: Sheet) -> np.ndarray:
+def outline(scene: Scene, sheet: PaperSheet) -> np.ndarray:
     """(n, 2) corners of the parts on the paper."""
     points = [sheet.point(end)[:2] for line in scene.lines for end in line.ends]
     points += [xy for f in scene.faces for xy in sheet.seen(sheet.world(f.frame, f.points))[:, :2]]
     return np.array(points)
 
 
-def _faces(scene: Scene, sheet: Sheet) -> list[Any]:
+def _faces(scene: Scene, sheet: PaperSheet) -> list[Any]:
     light = np.array([0.35, 0.6, 0.72]) @ sheet.rotation
     found = []
     for face in scene.faces:
@@ -132,7 +132,7 @@ def _shaded(color: str, bright: float) -> tuple[float, ...]:
     return tuple(part + (1.0 - part) * (bright - 1.0) for part in parts)
 
 
-def _lines(scene: Scene, sheet: Sheet, size: float) -> list[Any]:
+def _lines(scene: Scene, sheet: PaperSheet, size: float) -> list[Any]:
     found = []
     for line in scene.lines:
         start, end = (sheet.world(e[0], np.array([e[1]]))[0] for e in line.ends)
@@ -148,7 +148,7 @@ def _lines(scene: Scene, sheet: Sheet, size: float) -> list[Any]:
     return found
 
 
-def _piece(line: Line, a: np.ndarray, b: np.ndarray) -> Any:
+def _piece(line: SceneLine, a: np.ndarray, b: np.ndarray) -> Any:
     width = line.width * _UNIT
     x, y = [a[0], b[0]], [a[1], b[1]]
 
@@ -176,7 +176,7 @@ def arrow(a: np.ndarray, b: np.ndarray, color: str, width: float, order: float) 
     )  # fmt: skip
 
 
-def _dots(scene: Scene, sheet: Sheet) -> list[Any]:
+def _dots(scene: Scene, sheet: PaperSheet) -> list[Any]:
     return [(float(sheet.point(dot.at)[2]), _spot(dot, sheet.point(dot.at)[:2]))
             for dot in scene.dots]  # fmt: skip
 
@@ -231,19 +231,19 @@ def _drawn(skeleton: Skeleton, posture: Posture, kind: type[Figure] = Figure) ->
     return axes
 
 
-def _sheet(skeleton: Skeleton, posture: Posture, scene: Scene) -> Sheet:
+def _sheet(skeleton: Skeleton, posture: Posture, scene: Scene) -> PaperSheet:
     """The paper: as wide as a column, as high as the robot needs."""
     view, frames = good_view(skeleton, posture), poses(skeleton, posture.u)
-    points = outline(scene, Sheet(frames, view.rotation, 1.0, np.zeros(2), (0.0, 0.0)))
+    points = outline(scene, PaperSheet(frames, view.rotation, 1.0, np.zeros(2), (0.0, 0.0)))
     low, high = np.min(points, axis=0), np.max(points, axis=0)
     span = np.maximum(high - low, 1e-6 * posture.size)
     scale = float(min((_WIDTH - 2 * _MARGIN) / span[0], (_MOST - 2 * _MARGIN) / span[1]))
     height = float(np.clip(scale * span[1] + 2 * _MARGIN, _LEAST, _MOST))
     shift = np.array([_WIDTH, height]) / 2.0 - scale * (low + high) / 2.0
-    return Sheet(frames, view.rotation, scale, shift, (_WIDTH, height))
+    return PaperSheet(frames, view.rotation, scale, shift, (_WIDTH, height))
 
 
-def _names(axes: Any, scene: Scene, sheet: Sheet) -> None:
+def _names(axes: Any, scene: Scene, sheet: PaperSheet) -> None:
     names = [
         Name(label.text, label.color, sheet.point(label.at)[:2],
              0.0 if label.layer == "base" else 1.2 * scene.radius * sheet.scale)
@@ -257,7 +257,7 @@ def _names(axes: Any, scene: Scene, sheet: Sheet) -> None:
                   va="center", ha="left", zorder=8.0, bbox=behind)  # fmt: skip
 
 
-def _gravity(axes: Any, gravity: np.ndarray, sheet: Sheet) -> None:
+def _gravity(axes: Any, gravity: np.ndarray, sheet: PaperSheet) -> None:
     size = float(np.linalg.norm(gravity))
     if size == 0.0:
         return
@@ -274,7 +274,7 @@ def _gravity(axes: Any, gravity: np.ndarray, sheet: Sheet) -> None:
               va="center", zorder=8.0)  # fmt: skip
 
 
-def _ruler(axes: Any, sheet: Sheet) -> None:
+def _ruler(axes: Any, sheet: PaperSheet) -> None:
     """A bar of a round length."""
     most = 50.0 / sheet.scale
     ten = 10.0 ** np.floor(np.log10(most))
@@ -314,7 +314,7 @@ def modes_bytes(
     rotation = good_view(skeleton, postures[0]).rotation
     scenes = [scene_of(skeleton, posture).without(_HIDDEN_IN_MODES) for posture in postures]
     frames = [poses(skeleton, posture.u) for posture in postures]
-    plain = [Sheet(each, rotation, 1.0, np.zeros(2), (0.0, 0.0)) for each in frames]
+    plain = [PaperSheet(each, rotation, 1.0, np.zeros(2), (0.0, 0.0)) for each in frames]
     points = np.concatenate([outline(*pair) for pair in zip(scenes, plain, strict=True)])
     low, high = np.min(points, axis=0), np.max(points, axis=0)
     span = np.maximum(high - low, 1e-6 * postures[0].size)
@@ -331,7 +331,7 @@ def modes_bytes(
         for k, (scene, each) in enumerate(zip(scenes, frames, strict=True)):
             corner = np.array([_WIDE * (k % across), high_one * (down - 1 - k // across)])
             middle = corner + np.array([_WIDE, high_one - _TITLE]) / 2.0
-            sheet = Sheet(each, rotation, scale, middle - scale * (low + high) / 2.0, size)
+            sheet = PaperSheet(each, rotation, scale, middle - scale * (low + high) / 2.0, size)
             draw_parts(axes, scene, sheet, postures[k].size)
             _title(axes, titles[k], corner + np.array([_MODE_MARGIN, high_one - _TITLE]))
         return saved(axes, suffix)

@@ -16,7 +16,7 @@ _FLAT = 1e-4  # of the robot's size
 
 
 @dataclass(frozen=True)
-class View:
+class ViewDirection:
     """How a robot is seen.
 
     Attributes:
@@ -28,7 +28,7 @@ class View:
     up: np.ndarray
 
 
-def good_view(skeleton: Skeleton, posture: Posture) -> View:
+def good_view(skeleton: Skeleton, posture: Posture) -> ViewDirection:
     """A view in which few frames hide each other.
 
     Straight on for planar mechanisms; nearly so for others that stand in a plane.
@@ -38,7 +38,7 @@ def good_view(skeleton: Skeleton, posture: Posture) -> View:
     axes = _turning_axes(skeleton, posture)
     normal = _normal(points, axes, posture.size)
     if normal is not None:
-        return View(_at_plane(normal, axes, up), up)
+        return ViewDirection(_at_plane(normal, axes, up), up)
     best, best_score = None, -np.inf
     for azimuth in _AZIMUTHS:
         rotation = turned_view(up, np.radians(azimuth), np.radians(_ELEVATION))
@@ -46,7 +46,7 @@ def good_view(skeleton: Skeleton, posture: Posture) -> View:
         if best is None or score > best_score * _BETTER:
             best, best_score = rotation, score
     assert best is not None
-    return View(best, up)
+    return ViewDirection(best, up)
 
 
 def _at_plane(normal: np.ndarray, axes: np.ndarray, up: np.ndarray) -> np.ndarray:

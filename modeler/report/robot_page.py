@@ -8,8 +8,8 @@ import numpy as np
 
 from modeler.report.robot_closing import CLOSED, Gap, Posture, gaps_of
 from modeler.report.robot_labels import good_view
-from modeler.report.robot_scene import Face, Line, Point, Scene, scene_of
-from modeler.report.robot_skeleton import Row, Skeleton, kind_word, poses
+from modeler.report.robot_scene import Face, Point, Scene, SceneLine, scene_of
+from modeler.report.robot_skeleton import Skeleton, SkeletonRow, kind_word, poses
 from modeler.robot.robot import Joint, JointKind, Robot
 
 _DIGITS = 7  # of coordinates of drawn points: finer than any screen
@@ -47,7 +47,7 @@ def page_content(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
     }
 
 
-def _row(row: Row) -> dict[str, Any]:
+def _row(row: SkeletonRow) -> dict[str, Any]:
     joint = row.joint
     used = np.flatnonzero(row.coefficients)
     return {
@@ -94,7 +94,7 @@ def _parts(scene: Scene) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _line(line: Line) -> dict[str, Any]:
+def _line(line: SceneLine) -> dict[str, Any]:
     return {
         "row": line.row,
         "ends": [_point(end) for end in line.ends],
@@ -216,7 +216,7 @@ def told(skeleton: Skeleton, posture: Posture) -> list[str]:
     return [*lines, *_loop_lines(skeleton, posture)]
 
 
-def _cells(row: Row, frame: np.ndarray, posture: Posture) -> tuple[str, ...]:
+def _cells(row: SkeletonRow, frame: np.ndarray, posture: Posture) -> tuple[str, ...]:
     joint = row.joint
     kind = kind_word(joint)
     if joint.moves:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.report.robot_closing import Posture, gaps_of
-from modeler.report.robot_skeleton import BASE, Row, Skeleton, corner, foot, poses
+from modeler.report.robot_skeleton import BASE, Skeleton, SkeletonRow, corner, foot, poses
 
 # Shapes of joints: lists of flat polygons, (corners, 3) each, around the origin, axis along z.
 
@@ -74,7 +74,7 @@ Point = tuple[int, tuple[float, float, float]]
 
 
 @dataclass(frozen=True)
-class Line:
+class SceneLine:
     """A straight piece between two points.
 
     Attributes:
@@ -142,7 +142,7 @@ class Scene:
     """All that is drawn of a robot, in no order; `radius` is that of its joints, m."""
 
     radius: float
-    lines: tuple[Line, ...]
+    lines: tuple[SceneLine, ...]
     faces: tuple[Face, ...]
     dots: tuple[Dot, ...]
     labels: tuple[Label, ...]
@@ -178,7 +178,7 @@ def scene_of(skeleton: Skeleton, posture: Posture) -> Scene:
         parts += maker.mass(i, row)
     return Scene(
         maker.radius,
-        tuple(part for part in parts if isinstance(part, Line)),
+        tuple(part for part in parts if isinstance(part, SceneLine)),
         tuple(part for part in parts if isinstance(part, Face)),
         tuple(part for part in parts if isinstance(part, Dot)),
         tuple(part for part in parts if isinstance(part, Label)),
@@ -186,7 +186,7 @@ def scene_of(skeleton: Skeleton, posture: Posture) -> Scene:
     )
 
 
-Part = Line | Face | Dot | Label | Sleeve
+Part = SceneLine | Face | Dot | Label | Sleeve
 
 
 class _Maker:
@@ -229,7 +229,7 @@ class _Maker:
             yield Label(BASE, (BASE, _tuple(tip)), f"{name}0", AXES[axis], "base")
         yield Dot(BASE, (BASE, ORIGIN), "#222222", 3.0, "base")
 
-    def link(self, i: int, row: Row) -> Iterator[Part]:
+    def link(self, i: int, row: SkeletonRow) -> Iterator[Part]:
         """The common normal from the antecedent, and the way along the joint's axis."""
         a, carrier = row.parent, self.skeleton.body(row.parent)
         turn, ankle = corner(row), foot(row)[:3, 3]
@@ -238,14 +238,14 @@ class _Maker:
             if np.linalg.norm(end - start) > 1e-9 * self.size:
                 ends = ((a, _tuple(start)), (a, _tuple(end)))
                 width = 2.5 if a == BASE else 5.0
-                yield Line(of, ends, self.color(carrier), width, self._layer(carrier))
+                yield SceneLine(of, ends, self.color(carrier), width, self._layer(carrier))
         slides = row.joint.moves and not row.joint.angular
         if not slides and abs(self.r[i]) <= 1e-9 * self.size:
             return
         carrier = i if slides else self.skeleton.body(i)
         for ends in self._along(i, row, (a, _tuple(ankle))):
             width = 3.0 if slides else 5.0
-            yield Line(i, ends, self.color(carrier), width, self._layer(carrier))
+            yield SceneLine(i, ends, self.color(carrier), width, self._layer(carrier))
 
     def _layer(self, body: int) -> str:
         """Of links: the ground lies behind what moves on it, the platform has a face."""
@@ -253,7 +253,7 @@ class _Maker:
             return "ground"
         return "platform" if self.skeleton.rows[body].virtual else "links"
 
-    def _along(self, i: int, row: Row, ankle: Point) -> list[tuple[Point, Point]]:
+    def _along(self, i: int, row: SkeletonRow, ankle: Point) -> list[tuple[Point, Point]]:
         """The way along z of row j, without what is inside its joint."""
         r, place = self.r[i], foot(row)
         low, high = -1.3 * self.radius - 0.5 * r, 1.3 * self.radius - 0.5 * r
@@ -266,11 +266,11 @@ class _Maker:
         near, far = inside if r > 0.0 else inside[::-1]
         return [(ankle, near), (far, (i, ORIGIN))]
 
-    def _on(self, row: Row, place: np.ndarray, z: float) -> Point:
+    def _on(self, row: SkeletonRow, place: np.ndarray, z: float) -> Point:
         """The point z along the axis of a row, on its antecedent."""
         return (row.parent, _tuple((place @ [0.0, 0.0, z, 1.0])[:3]))
 
-    def joint(self, i: int, row: Row) -> Iterator[Part]:
+    def joint(self, i: int, row: SkeletonRow) -> Iterator[Part]:
         """A cylinder along a revolute axis, a sleeve along a prismatic one, else a dot."""
         joint, name = row.joint, row.joint.name
         if not joint.moves:
@@ -285,7 +285,7 @@ class _Maker:
                 yield Face(i, i, points + at, color, "joints")
             for side in (-1.3 * self.radius, 1.3 * self.radius):
                 outside = tuple((i, (0.0, 0.0, at[2] + far * side)) for far in (1.0, 2.5))
-                yield Line(i, (outside[0], outside[1]), color, 1.0, "joints")
+                yield SceneLine(i, (outside[0], outside[1]), color, 1.0, "joints")
             yield Label(i, (i, at), name, ink, "names")
             return
         place = foot(row)
@@ -308,9 +308,9 @@ class _Maker:
     def _triad(self, frame: int, length: float, width: float, layer: str) -> Iterator[Part]:
         for axis, color in enumerate(AXES):
             ends = ((frame, ORIGIN), (frame, _tuple(length * np.eye(3)[axis])))
-            yield Line(frame, ends, color, width, layer, arrow=True)
+            yield SceneLine(frame, ends, color, width, layer, arrow=True)
 
-    def end(self, i: int, row: Row) -> Iterator[Part]:
+    def end(self, i: int, row: SkeletonRow) -> Iterator[Part]:
         """A dashed stub where the table ends: it does not say how long the last link is."""
         skeleton = self.skeleton
         followed = any(other.parent == i for other in skeleton.rows)
@@ -318,9 +318,11 @@ class _Maker:
         if followed or met or not row.joint.moves:
             return
         tip = self._way_out(row) * 0.13 * self.size
-        yield Line(i, ((i, ORIGIN), (i, _tuple(tip))), self.color(i), 3.0, "links", dashed=True)
+        yield SceneLine(
+            i, ((i, ORIGIN), (i, _tuple(tip))), self.color(i), 3.0, "links", dashed=True
+        )
 
-    def _way_out(self, row: Row) -> np.ndarray:
+    def _way_out(self, row: SkeletonRow) -> np.ndarray:
         """The axis of frame j that the link's mass lies along; else what the table suggests."""
         centre = self._centre(row)
         if centre is not None and np.any(np.abs(centre) > 1e-9 * self.size):
@@ -329,13 +331,13 @@ class _Maker:
         parallel = abs(np.sin(row.cells["alpha"])) < 1e-6 and row.joint.angular
         return np.eye(3)[0 if parallel else 2]
 
-    def mass(self, i: int, row: Row) -> Iterator[Part]:
+    def mass(self, i: int, row: SkeletonRow) -> Iterator[Part]:
         """The centre of mass, where the file states it."""
         centre = self._centre(row)
         if centre is not None:
             yield Dot(i, (i, _tuple(centre)), MASS, 3.4, "masses")
 
-    def _centre(self, row: Row) -> np.ndarray | None:
+    def _centre(self, row: SkeletonRow) -> np.ndarray | None:
         """(3,) centre of mass in frame j, m; None where the file does not state it."""
         values, name = self.skeleton.robot.parameters, row.joint.name
         mass, moments = values.get(f"M{name}", 0.0), [f"M{axis}{name}" for axis in "XYZ"]
@@ -360,7 +362,7 @@ class _Maker:
         if outline is not None:
             yield Face(i, i, outline, PLATFORM, "platform", 0.45)
             for point in outline:
-                yield Line(i, ((i, ORIGIN), (i, _tuple(point))), PLATFORM, 2.0, "platform")
+                yield SceneLine(i, ((i, ORIGIN), (i, _tuple(point))), PLATFORM, 2.0, "platform")
         else:
             for face in box(1.3 * self.radius, -1.3 * self.radius, 1.3 * self.radius):
                 yield Face(i, i, face, PLATFORM, "platform")
@@ -385,18 +387,18 @@ class _Maker:
             yield Label(one, (one, ORIGIN), loop.name, LOOP, "loop names")
 
 
-def gap_lines(skeleton: Skeleton, u: np.ndarray) -> list[Line]:
+def gap_lines(skeleton: Skeleton, u: np.ndarray) -> list[SceneLine]:
     """Between the frames of every loop: the travel that its joint lets free, and in red the gap."""
     lines = []
     for gap in gaps_of(skeleton, u):
         row = skeleton.number(gap.loop.frame)
         start, bend, end = ((BASE, _tuple(point)) for point in gap.way)
-        lines.append(Line(row, (start, bend), LOOP, 1.0, "gap"))
-        lines.append(Line(row, (bend, end), OPEN, 2.0, "gap", dashed=True))
+        lines.append(SceneLine(row, (start, bend), LOOP, 1.0, "gap"))
+        lines.append(SceneLine(row, (bend, end), OPEN, 2.0, "gap", dashed=True))
     return lines
 
 
-def _travel(row: Row, u: np.ndarray) -> float:
+def _travel(row: SkeletonRow, u: np.ndarray) -> float:
     """r of the row, m."""
     r = row.cells["r"]
     if row.joint.moves and not row.joint.angular:

@@ -17,7 +17,7 @@ _CELLS = ("gamma", "b", "alpha", "d", "theta", "r")
 
 
 @dataclass(frozen=True)
-class Row(Brief):
+class SkeletonRow(Brief):
     """One row of the table, in numbers: rad and m.
 
     Attributes:
@@ -53,7 +53,7 @@ class Skeleton(Brief):
     """
 
     robot: Robot
-    rows: tuple[Row, ...]
+    rows: tuple[SkeletonRow, ...]
     free: tuple[str, ...]
     given: tuple[int, ...]
     stated: np.ndarray
@@ -114,7 +114,7 @@ def _row(
     parent: int,
     values: Mapping[str, float],
     forms: Mapping[str, np.ndarray],
-) -> Row:
+) -> SkeletonRow:
     cells: dict[str, float] = {}
     rate = 0.0
     for name in _CELLS:
@@ -124,7 +124,7 @@ def _row(
         rate += affine.coefficients.get(joint.variable, 0.0)
     form = forms.get(joint.name, np.zeros(1 + len(robot.free)))
     virtual = joint.name in robot.platform
-    return Row(joint, parent, cells, rate, float(form[0]), form[1:], virtual)
+    return SkeletonRow(joint, parent, cells, rate, float(form[0]), form[1:], virtual)
 
 
 def _forms(
@@ -169,7 +169,7 @@ def poses(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
     return found
 
 
-def foot(row: Row) -> np.ndarray:
+def foot(row: SkeletonRow) -> np.ndarray:
     """(4, 4) pose of the foot of the joint axis in the antecedent frame: before theta and r."""
     cells = row.cells
     tilt = np.eye(4)
@@ -179,12 +179,12 @@ def foot(row: Row) -> np.ndarray:
     return np.asarray(_screw_z(cells["gamma"], cells["b"]) @ tilt)
 
 
-def corner(row: Row) -> np.ndarray:
+def corner(row: SkeletonRow) -> np.ndarray:
     """(3,) where the common normal leaves the antecedent's z axis, in the antecedent frame."""
     return np.array([0.0, 0.0, row.cells["b"]])
 
 
-def _moved(row: Row, q: complex | float) -> tuple[complex | float, complex | float]:
+def _moved(row: SkeletonRow, q: complex | float) -> tuple[complex | float, complex | float]:
     theta, r = row.cells["theta"], row.cells["r"]
     if row.joint.angular:
         return theta + row.rate * q, r

@@ -14,14 +14,16 @@ from modeler.robot.robot import Robot
 
 
 @dataclass(frozen=True)
-class Shown(Brief):
+class ShownRobot(Brief):
     """A robot as it is drawn: its table in numbers, and where its joints stand."""
 
     skeleton: Skeleton
     posture: Posture
 
 
-def show(robot: Robot, page: str | Path | None = None, picture: str | Path | None = None) -> Shown:
+def show(
+    robot: Robot, page: str | Path | None = None, picture: str | Path | None = None
+) -> ShownRobot:
     """Draw a robot at its [home], found where that is missing or poor.
 
     What cannot be derived (loops that do not close, or are singular at [home]) is drawn as it is
@@ -60,7 +62,7 @@ def _kind(picture: Path) -> str:
     return kind
 
 
-def _shown(robot: Robot) -> Shown:
+def _shown(robot: Robot) -> ShownRobot:
     note = ""
     if robot.loops:
         from modeler.derivation.derive import with_home  # only loops need symbols
@@ -71,4 +73,4 @@ def _shown(robot: Robot) -> Shown:
         except (LoopError, DerivationError) as error:
             note = str(error)
     skeleton = skeleton_of(robot)
-    return Shown(skeleton, dataclasses.replace(home_posture(skeleton), note=note))
+    return ShownRobot(skeleton, dataclasses.replace(home_posture(skeleton), note=note))

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from modeler.core.expression import FUNCTIONS
 from modeler.effects.catalogue import CATALOGUE
 from modeler.robot.cells import C_WORDS
-from modeler.robot.par_text import INERTIA, INVERSE, Each, Formula, renamed, value, written
+from modeler.robot.par_text import INERTIA, INVERSE, Each, ParFormula, renamed, value, written
 from modeler.robot.robot import listed
 
 GRAVITY = 9.81  # m/s2
@@ -97,7 +97,7 @@ def declare(lengths: Iterable[str], angles: Iterable[str], symbols: Symbols) -> 
         )
 
 
-def without_inverse(cells: list[Formula], symbols: Symbols) -> list[Formula]:
+def without_inverse(cells: list[ParFormula], symbols: Symbols) -> list[ParFormula]:
     """The formulas without atan2, atan, acos and asin, which robot files do not have.
 
     `atan2(y, x)` of two letters becomes an angle A, with y = L*sin(A) and x = L*cos(A): exact,

@@ -9,7 +9,7 @@ from modeler.robot.letters import Symbols
 from modeler.robot.par_table import (
     GEOMETRY,
     Counts,
-    Frame,
+    ParFrame,
     counts,
     frames,
     gravity,
@@ -22,7 +22,7 @@ from modeler.robot.par_text import (
     FRICTION,
     INERTIA,
     JOINTS,
-    Formula,
+    ParFormula,
     Statements,
     formula,
     scan,
@@ -53,7 +53,7 @@ class Bodies:
     notes: list[str] = field(default_factory=list)
 
 
-def bodies(statements: Statements, found: Counts, made: list[Frame]) -> Bodies:
+def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodies:
     """The parameters of links 1 .. NL, and what is left out.
 
     A parameter that is 0 beside letters is one that the link has not; beside numbers only, a
@@ -90,7 +90,7 @@ def bodies(statements: Statements, found: Counts, made: list[Frame]) -> Bodies:
     return result
 
 
-def _cell(statements: Statements, key: str, k: int, found: Counts) -> Formula:
+def _cell(statements: Statements, key: str, k: int, found: Counts) -> ParFormula:
     statement = statements.by_key.get(key)
     if statement is None:
         return formula(f"{key}{k + 1}", statements.place)
@@ -98,7 +98,7 @@ def _cell(statements: Statements, key: str, k: int, found: Counts) -> Formula:
     return formula(statement.entries[k], statement.entry_place(k + 1))
 
 
-def _parameter(name: str, cell: Formula, result: Bodies) -> list[str]:
+def _parameter(name: str, cell: ParFormula, result: Bodies) -> list[str]:
     """Keep the value; the name with what the file has for it, if that is another letter."""
     if cell.literal is not None:
         result.parameters[name] = float(cell.literal)
@@ -107,7 +107,9 @@ def _parameter(name: str, cell: Formula, result: Bodies) -> list[str]:
     return [] if same else [f"{name} (there {cell.written})"]
 
 
-def _effects(statements: Statements, found: Counts, made: list[Frame], result: Bodies) -> list[str]:
+def _effects(
+    statements: Statements, found: Counts, made: list[ParFrame], result: Bodies
+) -> list[str]:
     others: list[str] = []
     without = []
     for key in FRICTION:
@@ -275,7 +277,7 @@ def _head(statements: Statements, where: str, notes: tuple[str, ...], pull: list
     ]
 
 
-def _settle_motors(made: list[Frame], found: Counts, notes: list[str]) -> None:
+def _settle_motors(made: list[ParFrame], found: Counts, notes: list[str]) -> None:
     """A file in which no joint has a motor says nothing of motors, if there are no loops."""
     if not found.loops and not any(frame.mu for frame in made):
         for frame in made:
@@ -322,7 +324,7 @@ def _symbols(symbols: Symbols) -> list[str]:
     return [*lines, ""]
 
 
-def _table(made: list[Frame]) -> list[str]:
+def _table(made: list[ParFrame]) -> list[str]:
     """`[mdh]`, aligned; columns that are 0 everywhere are left out."""
     used = [c for c in GEOMETRY if any(not frame.cells[c].is_zero for frame in made)]
     columns = ["j", "a", "mu", "sigma", *used]
@@ -362,7 +364,7 @@ def _loops(found: Counts) -> list[str]:
     return ["[loops]", columns, "rows = [", *rows, "]", ""]
 
 
-def _tables(links: Bodies, made: list[Frame]) -> list[str]:
+def _tables(links: Bodies, made: list[ParFrame]) -> list[str]:
     lines = []
     if links.links:
         lines += ["[links]                               # parameters that these rows have"]

@@ -10,7 +10,7 @@ from modeler.robot.par_text import (
     BODIES,
     FRAMES,
     JOINTS,
-    Formula,
+    ParFormula,
     Statements,
     exact_angle,
     formula,
@@ -53,7 +53,7 @@ class Counts:
 
 
 @dataclass
-class Frame:
+class ParFrame:
     """One frame.
 
     Attributes:
@@ -68,7 +68,7 @@ class Frame:
     antecedent: int
     sigma: int
     mu: int
-    cells: dict[str, Formula]
+    cells: dict[str, ParFormula]
 
     @property
     def home(self) -> str | None:
@@ -103,7 +103,7 @@ def counts(statements: Statements) -> Counts:
     return found
 
 
-def frames(statements: Statements, found: Counts) -> list[Frame]:
+def frames(statements: Statements, found: Counts) -> list[ParFrame]:
     """The frames with their cells.
 
     Raises:
@@ -115,11 +115,11 @@ def frames(statements: Statements, found: Counts) -> list[Frame]:
         antecedent = _whole(statements, "Ant", k, range(k + 1), "the base, 0, or a frame before it")
         sigma = _whole(statements, "Sigma", k, range(3), "0 revolute, 1 prismatic or 2 fixed")
         mu = _whole(statements, "Mu", k, range(2), "1 actuated or 0 passive")
-        made.append(Frame(k + 1, antecedent, sigma, mu if sigma < 2 else 0, cells))
+        made.append(ParFrame(k + 1, antecedent, sigma, mu if sigma < 2 else 0, cells))
     return made
 
 
-def variables(made: list[Frame], statements: Statements) -> dict[str, str]:
+def variables(made: list[ParFrame], statements: Statements) -> dict[str, str]:
     """Letter of a joint variable in the file -> `q<j>`; frames without one get theirs.
 
     The variable of frame j is the letter with its number (th3, t3, q3, r3), else the only letter
@@ -190,7 +190,7 @@ def _check_lengths(statements: Statements, found: Counts) -> None:
             )
 
 
-def _cell(statements: Statements, key: str, k: int) -> Formula:
+def _cell(statements: Statements, key: str, k: int) -> ParFormula:
     statement = statements.by_key.get(key)
     if statement is None:
         return formula("0", statements.place)
@@ -213,7 +213,7 @@ _TURN = 6.29  # rad
 
 
 def table_cells(
-    made: list[Frame], found: Counts, variables: dict[str, str], symbols: Symbols, place: Place
+    made: list[ParFrame], found: Counts, variables: dict[str, str], symbols: Symbols, place: Place
 ) -> None:
     """Turn the cells of the frames into those of a robot file; symbols and notes grow.
 
@@ -251,7 +251,7 @@ def table_cells(
         )
 
 
-def _on_loops(made: list[Frame], found: Counts) -> set[int]:
+def _on_loops(made: list[ParFrame], found: Counts) -> set[int]:
     """Frames between a cut joint and its second frame, through the tree."""
     numbers: set[int] = set()
     for k in range(found.loops):
@@ -266,7 +266,7 @@ def _on_loops(made: list[Frame], found: Counts) -> set[int]:
 
 
 def _name_letters(
-    made: list[Frame], found: Counts, variables: dict[str, str], symbols: Symbols
+    made: list[ParFrame], found: Counts, variables: dict[str, str], symbols: Symbols
 ) -> None:
     """Declare the letters of the geometry, and put our names for theirs."""
     places = list(_letters(made, variables))
@@ -285,7 +285,7 @@ def _name_letters(
                 frame.cells[column] = cell.replaced(renamed(cell.tree, names | variables))
 
 
-def _letters(made: list[Frame], variables: dict[str, str]) -> Iterator[tuple[str, str]]:
+def _letters(made: list[ParFrame], variables: dict[str, str]) -> Iterator[tuple[str, str]]:
     """Every letter that is no joint variable, with its column."""
     for frame in made:
         for column in GEOMETRY:
@@ -293,14 +293,14 @@ def _letters(made: list[Frame], variables: dict[str, str]) -> Iterator[tuple[str
                 yield letter, column
 
 
-def _exact_terms(cell: Formula, rounded: dict[str, str]) -> Formula:
+def _exact_terms(cell: ParFormula, rounded: dict[str, str]) -> ParFormula:
     """The angle with its decimal terms put as the multiples of pi/12 that they mean."""
     if cell.literal is not None:
         angle = exact_angle(cell.literal)
         if angle is None:
             return cell
         rounded[cell.literal] = angle
-        return Formula(ast.parse(angle, mode="eval").body, angle)
+        return ParFormula(ast.parse(angle, mode="eval").body, angle)
 
     def exact(node: ast.expr) -> ast.expr:
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
@@ -318,13 +318,13 @@ def _exact_terms(cell: Formula, rounded: dict[str, str]) -> Formula:
 
 
 def _as_symbol(
-    cell: Formula,
-    frame: Frame,
+    cell: ParFormula,
+    frame: ParFrame,
     column: str,
     symbols: Symbols,
     equal: dict[float, list[str]],
     place: Place,
-) -> Formula:
+) -> ParFormula:
     """A number as a symbol with that value: positive, with its sign in the cell.
 
     `equal` grows: the value -> its symbol, and the entries of the file that share it.
@@ -342,10 +342,10 @@ def _as_symbol(
         equal[abs(number)].append(f"{column} of frame {frame.number}")
     name = equal[abs(number)][0]
     text = f"-{name}" if number < 0 else name
-    return Formula(ast.parse(text, mode="eval").body, text)
+    return ParFormula(ast.parse(text, mode="eval").body, text)
 
 
-def _add_variables(made: list[Frame], symbols: Symbols) -> None:
+def _add_variables(made: list[ParFrame], symbols: Symbols) -> None:
     """`q<j>` where the file leaves the joint variable to be understood."""
     missing = []
     for frame in made:
@@ -357,7 +357,7 @@ def _add_variables(made: list[Frame], symbols: Symbols) -> None:
         rest = "" if cell.is_zero else f" + ({cell.text})"
         text = f"q{frame.number}{rest}"
         tree = ast.parse(text, mode="eval").body
-        frame.cells[frame.home] = Formula(tree, written(tree))
+        frame.cells[frame.home] = ParFormula(tree, written(tree))
         missing.append(f"q{frame.number}")
     if missing:
         symbols.notes.append(

@@ -188,7 +188,7 @@ _PLAIN = re.compile(rf"[+-]?\s*{_NUMBER}")
 
 
 @dataclass(frozen=True)
-class Formula:
+class ParFormula:
     """A checked formula.
 
     Attributes:
@@ -223,9 +223,9 @@ class Formula:
         """As robot files spell it."""
         return written(self.tree)
 
-    def replaced(self, tree: ast.expr) -> "Formula":
+    def replaced(self, tree: ast.expr) -> "ParFormula":
         """Another formula in its place."""
-        return Formula(tree, written(tree))
+        return ParFormula(tree, written(tree))
 
 
 def written(tree: ast.expr) -> str:
@@ -233,7 +233,7 @@ def written(tree: ast.expr) -> str:
     return re.sub(r" (\*\*|\*|/) ", r"\1", ast.unparse(tree))
 
 
-def formula(entry: str, place: Place) -> Formula:
+def formula(entry: str, place: Place) -> ParFormula:
     """The formula of an entry: `-Pi/2`, `Sqrt[b^2 + d6^2]`, `0.45`.
 
     Raises:
@@ -248,7 +248,7 @@ def formula(entry: str, place: Place) -> Formula:
             f"got {shown(entry)}; expected a number, a letter, or arithmetic of these with "
             f"{', '.join(sorted({*FUNCTIONS, *INVERSE}))}"
         ) from None
-    return Formula(tree, entry)
+    return ParFormula(tree, entry)
 
 
 def value(tree: ast.expr, values: Mapping[str, float]) -> float:

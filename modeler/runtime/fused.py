@@ -37,7 +37,7 @@ _DENSE = 4096  # those of a robot whose whole regressor is evaluated: 13 MB of 4
 
 
 @dataclass(frozen=True, eq=False)
-class Pattern:
+class NonzeroPattern:
     """Which columns can enter the rows of each joint; n joints, c columns.
 
     Attributes:
@@ -68,10 +68,10 @@ class Pattern:
         ]
 
 
-def pattern_of(entries: Sequence[tuple[int, int]], joints: int, width: int) -> Pattern:
+def pattern_of(entries: Sequence[tuple[int, int]], joints: int, width: int) -> NonzeroPattern:
     """The pattern of (joint, column) entries."""
     columns = [sorted(c for joint, c in entries if joint == j) for j in range(joints)]
-    return Pattern(tuple(np.array(own, dtype=np.intc) for own in columns), width)
+    return NonzeroPattern(tuple(np.array(own, dtype=np.intc) for own in columns), width)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +85,7 @@ class Triangles:
         left_out: (samples,) of the last call: True where a row in use was not finite.
     """
 
-    pattern: Pattern
+    pattern: NonzeroPattern
     packed: np.ndarray
     rows: np.ndarray
     left_out: np.ndarray
@@ -105,7 +105,7 @@ class Triangles:
         return whole
 
 
-def no_rows(pattern: Pattern) -> Triangles:
+def no_rows(pattern: NonzeroPattern) -> Triangles:
     """The triangles of no rows."""
     packed = np.zeros(sum(size * size for size in pattern.sizes))
     rows = np.zeros(len(pattern.columns), dtype=np.uintp)
@@ -113,7 +113,7 @@ def no_rows(pattern: Pattern) -> Triangles:
 
 
 def of_samples(
-    pattern: Pattern, functions: Functions, given: Samples, state: Triangles | None = None,
+    pattern: NonzeroPattern, functions: Functions, given: Samples, state: Triangles | None = None,
     level: int = 0,
 ) -> Triangles:  # fmt: skip
     """Triangles of samples whose entries a compiled function evaluates, sample by sample.
@@ -138,7 +138,7 @@ def of_samples(
 
 
 def products_of_samples(
-    pattern: Pattern, functions: Functions, given: Samples, last: np.ndarray, first: int = 0
+    pattern: NonzeroPattern, functions: Functions, given: Samples, last: np.ndarray, first: int = 0
 ) -> list[np.ndarray]:
     """Sums over t of x_j(t - k) x_j(t)^T, x_j = [W_j y_j], for k = first .. last_j, joint by joint.
 
@@ -179,7 +179,7 @@ def products_of_samples(
 
 
 def of_dense(
-    pattern: Pattern,
+    pattern: NonzeroPattern,
     evaluate: Callable[[slice], tuple[np.ndarray, np.ndarray]],
     given: Samples,
     state: Triangles | None = None,
@@ -210,7 +210,7 @@ def of_dense(
 
 
 def of_rows(
-    pattern: Pattern, phi: np.ndarray, y: np.ndarray, use: np.ndarray | None,
+    pattern: NonzeroPattern, phi: np.ndarray, y: np.ndarray, use: np.ndarray | None,
     state: Triangles | None = None, level: int = 0,
 ) -> Triangles:  # fmt: skip
     """Triangles of rows that stand in memory.
@@ -237,7 +237,7 @@ def of_rows(
 
 def _merged(
     library: FusedLibrary,
-    pattern: Pattern,
+    pattern: NonzeroPattern,
     parts: Iterable[Triangles],
     state: Triangles | None,
 ) -> Triangles:
@@ -378,7 +378,7 @@ class Reducing:
         return Functions(self._library.address(name), len(self.spec.signals), tile)
 
     @cached_property
-    def pattern(self) -> Pattern:
+    def pattern(self) -> NonzeroPattern:
         """Which columns can enter the torque of each joint."""
         return pattern_of(self.spec.nonzeros, self._joints, len(self.spec.base))
 

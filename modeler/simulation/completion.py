@@ -43,7 +43,7 @@ class Completion:
 
 
 @dataclass(frozen=True)
-class _Problem:
+class _BodyProblem:
     """S(x) = origin + sum x_k directions[k], the scaled pseudo-inertia without its zero rows."""
 
     origin: np.ndarray  # (m, m)
@@ -90,7 +90,7 @@ def completed(stated: Mapping[str, float], reference: Mapping[str, float]) -> Co
     return Completion(values if is_physical(values, _EDGE) else None)
 
 
-def _problem(stated: Mapping[str, float], near: np.ndarray) -> _Problem | None:
+def _problem(stated: Mapping[str, float], near: np.ndarray) -> _BodyProblem | None:
     """The stated values as constraints; None if two of them exclude each other."""
     known = _known_diagonal(stated)
     if _contradicted(stated, known):
@@ -117,7 +117,7 @@ def _problem(stated: Mapping[str, float], near: np.ndarray) -> _Problem | None:
     _, singular, right = np.linalg.svd(matrix, full_matrices=True)
     free = right[int(np.sum(singular > 1e-12)) :]
     small = basis[:, rows][:, :, rows]
-    return _Problem(
+    return _BodyProblem(
         np.tensordot(point, small, 1), np.tensordot(free, small, 1), scale=scale, rows=rows
     )
 
@@ -177,7 +177,7 @@ def _scale(stated: Mapping[str, float], known: Mapping[int, float], near: np.nda
     return np.sqrt(size)
 
 
-def _feasible(problem: _Problem) -> np.ndarray | None:
+def _feasible(problem: _BodyProblem) -> np.ndarray | None:
     """The x of the largest t up to 1 with S(x) - t 1 >= 0; None if the solver finds none.
 
     Least S(x) below 0 then means that none is above.
@@ -193,7 +193,7 @@ def _feasible(problem: _Problem) -> np.ndarray | None:
     return _solved(cp.Problem(goal, [S - t * np.eye(len(problem.rows)) >> 0, t <= 1.0]), x)
 
 
-def _flattened(problem: _Problem, x: np.ndarray) -> np.ndarray:
+def _flattened(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
     """The same plate, rod or point with exact zeros: S(x) times what it nearly vanishes on."""
     for _ in range(_STEPS):
         values, vectors = np.linalg.eigh(_matrix(problem, x))
@@ -207,7 +207,7 @@ def _flattened(problem: _Problem, x: np.ndarray) -> np.ndarray:
     return x
 
 
-def _nearest(problem: _Problem, near: np.ndarray, x: np.ndarray) -> np.ndarray:
+def _nearest(problem: _BodyProblem, near: np.ndarray, x: np.ndarray) -> np.ndarray:
     """The x with S(x) > 0 of least divergence from the reference, to all digits.
 
     Damped Newton: tr(W S) - log det S is self-concordant, so that it gets there from any x inside
@@ -234,7 +234,7 @@ def _nearest(problem: _Problem, near: np.ndarray, x: np.ndarray) -> np.ndarray:
     return x
 
 
-def _written(problem: _Problem, x: Any) -> Any:
+def _written(problem: _BodyProblem, x: Any) -> Any:
     return problem.origin + sum(x[k] * E for k, E in enumerate(problem.directions))
 
 
@@ -251,7 +251,7 @@ def _solved(problem: Any, x: Any) -> np.ndarray | None:
     return None if x.value is None else np.asarray(x.value)
 
 
-def _matrix(problem: _Problem, x: np.ndarray) -> np.ndarray:
+def _matrix(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
     return np.asarray(problem.origin + np.tensordot(x, problem.directions, 1))
 
 

@@ -16,7 +16,7 @@ from modeler.simulation.hidden_bodies import last_link
 from modeler.simulation.hidden_catalogue import HIDDEN
 from modeler.simulation.hidden_kind import HiddenKind, Site
 from modeler.simulation.parameters import PlantParameters, joint_scales
-from modeler.simulation.physics import JointScale
+from modeler.simulation.physics import ShaftScale
 from modeler.simulation.plant import torque_function
 from modeler.simulation.portable_math import ten_digits
 from modeler.simulation.rigid import gravity_vector, world_frames
@@ -200,7 +200,7 @@ def _site(
     robot: Robot,
     parameters: PlantParameters,
     limits: tuple[Limits, ...],
-    scales: Sequence[JointScale],
+    scales: Sequence[ShaftScale],
     settings: SimulationSettings,
     joint: str | None,
 ) -> Site:
@@ -226,7 +226,7 @@ def _site(
 def _among_others(
     robot: Robot,
     site: Site,
-    scales: Sequence[JointScale],
+    scales: Sequence[ShaftScale],
     joint: str,
 ) -> Site:
     """The site of an effect that the next joint feels too: what is large for the weaker one."""
@@ -241,7 +241,7 @@ def _among_others(
     )
 
 
-def _whole_torque(scale: JointScale, limit: Limits, own: Mapping[str, float]) -> float:
+def _whole_torque(scale: ShaftScale, limit: Limits, own: Mapping[str, float]) -> float:
     """Rms torque with what the robot file knows of friction and rotor, in the same motion."""
     parts = (
         scale.torque,
@@ -256,7 +256,7 @@ def _lever(
     robot: Robot,
     parameters: PlantParameters,
     limits: tuple[Limits, ...],
-    scales: Sequence[JointScale],
+    scales: Sequence[ShaftScale],
 ) -> float:
     """Torque of a force of 1 N on the last body, per rms torque of the joint that feels it most."""
     q = ca.SX.sym("q", len(limits))

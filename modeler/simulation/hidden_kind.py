@@ -7,7 +7,7 @@ from typing import Literal
 import casadi as ca
 import numpy as np
 
-from modeler.simulation.physics import Contribution, JointScale, Shaft
+from modeler.simulation.physics import Contribution, Shaft, ShaftScale
 from modeler.simulation.rigid import Body
 
 Where = Literal["joint", "lever", "pair", "geared", "link", "passive", "system"]
@@ -54,9 +54,9 @@ class Site:
     duration: float
 
     @property
-    def scale(self) -> JointScale:
+    def scale(self) -> ShaftScale:
         """The part of it that the physics of robot files asks for."""
-        return JointScale(self.torque, self.speed, self.inertia)
+        return ShaftScale(self.torque, self.speed, self.inertia)
 
 
 @dataclass(frozen=True)

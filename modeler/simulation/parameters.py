@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.errors import RobotError
 from modeler.robot.robot import Limits, Robot
 from modeler.simulation.links import alike, link_parameters, unshared
-from modeler.simulation.physics import PHYSICS, EffectPhysics, JointScale
+from modeler.simulation.physics import PHYSICS, EffectPhysics, ShaftScale
 from modeler.simulation.portable_math import ten_digits
 from modeler.simulation.rigid import Body, body_from_standard, rigid_dynamics
 
@@ -97,7 +97,7 @@ def joint_scales(
     bodies: Mapping[str, Body],
     limits: tuple[Limits, ...],
     rng: np.random.Generator,
-) -> list[JointScale]:
+) -> list[ShaftScale]:
     """What is large and small on each moving row, by the torques of the links in random states."""
     dynamics = rigid_dynamics(robot, bodies)
     q, qd = dynamics.q, dynamics.qd
@@ -118,6 +118,6 @@ def joint_scales(
     rms[idle] = _OF_LARGEST * rms.max()
     inertia[idle] = rms[idle] / lift[idle, 0]
     return [
-        JointScale(float(torque), limit.speed, float(mass))
+        ShaftScale(float(torque), limit.speed, float(mass))
         for torque, mass, limit in zip(rms, inertia, limits, strict=True)
     ]

@@ -54,7 +54,7 @@ class Contribution:
 
 
 @dataclass(frozen=True)
-class JointScale:
+class ShaftScale:
     """What is large and small on a joint, for plausible values.
 
     Attributes:
@@ -84,7 +84,7 @@ class EffectPhysics:
     effect: str
     prefixes: tuple[str, ...]
     on_motor: bool
-    draw: Callable[[np.random.Generator, JointScale], dict[str, float]]
+    draw: Callable[[np.random.Generator, ShaftScale], dict[str, float]]
     act: Callable[[Shaft, Mapping[str, float]], Contribution]
     signed: tuple[str, ...] = ()
 

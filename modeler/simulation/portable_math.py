@@ -25,7 +25,7 @@ _HIGHEST = 700.0  # argument of exp
 _ROOTS = 6  # square roots that bring 1e-12 to 1e12 near to 1, where the series of atanh is short
 
 
-class _Algebra(NamedTuple):
+class _PortableAlgebra(NamedTuple):
     """What numbers, arrays and expressions spell differently."""
 
     floor: Callable[[Any], Any]
@@ -35,10 +35,10 @@ class _Algebra(NamedTuple):
     sqrt: Callable[[Any], Any]
 
 
-_ARRAYS = _Algebra(
+_ARRAYS = _PortableAlgebra(
     np.floor, np.where, np.clip, lambda k: np.ldexp(1.0, np.asarray(k).astype(int)), np.sqrt
 )
-_EXPRESSIONS = _Algebra(
+_EXPRESSIONS = _PortableAlgebra(
     ca.floor,
     ca.if_else,
     lambda x, low, high: ca.fmin(ca.fmax(x, low), high),
@@ -145,7 +145,7 @@ class _Functions:
         return self._turned[key][1]
 
 
-def _algebra(x: Any) -> _Algebra:
+def _algebra(x: Any) -> _PortableAlgebra:
     return _EXPRESSIONS if isinstance(x, ca.SX) else _ARRAYS
 
 

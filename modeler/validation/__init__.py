@@ -3,7 +3,7 @@
 from modeler.validation.comparison import Comparison as Comparison
 from modeler.validation.comparison import JointComparison as JointComparison
 from modeler.validation.comparison import compare as compare
-from modeler.validation.free_run import Asked as Asked
+from modeler.validation.free_run import FreeRunSettings as FreeRunSettings
 from modeler.validation.free_run import free_run as free_run
 from modeler.validation.free_run_result import FreeRun as FreeRun
 from modeler.validation.free_run_result import JointFreeRun as JointFreeRun

@@ -145,7 +145,7 @@ class Region(Brief):
 
 
 @dataclass(frozen=True)
-class Window:
+class WorstWindow:
     """The stretch of one log with the largest summed squared residual."""
 
     log: str
@@ -189,7 +189,7 @@ def velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...]:
     return tuple(regions)
 
 
-def worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -> Window:
+def worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -> WorstWindow:
     """The window of `width` seconds, inside one segment, with the largest residual energy.
 
     Args:
@@ -212,7 +212,7 @@ def worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -
             best, first, last = float(inside[top]), span.start + top, int(stop[top])
     rows = int(counted[last] - counted[first])
     total = float(energy[-1])
-    return Window(
+    return WorstWindow(
         log=prediction.logs[prediction.run[first]],
         segment=int(prediction.segment[first]),
         start=float(prediction.time[first]),
@@ -328,7 +328,7 @@ class JointComparison(Brief):
     bias: float  # mean residual
     largest: Moment
     regions: tuple[Region, ...]
-    worst: Window
+    worst: WorstWindow
     structure: Structure | None  # None: too few samples to tell
     spectrum: ResidualSpectrum | None  # None: no segment long enough
     shares: Shares | None  # None: too few samples to tell

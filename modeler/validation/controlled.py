@@ -3,7 +3,7 @@
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError
-from modeler.estimation.direct_model import DirectModel, Loop
+from modeler.estimation.direct_model import ControlLoop, DirectModel
 from modeler.observation.observation import Observation
 from modeler.runtime.model import CompiledModel
 from modeler.validation.free_run_result import Controlled
@@ -37,7 +37,9 @@ def controlled(
     if gains is None and not all(joint.actuated for joint in model.spec.joints):
         return None, "a joint has no motor, so no controller is looked for"
     try:
-        loop = robot.chosen(beta) if gains is None else Loop(2 * np.pi * gains[0], *gains[1:])
+        loop = (
+            robot.chosen(beta) if gains is None else ControlLoop(2 * np.pi * gains[0], *gains[1:])
+        )
         if np.isinf(loop.speed):
             return None, _NONE_NEARER
         motions = robot.followed(beta, loop)
@@ -64,7 +66,7 @@ def _check_commanded(observation: Observation, gains: Gains | None) -> None:
 def _measured(
     observation: Observation,
     robot: DirectModel,
-    loop: Loop,
+    loop: ControlLoop,
     motions: list[np.ndarray],
     beta: np.ndarray,
     given: bool,

@@ -36,7 +36,7 @@ class Forces:
     dry: np.ndarray
 
 
-class Plant:
+class FittedPlant:
     """The robot of a model with its values.
 
     Args:

@@ -14,7 +14,7 @@ from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation, observe
 from modeler.runtime.model import CompiledModel
 from modeler.validation.controlled import Gains, controlled
-from modeler.validation.forward_dynamics import Forces, Plant
+from modeler.validation.forward_dynamics import FittedPlant, Forces
 from modeler.validation.free_run_result import FreeRun, JointFreeRun, Path
 from modeler.validation.stability import (
     Along,
@@ -61,7 +61,7 @@ class Lanes:
 
 
 def walk(
-    plant: Plant,
+    plant: FittedPlant,
     lanes: Lanes,
     inner: int,
     ended: np.ndarray | None = None,
@@ -113,7 +113,7 @@ class _State:
     s: np.ndarray | None
 
     @classmethod
-    def at(cls, plant: Plant, lanes: Lanes) -> "_State":
+    def at(cls, plant: FittedPlant, lanes: Lanes) -> "_State":
         b, n = lanes.q.shape
         signals = None if lanes.signals is None else lanes.signals[0].copy()
         return cls(
@@ -121,7 +121,7 @@ class _State:
             np.zeros((b, plant.shafts)), signals,
         )  # fmt: skip
 
-    def read(self, plant: Plant, signals: np.ndarray | None, k: int) -> None:
+    def read(self, plant: FittedPlant, signals: np.ndarray | None, k: int) -> None:
         """Signals of sample k; bristles are part of the state and stay."""
         if self.s is not None and signals is not None:
             held = self.s[:, plant.slipping].copy()
@@ -129,7 +129,12 @@ class _State:
             self.s[:, plant.slipping] = held
 
     def step(
-        self, plant: Plant, live: np.ndarray, tau: np.ndarray, h: float, dry: np.ndarray | None
+        self,
+        plant: FittedPlant,
+        live: np.ndarray,
+        tau: np.ndarray,
+        h: float,
+        dry: np.ndarray | None,
     ) -> np.ndarray:
         """One step of h s for those that live; the bounds of their dry friction."""
         q, qd = self.q[live], self.qd[live]
@@ -149,7 +154,7 @@ class _State:
 
 
 def _sound(
-    plant: Plant, state: _State, live: np.ndarray, around: np.ndarray, far: np.ndarray
+    plant: FittedPlant, state: _State, live: np.ndarray, around: np.ndarray, far: np.ndarray
 ) -> np.ndarray:
     """(live,) True where the state is one that can be gone on from."""
     q, qd = state.q[live], state.qd[live]
@@ -218,7 +223,7 @@ _DOUBTFUL = 0.01  # of the range: a numerical error that is told
 
 
 @dataclass(frozen=True)
-class Asked:
+class FreeRunSettings:
     """What is asked of a free run.
 
     Attributes:
@@ -245,7 +250,7 @@ def free_run(
     model: IdentifiedModel,
     logs: Sequence[Log],
     compiled: CompiledModel,
-    asked: Asked | None = None,
+    asked: FreeRunSettings | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> FreeRun:
     """Positions that the fitted robot takes under the logged torques, beside the measured ones.
@@ -261,17 +266,17 @@ def free_run(
         DataError: a number out of its range, logs shorter than a window, or values with which the
             robot has no inertia.
     """
-    asked = asked or Asked()
+    asked = asked or FreeRunSettings()
     _check(asked)
     observation = observe(compiled, logs, model.processing)
     segments = [part.segment for part in observation.stretches]
     starts = _starts(segments, asked.window)
-    plant = Plant(compiled, model.beta)
+    plant = FittedPlant(compiled, model.beta)
     every = np.concatenate([segment.q[segment.whole] for segment in segments])
     plant.check_inertia(every[:: max(1, len(every) // 500)])
     nature = stability(plant, _along(observation, segments, compiled))
     ranges = ranges_of(every, [joint.unit for joint in observation.joints])
-    field = _Field(plant, segments, nature.fastest, ranges, compiled)
+    field = _MotionField(plant, segments, nature.fastest, ranges, compiled)
     return _run(model, compiled, observation, field, starts, nature, asked, progress)
 
 
@@ -279,10 +284,10 @@ def _run(
     model: IdentifiedModel,
     compiled: CompiledModel,
     observation: Observation,
-    field: "_Field",
+    field: "_MotionField",
     starts: Sequence[_Start],
     nature: Stability,
-    asked: Asked,
+    asked: FreeRunSettings,
     progress: Callable[[float], None] | None,
 ) -> FreeRun:
     tell = progress or (lambda share: None)
@@ -310,7 +315,7 @@ def _run(
     )
 
 
-def _check(asked: Asked) -> None:
+def _check(asked: FreeRunSettings) -> None:
     for name, value in (("--window", asked.window), ("--bound", asked.bound)):
         if not (math.isfinite(value) and value > 0.0):
             raise DataError(f"{name}: got {value:g}; expected a number above 0")
@@ -363,12 +368,12 @@ def _along(
     return found
 
 
-class _Field:
+class _MotionField:
     """Where robots run: the logged torques, and how finely."""
 
     def __init__(
         self,
-        plant: Plant,
+        plant: FittedPlant,
         segments: Sequence[Segment],
         fastest: float,
         ranges: np.ndarray,
@@ -430,7 +435,7 @@ class _Field:
 
 
 @dataclass(frozen=True, eq=False)
-class _Windows:
+class _RunWindows:
     """Runs from measured states: paths of a window, going on at constant speed, horizons."""
 
     paths: tuple[Path, ...]
@@ -440,8 +445,11 @@ class _Windows:
 
 
 def _windows(
-    field: _Field, starts: Sequence[_Start], asked: Asked, tell: Callable[[float], None]
-) -> tuple[_Windows, float]:
+    field: _MotionField,
+    starts: Sequence[_Start],
+    asked: FreeRunSettings,
+    tell: Callable[[float], None],
+) -> tuple[_RunWindows, float]:
     window, bound = asked.window, asked.bound
     simulated, measured = field.run(
         starts, _FOLLOWED * window, tell=lambda share: tell(0.1 + 0.4 * share)
@@ -459,7 +467,7 @@ def _windows(
         paths.append(Path(str(segment.run), segment.time[own], theirs[:count], ours[:count]))
         gone = segment.time[own] - segment.time[start.first]
         straight.append(theirs[0] + gone[:, None] * segment.qd[start.first])
-    return _Windows(
+    return _RunWindows(
         tuple(paths),
         np.concatenate(straight),
         tuple(a - b for a, b in zip(simulated, measured, strict=True)),
@@ -483,7 +491,7 @@ def _changed(
     return largest
 
 
-def _whole(field: _Field, tell: Callable[[float], None]) -> tuple[np.ndarray, np.ndarray]:
+def _whole(field: _MotionField, tell: Callable[[float], None]) -> tuple[np.ndarray, np.ndarray]:
     """Simulated and measured positions of each segment from its start, one after the other."""
     starts = [_Start(i, *_inside(segment)) for i, segment in enumerate(field.segments)]
     simulated, measured = field.run([s for s in starts if s.stop - s.first > 1], _WHOLE, tell=tell)
@@ -493,9 +501,9 @@ def _whole(field: _Field, tell: Callable[[float], None]) -> tuple[np.ndarray, np
 def _joint(
     j: int,
     observation: Observation,
-    runs: _Windows,
+    runs: _RunWindows,
     whole: tuple[np.ndarray, np.ndarray],
-    asked: Asked,
+    asked: FreeRunSettings,
     ranges: np.ndarray,
 ) -> JointFreeRun:
     joint = observation.joints[j]
@@ -529,7 +537,7 @@ def _doubts(
     numerical: float,
     segments: Sequence[Segment],
     starts: Sequence[_Start],
-    asked: Asked,
+    asked: FreeRunSettings,
     nature: Stability,
     doubt: str,
 ) -> list[str]:

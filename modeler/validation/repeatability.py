@@ -50,7 +50,7 @@ def repetitions(prediction: Prediction) -> tuple[Repetition, ...]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Motion:
+class _RepeatedMotion:
     run: int
     step: float  # s, between rows
     time: np.ndarray  # (m,) s, full rate
@@ -59,7 +59,7 @@ class _Motion:
     ends: np.ndarray  # (2, joints) lowest and highest position
 
 
-def _motions(prediction: Prediction) -> list[_Motion]:
+def _motions(prediction: Prediction) -> list[_RepeatedMotion]:
     full, found = full_rate(prediction), []
     strokes = np.nanmax(prediction.q, axis=0) - np.nanmin(prediction.q, axis=0)
     moving = strokes > _MOVES * strokes.max()
@@ -72,11 +72,11 @@ def _motions(prediction: Prediction) -> list[_Motion]:
             size = np.maximum(q[:, moving].std(axis=0), 1e-12)
             ends = np.array([q.min(axis=0), q.max(axis=0)])
             step = float(np.median(np.diff(times)))
-            found.append(_Motion(run, step, time[::every], q[::every, moving], size, ends))
+            found.append(_RepeatedMotion(run, step, time[::every], q[::every, moving], size, ends))
     return found
 
 
-def _laps(motions: list[_Motion]) -> Repetition:
+def _laps(motions: list[_RepeatedMotion]) -> Repetition:
     partners, periods = [], []
     for own in motions:
         length = float(np.ptp(own.time))
@@ -92,7 +92,7 @@ def _laps(motions: list[_Motion]) -> Repetition:
     return Repetition("laps", tuple(partners), tuple(periods))
 
 
-def _refined(own: _Motion, period: float) -> float:
+def _refined(own: _RepeatedMotion, period: float) -> float:
     """The period from laps farther and farther apart: an error of it grows with their number."""
     half, laps = own.step, 1
     most = max(1, int(np.ptp(own.time) / period) - 1)
@@ -103,9 +103,9 @@ def _refined(own: _Motion, period: float) -> float:
         laps, half = min(2 * laps, most), half / 10
 
 
-def _same_motion(motions: list[_Motion]) -> Repetition:
+def _same_motion(motions: list[_RepeatedMotion]) -> Repetition:
     """Each log beside the first one of the same motion, in groups."""
-    groups: list[list[tuple[_Motion, float]]] = []
+    groups: list[list[tuple[_RepeatedMotion, float]]] = []
     for own in motions:
         for group in groups:
             shift = _shift(group[0][0], own)
@@ -124,7 +124,7 @@ def _same_motion(motions: list[_Motion]) -> Repetition:
     return Repetition("logs", tuple(partners), ())
 
 
-def _shift(first: _Motion, other: _Motion) -> float | None:
+def _shift(first: _RepeatedMotion, other: _RepeatedMotion) -> float | None:
     """s by which the clock of `other` is ahead for the same motion; None for another motion."""
     stroke = float(np.ptp(first.ends, axis=0).max())
     if np.abs(first.ends - other.ends).max() > _SAME * stroke:
@@ -142,7 +142,9 @@ def _shift(first: _Motion, other: _Motion) -> float | None:
     return best if alike > ALIKE else None
 
 
-def _best_shift(first: _Motion, other: _Motion, around: float, half: float) -> float:
+def _best_shift(
+    first: _RepeatedMotion, other: _RepeatedMotion, around: float, half: float
+) -> float:
     """The shift near `around` at which the motions are least apart; a parabola between the grid."""
     grid = around + half * np.linspace(-1.0, 1.0, 2 * _GRID + 1)
     apart = np.array([_apart(first, other, shift, 0.0) for shift in grid])
@@ -155,7 +157,7 @@ def _best_shift(first: _Motion, other: _Motion, around: float, half: float) -> f
     return float(grid[best] + part * (grid[1] - grid[0]))
 
 
-def _apart(first: _Motion, other: _Motion, shift: float, overlap: float) -> float:
+def _apart(first: _RepeatedMotion, other: _RepeatedMotion, shift: float, overlap: float) -> float:
     """Mean squared difference of the joint that differs most; infinite with less overlap."""
     begin = max(first.time[0], other.time[0] - shift)
     end = min(first.time[-1], other.time[-1] - shift)
@@ -166,7 +168,7 @@ def _apart(first: _Motion, other: _Motion, shift: float, overlap: float) -> floa
     return float(np.mean(apart**2, axis=0).max())
 
 
-def _at(own: _Motion, times: np.ndarray) -> np.ndarray:
+def _at(own: _RepeatedMotion, times: np.ndarray) -> np.ndarray:
     return np.column_stack([np.interp(times, own.time, column) for column in own.q.T])
 
 

@@ -235,7 +235,7 @@ def _curve(prediction: Prediction, joint: int, coordinate: str, rows: np.ndarray
 
 
 @dataclass(frozen=True)
-class Line:
+class SpectralLine:
     """A wave that stands out."""
 
     waves: float  # per turn of a revolute joint, per m of a prismatic one
@@ -268,14 +268,14 @@ def waves(orders: OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
     return orders.order / (2.0 * np.pi), "m"
 
 
-def lines(orders: OrderSpectrum | None, unit: str) -> tuple[Line, ...]:
+def lines(orders: OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
     """What stands out in an order spectrum, the strongest first; see `waves`."""
     if orders is None:
         return ()
     found, (counted, _) = orders, waves(orders, unit)
     places = [int(np.argmin(np.abs(found.order - order))) for order in found.peaks]
     return tuple(
-        Line(
+        SpectralLine(
             waves=float(counted[k]),
             amplitude=float(found.amplitude[k]),
             share=0.5 * float(found.amplitude[k]) ** 2 / found.power,

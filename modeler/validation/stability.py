@@ -18,7 +18,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from modeler.core.brief import Brief
-from modeler.validation.forward_dynamics import Plant
+from modeler.validation.forward_dynamics import FittedPlant
 
 _STEP = 1e-5  # of a difference quotient, rad or m, and rad/s or m/s
 _GROWN = np.log(10.0)  # an error that becomes tenfold in the run is told
@@ -94,7 +94,7 @@ class Stability(Brief):
         )
 
 
-def stability(plant: Plant, runs: Sequence[Along]) -> Stability:
+def stability(plant: FittedPlant, runs: Sequence[Along]) -> Stability:
     """Of the linearised robot along logged motions."""
     found: list[Stability] = []
     for run in runs:
@@ -118,7 +118,7 @@ def stability(plant: Plant, runs: Sequence[Along]) -> Stability:
     )  # fmt: skip
 
 
-def jacobians(plant: Plant, run: Along) -> np.ndarray:
+def jacobians(plant: FittedPlant, run: Along) -> np.ndarray:
     """(p, 2n, 2n) A, by central differences."""
     p, n = run.q.shape
     forces = plant.forces(run.q, run.qd, np.zeros_like(run.q), run.signals)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from modeler.api import (  # fmt: skip
+from modeler.api import (
     compare,
     compile_model,
     derive,

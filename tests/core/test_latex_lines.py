@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from modeler.core.formula import latex_name, latex_text
-from modeler.core.latex_display import Equation, broken, display, width
+from modeler.core.latex_display import DisplayedEquation, broken, display, width
 from tests.base.formulas import written_value
 
 LETTERS = {"a": 0.7, r"\mathit{MX}_{31c}": -1.3, r"\theta_{2}": 0.4, "D_{4}": 2.1, "s_{1-2}": 0.6}
@@ -60,8 +60,8 @@ def test_what_cannot_be_opened_stays_whole() -> None:
 
 
 def test_numbers_stand_at_the_last_line() -> None:
-    equation = Equation("x", (" + ".join([r"\mathit{MX}_{31}"] * 20),))
-    page = display([equation, Equation("y", ("1",))], numbered=True)
+    equation = DisplayedEquation("x", (" + ".join([r"\mathit{MX}_{31}"] * 20),))
+    page = display([equation, DisplayedEquation("y", ("1",))], numbered=True)
     assert page.count(r"\notag") == page.count(r"&\quad {}+") == page.count("\\\\\n") - 1 > 0
     assert r"\notag" not in display([equation])
 

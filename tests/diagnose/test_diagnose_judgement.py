@@ -12,12 +12,12 @@ from modeler.diagnosis import data_checks as doubts
 from modeler.diagnosis import errors, search
 from modeler.diagnosis.assemble import _doubted, verdict
 from modeler.diagnosis.candidates import Candidate, Known, candidates, scales_of
-from modeler.diagnosis.cross_checks import Look
+from modeler.diagnosis.cross_checks import CrossCheck
 from modeler.diagnosis.judge import Judged, decide, possible
 from modeler.diagnosis.plausible import DRIVES
 from modeler.diagnosis.result import Finding
 from modeler.diagnosis.score import Change, Score
-from modeler.diagnosis.search import Survey
+from modeler.diagnosis.search import HypothesisScan
 from modeler.diagnosis.sentences import other_names, refused_lines
 from modeler.effects.catalogue import effect_named
 from modeler.observation.channels import Fault
@@ -119,7 +119,10 @@ def test_what_does_not_lower_the_error_is_no_fact() -> None:
 
 @pytest.mark.parametrize(("agrees", "said"), [(True, "missing"), (False, "closest description")])
 def test_a_name_that_another_look_does_not_give_is_no_fact(agrees: bool, said: str) -> None:
-    looks = (Look("held out", ("spring", "2"), True), Look("low", ("stribeck", "1"), agrees))
+    looks = (
+        CrossCheck("held out", ("spring", "2"), True),
+        CrossCheck("low", ("stribeck", "1"), agrees),
+    )
     first = Finding("spring", "2", 0.2, 0.1, {}, {}, {}, (), "", 1.0, False, looks=looks)
     joints = {"1": SimpleNamespace(error_after=0.1, unexplained=False)}
     assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
@@ -250,7 +253,7 @@ def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(
     before: float, now: float, again: bool
 ) -> None:
     better = dataclasses.replace(at_its_best("spring", now))
-    survey = Survey(None, (), (), (better,))  # type: ignore[arg-type]
+    survey = HypothesisScan(None, (), (), (better,))  # type: ignore[arg-type]
     mending = dataclasses.replace(at_its_best("stribeck", 0.2), values=-np.ones(1))
     refused = [at_its_best("spring", before), mending]
     kept = survey.still(refused)

@@ -7,7 +7,7 @@ import pytest
 
 from modeler.api.motion import bounds_of, subject_of
 from modeler.core.errors import DataError
-from modeler.excitation.criterion import Columns, condition
+from modeler.excitation.criterion import MotionColumns, condition
 from modeler.excitation.motion import Bounds, series
 from modeler.excitation.result import Exciting
 from modeler.excitation.search import Wish, excite, random_motion, task_of
@@ -217,13 +217,13 @@ def test_every_loop_asks_for_the_time(monkeypatch, steps):
     subject, bounds = heavy_arm(4.0, 1.0)
     clock = [0.0]
     for name in ("exact", "smooth"):
-        whole = getattr(Columns, name)
+        whole = getattr(MotionColumns, name)
 
         def counted(self, *args, whole=whole):
             clock[0] += 1.0
             return whole(self, *args)
 
-        monkeypatch.setattr(Columns, name, counted)
+        monkeypatch.setattr(MotionColumns, name, counted)
     monkeypatch.setattr("modeler.excitation.search.time.monotonic", lambda: clock[0])
     before = clock[0]
     motion = subject.search(bounds, Wish(6.0, 4, seed=1, time_limit=before + steps))

@@ -16,7 +16,7 @@ from test_observation_rows import exact_log, some_beta
 from modeler.core.errors import DataError
 from modeler.estimation import long_logs as streamed
 from modeler.estimation.doubts import unshown
-from modeler.estimation.identify import Crossed, identify
+from modeler.estimation.identify import CrossValidation, identify
 from modeler.estimation.long_logs import identify_long, merge_all, reduce_chunk, stream
 from modeler.estimation.verdict import with_verdict
 from modeler.numerics.filters import spacing
@@ -26,7 +26,7 @@ from modeler.observation.observation import observe
 from modeler.observation.processing import Processing
 from modeler.observation.read import MemorySource, cut
 from modeler.observation.segments import split
-from modeler.observation.survey import Known, WholeNeeded, survey
+from modeler.observation.survey import KnownFacts, WholeNeeded, survey
 
 ROWS = 1024  # of a chunk
 ARM = planar_arm()
@@ -249,8 +249,8 @@ def test_noise_is_a_larger_share_of_slower_motion_and_no_doubt(small_windows):
     long = stream(ARM, [MemorySource(noisy_log())], rows=ROWS)
     fit = identify_long(long)
     errors = np.array([joint.relative_error for joint in fit.joints]) / 4.0
-    assert not unshown(fit, Crossed(errors, 1.0, 9), np.array([0.25, 0.25]))
-    assert len(unshown(fit, Crossed(errors, 1.0, 9), np.array([1.0, 4.0]))) == 2
+    assert not unshown(fit, CrossValidation(errors, 1.0, 9), np.array([0.25, 0.25]))
+    assert len(unshown(fit, CrossValidation(errors, 1.0, 9), np.array([1.0, 4.0]))) == 2
 
 
 def test_a_drive_limit_that_the_windows_reach_and_others_exceed_costs_a_second_pass(small_windows):
@@ -328,7 +328,7 @@ def test_a_logger_that_is_slow_while_the_robot_rests_has_one_unit(small_windows)
     time[9000:] = time[9000] + 200.0 * (time[9000:] - time[9000])
     q[9000:] = q[9000]
     slow = dataclasses.replace(log, time=time, q=q)
-    assert survey(ARM, [MemorySource(slow)], Processing(), Known(), ROWS).windows == 4
+    assert survey(ARM, [MemorySource(slow)], Processing(), KnownFacts(), ROWS).windows == 4
 
 
 def test_another_zero_of_an_encoder_needs_the_whole_log():
@@ -346,7 +346,7 @@ def test_threads_change_nothing_and_chunks_can_be_sent_away(monkeypatch):
     many = stream(ARM, [MemorySource(log)], rows=ROWS)
     np.testing.assert_array_equal(one.data.triangles, many.data.triangles)
     source = MemorySource(log)
-    chosen = survey(ARM, [source], Processing(), Known(), ROWS).chosen[0]
+    chosen = survey(ARM, [source], Processing(), KnownFacts(), ROWS).chosen[0]
     parts = []
     for chunk in chunks(source, chosen.own, chosen.beside):
         sent = pickle.loads(pickle.dumps((chunk, chosen)))

@@ -8,7 +8,7 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.fleet.fleet import fleet_of
 from modeler.fleet.naming import Named
-from modeler.fleet.result import Finding, Fleet, fleet_lines, sentence
+from modeler.fleet.result import Fleet, FleetFinding, fleet_lines, sentence
 from modeler.fleet.summary import Left
 from tests.fleet.machines import Planted, Scene, compiled, summaries
 
@@ -104,7 +104,7 @@ def test_an_odd_machine_is_found() -> None:
     assert any("above that of the other machines" in sentence(f, "days") for f in found.findings)
 
 
-def warm(scene: Scene, seed: int, others: bool) -> Finding:
+def warm(scene: Scene, seed: int, others: bool) -> FleetFinding:
     """The finding in a machine that warms; the others too, or not."""
     reduced = summaries(dataclasses.replace(scene, warm=True), seed)
     if not others:

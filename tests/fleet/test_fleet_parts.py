@@ -6,7 +6,7 @@ from scipy import stats
 
 from modeler.estimation.least_squares import least_squares
 from modeler.fleet.drift import (
-    Series,
+    PeriodSeries,
     critical_deviate,
     least_told,
     move_of,
@@ -55,10 +55,10 @@ def test_a_quantile_is_students() -> None:
     assert quantile(7.0, 0.01) == pytest.approx(stats.t.isf(0.005, 7.0))
 
 
-def series(rng: np.random.Generator, extra: float, plan: np.ndarray) -> Series:
+def series(rng: np.random.Generator, extra: float, plan: np.ndarray) -> PeriodSeries:
     sigmas = np.exp(0.3 * rng.normal(size=len(plan)))
     values = plan + rng.normal(size=len(plan)) * np.hypot(sigmas, extra)
-    return Series(np.arange(len(plan), dtype=float), values, sigmas)
+    return PeriodSeries(np.arange(len(plan), dtype=float), values, sigmas)
 
 
 @pytest.mark.parametrize("extra", [(0.0,), (2.0,), (0.0, 0.0, 5.0)])
@@ -98,7 +98,7 @@ def test_what_a_series_does_is_told() -> None:
         assert move.begin == {"trend": 0, "jump": 3, "one period": 4}[shape]
         told = least_told(own, scatter, 1e-3)
         assert 3.0 < told < 30.0
-    assert move_of(Series(np.zeros(1), np.zeros(1), np.ones(1)), scatter) is None
+    assert move_of(PeriodSeries(np.zeros(1), np.zeros(1), np.ones(1)), scatter) is None
 
 
 def test_common_parameters_are_those_of_one_large_least_squares() -> None:

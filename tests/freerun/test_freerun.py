@@ -10,8 +10,8 @@ from modeler.api import load, recompile
 from modeler.core.errors import DataError
 from modeler.robot.edit import with_effects
 from modeler.robot.read import robot_from_text
-from modeler.validation.forward_dynamics import Plant
-from modeler.validation.free_run import Asked, Lanes, free_run, walk
+from modeler.validation.forward_dynamics import FittedPlant
+from modeler.validation.free_run import FreeRunSettings, Lanes, free_run, walk
 from modeler.validation.free_run_result import free_run_pictures
 from modeler.validation.stability import fit_percentage, horizons
 from tests.freerun.machines import (
@@ -68,14 +68,14 @@ def test_loops_are_run_too() -> None:
     rubs = ["11", "21", "12", "22"]
     text = with_effects(load("five-bar").text, {"viscous": rubs, "coulomb": rubs})
     model, compiled, log = true_model(robot_from_text(text, "five-bar that rubs"), 4.0)
-    found = free_run(model, [without_commands(log)], compiled, Asked(window=0.5))
+    found = free_run(model, [without_commands(log)], compiled, FreeRunSettings(window=0.5))
     assert all(joint.fit > 99.0 for joint in found.joints)
-    assert Plant(compiled, model.beta).shafts == 4
+    assert FittedPlant(compiled, model.beta).shafts == 4
 
 
 def test_a_loop_that_cannot_close_ends_a_run() -> None:
     model, compiled, log = true_model("five-bar", 5.0)
-    plant = Plant(compiled, model.beta)
+    plant = FittedPlant(compiled, model.beta)
     q, far = log.q[:1], np.array([50.0, 50.0])
     tau = np.tile([400.0, -400.0], (2000, 1, 1))  # tears it apart
     path = walk(plant, Lanes(q, 0.0 * q, tau, None, 0.002, far, np.zeros_like(tau)), 1)
@@ -102,7 +102,7 @@ def test_errors_of_an_upright_pendulum_grow_at_that_rate() -> None:
     """Two runs that start 1e-6 rad apart, simulated."""
     model, log = pendulum(True)
     compiled = recompile(model)
-    plant, rate = Plant(compiled, model.beta), free_run(model, [log], compiled).stability.rate
+    plant, rate = FittedPlant(compiled, model.beta), free_run(model, [log], compiled).stability.rate
     q = np.array([[0.0], [1e-6]])
     tau = np.repeat(log.tau[:1000, None], 2, axis=1)
     around = np.repeat(log.q[:1000, None], 2, axis=1)
@@ -125,7 +125,7 @@ def test_a_free_axis_is_neither_stable_nor_unstable() -> None:
 def test_a_swinging_pendulum_of_order_2() -> None:
     """Against an integrator of order 8 on the equation as it stands in books."""
     model, _ = pendulum(False)
-    plant = Plant(recompile(model), np.array([INERTIA, MOMENT, 0.0, RUBS]))
+    plant = FittedPlant(recompile(model), np.array([INERTIA, MOMENT, 0.0, RUBS]))
     assert [p.name for p in model.fit.parameters] == ["ZZ1", "MX1", "MY1", "Fv1"]
     time = np.arange(0.0, 2.0, 0.01)
     wave = np.sin(3.0 * time)
@@ -162,7 +162,7 @@ def test_dry_friction_holds_lets_go_and_stops() -> None:
     log, _ = simulated(robot_from_text(SLIDE, "slide"), 4.0, 1)
     model, compiled = fitted(robot_from_text(SLIDE, "slide"), [log])
     assert [p.name for p in model.fit.parameters] == ["M1", "Fs1"]
-    plant = Plant(compiled, np.array([2.0, 3.0]))
+    plant = FittedPlant(compiled, np.array([2.0, 3.0]))
     tau = np.zeros((4000, 2, 1))
     tau[:, 0] = 2.9
     tau[:1000, 1] = 5.0
@@ -179,7 +179,7 @@ def test_bristles_turn_as_in_the_c() -> None:
     robot = robot_from_text(SLIDE.replace('coulomb = "all"', bristly), "slide")
     log, _ = simulated(robot_from_text(SLIDE, "slide"), 4.0, 1)
     model, compiled = fitted(robot, [log])
-    plant, s = Plant(compiled, model.beta), np.array([0.3])
+    plant, s = FittedPlant(compiled, model.beta), np.array([0.3])
     for moved in (0.002, -0.004, 0.0, 0.03):
         mine = plant.turned(s[None], np.array([[moved]]))[0]
         s = compiled.advance([moved], 0.002, s)
@@ -221,7 +221,7 @@ def test_given_gains_are_used(arm) -> None:
         tau=log.tau[:2000],
         commanded=log.commanded[:2000],
     )
-    found = free_run(model, [few], compiled, Asked(gains=(8.0, 0.5, 0.0, 0.0)))
+    found = free_run(model, [few], compiled, FreeRunSettings(gains=(8.0, 0.5, 0.0, 0.0)))
     assert found.controlled is not None and found.controlled.given
     assert found.to_json()["controller"]["speed"] == pytest.approx(8.0)
     with pytest.raises(
@@ -229,7 +229,7 @@ def test_given_gains_are_used(arm) -> None:
     ):
         free_run(
             model, [dataclasses.replace(few, commanded=None)], compiled,
-            Asked(gains=(8.0, 0.5, 0.0, 0.0)),
+            FreeRunSettings(gains=(8.0, 0.5, 0.0, 0.0)),
         )  # fmt: skip
 
 
@@ -257,17 +257,20 @@ def test_a_joint_that_stands_still_is_not_judged(arm) -> None:
 @pytest.mark.parametrize(
     ("asked", "message"),
     [
-        (Asked(window=0.0), "--window: got 0; expected a number above 0"),
-        (Asked(window=float("nan")), "--window: got nan"),
-        (Asked(bound=-0.1), "--bound: got -0.1; expected a number above 0"),
+        (FreeRunSettings(window=0.0), "--window: got 0; expected a number above 0"),
+        (FreeRunSettings(window=float("nan")), "--window: got nan"),
+        (FreeRunSettings(bound=-0.1), "--bound: got -0.1; expected a number above 0"),
         (
-            Asked(window=60.0),
+            FreeRunSettings(window=60.0),
             r"--window 60: the longest uninterrupted motion of these logs is 7\.\d+",
         ),
-        (Asked(gains=(60.0, 9.0, 9.0, 0.0)), "--controller: with these gains two-link is lost"),
+        (
+            FreeRunSettings(gains=(60.0, 9.0, 9.0, 0.0)),
+            "--controller: with these gains two-link is lost",
+        ),
     ],
 )
-def test_what_cannot_be_is_refused(arm, asked: Asked, message: str) -> None:
+def test_what_cannot_be_is_refused(arm, asked: FreeRunSettings, message: str) -> None:
     model, compiled, log = arm
     with pytest.raises(DataError, match=message):
         free_run(model, [log], compiled, asked)
@@ -284,7 +287,7 @@ def test_values_without_inertia_are_refused(arm) -> None:
 def test_an_error_that_grows_by_nature_is_not_blamed_on_the_model() -> None:
     """True values, an upright pendulum: the run is lost, and the reason is told."""
     model, log = pendulum(True)
-    found = free_run(model, [log], recompile(model), Asked(window=2.0))
+    found = free_run(model, [log], recompile(model), FreeRunSettings(window=2.0))
     assert found.joints[0].whole < 90.0 and found.stability.unstable
     assert any(
         "an error grows tenfold and more by nature; `--window 0.3`" in d for d in found.doubts

@@ -13,7 +13,7 @@ import scipy.io
 
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.logs.table import Table
+from modeler.logs.table import LogTable
 from tests.logs import writers
 from tests.logs.writers import Run
 
@@ -48,7 +48,7 @@ def test_damaged_files_end_in_one_line(kind, short, tmp_path):
     for number in range(MUTANTS):
         file.write_bytes(damaged(whole, chance, cut=number % 3 == 0))
         try:
-            table = Table(path)
+            table = LogTable(path)
             for column in table.names:
                 if table.is_numeric(column):
                     table.measured(column)
@@ -64,7 +64,7 @@ def test_a_length_that_no_file_has_is_told_in_words(short, tmp_path):
     content = path.read_bytes()
     path.write_bytes(content[:-6] + b"\xff\xff\xff\x7f" + content[-2:])  # where zip's directory is
     with pytest.raises(DataError, match=r"run\.npz: cannot be read as numpy file") as told:
-        Table(path)
+        LogTable(path)
     assert "Errno" not in str(told.value)
 
 
@@ -108,14 +108,14 @@ def test_arrays_of_objects_are_not_run(tmp_path):
     """A pickle in an .npz file would run what it says."""
     np.savez(tmp_path / "run.npz", q=np.array([{}, []], dtype=object))
     with pytest.raises(DataError, match="cannot be read as numpy file"):
-        Table(tmp_path / "run.npz")
+        LogTable(tmp_path / "run.npz")
 
 
 def test_arrays_without_a_motion(tmp_path):
     np.savez(tmp_path / "run.npz", gains=np.ones(3), pose=np.eye(4))
     words = r"no array of 10 rows or more; .* it holds gains \(3\), pose \(4 x 4\)"
     with pytest.raises(DataError, match=words):
-        Table(tmp_path / "run.npz")
+        LogTable(tmp_path / "run.npz")
 
 
 MISSING = [("run.h5", "h5py"), ("run.mcap", "rosbags"), ("run.bag", "rosbags")]
@@ -129,7 +129,7 @@ def test_a_missing_package_is_one_line(tmp_path, monkeypatch, name, package):
     (tmp_path / name).write_bytes(b"something")
     words = f"needs the package {package}; run: pip install {package}$"
     with pytest.raises(DataError, match=words):
-        Table(tmp_path / name)
+        LogTable(tmp_path / name)
 
 
 def _bomb(path: Path) -> None:
@@ -161,7 +161,7 @@ def test_what_unpacks_without_end_is_refused(tmp_path, ending: str) -> None:
     path = tmp_path / f"bomb.{ending}"
     _bomb(path)
     with pytest.raises(DataError, match=r"unpacks to [\d,]+ MiB or more .*expected at most 100 "):
-        Table(path)
+        LogTable(path)
 
 
 @pytest.mark.parametrize("how", ["storage", "link", "virtual"])
@@ -182,4 +182,4 @@ def test_an_hdf5_file_that_reads_another_is_refused(tmp_path, how: str) -> None:
             layout[:] = h5py.VirtualSource("other.h5", "time", (100,))
             file.create_virtual_dataset("time", layout)
     with pytest.raises(DataError, match="time lies in another file"):
-        Table(tmp_path / "log.h5")
+        LogTable(tmp_path / "log.h5")

@@ -9,7 +9,7 @@ import pytest
 from modeler.cli import main
 from modeler.logs.inspect import look
 from modeler.logs.mapping import LogMap, map_from_table
-from modeler.logs.table import Table
+from modeler.logs.table import LogTable
 from tests.logs.writers import parquet
 
 
@@ -25,7 +25,7 @@ def plain(case):
 
 
 def seen(tmp_path, table):
-    return look(Table(parquet(tmp_path / "run.parquet", table)), LogMap())
+    return look(LogTable(parquet(tmp_path / "run.parquet", table)), LogMap())
 
 
 def told(capsys, tmp_path, table, *words):
@@ -115,7 +115,7 @@ def test_names_with_units_and_letters(tmp_path, plain):
     assert found.doubts == ()
     mapping = tomllib.loads(found.suggested)["log"]
     assert mapping["q<j>"] == "Joint {name} [°]" and mapping["tau<j>"] == "T {name}"
-    named = Table(tmp_path / "run.parquet", map_from_table(mapping, "log"))
+    named = LogTable(tmp_path / "run.parquet", map_from_table(mapping, "log"))
     assert named.rows == len(plain["time"])
 
 

@@ -6,7 +6,7 @@ import pytest
 from modeler.api import read_logs
 from modeler.core.errors import DataError
 from modeler.logs.mapping import map_from_table
-from modeler.logs.table import Table
+from modeler.logs.table import LogTable
 from tests.logs import writers
 from tests.logs.writers import MAPPING, ROS, under
 
@@ -67,7 +67,7 @@ def test_units_that_a_file_states_are_used_and_told(case, tmp_path):
 def test_other_topics_hold_their_last_message(case, tmp_path):
     path = writers.mcap(tmp_path / "run.mcap", case.table)
     mapping = ROS | {"temperature1": "motor/heat.temperature"}
-    table = Table(path, map_from_table(mapping, "mapping"), case.compiled.spec.joints)
+    table = LogTable(path, map_from_table(mapping, "mapping"), case.compiled.spec.joints)
     heat = table.measured("temperature1")
     assert np.isnan(heat[:50]).all()
     assert heat[50:150] == pytest.approx(np.full(100, 70.0))  # row 50 has its stamp
@@ -107,7 +107,7 @@ def test_objects_of_matlab_are_told(tmp_path, monkeypatch):
     content = {"ts": opaque, "q": np.zeros((30, 2)), "who": "me"}
     monkeypatch.setattr(scipy.io, "loadmat", lambda *a, **k: content)
     (tmp_path / "run.mat").write_bytes(b"MATLAB 5.0")
-    table = Table(tmp_path / "run.mat")
+    table = LogTable(tmp_path / "run.mat")
     assert table.names == ("q[1]", "q[2]")
     assert table.notes[0].startswith("ts left out: an object that only MATLAB reads; of a times")
 
@@ -119,7 +119,7 @@ def test_structure_with_time_of_simulink(case, tmp_path):
     scipy.io.savemat(
         tmp_path / "run.mat", {"out": {"time": case.table["time"], "signals": signals}}
     )
-    table = Table(tmp_path / "run.mat")
+    table = LogTable(tmp_path / "run.mat")
     assert table.numbers("out.signals.values[2]") == pytest.approx(case.table.other["pos"][:, 1])
     assert table.numbers("out.time") == pytest.approx(case.table["time"])
 
@@ -131,7 +131,7 @@ def test_units_that_are_not_understood_are_told(tmp_path):
         file["q1"].attrs["units"] = "degrees"
         file["p"] = np.ones(20)
         file["p"].attrs["units"] = "furlong"
-    table = Table(tmp_path / "run.h5")
+    table = LogTable(tmp_path / "run.h5")
     assert table.numbers("q1") == pytest.approx(np.full(20, np.pi / 180))
     told = 'the file states units that are not understood, taken as SI: p "furlong"'
     assert told in table.notes

@@ -10,7 +10,7 @@ from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.logs.inspect import look
 from modeler.logs.mapping import LogMap, map_from_table
-from modeler.logs.table import Table
+from modeler.logs.table import LogTable
 from modeler.report.log import log_pictures
 from modeler.simulation import SimulationSettings
 from tests.logs import writers
@@ -205,7 +205,7 @@ def test_whatever_is_in_it_is_told(tmp_path):
         n = int(rng.choice([10, 60]))
         path = parquet(tmp_path / "run.parquet", {str(name): odd(rng, n) for name in names})
         try:
-            seen = look(Table(path), LogMap())
+            seen = look(LogTable(path), LogMap())
         except DataError as error:
             assert "\n" not in str(error)
             continue

@@ -8,7 +8,7 @@ from modeler.api import read_currents, read_logs
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.logs.mapping import find_unit, map_from_table, map_from_words, unit_named
-from modeler.logs.table import Table
+from modeler.logs.table import LogTable
 from modeler.observation.read import read_log
 from tests.logs import writers
 
@@ -48,7 +48,7 @@ def table_of(tmp_path, mapping, names=("t", "a", "b", "c", "d"), **columns):
     values |= {name: np.linspace(k, k + 3.0, n) for k, name in enumerate(names[1:], start=1)}
     path = writers.parquet(tmp_path / "a.parquet", values | columns)
     read = map_from_words(mapping) if isinstance(mapping, list) else map_from_table(mapping, "R")
-    return Table(path, read, JOINTS), values
+    return LogTable(path, read, JOINTS), values
 
 
 CONVERTED = [

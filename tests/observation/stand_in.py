@@ -6,7 +6,7 @@ import numpy as np
 
 from modeler.core.manifest import FORMAT, BaseSpec, JointSpec, ModuleSpec, ParameterSpec
 from modeler.runtime.bind import Samples
-from modeler.runtime.fused import Pattern, of_dense
+from modeler.runtime.fused import NonzeroPattern, of_dense
 
 INERTIAL = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 
@@ -54,7 +54,7 @@ class StandIn:
     @property
     def pattern(self):
         columns = np.arange(len(self.spec.base), dtype=np.intc)
-        return Pattern((columns,) * len(self.rows), len(columns))
+        return NonzeroPattern((columns,) * len(self.rows), len(columns))
 
     def triangles(self, q, qd, qdd, tau, use=None, s=None, weight=None, state=None):
         def evaluate(w):

@@ -8,13 +8,7 @@ from itertools import islice
 import pytest
 
 from modeler.core.builtin import paper_names
-from modeler.papers import (
-    Verdict,
-    check_line,
-    coefficient_quotations,
-    read_paper,
-    written_out,
-)
+from modeler.papers import LineVerdict, check_line, coefficient_quotations, read_paper, written_out
 from tests.papers.derived_papers import robots_of
 
 EVERY = 3
@@ -56,14 +50,14 @@ def test_every_alteration_of_a_line_is_noticed(name):
         for text in islice(altered(line.text, line.check), tried % EVERY, None, EVERY):
             changed = replace(line, **{"quote" if line.quote else "ours": text})
             tried += 1
-            if check_line(paper, changed, robots).verdict is not Verdict.DIFFERENT:
+            if check_line(paper, changed, robots).verdict is not LineVerdict.DIFFERENT:
                 survivors.append(f"{line.place}: {text}")
         for index, given in enumerate(line.given):
             for text in islice(altered(given, line.check), tried % EVERY, None, EVERY):
                 others = (*line.given[:index], text, *line.given[index + 1 :])
                 tried += 1
                 found = check_line(paper, replace(line, given=others), robots)
-                if found.verdict is not Verdict.DIFFERENT:
+                if found.verdict is not LineVerdict.DIFFERENT:
                     survivors.append(f"{line.place}: {line.text}; {text}")
     assert not survivors, "\n".join(survivors)
     assert tried > 5 * len(lines) // EVERY

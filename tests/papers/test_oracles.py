@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from modeler.core.builtin import paper_names
-from modeler.papers import Verdict, check_line, coefficient_quotations, read_paper
+from modeler.papers import LineVerdict, check_line, coefficient_quotations, read_paper
 from modeler.papers.check import written_out
 from tests.papers.derived_papers import robots_of
 from tests.papers.oracles import holds
@@ -24,9 +24,9 @@ def test_every_charge_and_every_equality_is_found_by_other_means(name):
     for line in (one for quoted in lines for one in written_out(quoted)):
         verdict, found = check_line(paper, line, robots).verdict, holds(name, line)
         judged += found is not None
-        if verdict is Verdict.MISPRINT and found is not False:
+        if verdict is LineVerdict.MISPRINT and found is not False:
             unproved.append(f"{line.place}: {line.text}")
-        if verdict not in (Verdict.MISPRINT, Verdict.DIFFERENT) and found is False:
+        if verdict not in (LineVerdict.MISPRINT, LineVerdict.DIFFERENT) and found is False:
             refuted.append(f"{line.place}: {line.text}")
     assert unproved == []
     assert refuted == []

@@ -9,8 +9,8 @@ import pytest
 from modeler.cli import main
 from modeler.core.builtin import paper_names
 from modeler.papers import (
+    LineVerdict,
     PrintedLine,
-    Verdict,
     check_line,
     check_paper,
     coefficient_quotations,
@@ -38,8 +38,8 @@ def one(name, **changes):
 @pytest.mark.parametrize("name", paper_names())
 def test_nothing_differs_but_what_is_known_to(name):
     lines = lines_of(name)
-    assert [line for line in lines if line.verdict is Verdict.DIFFERENT] == []
-    different = [line for line in lines if line.verdict is Verdict.MISPRINT]
+    assert [line for line in lines if line.verdict is LineVerdict.DIFFERENT] == []
+    different = [line for line in lines if line.verdict is LineVerdict.MISPRINT]
     assert len(different) == DIFFERENT[name]
     assert all(line.slip and line.why for line in different)
 
@@ -47,9 +47,9 @@ def test_nothing_differs_but_what_is_known_to(name):
 def test_what_is_not_in_the_paper_is_ours():
     """Counts and relations that earlier versions called printed."""
     ours = {line.printed for name in paper_names() for line in lines_of(name)
-            if line.verdict is Verdict.OURS}  # fmt: skip
+            if line.verdict is LineVerdict.OURS}  # fmt: skip
     assert {"163", "196", "30", "ZZ2Ri = ZZ2i + YY3i", "XX2Ri = XX2i - YY2i + XX3i - ZZ3i"} <= ours
-    printed = {line.printed for line in lines_of("houda") if line.verdict is not Verdict.OURS}
+    printed = {line.printed for line in lines_of("houda") if line.verdict is not LineVerdict.OURS}
     assert not {text for text in printed if text.startswith(("XX2", "ZZ1", "ZZ2"))}
 
 
@@ -75,8 +75,8 @@ def test_rotor_inertias_of_the_passive_joints_are_omissions():
 
 def test_leg_3_has_fifteen_with_the_pair_that_the_paper_prints():
     places = {line.printed: line for line in lines_of("guegan-2003")}
-    assert places["there are 15 base parameters"].verdict is Verdict.EQUAL
-    assert places["M1R3 = M13 + M23 + M33 + M43 + M73"].verdict is Verdict.EQUAL
+    assert places["there are 15 base parameters"].verdict is LineVerdict.EQUAL
+    assert places["M1R3 = M13 + M23 + M33 + M43 + M73"].verdict is LineVerdict.EQUAL
 
 
 @pytest.mark.parametrize("name", paper_names())
@@ -105,9 +105,9 @@ def test_an_unknown_paper_is_told(capsys):
 
 def test_a_known_difference_that_is_not_there_is_a_difference():
     right = {"robot": CLOSED, "check": "relation", "quote": "Fv21R = Fv21 + Fv51"}
-    assert one("briot-2012", **right).verdict is Verdict.EQUAL
+    assert one("briot-2012", **right).verdict is LineVerdict.EQUAL
     told = one("briot-2012", **right, difference="Fv31", slip="omission")
-    assert told.verdict is Verdict.DIFFERENT
+    assert told.verdict is LineVerdict.DIFFERENT
 
 
 @pytest.mark.parametrize(
@@ -130,13 +130,13 @@ def test_a_known_difference_that_is_not_there_is_a_difference():
 )  # fmt: skip
 def test_a_wrong_charge_or_a_wrong_equality_is_different(name, changes):
     """Charges and equalities that earlier versions told, and some that would be like them."""
-    assert one(name, **changes).verdict is Verdict.DIFFERENT
+    assert one(name, **changes).verdict is LineVerdict.DIFFERENT
 
 
 def test_only_what_is_checked_exactly_is_called_equal():
     for name in paper_names():
         for line in lines_of(name):
-            if line.verdict in (Verdict.EQUAL, Verdict.ROUNDED):
+            if line.verdict in (LineVerdict.EQUAL, LineVerdict.ROUNDED):
                 assert not any(sign in line.derived for sign in "<>"), line
 
 
@@ -166,17 +166,17 @@ def test_decimals_hold_to_their_printed_digits():
         number: one("briot-2012", robot=CLOSED, check="relation", quote=text.format(number)).verdict
         for number in ("3.2258", "3.226", "3.23", "3.2", "3.2257", "3.22", "3.3")
     }
-    equal = {number for number, verdict in found.items() if verdict is Verdict.ROUNDED}
+    equal = {number for number, verdict in found.items() if verdict is LineVerdict.ROUNDED}
     assert equal == {"3.2258", "3.226", "3.23", "3.2"}
 
 
 def test_a_sealed_quotation_may_not_be_touched():
     line = next(line for line in read_paper("guegan-2003").lines if line.measured)
     paper, robots = read_paper("guegan-2003"), robots_of("guegan-2003")
-    assert check_line(paper, line, robots).verdict is Verdict.MEASURED
+    assert check_line(paper, line, robots).verdict is LineVerdict.MEASURED
     touched = dataclasses.replace(line, quote=line.quote.replace("4805.57", "4805.58"))
     found = check_line(paper, touched, robots)
-    assert found.verdict is Verdict.DIFFERENT and "not those that were read" in found.derived
+    assert found.verdict is LineVerdict.DIFFERENT and "not those that were read" in found.derived
 
 
 @pytest.mark.parametrize(
@@ -203,7 +203,7 @@ def test_a_sealed_quotation_may_not_be_touched():
 )  # fmt: skip
 def test_what_cannot_be_read_is_different_and_says_why(check, quote, gives, told):
     found = one("briot-2012", robot=CLOSED, check=check, quote=quote, gives=gives)
-    assert found.verdict is Verdict.DIFFERENT
+    assert found.verdict is LineVerdict.DIFFERENT
     assert told in found.derived
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from modeler.derivation.base_parameters import base_parameters
 from modeler.formulas.physical_system import PhysicalSystem, physical_system
 from modeler.formulas.printed import read_print
-from modeler.formulas.values import Numbers
+from modeler.formulas.values import SolvedNumbers
 from tests.terms.cases import model_of
 
 SEVEN = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33")
@@ -32,7 +32,7 @@ def data_of(system: PhysicalSystem, letters: dict[str, float]) -> np.ndarray:
     for name, value in (*system.constants.items(), *letters.items()):
         if name in system.place:
             point[system.place[name]] = value
-    return np.array([Numbers(system.definitions[name]).value(point) for name in system.data])
+    return np.array([SolvedNumbers(system.definitions[name]).value(point) for name in system.data])
 
 
 def random_letters(system: PhysicalSystem, rng: np.random.Generator) -> dict[str, float]:

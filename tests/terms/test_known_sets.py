@@ -8,7 +8,7 @@ import pytest
 from modeler.core.errors import ModelerError
 from modeler.formulas.set_sensitivity import rated
 from modeler.formulas.sufficient_sets import EASE, easiest_set, known_sets, smallest_number
-from modeler.formulas.values import Numbers
+from modeler.formulas.values import SolvedNumbers
 from tests.terms.physical_cases import data_of, example, random_letters, system_of
 
 # Counted by another program: exact ranks modulo 2147483647 and 2147483629 at two points.
@@ -27,7 +27,7 @@ def jacobian(system) -> np.ndarray:
     letters = random_letters(system, np.random.default_rng(1))
     for x, value in (*system.constants.items(), *letters.items()):
         point[system.place[x]] = value
-    J = np.array([Numbers(system.definitions[d]).slopes(point) for d in system.data])
+    J = np.array([SolvedNumbers(system.definitions[d]).slopes(point) for d in system.data])
     return J[:, [system.place[x] for x in system.letters]]
 
 
@@ -132,7 +132,7 @@ def test_rating_against_finite_differences():
             for x, value in letters.items():
                 if x in system.place:
                     point[system.place[x]] = value
-            J = np.array([Numbers(system.definitions[d]).slopes(point) for d in system.data])
+            J = np.array([SolvedNumbers(system.definitions[d]).slopes(point) for d in system.data])
             step = np.linalg.solve(J[:, at], wanted - data_of(system, letters))
             letters |= {x: letters[x] + dx for x, dx in zip(unknown, step, strict=True)}
         squares += [((letters[x] - truth[x]) / truth[x] / 1e-6) ** 2 for x in unknown]

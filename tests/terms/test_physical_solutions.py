@@ -14,7 +14,7 @@ from modeler.derivation.numeric_rank import random_states, regressor_values
 from modeler.formulas.physical_system import physical_system
 from modeler.formulas.printed import read_print
 from modeler.formulas.solve import determined, formula, missing_lines, solution_lines, solve
-from modeler.formulas.values import Numbers, verify
+from modeler.formulas.values import SolvedNumbers, verify
 from modeler.robot.read import robot_from_text
 from tests.terms.cases import TEXTS, edited_wrist, model_of
 from tests.terms.physical_cases import SEVEN, data_of, random_letters, system_of
@@ -146,7 +146,7 @@ def test_determined_as_the_null_space_says(name):
     point = np.zeros(len(system.names))
     for x, value in (*system.constants.items(), *random_letters(system, rng).items()):
         point[system.place[x]] = value
-    J = np.array([Numbers(system.definitions[d]).slopes(point) for d in system.data])
+    J = np.array([SolvedNumbers(system.definitions[d]).slopes(point) for d in system.data])
     for _ in range(20):
         known = set(rng.choice(system.letters, rng.integers(0, len(system.letters)), replace=False))
         unknown = [x for x in system.letters if x not in known]
