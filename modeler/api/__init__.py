@@ -37,7 +37,7 @@ else:
         """One of `entries`, kept once it was asked for."""
         if name in _FIRST:
             import modeler.api.arguments as door
-            import modeler.api.model as chain
+            import modeler.api.workflow as chain
 
             found = door.checked(getattr(chain, name))
         elif name == "__all__":

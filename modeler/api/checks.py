@@ -5,7 +5,7 @@ from pathlib import Path
 from string import ascii_uppercase
 
 from modeler.api.long_logs import are_long, sources_of, too_long
-from modeler.api.model import (
+from modeler.api.workflow import (
     AnyLog,
     Mapped,
     file_and_span,
@@ -18,7 +18,7 @@ from modeler.core.errors import DataError
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.logs.blocks import blocks_of, windows_of
 from modeler.logs.inspect import Look, look
-from modeler.logs.table import LogTable, Part
+from modeler.logs.log_table import LogTable, Part
 from modeler.observation.log import FINGER, LONG, check_apart
 from modeler.observation.observation import Observation
 from modeler.observation.survey import WINDOW, WINDOWS, WholeNeeded

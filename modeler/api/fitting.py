@@ -4,7 +4,8 @@ import dataclasses
 from collections.abc import Callable, Sequence
 
 from modeler.api.arguments import Steps, fitting, silent
-from modeler.api.model import (
+from modeler.api.ways import Way, judged
+from modeler.api.workflow import (
     AnyLog,
     Mapped,
     compile_model,
@@ -14,7 +15,6 @@ from modeler.api.model import (
     read_currents,
     read_logs,
 )
-from modeler.api.ways import Way, judged
 from modeler.codegen.derivation import Derivation
 from modeler.core.errors import DataError, Method
 from modeler.core.estimators import ABOUT

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from modeler.api.arguments import Steps, silent
-from modeler.api.model import AnyLog, Mapped, read_logs, recompile
+from modeler.api.workflow import AnyLog, Mapped, read_logs, recompile
 from modeler.core.errors import DataError
 from modeler.diagnosis.add import add_effect, add_findings, undone
 from modeler.diagnosis.added_model import Logs

@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeGuard
 
-from modeler.api.model import AnyLog, Mapped, file_and_span, identified, log_map, read_logs
 from modeler.api.ways import Way, judged
+from modeler.api.workflow import AnyLog, Mapped, file_and_span, identified, log_map, read_logs
 from modeler.codegen.derivation import Derivation
 from modeler.core.errors import DataError, Method
 from modeler.core.jobs import Workers

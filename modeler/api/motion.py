@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.api.model import compile_model, derive, generate, recompile
+from modeler.api.workflow import compile_model, derive, generate, recompile
 from modeler.core.errors import DataError
 from modeler.effects.catalogue import effect_named
 from modeler.estimation.model_file import IdentifiedModel

@@ -11,7 +11,7 @@ from modeler.core.estimators import ABOUT
 from modeler.estimation import two_step_result as two_step
 from modeler.estimation.doubts import Told
 from modeler.estimation.drive_gains import are_currents
-from modeler.estimation.energy import identify_energy
+from modeler.estimation.energy_fit import identify_energy
 from modeler.estimation.identify import Equations, identify
 from modeler.estimation.known import known_doubts
 from modeler.estimation.payload import Payload, identify_with_payloads, loaded_equations

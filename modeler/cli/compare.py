@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeler.api.checks import compared
-from modeler.api.model import Mapped, read_logs, recompile
+from modeler.api.workflow import Mapped, read_logs, recompile
 from modeler.cli.console import Json, note, progress, say, say_next, working
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError

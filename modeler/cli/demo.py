@@ -4,7 +4,7 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeler.api.model import compile_model, derive, fit, generate, load, observe, read_logs
+from modeler.api.workflow import compile_model, derive, fit, generate, load, observe, read_logs
 from modeler.cli.add import waterfall
 from modeler.cli.compare import judged
 from modeler.cli.console import Json, progress, say, working

@@ -186,7 +186,7 @@ def _model(args: argparse.Namespace) -> "IdentifiedModel | None":
 
 def _written(args: argparse.Namespace, model: "IdentifiedModel | None") -> Emitted:
     if model is not None:
-        from modeler.api.model import generate as generate_of_model
+        from modeler.api.workflow import generate as generate_of_model
 
         with working(f"deriving {model.spec.robot}"):
             return generate_of_model(model, args.out, args.force, **_kinds(args))

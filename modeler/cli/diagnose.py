@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api.model import read_logs, recompile
+from modeler.api.workflow import read_logs, recompile
 from modeler.cli.console import Json, progress, say, say_next, working
 from modeler.core.errors import DataError
 from modeler.diagnosis.candidates import Known

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from modeler.api.fitting import chosen_methods, observed_apart
-from modeler.api.model import compile_model, derive, generate
+from modeler.api.workflow import compile_model, derive, generate
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.lists import robot_of
 from modeler.core.errors import DataError, Method

@@ -5,8 +5,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeler.api.fitting import Load, found_with_gains
-from modeler.api.model import compile_model, derive, generate, identified, read_logs
 from modeler.api.ways import OF_WINDOWS, WITHOUT_LOADS, FitRequest, estimated, judged
+from modeler.api.workflow import compile_model, derive, generate, identified, read_logs
 from modeler.cli.console import Json, say, say_next, working
 from modeler.cli.lists import robot_of
 from modeler.cli.long_logs import fit_if_long

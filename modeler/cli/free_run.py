@@ -4,7 +4,7 @@ import argparse
 import math
 from pathlib import Path
 
-from modeler.api.model import read_logs, recompile
+from modeler.api.workflow import read_logs, recompile
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import DataError
 from modeler.estimation.model_file import load_model

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from modeler.api.checks import look_at
 from modeler.api.long_logs import are_long, judged_long, too_long
-from modeler.api.model import (
+from modeler.api.ways import Way, judged
+from modeler.api.workflow import (
     compile_model,
     derive,
     file_and_span,
@@ -18,7 +19,6 @@ from modeler.api.model import (
     observe,
     read_mapped,
 )
-from modeler.api.ways import Way, judged
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.lists import read_told
 from modeler.core.errors import ModelerError

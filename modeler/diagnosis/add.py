@@ -23,9 +23,9 @@ from modeler.diagnosis.added_model import (
 )
 from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.candidates import Candidate, Known
-from modeler.diagnosis.columns import body_parameters
 from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
+from modeler.diagnosis.effect_columns import body_parameters
 from modeler.diagnosis.judge import Judged
 from modeler.diagnosis.result import Pick
 from modeler.diagnosis.score import Score, Unseen, errors_of, rms_error, scored, told

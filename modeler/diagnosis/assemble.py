@@ -11,6 +11,7 @@ from modeler.diagnosis.cross_checks import CrossCheck
 from modeler.diagnosis.data_checks import SHORT, doubts, length, one_speed
 from modeler.diagnosis.detected import detected
 from modeler.diagnosis.drive_gains import gain_deviations, gain_visible, is_gain
+from modeler.diagnosis.effect_values import named_intervals, profile_of, shape_units, values_of
 from modeler.diagnosis.errors import compared, touched_joints, unseen
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.gram import VISIBLE
@@ -24,7 +25,6 @@ from modeler.diagnosis.search import Search, Step, extended
 from modeler.diagnosis.sentences import evidence, sentences
 from modeler.diagnosis.state import Data, State, state_of
 from modeler.diagnosis.timing import instrumental
-from modeler.diagnosis.values import named_intervals, profile_of, shape_units, values_of
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Acts
 from modeler.estimation.model_file import IdentifiedModel

@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 
-from modeler.diagnosis.columns import Rows
+from modeler.diagnosis.effect_columns import Rows
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.plausible import has_friction, largest_friction
 from modeler.diagnosis.search import Search

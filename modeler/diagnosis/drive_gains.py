@@ -16,7 +16,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.columns import Columns, dense
+from modeler.diagnosis.effect_columns import Columns, dense
 from modeler.diagnosis.state import State, all_columns_of
 
 TENFOLD = 10.0

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.diagnosis.columns import Columns, Rows
+from modeler.diagnosis.effect_columns import Columns, Rows
 from modeler.numerics.least_squares import ReducedRows, turn_of
 from modeler.numerics.spectra import lap
 from modeler.observation.observation import Observation

@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.columns import Columns
+from modeler.diagnosis.effect_columns import Columns
 from modeler.diagnosis.gram import VISIBLE, Pool
 from modeler.diagnosis.ranking import Ranking
 from modeler.diagnosis.score import SURE as TIED

@@ -6,7 +6,7 @@ from typing import cast
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.columns import all_columns, own_columns
+from modeler.diagnosis.effect_columns import all_columns, own_columns
 from modeler.diagnosis.signals import resonance
 from modeler.diagnosis.state import State, column_key
 from modeler.effects.effect import Effect

@@ -5,8 +5,8 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.columns import body_parameters
 from modeler.diagnosis.drive_gains import TENFOLD
+from modeler.diagnosis.effect_columns import body_parameters
 from modeler.diagnosis.state import State, columns_of
 from modeler.effects.effect import Needs
 from modeler.estimation.nearest_body import body, nearest_possible

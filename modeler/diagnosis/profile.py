@@ -25,7 +25,7 @@ from functools import cached_property
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate, JointScale
-from modeler.diagnosis.columns import Columns, Rows
+from modeler.diagnosis.effect_columns import Columns, Rows
 from modeler.diagnosis.gram import blocks_of
 from modeler.effects.effect import Shape
 from modeler.estimation.covariance import autocorrelation, repeated

@@ -12,8 +12,9 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate, over_grid
-from modeler.diagnosis.columns import Columns
 from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled
+from modeler.diagnosis.effect_columns import Columns
+from modeler.diagnosis.effect_values import values_of
 from modeler.diagnosis.judge import (
     NEARLY,
     Judged,
@@ -30,7 +31,6 @@ from modeler.diagnosis.plausible import DRIVES, drives, objection
 from modeler.diagnosis.polish import best_polished, polished
 from modeler.diagnosis.propose import proposals, ruled_out
 from modeler.diagnosis.state import Data, State, all_columns_of, columns_of, state_of, visible
-from modeler.diagnosis.values import values_of
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Effect
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate, JointScale, Known, scales_of
-from modeler.diagnosis.columns import Columns, Rows, rows_of
+from modeler.diagnosis.effect_columns import Columns, Rows, rows_of
 from modeler.diagnosis.gram import (
     Base,
     Pool,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.columns import Columns, Rows, base_columns
+from modeler.diagnosis.effect_columns import Columns, Rows, base_columns
 from modeler.diagnosis.gram import pieces
 from modeler.diagnosis.signals import Signals
 from modeler.diagnosis.state import State, picked_columns

@@ -5,8 +5,8 @@ from modeler.estimation.drive_gains import are_currents as are_currents
 from modeler.estimation.drive_gains import check_currents as check_currents
 from modeler.estimation.drive_gains import identify_gains as identify_gains
 from modeler.estimation.drive_gains import in_drive_units as in_drive_units
-from modeler.estimation.energy import EnergyFit as EnergyFit
-from modeler.estimation.energy import identify_energy as identify_energy
+from modeler.estimation.energy_fit import EnergyFit as EnergyFit
+from modeler.estimation.energy_fit import identify_energy as identify_energy
 from modeler.estimation.essential import Essential as Essential
 from modeler.estimation.identify import identify as identify
 from modeler.estimation.known import known_doubts as known_doubts

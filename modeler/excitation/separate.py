@@ -10,7 +10,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.diagnosis.candidates import Candidate, JointScale, over_grid
-from modeler.diagnosis.columns import all_columns
+from modeler.diagnosis.effect_columns import all_columns
 from modeler.diagnosis.signals import SignalReference, Signals
 from modeler.effects.effect import Acts, Effect
 from modeler.excitation.criterion import condition

@@ -37,7 +37,7 @@ from modeler.derivation.model import SymbolicModel
 from modeler.derivation.newton_euler import Composite
 from modeler.derivation.result import BaseParameters
 from modeler.effects.effect import EnergyBlock
-from modeler.formulas.energy import Entries, dynamics
+from modeler.formulas.energy_form import Entries, dynamics
 from modeler.formulas.function_sheet import Sheet, SheetWriter
 from modeler.formulas.ring import Poly, TrigRing, without_squares
 from modeler.robot.robot import Robot

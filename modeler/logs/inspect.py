@@ -13,9 +13,9 @@ from modeler.core.manifest import JointSpec
 from modeler.core.result import Presented
 from modeler.logs.columns import Stream
 from modeler.logs.guess import Guess, absent_roles, guesses, log_text, unlike_si
+from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap, unit_named
 from modeler.logs.rates import moves, rate_doubts
-from modeler.logs.table import LogTable
 
 _GAP = 1.5  # of the median step
 _HELD = 3  # rows in a row at the extreme value that make it a limit

@@ -11,8 +11,8 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.logs.blocks import Blocks, ParquetBlocks, blocks_of
+from modeler.logs.log_table import LogTable, Part
 from modeler.logs.mapping import LogMap
-from modeler.logs.table import LogTable, Part
 from modeler.observation.log import MOST_WHOLE, Log, fingerprint
 
 _SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms

@@ -11,7 +11,7 @@ import numpy as np
 
 from modeler.codegen.derivation import derive, generate
 from modeler.core.builtin import builtin_text
-from modeler.estimation.energy import identify_energy
+from modeler.estimation.energy_fit import identify_energy
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult, friction_by_direction
 from modeler.observation.log import Log

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from modeler.diagnosis.columns import Rows
+from modeler.diagnosis.effect_columns import Rows
 from modeler.diagnosis.gram import sigma_of
 
 

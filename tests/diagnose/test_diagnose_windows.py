@@ -8,7 +8,7 @@ import pytest
 
 from modeler.api import compile_model, derive, generate, load
 from modeler.core.expression import parse
-from modeler.diagnosis import columns as rows_module
+from modeler.diagnosis import effect_columns as rows_module
 from modeler.diagnosis import signals as signals_module
 from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.propose import proposals

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.api.model import recompile
+from modeler.api.workflow import recompile
 from modeler.estimation.model_file import load_model, save_model
 from modeler.estimation.payload import Payload
 from modeler.observation.log import Log

@@ -13,7 +13,7 @@ import scipy.io
 
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.logs.table import LogTable
+from modeler.logs.log_table import LogTable
 from tests.logs import writers
 from tests.logs.writers import Run
 

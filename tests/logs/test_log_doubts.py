@@ -8,8 +8,8 @@ import pytest
 
 from modeler.cli import main
 from modeler.logs.inspect import look
+from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap, map_from_table
-from modeler.logs.table import LogTable
 from tests.logs.writers import parquet
 
 

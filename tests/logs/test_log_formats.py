@@ -5,8 +5,8 @@ import pytest
 
 from modeler.api import read_logs
 from modeler.core.errors import DataError
+from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import map_from_table
-from modeler.logs.table import LogTable
 from tests.logs import writers
 from tests.logs.writers import MAPPING, ROS, under
 

@@ -9,8 +9,8 @@ import pytest
 from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.logs.inspect import look
+from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap, map_from_table
-from modeler.logs.table import LogTable
 from modeler.report.log import log_pictures
 from modeler.simulation import SimulationSettings
 from tests.logs import writers

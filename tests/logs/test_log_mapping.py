@@ -7,8 +7,8 @@ import scipy.constants as known
 from modeler.api import read_currents, read_logs
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
+from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import find_unit, map_from_table, map_from_words, unit_named
-from modeler.logs.table import LogTable
 from modeler.observation.read import read_log
 from tests.logs import writers
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.columns import body_parameters
+from modeler.diagnosis.effect_columns import body_parameters
 from modeler.diagnosis.profile import Profile, ProfileProblem, profile
 from modeler.diagnosis.signals import tilt_basis
 from modeler.diagnosis.state import State
