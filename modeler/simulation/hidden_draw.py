@@ -1,27 +1,21 @@
 """Hidden effects made complete: joints and values that were not given are drawn from the seed."""
 
-import dataclasses
-from collections.abc import Mapping, Sequence
-from functools import partial
+from collections.abc import Sequence
 
 import casadi as ca
 import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot.robot import Limits, Robot
-from modeler.simulation.closed_motion import closed_motion
-from modeler.simulation.closing import constraints_of, motor_torques, rates, sampled
-from modeler.simulation.hidden import HiddenEffect
-from modeler.simulation.hidden_bodies import last_link
-from modeler.simulation.hidden_catalogue import HIDDEN
-from modeler.simulation.hidden_kind import HiddenKind, Site
+from modeler.simulation.closing import closed_motion, constraints_of, motor_torques, rates, sampled
+from modeler.simulation.hidden import HIDDEN
 from modeler.simulation.parameters import PlantParameters, joint_scales
-from modeler.simulation.physics import ShaftScale
-from modeler.simulation.plant import torque_function
+from modeler.simulation.physics import HiddenKind, ShaftScale, Site
+from modeler.simulation.plant import last_link, torque_function
 from modeler.simulation.portable_math import ten_digits
 from modeler.simulation.rigid import gravity_vector, world_frames
-from modeler.simulation.settings import SimulationSettings
-from modeler.simulation.trajectory import Reference, exciting_reference
+from modeler.simulation.settings import HiddenEffect, SimulationSettings
+from modeler.simulation.trajectory import exciting_reference
 
 # How large a torque on a joint of a robot with loops is for the motors, which carry them.
 
@@ -54,7 +48,9 @@ def felt_by_motors(
     constraints = constraints_of(robot)
     names = [moving.name for moving in robot.moving]
     own = tuple(limits[names.index(moving.name)] for moving in robot.coordinates)
-    motion = closed_motion(robot, constraints, own, partial(_exciting, seed=seed))
+    motion = closed_motion(
+        robot, constraints, own, lambda near: exciting_reference(near, _DURATION, _RATE, seed)
+    )
     v, qd = motion.v, motion.reference.qd
     vd, vdd = rates(constraints, v, qd, motion.reference.qdd)
     torque, states = torque_function(robot, parameters, tuple(limits))
@@ -70,10 +66,6 @@ def felt_by_motors(
             shares.append(float(np.sqrt(np.mean(slope**2))) / torque_m)
     speed = float(np.quantile(np.abs(vd[:, row]), _TOP))
     return (1.0 / max(shares) if any(shares) else 1.0), speed or limits[row].speed
-
-
-def _exciting(limits: tuple[Limits, ...], seed: int) -> Reference:
-    return exciting_reference(limits, _DURATION, _RATE, seed)
 
 
 _OWN = ("Fv", "Fs", "Ia")
@@ -118,22 +110,10 @@ def complete_effects(
         seed = [settings.parameter_seed, 7, before, *asked.effect.encode()]
         rng = np.random.default_rng(seed)
         joint = _joint(robot, parameters, kind, asked, rng)
-        site = _site(robot, parameters, limits, scales, settings, joint)
-        if joint is not None and kind.where == "pair":
-            site = _among_others(robot, site, scales, joint)
-        if joint is not None and robot.loops and kind.where in ("joint", "lever", "passive"):
-            felt = felt_by_motors(robot, parameters, limits, joint, settings.parameter_seed)
-            site = _as_felt(site, kind, *felt)
+        site = _site(robot, parameters, limits, scales, settings, kind, joint)
         found.append(HiddenEffect(asked.effect, joint, _values(robot, kind, asked, site, rng)))
     _check_together(robot, found)
     return tuple(found)
-
-
-def _as_felt(site: Site, kind: HiddenKind, torque: float, speed: float) -> Site:
-    """The site in a closed machine; what no motor commands is as fast as the loops make it."""
-    if kind.where == "passive":
-        return dataclasses.replace(site, torque=torque, speed=speed)
-    return dataclasses.replace(site, torque=torque)
 
 
 def _kind(robot: Robot, asked: HiddenEffect) -> HiddenKind:
@@ -202,16 +182,33 @@ def _site(
     limits: tuple[Limits, ...],
     scales: Sequence[ShaftScale],
     settings: SimulationSettings,
+    kind: HiddenKind,
     joint: str | None,
 ) -> Site:
     names = [moving.name for moving in robot.moving]
     row = names.index(last_link(robot) if joint is None else joint)
     scale, limit, name = scales[row], limits[row], names[row]
     own = {p: parameters.standard[p + name] for p in _OWN if p + name in parameters.standard}
+    # With what the robot file knows of friction and rotor, in the same motion.
+    parts = (
+        scale.torque,
+        own.get("Ia", 0.0) * _LIVELY * limit.acceleration,
+        own.get("Fv", 0.0) * _LIVELY * limit.speed,
+        own.get("Fs", 0.0),
+    )
+    torque, speed, inertia = float(np.linalg.norm(parts)), scale.speed, scale.inertia
+    if kind.where == "pair":  # the next joint feels it too: what is large for the weaker one
+        motors = [names.index(other.name) for other in robot.coordinates]
+        after = scales[motors[motors.index(row) + 1]]
+        torque, inertia = min(torque, after.torque), min(inertia, after.inertia)
+    elif joint is not None and robot.loops and kind.where in ("joint", "lever", "passive"):
+        torque, felt = felt_by_motors(robot, parameters, limits, joint, settings.parameter_seed)
+        # What no motor commands is as fast as the loops make it.
+        speed = felt if kind.where == "passive" else speed
     return Site(
-        torque=_whole_torque(scale, limit, own),
-        speed=scale.speed,
-        inertia=scale.inertia,
+        torque=torque,
+        speed=speed,
+        inertia=inertia,
         span=limit.upper - limit.lower,
         angular=robot.moving[row].angular,
         own=own,
@@ -221,35 +218,6 @@ def _site(
         rate=settings.rate,
         duration=settings.duration,
     )
-
-
-def _among_others(
-    robot: Robot,
-    site: Site,
-    scales: Sequence[ShaftScale],
-    joint: str,
-) -> Site:
-    """The site of an effect that the next joint feels too: what is large for the weaker one."""
-    names = [moving.name for moving in robot.moving]
-    motors = [names.index(other.name) for other in robot.coordinates]
-    row = names.index(joint)
-    after = motors[motors.index(row) + 1]
-    return dataclasses.replace(
-        site,
-        torque=min(site.torque, scales[after].torque),
-        inertia=min(site.inertia, scales[after].inertia),
-    )
-
-
-def _whole_torque(scale: ShaftScale, limit: Limits, own: Mapping[str, float]) -> float:
-    """Rms torque with what the robot file knows of friction and rotor, in the same motion."""
-    parts = (
-        scale.torque,
-        own.get("Ia", 0.0) * _LIVELY * limit.acceleration,
-        own.get("Fv", 0.0) * _LIVELY * limit.speed,
-        own.get("Fs", 0.0),
-    )
-    return float(np.linalg.norm(parts))
 
 
 def _lever(
