@@ -15,16 +15,17 @@ from modeler.codegen.block import Block, float_text, make_block
 from modeler.codegen.closed import closed_functions, closure_tables, solving_of
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
-from modeler.codegen.functions import CFunction, tree_functions
-from modeler.codegen.fused import UNIT as TILE_UNIT
-from modeler.codegen.fused import Tile, tile_of
-from modeler.codegen.names import (
+from modeler.codegen.functions import (
+    CFunction,
     enumerators,
     graph_places,
     module_prefix,
     symbol_constants,
     symbol_macros,
+    tree_functions,
 )
+from modeler.codegen.fused import UNIT as TILE_UNIT
+from modeler.codegen.fused import Tile, tile_of
 from modeler.codegen.package import package_files, render
 from modeler.codegen.targets import OF_PRECISION, WIDE, of_precision
 from modeler.codegen.vectors import stored_states

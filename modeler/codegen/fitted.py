@@ -14,8 +14,13 @@ from typing import Any
 
 from modeler.codegen import functions as layout
 from modeler.codegen.closed import closed_dynamics
-from modeler.codegen.functions import CFunction, Closed, arguments_of, dynamics_functions
-from modeler.codegen.names import enumerators
+from modeler.codegen.functions import (
+    CFunction,
+    Closed,
+    arguments_of,
+    dynamics_functions,
+    enumerators,
+)
 from modeler.core.errors import EmitError
 from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec
 from modeler.derivation.columns import ShaftColumn, along
