@@ -5,7 +5,6 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import sympy
@@ -52,13 +51,12 @@ from modeler.core.manifest import (
     code_digest,
     text_digest,
 )
-from modeler.derivation.columns import Signal, StandardColumn
 from modeler.derivation.geometry import Geometry, geometric_symbol
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.precise import precise_values
 from modeler.derivation.relations import coefficient_text
 from modeler.derivation.result import BaseParameters
-from modeler.robot.robot import Joint, Robot
+from modeler.robot.robot import Robot
 
 # The manifest of an emitted module: everything the numeric stages will know of the robot.
 
@@ -67,65 +65,58 @@ def module_spec(
     model: SymbolicModel, base: BaseParameters, blocks: Iterable[tuple[CFunction, Block | None]]
 ) -> ModuleSpec:
     """The manifest of the module with these functions; None is a function that is all zeros."""
-    robot = model.robot
+    robot, closure, closing = model.robot, model.closure, None
     prefix = module_prefix(robot.name)
-    values = model.geometry.values
+    if closure is not None:
+        closing = ClosureSpec(
+            variables=tuple(joint.name for joint in robot.free),
+            units=tuple(joint.unit for joint in robot.free),
+            given=closure.given,
+            platform=closure.platform or (),
+            home=closure.home,
+            carrier=robot.platform[-1] if robot.platform else "",
+        )
+    joints = tuple(
+        JointSpec(
+            name=joint.name,
+            kind="revolute" if joint.angular else "prismatic",
+            unit=joint.unit,
+            effort_unit=joint.effort_unit,
+            actuated=joint.actuated,
+            drive_gain=robot.drive_gains.get(joint.name),
+        )
+        for joint in robot.coordinates
+    )
+    standard = tuple(
+        ParameterSpec(
+            name=column.name,
+            unit=column.unit,
+            kind=column.kind,
+            effect=column.effect,
+            joint=robot.joints[column.row].name,
+            nominal=robot.parameters.get(column.name),
+            nonnegative=column.nonnegative,
+        )
+        for column in model.columns
+    )
+    units = {"time": "s", "temperature": "K or degC", "slip": "1"}
+    measured = [robot.joints[s.row].name if s.row >= 0 else "" for s in model.signals]
     return ModuleSpec(
         robot=robot.name,
         title=robot.title,
         prefix=prefix,
         format=FORMAT,
-        symbols=tuple(SymbolSpec(name, value) for name, value in values.items()),
-        joints=tuple(_joint(robot, joint) for joint in robot.coordinates),
-        standard=tuple(_standard(model, column) for column in model.columns),
+        symbols=tuple(SymbolSpec(*symbol) for symbol in model.geometry.values.items()),
+        joints=joints,
+        standard=standard,
         base=_bases(model, base),
         unidentifiable=tuple(base.unidentifiable),
         functions=function_specs(prefix, list(blocks)),
-        closure=_closure(model),
-        signals=tuple(_signal(model, signal) for signal in model.signals),
-    )
-
-
-def _signal(model: SymbolicModel, signal: Signal) -> SignalSpec:
-    joint = model.robot.joints[signal.row].name if signal.row >= 0 else ""
-    unit = {"time": "s", "temperature": "K or degC", "slip": "1"}[signal.kind]
-    return SignalSpec(signal.kind, joint, unit, signal.value)
-
-
-def _closure(model: SymbolicModel) -> ClosureSpec | None:
-    closure = model.closure
-    if closure is None:
-        return None
-    return ClosureSpec(
-        variables=tuple(joint.name for joint in model.robot.free),
-        units=tuple(joint.unit for joint in model.robot.free),
-        given=closure.given,
-        platform=closure.platform or (),
-        home=closure.home,
-        carrier=model.robot.platform[-1] if model.robot.platform else "",
-    )
-
-
-def _joint(robot: Robot, joint: Joint) -> JointSpec:
-    return JointSpec(
-        name=joint.name,
-        kind="revolute" if joint.angular else "prismatic",
-        unit=joint.unit,
-        effort_unit=joint.effort_unit,
-        actuated=joint.actuated,
-        drive_gain=robot.drive_gains.get(joint.name),
-    )
-
-
-def _standard(model: SymbolicModel, column: StandardColumn) -> ParameterSpec:
-    return ParameterSpec(
-        name=column.name,
-        unit=column.unit,
-        kind=column.kind,
-        effect=column.effect,
-        joint=model.robot.joints[column.row].name,
-        nominal=model.robot.parameters.get(column.name),
-        nonnegative=column.nonnegative,
+        closure=closing,
+        signals=tuple(
+            SignalSpec(signal.kind, joint, units[signal.kind], signal.value)
+            for signal, joint in zip(model.signals, measured, strict=True)
+        ),
     )
 
 
@@ -135,12 +126,12 @@ def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[BaseSpec, ...]:
     for joint, place in model.regressor:
         rows.setdefault(place, []).append(joint)
     every = range(len(model.closure.given)) if model.closure is not None else None
+    graph, values = model.graph, model.geometry.values
     terms: dict[sympy.Expr, tuple[str, float]] = {}
-    for parameter in base.parameters:
-        for term in parameter.terms:
-            if term.coefficient not in terms:
-                number = _number(model, term.coefficient, model.geometry.values)
-                terms[term.coefficient] = coefficient_text(term.coefficient), number
+    for coefficient in (term.coefficient for each in base.parameters for term in each.terms):
+        if coefficient not in terms:
+            number = precise_values(graph, [model.algebra.static(coefficient)], values)[0]
+            terms[coefficient] = coefficient_text(coefficient), float(number)
     found = []
     for parameter in base.parameters:
         column = model.columns[parameter.column]
@@ -158,10 +149,6 @@ def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[BaseSpec, ...]:
     return tuple(found)
 
 
-def _number(model: SymbolicModel, coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
-    return float(precise_values(model.graph, [model.algebra.static(coefficient)], values)[0])
-
-
 def function_specs(
     prefix: str,
     blocks: Sequence[tuple[CFunction, Block | None]],
@@ -174,14 +161,14 @@ def function_specs(
         blocks: the functions.
         called: functions of other units that they may call.
     """
-    own = {function.role: _operations(block) for function, block in (*called, *blocks)}
+    own = {
+        function.role: (block.additions, block.multiplications) if block else (0, 0)
+        for function, block in (*called, *blocks)
+    }
     found = []
-    for function, block in blocks:
-        if function.internal:
-            continue
-        parts = [_operations(block)]
-        if function.closed is not None:
-            parts = [own[role] for role in function.closed.calls if role in own]
+    for function in (function for function, _ in blocks if not function.internal):
+        calls = (function.role,) if function.closed is None else function.closed.calls
+        parts = [own[role] for role in calls if role in own]
         found.append(
             FunctionSpec(
                 name=f"{prefix}_{function.role}",
@@ -194,10 +181,6 @@ def function_specs(
             )
         )
     return tuple(found)
-
-
-def _operations(block: Block | None) -> tuple[int, int]:
-    return (block.additions, block.multiplications) if block else (0, 0)
 
 
 # Geometric symbols in C: which of them -D may replace, and why the others not.
@@ -273,33 +256,26 @@ def deciding_symbols(geometry: Geometry) -> frozenset[str]:
         name: value * (1 + 1 / (97 + 12 * place))
         for place, (name, value) in enumerate(geometry.values.items())
     }
-    numbers = _numbers(robot, moved)
+    numbers: dict[str, float] = {}  # of all symbols and joint variables, some symbols moved
+    for name, expression in robot.symbols.items():
+        try:
+            numbers[name] = moved[name] if name in moved else expression.number(numbers)
+        except (ArithmeticError, ValueError):
+            numbers[name] = math.nan  # equal to nothing
+    numbers |= {joint.variable: 0.0 for joint in robot.joints}
+    columns = ("gamma", "b", "alpha", "d", "theta", "r")
+    cells: list[tuple[Expression, sympy.Expr]] = [
+        (getattr(row.joint, column), getattr(row, column))
+        for row in geometry.rows
+        for column in columns
+    ]
     found: set[str] = set()
-    for cell, entry in _cells(geometry):
+    for cell, entry in (*cells, *zip(robot.gravity, geometry.gravity, strict=True)):
         leaves = {name: moved[name] for name in _leaves(robot, cell) if name in moved}
         found |= leaves.keys() - {symbol.name for symbol in entry.free_symbols}
         if leaves and not _same(cell, entry, numbers, leaves):
             found |= leaves.keys()
     return frozenset(found)
-
-
-def _numbers(robot: Robot, moved: Mapping[str, float]) -> dict[str, float]:
-    """Values of all symbols, and 0 for the joint variables, with some symbols moved."""
-    values: dict[str, float] = {}
-    for name, expression in robot.symbols.items():
-        try:
-            values[name] = moved[name] if name in moved else expression.number(values)
-        except (ArithmeticError, ValueError):
-            values[name] = math.nan  # equal to nothing
-    return values | {joint.variable: 0.0 for joint in robot.joints}
-
-
-def _cells(geometry: Geometry) -> Iterator[tuple[Expression, sympy.Expr]]:
-    """Every cell of the table and of gravity, as written and as an exact entry."""
-    for row in geometry.rows:
-        for column in ("gamma", "b", "alpha", "d", "theta", "r"):
-            yield getattr(row.joint, column), getattr(row, column)
-    yield from zip(geometry.robot.gravity, geometry.gravity, strict=True)
 
 
 def _leaves(robot: Robot, cell: Expression) -> set[str]:
@@ -507,36 +483,31 @@ def _fitted_files(prefix: str, values: dict[str, Any], fitted: FittedSpec) -> di
 
 def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
     """The files that the library is compiled from."""
-    prefix = spec.prefix
-    files = {
-        f"{prefix}.h": render("module.h", **values),
-        **{
-            f"{prefix}{unit}.c": _unit(unit, values)
-            for unit in ("", "_regressor", "_base_regressor")
-        },
-        **(_loop_files(prefix, values) if spec.closure is not None else {}),
-        **(_tile_files(prefix, values) if spec.tile_sources else {}),
-        **_runtime(spec),
-    }
+    prefix, functions, initial = spec.prefix, values["functions"], values["symbols"].initial
+    files = {f"{prefix}.h": render("module.h", **values)}
+    for unit in ("", "_regressor", "_base_regressor"):
+        own = [f for f in functions if f.unit == unit]
+        more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
+        files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
+    runtime: tuple[str, ...] = RUNTIME
+    if spec.closure is not None:  # the opened tree's functions, and what closes the loops
+        inner = [f for f in functions if f.internal]
+        outer = [f for f in functions if f.unit == "_loops"]
+        files[f"{prefix}_tree.h"] = render("tree.h", **{**values, "functions": inner})
+        files[f"{prefix}_loops.c"] = render("loops.c", **{**values, "functions": outer})
+        runtime += CLOSURE_RUNTIME
+    if spec.tile_sources:
+        given = {**values, "constants": _constants([values["tile"]], values, initial)}
+        for kind in ("h", "c"):
+            files[f"{prefix}{TILE_UNIT}.{kind}"] = render(f"tile.{kind}", **given)
+        runtime += TILE_RUNTIME
+    folder = resource_dir("csrc")
+    for name in runtime:  # its own in that precision, where it has one
+        source = folder / spec.precision / name
+        if not source.is_file():
+            source = (folder / "include" if name.endswith(".h") else folder) / name
+        files[name] = source.read_text("utf-8")
     return of_precision(spec.precision, files)
-
-
-def _loop_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
-    """The header of the opened tree's functions, and the unit that closes the loops."""
-    functions = values["functions"]
-    inner = [f for f in functions if f.internal]
-    outer = [f for f in functions if f.unit == "_loops"]
-    return {
-        f"{prefix}_tree.h": render("tree.h", **{**values, "functions": inner}),
-        f"{prefix}_loops.c": render("loops.c", **{**values, "functions": outer}),
-    }
-
-
-def _tile_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
-    """Header and source of the unit of tiles."""
-    constants = _constants([values["tile"]], values, values["symbols"].initial)
-    given = {**values, "constants": constants}
-    return {f"{prefix}{TILE_UNIT}.{kind}": render(f"tile.{kind}", **given) for kind in ("h", "c")}
 
 
 def _block(
@@ -603,31 +574,9 @@ def _values(
     }
 
 
-def _unit(unit: str, values: dict[str, Any]) -> str:
-    functions = [function for function in values["functions"] if function.unit == unit]
-    constants = _constants(functions, values, values["symbols"].initial)
-    more = {"functions": functions, "constants": constants, "main": not unit}
-    return render("module.c", **{**values, **more})
-
-
 def _constants(
     functions: Sequence[_Written | Tile], values: dict[str, Any], initial: Mapping[str, str]
 ) -> list[tuple[str, str]]:
     """(name, what it is initialised with) of the geometric constants that the functions read."""
     read = frozenset[str]().union(*(function.symbols for function in functions))
     return [(values["names"][symbol], text) for symbol, text in initial.items() if symbol in read]
-
-
-def _runtime(spec: ModuleSpec) -> dict[str, str]:
-    names = (*RUNTIME, *(CLOSURE_RUNTIME if spec.closure is not None else ()))
-    names += TILE_RUNTIME if spec.tile_sources else ()
-    return {name: _source(name, spec.precision).read_text("utf-8") for name in names}
-
-
-def _source(name: str, precision: Precision) -> Path:
-    """A file of the runtime: its own in that precision, where it has one."""
-    folder = resource_dir("csrc")
-    own = folder / precision / name
-    if own.is_file():
-        return own
-    return (folder / "include" if name.endswith(".h") else folder) / name
