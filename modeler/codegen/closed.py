@@ -196,8 +196,8 @@ def closure_tables(model: SymbolicModel, solving: Solving, closed: float) -> dic
         "tolerance": repr(closed * min(1.0, closure.size)),
         "variables": ", ".join(joint.name for joint in model.robot.free),
         "nonzeros": len(places),
-        "row": layout.number_lines([row for row, _ in places]),
-        "column": layout.number_lines([column for _, column in places]),
+        "row": layout.name_lines([row for row, _ in places]),
+        "column": layout.name_lines([column for _, column in places]),
         "length": len(solving.values),
         "turned_from": solving.turned_from,
         "factors": max(len(own.factors) for own in solving.eliminations.values()),
@@ -211,8 +211,8 @@ def closure_tables(model: SymbolicModel, solving: Solving, closed: float) -> dic
                 "factors": len(own.factors),
                 "limits": layout.name_lines([repr(limit) for limit in own.limits]),
                 "couplings": len(own.coupling),
-                "coupling_row": layout.number_lines([k for k, _, _ in own.coupling]),
-                "coupling_column": layout.number_lines([j for _, j, _ in own.coupling]),
+                "coupling_row": layout.name_lines([k for k, _, _ in own.coupling]),
+                "coupling_column": layout.name_lines([j for _, j, _ in own.coupling]),
             }
             for head, own in solving.eliminations.items()
         ],

@@ -83,7 +83,7 @@ def _shape(spec: ModuleSpec) -> dict[str, Any]:
         "threads": CUDA_THREADS,
         "tile": next(fitting, 1),
         "products": products,
-        "first": layout.number_lines([a for a, _ in products]),
-        "second": layout.number_lines([b for _, b in products]),
-        "joints": layout.number_lines([row for row, _ in entries] + list(range(joints))),
+        "first": layout.name_lines([a for a, _ in products]),
+        "second": layout.name_lines([b for _, b in products]),
+        "joints": layout.name_lines([row for row, _ in entries] + list(range(joints))),
     }

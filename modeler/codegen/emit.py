@@ -544,6 +544,9 @@ def _values(
     spec: ModuleSpec, symbols: SymbolLines, functions: list[_Written], relations: list[str]
 ) -> dict[str, Any]:
     standard, base = layout.parameter_lines(spec, relations)
+    states = [f"const double *{name}" for name in ("q", "qd", "qdd")]
+    states += ["const double *s"] if spec.signals else []
+    status = ["int *status"] if spec.closure is not None else []
     return {
         "spec": spec,
         "single": spec.precision == "single",
@@ -563,14 +566,15 @@ def _values(
         "functions": functions,
         "signals": layout.signal_lines(spec),
         "observation": [
-            layout.observation_prototype(
-                spec.prefix, r, spec.closure is not None, bool(spec.signals)
+            layout.prototype(
+                f"{spec.prefix}_observation",
+                ["size_t samples", *states, f"double *{restrict}W", *status],
             )
-            for r in ("", _RESTRICT)
+            for restrict in ("", _RESTRICT)
         ],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
-        "nonzero_rows": layout.number_lines([row for row, _ in spec.nonzeros]),
-        "nonzero_columns": layout.number_lines([column for _, column in spec.nonzeros]),
+        "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros]),
+        "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros]),
     }
 
 

@@ -9,7 +9,7 @@ from fractions import Fraction
 from modeler.codegen.block import Block
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, ModuleSpec
-from modeler.derivation.columns import ShaftColumn, Signal
+from modeler.derivation.columns import ShaftColumn
 from modeler.derivation.graph import Expr
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.relations import relation_text
@@ -113,14 +113,18 @@ def beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, Expr]:
 def tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[CFunction, ...]:
     """All functions of a module without loops, in the order of the header."""
     given = arguments_of(model.robot.free, model, base)
-    beta = beta_symbols(model, base)
-    return (
-        *_regressors(model, base, given),
-        *dynamics_functions(model, beta, given),
-        grouping_function(model, base, given),
-        _kinematics(model, given),
-        *_advance(model, given),
-    )
+    regressors = _regressors(model, base, given)
+    dynamics = dynamics_functions(model, beta_symbols(model, base), given)
+    grouping, poses = grouping_function(model, base, given), model.forward_kinematics()
+    kinematics = CFunction(
+        "", "forward_kinematics", "Poses of the frames of all moving rows of the table, in order.",
+        "x0 = R x + p with T = [R | p], for a point x of the frame", (given.q,),
+        ArgumentSpec(
+            "T", (len(poses), 3, 4), "1 | m", "poses [R | p] of the links' frames in frame 0"
+        ),
+        entries_of([value for pose in poses for row in pose for value in row]),
+    )  # fmt: skip
+    return (*regressors, *dynamics, grouping, kinematics, *_advance(model, given))
 
 
 def arguments_of(joints: Sequence[Joint], model: SymbolicModel, base: BaseParameters) -> Arguments:
@@ -255,8 +259,15 @@ def _advance(model: SymbolicModel, given: Arguments) -> list[CFunction]:
         s = graph.symbol(f"s[{k}]")
         if signal.kind == "time":
             s = s + graph.symbol("dt[0]")
-        elif signal.kind == "slip":
-            s = _turned(model, signal, s)
+        elif signal.kind == "slip":  # Dahl's bristle, exact where the direction is constant
+            index = model.geometry.rows[signal.row].index
+            assert index is not None
+            moved = graph.constant(0)
+            for j, coefficient in model.geometry.forms[index].items():
+                moved = moved + graph.symbol(f"dq[{j}]") * coefficient
+            way = graph.call("sign", moved)
+            share = graph.call("abs", moved) / graph.constant(Fraction(repr(signal.value)))
+            s = way + (s - way) * graph.call("exp", -share)
         values.append(s)
     after = ArgumentSpec("after", (len(values),), "see above", "signals now")
     return [
@@ -266,19 +277,6 @@ def _advance(model: SymbolicModel, given: Arguments) -> list[CFunction]:
             (travel, step, *given.signals), after, entries_of(values),
         )
     ]  # fmt: skip
-
-
-def _turned(model: SymbolicModel, signal: Signal, z: Expr) -> Expr:
-    """The bristle of Dahl's friction after a small travel: exact for constant direction."""
-    graph = model.graph
-    index = next(row.index for k, row in enumerate(model.geometry.rows) if k == signal.row)
-    assert index is not None
-    travel = graph.constant(0)
-    for k, coefficient in model.geometry.forms[index].items():
-        travel = travel + graph.symbol(f"dq[{k}]") * coefficient
-    way = graph.call("sign", travel)
-    share = graph.call("abs", travel) / graph.constant(Fraction(repr(signal.value)))
-    return way + (z - way) * graph.call("exp", -share)
 
 
 def grouping_function(model: SymbolicModel, base: BaseParameters, given: Arguments) -> CFunction:
@@ -293,17 +291,6 @@ def grouping_function(model: SymbolicModel, base: BaseParameters, given: Argumen
     return CFunction(
         "", "base_parameters", "Base parameters from standard ones: the grouping relations.",
         "beta = K chi", (given.chi,), given.beta, entries_of(values),
-    )  # fmt: skip
-
-
-def _kinematics(model: SymbolicModel, given: Arguments) -> CFunction:
-    poses = model.forward_kinematics()
-    meaning = "poses [R | p] of the links' frames in frame 0"
-    return CFunction(
-        "", "forward_kinematics", "Poses of the frames of all moving rows of the table, in order.",
-        "x0 = R x + p with T = [R | p], for a point x of the frame", (given.q,),
-        ArgumentSpec("T", (len(poses), 3, 4), "1 | m", meaning),
-        entries_of([value for pose in poses for row in pose for value in row]),
     )  # fmt: skip
 
 
@@ -350,16 +337,11 @@ def parameter_lines(spec: ModuleSpec, relations: Sequence[str]) -> tuple[list[st
     ]
     base = []
     for i, (parameter, text) in enumerate(zip(spec.base, relations, strict=True)):
-        base += _wrap(f"{i:4d}  {text}  [{parameter.unit}]", " " * 8)
-    return [comment_line(line) for line in standard], base
-
-
-def _wrap(text: str, indent: str) -> list[str]:
-    lines = textwrap.wrap(
-        text, _WIDTH - 4, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False,
-        drop_whitespace=True, initial_indent="",
-    )  # fmt: skip
-    return [line.replace("*/", "* /") for line in lines]
+        base += textwrap.wrap(
+            f"{i:4d}  {text}  [{parameter.unit}]", _WIDTH - 4, subsequent_indent=" " * 8,
+            break_long_words=False, break_on_hyphens=False,
+        )  # fmt: skip
+    return [comment_line(line) for line in standard], [line.replace("*/", "* /") for line in base]
 
 
 def comment_line(text: str) -> str:
@@ -415,55 +397,34 @@ def signal_lines(spec: ModuleSpec) -> list[str]:
     ]
 
 
-def observation_prototype(
-    prefix: str, restrict: str, status: bool = False, signals: bool = False
-) -> str:
-    """Prototype of the loop over samples that fills W."""
-    states = ["const double *q", "const double *qd", "const double *qdd"]
-    states += ["const double *s"] if signals else []
-    outputs = [f"double *{restrict}W", *(["int *status"] if status else [])]
-    return prototype(f"{prefix}_observation", ["size_t samples", *states, *outputs])
-
-
 def body_lines(function: CFunction, block: Block | None) -> list[str]:
     """All statements of a function."""
-    size = function.output.size
+    name, size = function.output.name, function.output.size
     written = {index for index, _ in function.entries}
     zeros = [index for index in range(size) if index not in written]
     lines = [f"(void){name};" for name in unread(function, block)]
-    body = block.body if block is not None else ()
+    body = list(block.body) if block is not None else []
     if len(zeros) > _FEW:
-        name = function.output.name
         lines.append(f"MODELER_ALL_ZEROS({name}, {size});")
-        body = _mixed(body, [f"MODELER_ZEROS({name} + {a}, {n});" for a, n in _runs(zeros)])
+        runs: list[tuple[int, int]] = []  # (first, length) of neighbouring places
+        for place in zeros:
+            first, length = runs[-1] if runs else (place, 0)
+            if place == first + length and 0 < length < _RUN:
+                runs[-1] = (first, length + 1)
+            else:
+                runs.append((place, 1))
+        # Evenly between the statements: stores that wait for no arithmetic.
+        stores = [f"MODELER_ZEROS({name} + {first}, {length});" for first, length in runs]
+        due = [k * len(stores) // len(body) for k in range(len(body))] + [len(stores)]
+        statements, body, done = body, [], 0
+        for k, end in enumerate(due):
+            body += [*stores[done:end], *statements[k : k + 1]]
+            done = end
     else:
-        lines += [f"{function.output.name}[{index}] = 0.0;" for index in zeros]
+        lines += [f"{name}[{index}] = 0.0;" for index in zeros]
     for part in (block.constants, block.calls, body) if block is not None else (body,):
         lines += ["", *part] if lines and part else part
     return lines
-
-
-def _runs(places: Sequence[int]) -> list[tuple[int, int]]:
-    """(first, length) of neighbouring places."""
-    runs: list[tuple[int, int]] = []
-    for place in places:
-        first, length = runs[-1] if runs else (place, 0)
-        if place == first + length and 0 < length < _RUN:
-            runs[-1] = (first, length + 1)
-        else:
-            runs.append((place, 1))
-    return runs
-
-
-def _mixed(statements: Sequence[str], more: Sequence[str]) -> tuple[str, ...]:
-    """The statements with `more` evenly between them: stores that wait for no arithmetic."""
-    mixed: list[str] = []
-    done = 0
-    for k, statement in enumerate(statements):
-        due = k * len(more) // len(statements)
-        mixed += [*more[done:due], statement]
-        done = due
-    return (*mixed, *more[done:])
 
 
 def unread(function: CFunction, block: Block | None) -> Iterable[str]:
@@ -474,15 +435,10 @@ def unread(function: CFunction, block: Block | None) -> Iterable[str]:
             yield argument.name
 
 
-def number_lines(numbers: Sequence[int]) -> list[str]:
-    """The numbers of a C table, in lines of readable length."""
-    return name_lines([str(number) for number in numbers])
-
-
-def name_lines(names: Sequence[str]) -> list[str]:
-    """Words of a C table or enum, in lines of readable length."""
+def name_lines(names: Iterable[object]) -> list[str]:
+    """Words or numbers of a C table or enum, in lines of readable length."""
     return textwrap.wrap(
-        ", ".join(names), _WIDTH - 4, break_long_words=False, break_on_hyphens=False
+        ", ".join(map(str, names)), _WIDTH - 4, break_long_words=False, break_on_hyphens=False
     )
 
 

@@ -51,7 +51,9 @@ def constraints_of(robot: Robot) -> Constraints:
         v[names.index(name)] - relation.fold(values, FUNCTIONS, float(np.pi), float)
         for name, relation in robot.relations.items()
     ]
-    size = _size(robot)
+    # The largest of the robot's lengths, m; 1 where none has a symbol.
+    lengths = [abs(value) for name, value in robot.symbol_values().items() if name != "g"]
+    size = max(lengths, default=1.0) or 1.0
     frames = {
         name: Frame(frame.rotation, frame.position / size, frame.axis)
         for name, frame in world_frames(robot, v).items()
@@ -70,12 +72,6 @@ def constraints_of(robot: Robot) -> Constraints:
         curvature=ca.Function("k", [v, vd], [ca.densify(ca.cse(bend))]),
         units=np.array([1.0 if joint.angular else size for joint in moving]),
     )
-
-
-def _size(robot: Robot) -> float:
-    """The largest of the robot's lengths, m; 1 where none has a symbol."""
-    values = robot.symbol_values().items()
-    return max((abs(value) for name, value in values if name != "g"), default=1.0) or 1.0
 
 
 def sampled(function: ca.Function, *samples: np.ndarray) -> np.ndarray:
@@ -302,24 +298,14 @@ def _polished(constraints: Constraints, v: np.ndarray) -> tuple[np.ndarray, np.n
         open_ = np.flatnonzero(np.max(np.abs(c), axis=1) >= _CLOSED)
         if not open_.size:
             break
-        Q, R = _factors(constraints, v[open_])
-        if not np.all(_regular(R)):
-            break
+        Q, R = np.linalg.qr(sampled(constraints.slope, v[open_])[:, :, constraints.others])
+        diagonal = np.abs(np.diagonal(R, axis1=1, axis2=2))
+        if not np.all(diagonal.min(axis=1) > _SINGULAR * diagonal.max(axis=1)):
+            break  # joints that are not given are not determined
         step = _least(Q, R, c[open_])
         longest = np.max(np.abs(step), axis=1, keepdims=True)
         v[open_[:, None], constraints.others] -= step * np.minimum(1.0, _LONGEST / longest)
     return v, np.max(np.abs(sampled(constraints.value, v)[:, :, 0]), axis=1) < _CLOSED
-
-
-def _factors(constraints: Constraints, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Q and R of the columns of J of the joints that are not given, (n, ...) each."""
-    return np.linalg.qr(sampled(constraints.slope, v)[:, :, constraints.others])
-
-
-def _regular(R: np.ndarray) -> np.ndarray:
-    """(n,) True where the joints that are not given are determined."""
-    diagonal = np.abs(np.diagonal(R, axis1=1, axis2=2))
-    return diagonal.min(axis=1) > _SINGULAR * diagonal.max(axis=1)
 
 
 def _solved(constraints: Constraints, v: np.ndarray) -> np.ndarray | None:
@@ -429,45 +415,36 @@ def closed_motion(
         RobotError: `home` does not close.
         DataError: no share of the range will do.
     """
-    home = np.array([[robot.home.get(joint.name, 0.0) for joint in robot.coordinates]])
-    least = KEPT * distances(constraints, followed(robot, constraints, home))[0]
+    home = np.array([robot.home.get(joint.name, 0.0) for joint in robot.coordinates])
+    least = KEPT * distances(constraints, followed(robot, constraints, home[None]))[0]
+
+    def keeps_away(reference: Reference) -> bool:
+        """True if the loops close from home on, nowhere nearer than `least` to a singularity."""
+        first = reference.q[0] - home
+        way = np.linspace(0.0, 1.0, 1 + int(np.ceil(np.max(np.abs(first)) / _NEAR)))
+        every = max(1, round(1 / (_LOOKS * (reference.time[1] - reference.time[0]))))
+        q = np.vstack([home + way[:, None] * first, reference.q[::every]])
+        try:
+            return bool(distances(constraints, followed(robot, constraints, q)).min() >= least)
+        except DataError:
+            return False
+
     share = 1.0
     while share > _NARROWEST:
-        near = tuple(_narrowed(li, at, share) for li, at in zip(limits, home[0], strict=True))
-        reference = motion(near)
-        if _keeps_away(robot, constraints, reference, least):
-            return ClosedMotion(
-                reference, followed(robot, constraints, reference.q, progress), share
-            )
+        near = []
+        for limit, at in zip(limits, home, strict=True):  # the same share of the way to both
+            middle = min(max(at, limit.lower), limit.upper)
+            lower = middle + share * (limit.lower - middle)
+            upper = middle + share * (limit.upper - middle)
+            near.append(dataclasses.replace(limit, lower=lower, upper=upper))
+        reference = motion(tuple(near))
+        if keeps_away(reference):
+            v = followed(robot, constraints, reference.q, progress)
+            return ClosedMotion(reference, v, share)
         share *= _NARROWER
     joints = ", ".join(joint.name for joint in robot.coordinates)
     raise DataError(
         f"simulation: no motion of joints {joints} of {robot.name} keeps its loops closed and away "
         "from singular postures; expected [limits] around [home]; state other [limits], or "
         "another [home]"
-    )
-
-
-def _keeps_away(robot: Robot, constraints: Constraints, reference: Reference, least: float) -> bool:
-    """True if the loops close from home on, nowhere nearer than `least` to a singularity."""
-    home = np.array([robot.home.get(joint.name, 0.0) for joint in robot.coordinates])
-    first = reference.q[0] - home
-    way = np.linspace(0.0, 1.0, 1 + int(np.ceil(np.max(np.abs(first)) / _NEAR)))
-    every = max(1, round(1 / (_LOOKS * (reference.time[1] - reference.time[0]))))
-    try:
-        v = followed(
-            robot, constraints, np.vstack([home + way[:, None] * first, reference.q[::every]])
-        )
-    except DataError:
-        return False
-    return bool(distances(constraints, v).min() >= least)
-
-
-def _narrowed(limits: Limits, home: float, share: float) -> Limits:
-    """The same share of the way from home to both limits."""
-    middle = min(max(home, limits.lower), limits.upper)
-    return dataclasses.replace(
-        limits,
-        lower=middle + share * (limits.lower - middle),
-        upper=middle + share * (limits.upper - middle),
     )

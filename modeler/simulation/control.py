@@ -90,24 +90,19 @@ def logged_torques(faults: Faults, time: np.ndarray, held: np.ndarray) -> np.nda
         time: (n,) s.
         held: (n, joints) torques, each held from its sample to the next.
     """
-    before = np.vstack([held[:1], held[:-1]])
     if not faults.delay:
-        return _faulty(faults, time, (before + held) / 2)
+        return sampled_torques(faults, time, (np.vstack([held[:1], held[:-1]]) + held) / 2)
     # The mean over one interval runs straight between the middles of the ticks.
-    return _faulty(faults, time, _late(faults, time, time + (time[1] - time[0]) / 2, held))
+    return sampled_torques(faults, time, held, known=time + (time[1] - time[0]) / 2)
 
 
-def sampled_torques(faults: Faults, time: np.ndarray, tau: np.ndarray) -> np.ndarray:
-    """(n, joints) torques before noise, from (n, joints) torques at the samples themselves."""
-    return _faulty(faults, time, _late(faults, time, time, tau) if faults.delay else tau)
-
-
-def _late(faults: Faults, time: np.ndarray, known: np.ndarray, tau: np.ndarray) -> np.ndarray:
-    late = time - faults.delay
-    return np.column_stack([np.interp(late, known, column) for column in tau.T])
-
-
-def _faulty(faults: Faults, time: np.ndarray, tau: np.ndarray) -> np.ndarray:
+def sampled_torques(
+    faults: Faults, time: np.ndarray, tau: np.ndarray, known: np.ndarray | None = None
+) -> np.ndarray:
+    """(n, joints) torques before noise, from (n, joints) torques at the samples, or times known."""
+    if faults.delay:
+        at, late = time if known is None else known, time - faults.delay
+        tau = np.column_stack([np.interp(late, at, column) for column in tau.T])
     return tau * faults.ratio + faults.drift * time[:, None]
 
 

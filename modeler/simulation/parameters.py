@@ -53,7 +53,11 @@ def plant_parameters(robot: Robot, limits: tuple[Limits, ...], seed: int = 0) ->
         RobotError: numbers that no rigid body has, a negative friction or rotor inertia, or an
             effect that cannot be simulated; names the link or joint.
     """
-    robot, similar = unshared(robot), robot
+    similar, values = robot, dict(robot.parameters)
+    for shared in similar.shared:  # stated for each of its rows
+        if shared.name in values:
+            values |= dict.fromkeys(shared.members, values.pop(shared.name))
+    robot = dataclasses.replace(similar, parameters=values, shared=())
     rng = np.random.default_rng([seed, 1])
     middle = np.array([(limit.lower + limit.upper) / 2 for limit in limits])
     links, drawn_links = link_parameters(robot, middle, rng)
@@ -69,9 +73,20 @@ def plant_parameters(robot: Robot, limits: tuple[Limits, ...], seed: int = 0) ->
                 stated = robot.parameters.get(prefix + name)
                 if stated is None:
                     drawn.append(prefix + name)
-                standard[prefix + name] = ten_digits(value) if stated is None else float(stated)
-                _check_sign(robot, effect, prefix + name, prefix, standard[prefix + name])
-    standard, bodies = alike(similar, standard, bodies)
+                value = ten_digits(value) if stated is None else float(stated)
+                if not np.isfinite(value) or (value < 0 and prefix not in effect.signed):
+                    raise RobotError(
+                        f"robot {robot.name}: {prefix}{name} = {value:g} would drive the joint by "
+                        f"itself ({effect.effect}); expected 0 or more"
+                    )
+                standard[prefix + name] = value
+    if similar.shared:  # the first leg's links on all legs
+        for shared in similar.shared:
+            standard |= dict.fromkeys(shared.members, standard[shared.members[0]])
+        bodies = {
+            row: body_from_standard({p: standard.get(f"{p}{row}", 0.0) for p in INERTIAL})
+            for row in bodies
+        }
     return PlantParameters(standard, bodies, tuple(name for name in standard if name in drawn))
 
 
@@ -91,14 +106,6 @@ def effects_of(robot: Robot, joint: str) -> list[EffectPhysics]:
                 )
             found.append(PHYSICS[use.effect])
     return found
-
-
-def _check_sign(robot: Robot, effect: EffectPhysics, name: str, prefix: str, value: float) -> None:
-    if not np.isfinite(value) or (value < 0 and prefix not in effect.signed):
-        raise RobotError(
-            f"robot {robot.name}: {name} = {value:g} would drive the joint by itself "
-            f"({effect.effect}); expected 0 or more"
-        )
 
 
 def joint_scales(
@@ -176,68 +183,56 @@ def link_parameters(
     drawn = _drawn_bodies(robot, pose, rng)
     links: dict[str, dict[str, float]] = {}
     names: list[str] = []
-    for joint in robot.moving:
-        stated = stated_inertia(robot, joint.name)
-        own = robot.inertial(joint.name)
+    for link in (joint.name for joint in robot.moving):
+        stated, own = stated_inertia(robot, link), robot.inertial(link)
+        guess = standard_from_body(drawn[link])
+        where = f"robot {robot.name}, link {link}"
         if len(own) < len(INERTIAL):
-            guess = standard_from_body(drawn[joint.name])
-            links[joint.name] = {p: stated.get(p, guess[p] if p in own else 0.0) for p in INERTIAL}
-            _check_few(robot, joint.name, links[joint.name])
-            names += [f"{prefix}{joint.name}" for prefix in own if prefix not in stated]
-            continue
-        completion = completed(stated, standard_from_body(drawn[joint.name]))
-        values = completion.values
-        if values is None:
-            raise _no_body(robot, joint.name, stated, completion.impossible)
-        links[joint.name] = {prefix: values[prefix] for prefix in INERTIAL}
-        names += [f"{prefix}{joint.name}" for prefix in INERTIAL if prefix not in stated]
-    drawn_values = set(names)
-    return {
-        joint: {
-            prefix: ten_digits(value) if f"{prefix}{joint}" in drawn_values else value
-            for prefix, value in values.items()
-        }
-        for joint, values in links.items()
-    }, tuple(names)
-
-
-def _no_body(robot: Robot, link: str, stated: dict[str, float], impossible: bool) -> RobotError:
-    numbers = ", ".join(f"{prefix}{link} = {v:g}" for prefix, v in stated.items())
-    where = f"robot {robot.name}, link {link}"
-    if impossible:
-        return RobotError(
-            f"{where}: no rigid body has the stated {numbers}; expected a mass above 0 and "
-            "inertias that some distribution of that mass can have; correct them, or leave out "
-            "what you do not know"
-        )
-    return RobotError(
-        f"{where}: found no rigid body with the stated {numbers}, nor a proof that there is none; "
-        "state all ten parameters of the link, or fewer"
-    )
-
-
-def _check_few(robot: Robot, link: str, values: dict[str, float]) -> None:
-    """Nothing, unless a link without mass has first moments."""
-    moments = [f"{prefix}{link}" for prefix in ("MX", "MY", "MZ") if values[prefix]]
-    if moments and not values["M"]:
-        raise RobotError(
-            f"robot {robot.name}, link {link}: {', '.join(moments)} without a mass, which no body "
-            f"has; add M{link} under [links] and [parameters]"
-        )
+            values = {p: stated.get(p, guess[p] if p in own else 0.0) for p in INERTIAL}
+            moments = [f"{prefix}{link}" for prefix in ("MX", "MY", "MZ") if values[prefix]]
+            if moments and not values["M"]:
+                raise RobotError(
+                    f"{where}: {', '.join(moments)} without a mass, which no body "
+                    f"has; add M{link} under [links] and [parameters]"
+                )
+        else:
+            completion = completed(stated, guess)
+            numbers = ", ".join(f"{prefix}{link} = {v:g}" for prefix, v in stated.items())
+            if completion.values is None and completion.impossible:
+                raise RobotError(
+                    f"{where}: no rigid body has the stated {numbers}; expected a mass above 0 and "
+                    "inertias that some distribution of that mass can have; correct them, or leave "
+                    "out what you do not know"
+                )
+            if completion.values is None:
+                raise RobotError(
+                    f"{where}: found no rigid body with the stated {numbers}, nor a proof that "
+                    "there is none; state all ten parameters of the link, or fewer"
+                )
+            values = completion.values
+        open_ = {p for p in own if p not in stated}
+        links[link] = {p: ten_digits(values[p]) if p in open_ else values[p] for p in INERTIAL}
+        names += [f"{prefix}{link}" for prefix in own if prefix in open_]
+    return links, tuple(names)
 
 
 def _drawn_bodies(robot: Robot, pose: np.ndarray, rng: np.random.Generator) -> dict[str, Body]:
     tips = _tips(robot, pose)
-    lengths = np.array([np.linalg.norm(tip) for tip in tips.values()])
-    depth = _depths(robot)
-    weights = (lengths + 0.2 * lengths.mean()) * _THINNING ** np.array(
-        [depth[name] for name in tips]
-    )
+    lengths = {name: float(np.linalg.norm(tip)) for name, tip in tips.items()}
+    # From the base: how many links, how far with bars straightened out, over which links.
+    depth, reach, path = {BASE: -1}, {BASE: 0.0}, {BASE: frozenset[str]()}
+    for joint in robot.joints:
+        name, before = joint.name, joint.antecedent
+        depth[name] = depth[before] + int(joint.moves)
+        reach[name] = reach[before] + lengths.get(name, 0.0)
+        path[name] = path[before] | ({name} if joint.moves else set())
+    length = np.array([*lengths.values()])
+    thinner = _THINNING ** np.array([depth[name] for name in tips])
+    weights = (length + 0.2 * length.mean()) * thinner
     # The longest chain weighs what an arm of its reach weighs; other branches as this one.
-    chain = _longest_chain(robot, dict(zip(tips, lengths, strict=True)))
+    chain = path[max(reach, key=lambda name: reach[name])]
     on_it = np.array([name in chain for name in tips])
-    total = _DENSITY * lengths[on_it].sum() ** 2
-    masses = total * weights / weights[on_it].sum()
+    masses = _DENSITY * length[on_it].sum() ** 2 * weights / weights[on_it].sum()
     return {
         name: _box(mass * rng.uniform(0.8, 1.2), tip, rng)
         for (name, tip), mass in zip(tips.items(), masses, strict=True)
@@ -263,10 +258,11 @@ def _tips(robot: Robot, pose: np.ndarray) -> dict[str, np.ndarray]:
     turned = ca.Function("turned", [q], [ca.horzcat(*(f.rotation for f in frames.values()))])
     origins = dict(zip(frames, values(pose).full().T, strict=True))
     axes = dict(zip(frames, np.split(turned(pose).full(), len(frames), axis=1), strict=True))
-    owner = _owners(robot)
+    owner = {BASE: BASE}  # the moving link (or the base) on which each frame is fixed
     tips = {joint.name: np.zeros(3) for joint in robot.moving}
     for joint in robot.joints:
         link = owner[joint.antecedent]
+        owner[joint.name] = joint.name if joint.moves else link
         if link == BASE:
             continue
         end = axes[link].T @ (origins[joint.name] - origins[link])
@@ -281,60 +277,7 @@ def _tips(robot: Robot, pose: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-def _owners(robot: Robot) -> dict[str, str]:
-    """The moving link (or the base) on which each frame is fixed."""
-    owner = {BASE: BASE}
-    for joint in robot.joints:
-        owner[joint.name] = joint.name if joint.moves else owner[joint.antecedent]
-    return owner
-
-
-def _longest_chain(robot: Robot, lengths: dict[str, float]) -> set[str]:
-    """The moving links from the base to the farthest tip, bars straightened out."""
-    reach, path = {BASE: 0.0}, {BASE: frozenset[str]()}
-    for joint in robot.joints:
-        own = {joint.name} if joint.moves else set()
-        reach[joint.name] = reach[joint.antecedent] + lengths.get(joint.name, 0.0)
-        path[joint.name] = path[joint.antecedent] | own
-    return set(path[max(reach, key=lambda name: reach[name])])
-
-
-def _depths(robot: Robot) -> dict[str, int]:
-    depth = {BASE: -1}
-    for joint in robot.joints:
-        depth[joint.name] = depth[joint.antecedent] + int(joint.moves)
-    return depth
-
-
-# Parameters that legs have in common: the first leg's links on all legs, told once.
-
-
-def unshared(robot: Robot) -> Robot:
-    """The robot with the values of shared parameters stated for each of their rows."""
-    values = dict(robot.parameters)
-    for shared in robot.shared:
-        if shared.name in values:
-            value = values.pop(shared.name)
-            values |= dict.fromkeys(shared.members, value)
-    return dataclasses.replace(robot, parameters=values, shared=())
-
-
-def alike(
-    robot: Robot, standard: Mapping[str, float], bodies: Mapping[str, Body]
-) -> tuple[dict[str, float], dict[str, Body]]:
-    """Standard parameters and bodies, with the first leg's values where legs share them."""
-    values = dict(standard)
-    for shared in robot.shared:
-        values |= dict.fromkeys(shared.members, values[shared.members[0]])
-    if not robot.shared:
-        return values, dict(bodies)
-    return values, {
-        row: body_from_standard({p: values.get(f"{p}{row}", 0.0) for p in INERTIAL})
-        for row in bodies
-    }
-
-
-def told_once(
+def by_shared_names(
     robot: Robot, standard: Mapping[str, float], drawn: tuple[str, ...]
 ) -> tuple[dict[str, float], tuple[str, ...]]:
     """Values and drawn ones by the robot's own names: XX2 where legs share XX21, XX22, XX23."""

@@ -35,7 +35,7 @@ from modeler.simulation.control import (
 )
 from modeler.simulation.hidden_draw import complete_effects
 from modeler.simulation.log import SimulatedLog, Truth
-from modeler.simulation.parameters import PlantParameters, plant_parameters, told_once
+from modeler.simulation.parameters import PlantParameters, by_shared_names, plant_parameters
 from modeler.simulation.plant import (
     FastFunction,
     Plant,
@@ -321,7 +321,7 @@ def _log(
     """Of encoder positions, torques before noise, and the true q, qd, qdd, tau."""
     rms = np.sqrt(np.mean(logged**2, axis=0))
     noise = np.random.default_rng([settings.seed, 3]).normal(size=logged.shape)
-    values, drawn = told_once(robot, parameters.standard, parameters.drawn)
+    values, drawn = by_shared_names(robot, parameters.standard, parameters.drawn)
     return SimulatedLog(
         robot=robot.name,
         joints=tuple(joint.name for joint in robot.coordinates),
