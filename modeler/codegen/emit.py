@@ -273,7 +273,14 @@ def deciding_symbols(geometry: Geometry) -> frozenset[str]:
     for cell, entry in (*cells, *zip(robot.gravity, geometry.gravity, strict=True)):
         leaves = {name: moved[name] for name in _leaves(robot, cell) if name in moved}
         found |= leaves.keys() - {symbol.name for symbol in entry.free_symbols}
-        if leaves and not _same(cell, entry, numbers, leaves):
+        if not leaves:
+            continue
+        symbols = {geometric_symbol(name): value for name, value in leaves.items()}
+        try:
+            written, exact = cell.number(numbers), complex(entry.evalf(subs=symbols))
+        except (ArithmeticError, ValueError, TypeError):
+            written, exact = math.nan, 0j
+        if not abs(written - exact) <= _SAME * max(abs(written), *map(abs, leaves.values())):
             found |= leaves.keys()
     return frozenset(found)
 
@@ -288,20 +295,6 @@ def _leaves(robot: Robot, cell: Expression) -> set[str]:
             found.add(name)
             waiting += robot.symbols[name].names
     return found
-
-
-def _same(
-    cell: Expression,
-    entry: sympy.Expr,
-    numbers: Mapping[str, float],
-    leaves: Mapping[str, float],
-) -> bool:
-    symbols = {geometric_symbol(name): value for name, value in leaves.items()}
-    try:
-        written, exact = cell.number(numbers), complex(entry.evalf(subs=symbols))
-    except (ArithmeticError, ValueError, TypeError):
-        return False
-    return abs(written - exact) <= _SAME * max(abs(written), *map(abs, leaves.values()))
 
 
 _CLOSED = {"double": 1e-9, "single": 1e-5}
@@ -429,11 +422,44 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
     symbols = symbol_lines(model, base, macros)
     written = [_written(prefix, f, block) for f, block in blocks]
     relations = [layout.relation(parameter) for parameter in base.parameters]
-    values = _values(spec, symbols, written, relations)
-    closed = _CLOSED[precision]
-    values |= {"loops": closure_tables(model, solving, closed) if solving is not None else None}
-    values |= {"names": constants, "signature": ""}
-    values |= {"tile": tile_of(functions, places, spec.nonzeros) if precision == "double" else None}
+    chi, beta = layout.parameter_lines(spec, relations)
+    states = [f"const double *{name}" for name in ("q", "qd", "qdd")]
+    states += ["const double *s"] if spec.signals else []
+    status = ["int *status"] if spec.closure is not None else []
+    single = precision == "single"
+    values = {
+        "spec": spec,
+        "single": single,
+        "wide": WIDE if single else "",
+        "prefix": prefix,
+        "macro": prefix.upper(),
+        "title": layout.comment_text(spec.title or spec.robot),
+        "symbols": symbols,
+        "standard": chi,
+        "base": beta,
+        "enums": [
+            layout.name_lines(enumerators(prefix, kind, [each.name for each in parameters]))
+            for kind, parameters in (("chi", spec.standard), ("beta", spec.base))
+        ],
+        "joints": ", ".join(joint.name for joint in spec.joints),
+        "relations": relations,
+        "functions": written,
+        "signals": layout.signal_lines(spec),
+        "observation": [
+            layout.prototype(
+                f"{prefix}_observation",
+                ["size_t samples", *states, f"double *{restrict}W", *status],
+            )
+            for restrict in ("", _RESTRICT)
+        ],
+        "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
+        "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros]),
+        "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros]),
+        "loops": closure_tables(model, solving, _CLOSED[precision]) if solving else None,
+        "names": constants,
+        "signature": "",
+        "tile": None if single else tile_of(functions, places, spec.nonzeros),
+    }
     spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
     return _Module(spec, blocks, places, values)
@@ -538,44 +564,6 @@ def _written(prefix: str, function: CFunction, block: Block | None) -> _Written:
         additions=block.additions if block else 0,
         multiplications=block.multiplications if block else 0,
     )
-
-
-def _values(
-    spec: ModuleSpec, symbols: SymbolLines, functions: list[_Written], relations: list[str]
-) -> dict[str, Any]:
-    standard, base = layout.parameter_lines(spec, relations)
-    states = [f"const double *{name}" for name in ("q", "qd", "qdd")]
-    states += ["const double *s"] if spec.signals else []
-    status = ["int *status"] if spec.closure is not None else []
-    return {
-        "spec": spec,
-        "single": spec.precision == "single",
-        "wide": WIDE if spec.precision == "single" else "",
-        "prefix": spec.prefix,
-        "macro": spec.prefix.upper(),
-        "title": layout.comment_text(spec.title or spec.robot),
-        "symbols": symbols,
-        "standard": standard,
-        "base": base,
-        "enums": [
-            layout.name_lines(enumerators(spec.prefix, kind, [each.name for each in parameters]))
-            for kind, parameters in (("chi", spec.standard), ("beta", spec.base))
-        ],
-        "joints": ", ".join(joint.name for joint in spec.joints),
-        "relations": relations,
-        "functions": functions,
-        "signals": layout.signal_lines(spec),
-        "observation": [
-            layout.prototype(
-                f"{spec.prefix}_observation",
-                ["size_t samples", *states, f"double *{restrict}W", *status],
-            )
-            for restrict in ("", _RESTRICT)
-        ],
-        "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
-        "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros]),
-        "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros]),
-    }
 
 
 def _constants(

@@ -8,7 +8,7 @@ the tree's regressor, and reads the sines and cosines that the closure equations
 
 import operator
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from modeler.codegen.block import make_block
@@ -20,6 +20,12 @@ from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
 
 _TURNS = ("sin", "cos")
+_ARITHMETIC: Mapping[str, Callable[[Expr, Expr], Expr]] = {
+    "add": operator.add,
+    "mul": operator.mul,
+    "div": operator.truediv,
+    "pow": lambda base, exponent: base.graph.power(base, exponent),
+}
 
 
 @dataclass(frozen=True)
@@ -123,31 +129,26 @@ def replaced(
 ) -> list[Expr]:
     """The outputs with other expressions in place of some nodes, and of symbols by name."""
     found: dict[int, Expr] = {0: graph.constant(0), **nodes}
+
+    def signed(ref: int) -> Expr:
+        return found[ref] if ref >= 0 else -found[-ref]
+
     for index in graph.reachable(outputs):
-        if index not in found:
-            found[index] = _rebuilt(graph, index, found, symbols)
-    return [_signed(found, output.ref) for output in outputs]
-
-
-def _signed(found: Mapping[int, Expr], ref: int) -> Expr:
-    return found[ref] if ref >= 0 else -found[-ref]
-
-
-def _rebuilt(
-    graph: Graph, index: int, found: Mapping[int, Expr], symbols: Mapping[str, Expr]
-) -> Expr:
-    node = graph.nodes[index]
-    if node.op == "sym":
-        return symbols.get(node.args[0], Expr(graph, index))
-    if node.op in ("num", "pi") or node.static:
-        return Expr(graph, index)
-    args = [_signed(found, arg) for arg in node.args]
-    if all(new.ref == old for new, old in zip(args, node.args, strict=True)):
-        return Expr(graph, index)
-    if node.op == "pow":
-        return graph.power(*args)
-    operation = {"add": operator.add, "mul": operator.mul, "div": operator.truediv}.get(node.op)
-    return operation(*args) if operation else graph.call(node.op, args[0])
+        if index in found:
+            continue
+        node, found[index] = graph.nodes[index], Expr(graph, index)
+        if node.op == "sym":
+            found[index] = symbols.get(node.args[0], found[index])
+        if node.op in ("sym", "num", "pi") or node.static:
+            continue
+        args = [signed(arg) for arg in node.args]
+        if all(new.ref == old for new, old in zip(args, node.args, strict=True)):
+            continue
+        if node.op in _ARITHMETIC:
+            found[index] = _ARITHMETIC[node.op](*args)
+        else:
+            found[index] = graph.call(node.op, args[0])
+    return [signed(output.ref) for output in outputs]
 
 
 # The unit of tiles: base regressors of some samples at once, each in a lane of its own.

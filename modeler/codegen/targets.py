@@ -161,21 +161,13 @@ def _word(match: re.Match[str]) -> str:
     if match["text"]:
         return word.replace("%lf", "%f").replace("%.17g", "%.9g")
     if match["number"] and re.fullmatch(r"[\d.]+([eE][+-]?\d+)?f?", word) and not word.isdigit():
-        return number_in_single(word.removesuffix("f"))
+        literal = word.removesuffix("f")
+        value = float(literal)
+        if value != 0.0 and not SMALLEST <= value <= LARGEST:
+            raise EmitError(
+                f"number {literal} is too {'large' if value > 1 else 'small'} for single "
+                f"precision, which has {SMALLEST:.2g} to {LARGEST:.2g}; rescale it, or generate in "
+                "double precision"
+            )
+        return f"{literal}f"
     return word
-
-
-def number_in_single(literal: str) -> str:
-    """A literal of C as one of single precision: the float nearest to what it says.
-
-    Raises:
-        EmitError: there is none but infinity, or one of fewer digits.
-    """
-    value = float(literal)
-    if value != 0.0 and not SMALLEST <= value <= LARGEST:
-        raise EmitError(
-            f"number {literal} is too {'large' if value > 1 else 'small'} for single precision, "
-            f"which has {SMALLEST:.2g} to {LARGEST:.2g}; rescale it, or generate in double "
-            "precision"
-        )
-    return f"{literal}f"

@@ -105,18 +105,19 @@ def complete_effects(
     scales = joint_scales(robot, parameters.bodies, limits, rng)
     found: list[HiddenEffect] = []
     for k, asked in enumerate(settings.hidden):
-        kind = _kind(robot, asked)
         before = sum(other.effect == asked.effect for other in settings.hidden[:k])
         seed = [settings.parameter_seed, 7, before, *asked.effect.encode()]
         rng = np.random.default_rng(seed)
-        joint = _joint(robot, parameters, kind, asked, rng)
+        kind, joint = _kind_and_joint(robot, parameters, asked, rng)
         site = _site(robot, parameters, limits, scales, settings, kind, joint)
         found.append(HiddenEffect(asked.effect, joint, _values(robot, kind, asked, site, rng)))
     _check_together(robot, found)
     return tuple(found)
 
 
-def _kind(robot: Robot, asked: HiddenEffect) -> HiddenKind:
+def _kind_and_joint(
+    robot: Robot, parameters: PlantParameters, asked: HiddenEffect, rng: np.random.Generator
+) -> tuple[HiddenKind, str | None]:
     where = f"robot {robot.name}, hidden effect {asked.effect}"
     kind = HIDDEN.get(asked.effect)
     if kind is None:
@@ -126,7 +127,22 @@ def _kind(robot: Robot, asked: HiddenEffect) -> HiddenKind:
         raise RobotError(f"{where}: not simulated for robots with loops; expected one of {able}")
     if kind.role == "gravity" and not np.any(gravity_vector(robot)):
         raise RobotError(f"{where}: the robot has no gravity; state one, or hide another effect")
-    return kind
+    if kind.where == "system":
+        if asked.joint is not None:
+            raise RobotError(
+                f"{where}: got joint {asked.joint}; expected none, it belongs to the whole machine"
+            )
+        return kind, None
+    places = _places(robot, parameters, kind)
+    if not places:
+        needs = _WHY_NONE.get(kind.where, "a joint with a motor")
+        raise RobotError(f"{where}: no place for it; expected {needs}")
+    # The first link of an arm hardly feels what is on it.
+    inner = places[1:] if kind.where == "link" and len(places) > 1 else places
+    drawn = str(rng.choice(inner))  # also where one is given: values do not depend on that
+    if asked.joint is not None and asked.joint not in places:
+        raise RobotError(f"{where}: got joint {asked.joint}; expected one of {', '.join(places)}")
+    return kind, asked.joint or drawn
 
 
 def _places(robot: Robot, parameters: PlantParameters, kind: HiddenKind) -> list[str]:
@@ -148,32 +164,6 @@ def _places(robot: Robot, parameters: PlantParameters, kind: HiddenKind) -> list
         gone = (*robot.platform, *robot.relations)
         return [joint.name for joint in rows if not joint.actuated and joint.name not in gone]
     return names
-
-
-def _joint(
-    robot: Robot,
-    parameters: PlantParameters,
-    kind: HiddenKind,
-    asked: HiddenEffect,
-    rng: np.random.Generator,
-) -> str | None:
-    where = f"robot {robot.name}, hidden effect {kind.effect}"
-    if kind.where == "system":
-        if asked.joint is not None:
-            raise RobotError(
-                f"{where}: got joint {asked.joint}; expected none, it belongs to the whole machine"
-            )
-        return None
-    places = _places(robot, parameters, kind)
-    if not places:
-        needs = _WHY_NONE.get(kind.where, "a joint with a motor")
-        raise RobotError(f"{where}: no place for it; expected {needs}")
-    # The first link of an arm hardly feels what is on it.
-    inner = places[1:] if kind.where == "link" and len(places) > 1 else places
-    drawn = str(rng.choice(inner))  # also where one is given: values do not depend on that
-    if asked.joint is not None and asked.joint not in places:
-        raise RobotError(f"{where}: got joint {asked.joint}; expected one of {', '.join(places)}")
-    return asked.joint or drawn
 
 
 def _site(
@@ -205,6 +195,12 @@ def _site(
         torque, felt = felt_by_motors(robot, parameters, limits, joint, settings.parameter_seed)
         # What no motor commands is as fast as the loops make it.
         speed = felt if kind.where == "passive" else speed
+    # Torque of a force of 1 N on the last body, per rms torque of the joint that feels it most.
+    q, last = ca.SX.sym("q", len(limits)), robot.moving[-1].name
+    frame = world_frames(robot, q)[last]
+    point = frame.position + frame.rotation @ parameters.bodies[last].centre
+    slope = ca.Function("slope", [q], [ca.jacobian(point, q)])
+    arms = np.linalg.norm(slope([(li.lower + li.upper) / 2 for li in limits]).full(), axis=0)
     return Site(
         torque=torque,
         speed=speed,
@@ -214,26 +210,10 @@ def _site(
         own=own,
         body=parameters.bodies[name],
         mass=sum(body.mass for body in parameters.bodies.values()),
-        lever=_lever(robot, parameters, limits, scales),
+        lever=float(np.max(arms / [each.torque for each in scales])),
         rate=settings.rate,
         duration=settings.duration,
     )
-
-
-def _lever(
-    robot: Robot,
-    parameters: PlantParameters,
-    limits: tuple[Limits, ...],
-    scales: Sequence[ShaftScale],
-) -> float:
-    """Torque of a force of 1 N on the last body, per rms torque of the joint that feels it most."""
-    q = ca.SX.sym("q", len(limits))
-    frame = world_frames(robot, q)[robot.moving[-1].name]
-    point = frame.position + frame.rotation @ parameters.bodies[robot.moving[-1].name].centre
-    slope = ca.Function("slope", [q], [ca.jacobian(point, q)])
-    middle = [(limit.lower + limit.upper) / 2 for limit in limits]
-    arms = np.linalg.norm(slope(middle).full(), axis=0)
-    return float(np.max(arms / [scale.torque for scale in scales]))
 
 
 def _values(

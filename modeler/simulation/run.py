@@ -59,7 +59,7 @@ _LOST = 0.5  # tracking error, in ranges of motion, at which the controller has 
 
 
 @dataclass(frozen=True, eq=False)
-class Task:
+class PlantTask:
     """What the machine is, and what it is to do.
 
     Attributes:
@@ -111,7 +111,10 @@ def simulate(
     task = task_of(robot, parameters, every, settings, hidden)
     plant, reference, n = task.plant, task.reference, len(task.plant.joints)
     needed = needed_torques(task)
-    highest = _torque_limits(plant, needed, settings)
+    # Saturation: as set, else twice the torque that the commanded motion needs.
+    most = zip(plant.joints, 2 * np.max(np.abs(needed), axis=0), strict=True)
+    limits = [settings.torque_limits.get(name, twice) for name, twice in most]
+    highest = np.where(plant.driven, limits, 0.0)
     gains = tuned_gains(settings.rate, settings.bandwidth, settings.feedforward, highest)
     faults = faults_of(plant.joints, hidden)
     resolution = encoder_resolution(robot.coordinates, settings)
@@ -187,7 +190,7 @@ def task_of(
     every: tuple[Limits, ...],
     settings: SimulationSettings,
     hidden: tuple[HiddenEffect, ...],
-) -> Task:
+) -> PlantTask:
     """The machine under a controller, with these parameters and limits of `robot.moving`."""
     real = machine(robot, parameters, hidden)
     if robot.loops:
@@ -195,7 +198,7 @@ def task_of(
         limits, motion = _closed_command(robot, constraints, every, settings)
         plant = build_plant(*real, every, hidden, constraints)
         along = inner_states(plant, constraints, motion.v)
-        return Task(plant, limits, motion.reference, along, motion.share)
+        return PlantTask(plant, limits, motion.reference, along, motion.share)
     limits = of_free(robot, every)
     if (reference := settings.commanded) is not None:
         limits = widened(limits, reference)
@@ -208,10 +211,10 @@ def task_of(
             settings.motion, limits, settings.duration, settings.rate, settings.seed, driven
         )
     plant = build_plant(*real, every, hidden)
-    return Task(plant, limits, reference, np.zeros((len(reference.time), plant.states)), 1.0)
+    return PlantTask(plant, limits, reference, np.zeros((len(reference.time), plant.states)), 1.0)
 
 
-def needed_torques(task: Task) -> np.ndarray:
+def needed_torques(task: PlantTask) -> np.ndarray:
     """(about 500, joints) torques of the commanded motion."""
     reference = task.reference
     thinned = slice(None, None, max(1, reference.time.size // 500))
@@ -220,18 +223,8 @@ def needed_torques(task: Task) -> np.ndarray:
     return np.asarray(task.plant.torque.map(samples[0].shape[1])(*samples).full().T)
 
 
-def _torque_limits(plant: Plant, torques: np.ndarray, settings: SimulationSettings) -> np.ndarray:
-    """(joints,) saturation: as set, else twice the torque that the commanded motion needs."""
-    needed = 2 * np.max(np.abs(torques), axis=0)
-    set_or_needed = [
-        settings.torque_limits.get(name, value)
-        for name, value in zip(plant.joints, needed, strict=True)
-    ]
-    return np.where(plant.driven, set_or_needed, 0.0)
-
-
 def _closed_loop(
-    task: Task,
+    task: PlantTask,
     gains: Gains,
     faults: Faults,
     resolution: np.ndarray,
@@ -283,7 +276,7 @@ def _closed_loop(
     return states, torques, measured
 
 
-def postures_of(task: Task) -> tuple[np.ndarray, np.ndarray] | None:
+def postures_of(task: PlantTask) -> tuple[np.ndarray, np.ndarray] | None:
     """Some of the commanded ones, where not all that the limits hold can be reached."""
     if task.plant.closer is None:
         return None
@@ -291,7 +284,7 @@ def postures_of(task: Task) -> tuple[np.ndarray, np.ndarray] | None:
     return task.reference.q[some], task.along[some]
 
 
-def _check_kept(task: Task, begin: int, q: np.ndarray) -> None:
+def _check_kept(task: PlantTask, begin: int, q: np.ndarray) -> None:
     """Nothing, if the driven joints are near their commands in the samples from `begin` on."""
     plant, reference = task.plant, task.reference
     widths = np.array([limit.upper - limit.lower for limit in task.limits])
