@@ -120,7 +120,7 @@ def make_block(
     """Statements that write every output.
 
     Args:
-        outputs: (C place, value), e.g. ("phi[3]", ...); at least one, all of one graph.
+        outputs: (C place, value), e.g. ("phi[3]", ...), all of one graph.
         places: C text of every symbol of the graph, e.g. {"q[0]": "q[0]", "D4": "PUMA560_GEO_D4"}.
         widths: {speed: C text of the width over which its sign turns}; other signs leap.
         target: the number type, and what its functions are called.
@@ -128,7 +128,8 @@ def make_block(
     Raises:
         EmitError: a function or a symbol has no C form.
     """
-    assert outputs, "a function without outputs"
+    if not outputs:
+        return Block((), (), (), frozenset(), 0, 0)
     graph = outputs[0][1].graph
     values = [value for _, value in outputs]
     reachable = graph.reachable(values)

@@ -5,12 +5,11 @@ entries into columns, so that neighbouring threads write neighbouring numbers; a
 products [W_j tau_j]' [W_j tau_j] of its own columns, summed over samples without a W.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from modeler.codegen import functions as layout
-from modeler.codegen.block import Block, make_block
-from modeler.codegen.functions import CFunction
+from modeler.codegen.block import make_block
 from modeler.codegen.package import render
 from modeler.codegen.targets import CUDA
 from modeler.core.errors import EmitError
@@ -22,32 +21,24 @@ _SHARED = 48 * 1024
 _TILES = (32, 16, 8, 4)
 
 
-def cuda_files(
-    spec: ModuleSpec,
-    blocks: Sequence[tuple[CFunction, Block | None]],
-    places: Mapping[str, str],
-    values: Mapping[str, Any],
-) -> dict[str, str]:
-    """{name: text} of the CUDA unit.
-
-    Args:
-        spec: the manifest.
-        blocks: functions of the module, `base_regressor_nonzeros` among them.
-        places: C text of every symbol of the graph.
-        values: what all templates of the module are given.
+def cuda_files(values: Mapping[str, Any]) -> dict[str, str]:
+    """{name: text} of the CUDA unit, from what all templates of the module are given.
 
     Raises:
         EmitError: the robot has loops, or the module is in single precision.
     """
+    spec: ModuleSpec = values["spec"]
     if spec.closure is not None:
         raise EmitError(
             f"{spec.robot} has loops, whose closing has no CUDA form; leave CUDA out, or open them"
         )
     if spec.precision == "single":
         raise EmitError("CUDA is emitted in double precision only; leave out one of the two")
-    function = next(f for f, _ in blocks if f.role == "base_regressor_nonzeros")
+    function = next(f for f, _ in values["blocks"] if f.role == "base_regressor_nonzeros")
     block = make_block(
-        [(f"values[{k}*stride]", value) for k, value in function.entries], places, target=CUDA
+        [(f"values[{k}*stride]", value) for k, value in function.entries],
+        values["places"],
+        target=CUDA,
     )
     names = [argument.name for argument in function.inputs]
     lines = [f"(void){name};" for name in layout.unread(function, block)]

@@ -62,9 +62,9 @@ from modeler.robot.robot import Robot
 
 
 def module_spec(
-    model: SymbolicModel, base: BaseParameters, blocks: Iterable[tuple[CFunction, Block | None]]
+    model: SymbolicModel, base: BaseParameters, blocks: Iterable[tuple[CFunction, Block]]
 ) -> ModuleSpec:
-    """The manifest of the module with these functions; None is a function that is all zeros."""
+    """The manifest of the module with these functions."""
     robot, closure, closing = model.robot, model.closure, None
     prefix = module_prefix(robot.name)
     if closure is not None:
@@ -151,8 +151,8 @@ def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[BaseSpec, ...]:
 
 def function_specs(
     prefix: str,
-    blocks: Sequence[tuple[CFunction, Block | None]],
-    called: Sequence[tuple[CFunction, Block | None]] = (),
+    blocks: Sequence[tuple[CFunction, Block]],
+    called: Sequence[tuple[CFunction, Block]] = (),
 ) -> tuple[FunctionSpec, ...]:
     """The public ones; one that closes loops has the operations of all that it calls, once each.
 
@@ -162,7 +162,7 @@ def function_specs(
         called: functions of other units that they may call.
     """
     own = {
-        function.role: (block.additions, block.multiplications) if block else (0, 0)
+        function.role: (block.additions, block.multiplications)
         for function, block in (*called, *blocks)
     }
     found = []
@@ -339,13 +339,13 @@ def emit(
     """
     if not base.parameters:
         raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
-    module = _module(model, base, precision)
-    spec, values = module.spec, module.values
+    values = _module(model, base, precision)
+    spec: ModuleSpec = values["spec"]
     code = _code(spec, values)
-    kernels = cuda_files(spec, module.blocks, module.places, values) if cuda else {}
-    functions = [function for function, _ in module.blocks]
+    kernels = cuda_files(values) if cuda else {}
+    functions = [function for function, _ in values["blocks"]]
     if fitted is not None:
-        spec, unit = _fitted_unit(model, base, fitted, module)
+        spec, unit = _fitted_unit(model, base, fitted, values)
         functions += fitted_functions(model, base, fitted)
         values |= {"spec": spec}
         code |= unit
@@ -386,24 +386,8 @@ class _Files(Mapping[str, str]):
         return dict, (dict(self),)
 
 
-@dataclass(frozen=True)
-class _Module:
-    """A module before it is laid out.
-
-    Attributes:
-        spec: its manifest.
-        blocks: functions and their bodies.
-        places: C text of every symbol of the graph.
-        values: what the templates read.
-    """
-
-    spec: ModuleSpec
-    blocks: list[tuple[CFunction, Block | None]]
-    places: dict[str, str]
-    values: dict[str, Any]
-
-
-def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) -> _Module:
+def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) -> dict[str, Any]:
+    """What the templates read; the functions' bodies and the places of symbols with it."""
     prefix = module_prefix(model.robot.name)
     macros = symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
@@ -458,33 +442,36 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
         "loops": closure_tables(model, solving, _CLOSED[precision]) if solving else None,
         "names": constants,
         "signature": "",
+        "blocks": blocks,
+        "places": places,
         "tile": None if single else tile_of(functions, places, spec.nonzeros),
     }
     spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
-    return _Module(spec, blocks, places, values)
+    return values
 
 
 def _fitted_unit(
-    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec, module: _Module
+    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec, values: dict[str, Any]
 ) -> tuple[ModuleSpec, dict[str, str]]:
     """The manifest with the values, and the C of the functions that have them."""
-    prefix, values = module.spec.prefix, module.values
+    spec: ModuleSpec = values["spec"]
+    prefix = spec.prefix
     check_values(base, fitted)
     functions = fitted_functions(model, base, fitted)
     found = widths(prefix, model, functions)
     turning = {speed: width.constant for speed, width in found.items()}
     every = tuple(dict.fromkeys(found.values()))
-    blocks = [(f, _block(f, module.places, module.spec.precision, turning)) for f in functions]
+    blocks = [(f, _block(f, values["places"], spec.precision, turning)) for f in functions]
     written = [_written(prefix, f, block) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
         widths=tuple(width.macro for width in every),
-        functions=function_specs(prefix, blocks, module.blocks),
+        functions=function_specs(prefix, blocks, values["blocks"]),
         code="",
         signature="",
     )
-    values = values | fitted_texts(module.spec, fitted, every)
+    values = values | fitted_texts(spec, fitted, every)
     values |= {
         "functions": written,
         "inner": [f for f in written if f.internal],
@@ -494,7 +481,7 @@ def _fitted_unit(
     }
     # The signature stands in the unit, so it comes last: it covers all the rest.
     fitted = dataclasses.replace(fitted, code=code_digest(_fitted_files(prefix, values, fitted)))
-    spec = dataclasses.replace(module.spec, fitted=fitted)
+    spec = dataclasses.replace(spec, fitted=fitted)
     fitted = dataclasses.replace(fitted, signature=text_digest(spec.to_json()))
     return dataclasses.replace(spec, fitted=fitted), _fitted_files(prefix, values, fitted)
 
@@ -541,14 +528,12 @@ def _block(
     places: dict[str, str],
     precision: Precision,
     turning: Mapping[int, str] | None = None,
-) -> Block | None:
-    if not function.entries:
-        return None
+) -> Block:
     outputs = [(f"{function.output.name}[{index}]", value) for index, value in function.entries]
     return make_block(outputs, places, turning, OF_PRECISION[precision])
 
 
-def _written(prefix: str, function: CFunction, block: Block | None) -> _Written:
+def _written(prefix: str, function: CFunction, block: Block) -> _Written:
     name = f"{prefix}_{function.role}"
     returns = "void" if function.closed is None else "int"
     if function.internal and function.unit == UNIT:
@@ -560,9 +545,9 @@ def _written(prefix: str, function: CFunction, block: Block | None) -> _Written:
         declaration=layout.prototype(name, layout.arguments(function, ""), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
         lines=[] if function.closed else layout.body_lines(function, block),
-        symbols=block.symbols if block else frozenset(),
-        additions=block.additions if block else 0,
-        multiplications=block.multiplications if block else 0,
+        symbols=block.symbols,
+        additions=block.additions,
+        multiplications=block.multiplications,
     )
 
 

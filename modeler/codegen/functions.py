@@ -397,13 +397,13 @@ def signal_lines(spec: ModuleSpec) -> list[str]:
     ]
 
 
-def body_lines(function: CFunction, block: Block | None) -> list[str]:
+def body_lines(function: CFunction, block: Block) -> list[str]:
     """All statements of a function."""
     name, size = function.output.name, function.output.size
     written = {index for index, _ in function.entries}
     zeros = [index for index in range(size) if index not in written]
     lines = [f"(void){name};" for name in unread(function, block)]
-    body = list(block.body) if block is not None else []
+    body = list(block.body)
     if len(zeros) > _FEW:
         lines.append(f"MODELER_ALL_ZEROS({name}, {size});")
         runs: list[tuple[int, int]] = []  # (first, length) of neighbouring places
@@ -422,16 +422,15 @@ def body_lines(function: CFunction, block: Block | None) -> list[str]:
             done = end
     else:
         lines += [f"{name}[{index}] = 0.0;" for index in zeros]
-    for part in (block.constants, block.calls, body) if block is not None else (body,):
+    for part in (block.constants, block.calls, body):
         lines += ["", *part] if lines and part else part
     return lines
 
 
-def unread(function: CFunction, block: Block | None) -> Iterable[str]:
+def unread(function: CFunction, block: Block) -> Iterable[str]:
     """Names of the inputs of which no entry is read."""
-    read = block.symbols if block else frozenset()
     for argument in function.inputs:
-        if read.isdisjoint(f"{argument.name}[{i}]" for i in range(argument.shape[0])):
+        if block.symbols.isdisjoint(f"{argument.name}[{i}]" for i in range(argument.shape[0])):
             yield argument.name
 
 
