@@ -24,8 +24,7 @@ from modeler.diagnosis.diagnosis import diagnose
 from modeler.observation.log import Log
 from modeler.observation.read import read_log
 from modeler.robot.read import robot_from_text
-from modeler.simulation import SimulationSettings, simulate, write_log
-from modeler.simulation.hidden import hidden_from_text
+from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
 
 EFFECT, JOINT = "load_friction", "2"
 

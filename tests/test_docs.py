@@ -22,7 +22,7 @@ from modeler.effects.effect import Acts
 from modeler.observation.processing import Processing
 from modeler.robot.read import _KEYS, robot_from_text
 from modeler.robot.table import COLUMNS
-from modeler.simulation.hidden_catalogue import HIDDEN
+from modeler.simulation.hidden import HIDDEN
 
 ROOT = Path(__file__).resolve().parents[1]
 RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "docs/processing.md",

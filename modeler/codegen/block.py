@@ -7,6 +7,7 @@ that uses it, as long as the line stays readable.
 """
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -56,11 +57,6 @@ def number_text(value: Fraction, target: Target = DOUBLE) -> Text:
     return Text(f"({value.numerator}.0{end}/{value.denominator}.0{end})", ATOM)
 
 
-def pi_text(target: Target = DOUBLE) -> Text:
-    """Text of pi."""
-    return Text(f"{PI}{target.suffix}", ATOM)
-
-
 def float_text(value: float) -> str:
     """Text of a double, of either sign, as what a macro stands for: `0.2`, `(-0.1)`."""
     return repr(value) if value >= 0 else f"({value!r})"
@@ -86,28 +82,6 @@ def product_text(a: Text, b: Text) -> Text:
     if b.level == PRODUCT and a.level != PRODUCT:
         a, b = b, a
     return Text(f"{a.within(PRODUCT)}*{b.within(ATOM)}", PRODUCT)
-
-
-def quotient_text(a: Text, b: Text) -> Text:
-    """a / b."""
-    return Text(f"{a.within(PRODUCT)}/{b.within(ATOM)}", PRODUCT)
-
-
-def power_text(base: Text, exponent: Text, target: Target = DOUBLE) -> Text:
-    """base to the power of exponent."""
-    return Text(f"{target.functions['pow']}({base.text}, {exponent.text})", ATOM)
-
-
-def call_text(name: str, argument: Text, target: Target = DOUBLE) -> Text:
-    """name(argument).
-
-    Raises:
-        EmitError: no such function in C99.
-    """
-    if name not in target.functions:
-        expected = ", ".join(f for f in FUNCTIONS if f != "pow")
-        raise EmitError(f"function {name} has no C99 form here; expected {expected}")
-    return Text(f"{target.functions[name]}({argument.text})", ATOM)
 
 
 _LONGEST = 74  # characters of an expression; with indent and name a line stays below 100
@@ -146,7 +120,7 @@ def make_block(
     """Statements that write every output.
 
     Args:
-        outputs: (C place, value), e.g. ("phi[3]", ...); at least one, all of one graph.
+        outputs: (C place, value), e.g. ("phi[3]", ...), all of one graph.
         places: C text of every symbol of the graph, e.g. {"q[0]": "q[0]", "D4": "PUMA560_GEO_D4"}.
         widths: {speed: C text of the width over which its sign turns}; other signs leap.
         target: the number type, and what its functions are called.
@@ -154,12 +128,21 @@ def make_block(
     Raises:
         EmitError: a function or a symbol has no C form.
     """
-    assert outputs, "a function without outputs"
+    if not outputs:
+        return Block((), (), (), frozenset(), 0, 0)
     graph = outputs[0][1].graph
     values = [value for _, value in outputs]
     reachable = graph.reachable(values)
-    writer = _Writer(graph, places, widths or {}, target, _uses(graph, reachable, values))
-    writer.forced |= _multiple(graph, reachable, writer.uses, values)
+    inner = [graph.nodes[i] for i in reachable if graph.nodes[i].op not in _LEAVES]
+    uses = Counter(abs(arg) for node in inner for arg in node.args)
+    uses.update(abs(value.ref) for value in values)
+    # What is read more than once gets a name, and what is constant within something variable.
+    named = {i for i in reachable if uses[i] > 1}
+    for node in inner:
+        if not node.static:
+            named |= {abs(arg) for arg in node.args if graph.nodes[abs(arg)].static}
+    forced = {i for i in named if graph.nodes[i].op not in _LEAVES}
+    writer = _Writer(graph, places, widths or {}, target, forced)
     hoisted = [i for i in reachable if writer.is_call(i) and not graph.nodes[i].static]
     writer.forced |= set(hoisted)
     for index in reachable:
@@ -176,34 +159,6 @@ def make_block(
     return Block(constants, calls, writer.take(), symbols, additions, multiplications)
 
 
-def _uses(graph: Graph, reachable: Sequence[int], values: Sequence[Expr]) -> dict[int, int]:
-    """How often each node is read."""
-    uses = dict.fromkeys(reachable, 0)
-    for index in reachable:
-        node = graph.nodes[index]
-        if node.op not in _LEAVES:
-            for arg in node.args:
-                uses[abs(arg)] += 1
-    for value in values:
-        if value.ref:
-            uses[abs(value.ref)] += 1
-    return uses
-
-
-def _multiple(
-    graph: Graph, reachable: Sequence[int], uses: Mapping[int, int], values: Sequence[Expr]
-) -> set[int]:
-    """Nodes that get a name: read more than once, or constant within something variable."""
-    named = {i for i in reachable if uses[i] > 1}
-    for index in reachable:
-        node = graph.nodes[index]
-        if node.op in _LEAVES:
-            continue
-        if not node.static:
-            named |= {abs(arg) for arg in node.args if graph.nodes[abs(arg)].static}
-    return {i for i in named if graph.nodes[i].op not in _LEAVES}
-
-
 @dataclass
 class _Writer:
     """Texts of the nodes written so far."""
@@ -212,8 +167,7 @@ class _Writer:
     places: Mapping[str, str]
     widths: Mapping[int, str]
     target: Target
-    uses: Mapping[int, int]
-    forced: set[int] = field(default_factory=set)
+    forced: set[int]
     texts: dict[int, Text] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
     pairs: dict[int, str] = field(default_factory=dict)
@@ -282,19 +236,16 @@ class _Writer:
         """The name of one of them; the first to be read computes both."""
         assert angle > 0, "the graph takes signs out of sines and cosines"
         if angle not in self.pairs:
-            name = self._pair_name(angle)
+            # The number of the joint, s0 = sin(q[0]), or one that no joint has.
+            node = self.graph.nodes[angle]
+            place = self.places[node.args[0]] if node.op == "sym" else ""
+            joint = re.fullmatch(r"q(?:\[|_)(\d+)\]?", place)
+            name = joint[1] if joint else f"a{len(self.pairs) + 1}"
             self.pairs[angle] = name
             argument = self.texts[angle].text
             self.lines.append(f"{self.target.number} s{name}, c{name};")
             self.lines.append(f"{self.target.sincos}({argument}, &s{name}, &c{name});")
         return Text(_PAIR[op] + self.pairs[angle], ATOM)
-
-    def _pair_name(self, angle: int) -> str:
-        """The number of the joint, s0 = sin(q[0]), or one that no joint has."""
-        node = self.graph.nodes[angle]
-        place = self.places[node.args[0]] if node.op == "sym" else ""
-        joint = re.fullmatch(r"q(?:\[|_)(\d+)\]?", place)
-        return joint[1] if joint else f"a{len(self.pairs) + 1}"
 
     def _text(self, index: int) -> Text:
         text = self._combine(index)
@@ -315,9 +266,11 @@ class _Writer:
         if node.op == "num":
             return number_text(node.args[0], target)
         if node.op == "pi":
-            return pi_text(target)
+            return Text(f"{PI}{target.suffix}", ATOM)
         if node.op == "sym":
-            return Text(self._place(node.args[0]), ATOM)
+            if node.args[0] not in self.places:
+                raise EmitError(f"symbol {node.args[0]} has no place in the emitted function")
+            return Text(self.places[node.args[0]], ATOM)
         args = [self.texts[abs(arg)] for arg in node.args]
         if node.op == "add":
             turned = [self._turned(arg) for arg in node.args]
@@ -327,23 +280,23 @@ class _Writer:
             )  # fmt: skip
         if node.op in ("mul", "div"):
             assert all(arg > 0 for arg in node.args), "the graph takes signs out of products"
-            return (product_text if node.op == "mul" else quotient_text)(*args)
+            if node.op == "mul":
+                return product_text(*args)
+            return Text(f"{args[0].within(PRODUCT)}/{args[1].within(ATOM)}", PRODUCT)
         signed = [a if arg > 0 else negative(a) for arg, a in zip(node.args, args, strict=True)]
         if node.op == "pow":
             if not node.static:
                 pairs = zip(node.args, signed, strict=True)
                 signed = [self._spread(abs(arg), text) for arg, text in pairs]
             base, exponent = signed
-            return power_text(base, exponent, target)
+            return Text(f"{target.functions['pow']}({base.text}, {exponent.text})", ATOM)
         if node.op == "sign" and node.args[0] in self.widths:
             width = self.widths[node.args[0]]
             return Text(f"{target.smooth_sign}({signed[0].text}, {width})", ATOM)
-        return call_text(node.op, signed[0], target)
-
-    def _place(self, symbol: str) -> str:
-        if symbol not in self.places:
-            raise EmitError(f"symbol {symbol} has no place in the emitted function")
-        return self.places[symbol]
+        if node.op not in target.functions:
+            expected = ", ".join(f for f in FUNCTIONS if f != "pow")
+            raise EmitError(f"function {node.op} has no C99 form here; expected {expected}")
+        return Text(f"{target.functions[node.op]}({signed[0].text})", ATOM)
 
     def _name(self, index: int) -> None:
         """Give the value a name, and from now on read that."""

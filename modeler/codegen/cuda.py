@@ -5,21 +5,15 @@ entries into columns, so that neighbouring threads write neighbouring numbers; a
 products [W_j tau_j]' [W_j tau_j] of its own columns, summed over samples without a W.
 """
 
-import dataclasses
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Any
 
 from modeler.codegen import functions as layout
-from modeler.codegen.block import Block, make_block
-from modeler.codegen.functions import CFunction
+from modeler.codegen.block import make_block
 from modeler.codegen.package import render
-from modeler.codegen.targets import DOUBLE
+from modeler.codegen.targets import CUDA
 from modeler.core.errors import EmitError
 from modeler.core.manifest import CUDA_THREADS, ModuleSpec
-
-CUDA = dataclasses.replace(DOUBLE, sincos="sincos")
-"""CUDA has all functions of math.h, and one of its own for both."""
 
 _SHARED = 48 * 1024
 """Bytes that the threads of a block may share on every device."""
@@ -27,54 +21,24 @@ _SHARED = 48 * 1024
 _TILES = (32, 16, 8, 4)
 
 
-@dataclass(frozen=True)
-class _Shape:
-    """How the products of one robot are spread over a block.
-
-    Attributes:
-        threads: of a block.
-        tile: samples at hand.
-        products: pairs of entries, torques counted after them.
-        joints: lines of a C table: whose row each entry and torque is of.
-    """
-
-    threads: int
-    tile: int
-    products: tuple[tuple[int, int], ...]
-    joints: list[str]
-
-    @property
-    def first(self) -> list[str]:
-        """Lines of a C table."""
-        return layout.number_lines([a for a, _ in self.products])
-
-    @property
-    def second(self) -> list[str]:
-        """Lines of a C table."""
-        return layout.number_lines([b for _, b in self.products])
-
-
-def cuda_files(
-    spec: ModuleSpec,
-    blocks: Sequence[tuple[CFunction, Block | None]],
-    places: Mapping[str, str],
-    values: Mapping[str, Any],
-) -> dict[str, str]:
-    """{name: text} of the CUDA unit.
-
-    Args:
-        spec: the manifest.
-        blocks: functions of the module, `base_regressor_nonzeros` among them.
-        places: C text of every symbol of the graph.
-        values: what all templates of the module are given.
+def cuda_files(values: Mapping[str, Any]) -> dict[str, str]:
+    """{name: text} of the CUDA unit, from what all templates of the module are given.
 
     Raises:
         EmitError: the robot has loops, or the module is in single precision.
     """
-    _check(spec)
-    function = next(f for f, _ in blocks if f.role == "base_regressor_nonzeros")
+    spec: ModuleSpec = values["spec"]
+    if spec.closure is not None:
+        raise EmitError(
+            f"{spec.robot} has loops, whose closing has no CUDA form; leave CUDA out, or open them"
+        )
+    if spec.precision == "single":
+        raise EmitError("CUDA is emitted in double precision only; leave out one of the two")
+    function = next(f for f, _ in values["blocks"] if f.role == "base_regressor_nonzeros")
     block = make_block(
-        [(f"values[{k}*stride]", value) for k, value in function.entries], places, target=CUDA
+        [(f"values[{k}*stride]", value) for k, value in function.entries],
+        values["places"],
+        target=CUDA,
     )
     names = [argument.name for argument in function.inputs]
     lines = [f"(void){name};" for name in layout.unread(function, block)]
@@ -93,21 +57,12 @@ def cuda_files(
     return {f"{spec.prefix}.cu": text}
 
 
-def _check(spec: ModuleSpec) -> None:
-    """Nothing, if the module can have the unit.
+def _shape(spec: ModuleSpec) -> dict[str, Any]:
+    """How the products of one robot are spread over a block.
 
-    Raises:
-        EmitError: the robot has loops, or the module is in single precision.
+    Its threads, the samples at hand (a tile), and C tables: of the first and second of each pair of
+    entries, torques counted after them, and of whose row each entry and torque is.
     """
-    if spec.closure is not None:
-        raise EmitError(
-            f"{spec.robot} has loops, whose closing has no CUDA form; leave CUDA out, or open them"
-        )
-    if spec.precision == "single":
-        raise EmitError("CUDA is emitted in double precision only; leave out one of the two")
-
-
-def _shape(spec: ModuleSpec) -> _Shape:
     entries, joints = spec.nonzeros, len(spec.joints)
     columns = len(entries) + joints
     products = []
@@ -115,5 +70,11 @@ def _shape(spec: ModuleSpec) -> _Shape:
         own = [k for k, (row, _) in enumerate(entries) if row == joint] + [len(entries) + joint]
         products += [(a, b) for at, a in enumerate(own) for b in own[at:]]
     fitting = (tile for tile in _TILES if columns * (tile + 1) * 8 <= _SHARED)
-    rows = [row for row, _ in entries] + list(range(joints))
-    return _Shape(CUDA_THREADS, next(fitting, 1), tuple(products), layout.number_lines(rows))
+    return {
+        "threads": CUDA_THREADS,
+        "tile": next(fitting, 1),
+        "products": products,
+        "first": layout.name_lines([a for a, _ in products]),
+        "second": layout.name_lines([b for _, b in products]),
+        "joints": layout.name_lines([row for row, _ in entries] + list(range(joints))),
+    }

@@ -94,66 +94,40 @@ def elimination(
         (i, k): entry if graph.nodes[abs(entry.ref)].op == "num" else graph.symbol(f"J[{at}]")
         for at, ((i, k), entry) in enumerate(zip(pattern.places, pattern.entries, strict=True))
     }
-    factors = _Factors(graph, order, len(solved))
-    factors.eliminate({(i, solved.index(k)): e for (i, k), e in symbols.items() if k in solved})
-    changes = _changes(graph, pattern, solved)
-    lengths = [graph.constant(Fraction(repr(float(scale[k])))) for k in solved]
-    bounds = factors.bounds(_sums(graph, changes, lengths))
-    return Elimination(
-        limits=tuple(float(scale[solved[j]] / (SMALLEST * size[i])) for i, j in order),
-        factors=tuple(factors.values),
-        solution=tuple(factors.solved([graph.symbol(f"right[{i}]") for i in range(len(solved))])),
-        coupling=_coupling(factors, symbols, given, solved),
-        turned=tuple(bound / length for bound, length in zip(bounds, lengths, strict=True)),
-        spread=_squares(factors, changes, lengths),
-    )
-
-
-def _coupling(
-    factors: "_Factors",
-    symbols: Mapping[tuple[int, int], Expr],
-    given: Sequence[int],
-    solved: Sequence[int],
-) -> tuple[tuple[int, int, Expr], ...]:
-    """The nonzeros of G = -J_solved^-1 J_given."""
-    zero, found = factors.graph.constant(0), list[tuple[int, int, Expr]]()
-    for j, k in enumerate(given):
-        column = factors.solved([-symbols.get((i, k), zero) for i in range(len(solved))])
-        found += [(at, j, x) for at, x in zip(solved, column, strict=True) if not x.is_zero]
-    return tuple(found)
-
-
-def _changes(graph: Graph, pattern: Pattern, solved: Sequence[int]) -> dict[tuple[int, int], Expr]:
-    """J' - J of the solved columns."""
-    return {
+    own = {(i, solved.index(k)): entry for (i, k), entry in symbols.items() if k in solved}
+    factors = _Factors(graph, order, own)
+    zero, every = graph.constant(0), range(len(solved))
+    # J' - J of the solved columns; sums over its rows, and J^-1 times it, in scaled variables.
+    changes = {
         (i, solved.index(k)): graph.symbol(f"K[{at}]") - graph.symbol(f"J[{at}]")
         for at, ((i, k), entry) in enumerate(zip(pattern.places, pattern.entries, strict=True))
         if k in solved and not graph.nodes[abs(entry.ref)].static
     }
-
-
-def _sums(
-    graph: Graph, changes: Mapping[tuple[int, int], Expr], lengths: Sequence[Expr]
-) -> list[Expr]:
-    """Sum of their sizes over each row, in scaled variables."""
-    sums = [graph.constant(0) for _ in lengths]
+    lengths = [graph.constant(Fraction(repr(float(scale[k])))) for k in solved]
+    sums = [zero for _ in every]
     for (i, j), change in changes.items():
         sums[i] = sums[i] + graph.call("abs", change) * lengths[j]
-    return sums
-
-
-def _squares(
-    factors: "_Factors", changes: Mapping[tuple[int, int], Expr], lengths: Sequence[Expr]
-) -> Expr:
-    """Sum of the squares of the entries of J^-1 (J' - J), in scaled variables."""
-    zero = factors.graph.constant(0)
-    total, every = zero, range(len(lengths))
+    bounds = factors.solved(sums, bound=True)
+    solution = factors.solved([graph.symbol(f"right[{i}]") for i in every])
+    coupling = []  # G = -J_solved^-1 J_given
+    for j, k in enumerate(given):
+        column = factors.solved([-symbols.get((i, k), zero) for i in every])
+        coupling += [(at, j, x) for at, x in zip(solved, column, strict=True) if not x.is_zero]
+    turned = tuple(bound / length for bound, length in zip(bounds, lengths, strict=True))
+    squares = zero
     for j in every:
         column = factors.solved([changes.get((i, j), zero) for i in every])
         for x, length in zip(column, lengths, strict=True):
             share = x * (lengths[j] / length)
-            total = total + share * share
-    return total
+            squares = squares + share * share
+    return Elimination(
+        limits=tuple(float(scale[solved[j]] / (SMALLEST * size[i])) for i, j in order),
+        factors=tuple(factors.values),
+        solution=tuple(solution),
+        coupling=tuple(coupling),
+        turned=turned,
+        spread=squares,
+    )
 
 
 def sampled_jacobians(model: SymbolicModel) -> np.ndarray:
@@ -223,14 +197,37 @@ def _order(values: np.ndarray, pattern: set[tuple[int, int]]) -> list[tuple[int,
 class _Factors:
     """A = P L U Q with the pivots in a fixed order; the factors are read as lu[k]."""
 
-    def __init__(self, graph: Graph, order: Sequence[tuple[int, int]], size: int) -> None:
-        self.graph = graph
-        self.order = order
-        self.size = size
+    def __init__(
+        self,
+        graph: Graph,
+        order: Sequence[tuple[int, int]],
+        entries: Mapping[tuple[int, int], Expr],
+    ) -> None:
+        """Factors of the matrix with these entries."""
+        self.graph, self.order = graph, order
+        A, one, size = dict(entries), graph.constant(1), len(order)
+        rows, columns = set(range(size)), set(range(size))
         self.values: list[Expr] = []
-        self.below: dict[int, list[tuple[int, Expr]]] = {}  # by pivot: (row, multiplier)
-        self.right: dict[int, list[tuple[int, Expr]]] = {}  # by pivot: (column, entry)
-        self.inverse: list[Expr] = []
+        upper, lower = [], []
+        for i, j in order:
+            rows.discard(i)
+            columns.discard(j)
+            inverse = one / A[i, j]
+            self.values.append(inverse)  # all stand first, numbers too: they are checked
+            across = [(c, A[i, c]) for c in sorted(columns) if (i, c) in A]
+            down = [(r, A[r, j] * inverse) for r in sorted(rows) if (r, j) in A]
+            for r, share in down:
+                for c, value in across:
+                    A[r, c] = A.get((r, c), graph.constant(0)) - share * value
+            A = {place: value for place, value in A.items() if not value.is_zero}
+            upper.append(across)
+            lower.append(down)
+        self.inverse = [graph.symbol(f"lu[{k}]") for k in range(size)]
+        self.right: list[list[tuple[int, Expr]]] = []  # by pivot: (column, entry)
+        self.below: list[list[tuple[int, Expr]]] = []  # by pivot: (row, multiplier)
+        for across, down in zip(upper, lower, strict=True):
+            self.right.append([(c, self._kept(value)) for c, value in across])
+            self.below.append([(r, self._kept(value)) for r, value in down])
 
     def _kept(self, value: Expr) -> Expr:
         """The value as the other functions read it."""
@@ -239,58 +236,24 @@ class _Factors:
         self.values.append(value)
         return self.graph.symbol(f"lu[{len(self.values) - 1}]")
 
-    def eliminate(self, entries: Mapping[tuple[int, int], Expr]) -> None:
-        """Factors of the matrix with these entries."""
-        A = dict(entries)
-        one = self.graph.constant(1)
-        inverses = []
-        rows, columns = set(range(self.size)), set(range(self.size))
-        upper, lower = [], []
-        for i, j in self.order:
-            rows.discard(i)
-            columns.discard(j)
-            inverse = one / A[i, j]
-            inverses.append(inverse)
-            across = [(c, A[i, c]) for c in sorted(columns) if (i, c) in A]
-            down = [(r, A[r, j] * inverse) for r in sorted(rows) if (r, j) in A]
-            for r, share in down:
-                for c, value in across:
-                    A[r, c] = A.get((r, c), self.graph.constant(0)) - share * value
-            A = {place: value for place, value in A.items() if not value.is_zero}
-            upper.append(across)
-            lower.append(down)
-        self.values = list(inverses)  # all of them stand first, numbers too: they are checked
-        self.inverse = [self.graph.symbol(f"lu[{k}]") for k in range(self.size)]
-        for k, (across, down) in enumerate(zip(upper, lower, strict=True)):
-            self.right[k] = [(c, self._kept(value)) for c, value in across]
-            self.below[k] = [(r, self._kept(value)) for r, value in down]
+    def solved(self, right: Sequence[Expr], bound: bool = False) -> list[Expr]:
+        """x with A x = right; as a bound, |A^-1| right <= x.
 
-    def solved(self, right: Sequence[Expr]) -> list[Expr]:
-        """x with A x = right."""
-        y = list(right)
-        for k, (i, _) in enumerate(self.order):
-            for r, share in self.below[k]:
-                y[r] = y[r] - share * y[i]
-        x = [self.graph.constant(0)] * self.size
-        for k in reversed(range(self.size)):
-            i, j = self.order[k]
+        The inverse of a triangle is at most that of its comparison matrix.
+        """
+
+        def less(value: Expr, factor: Expr, x: Expr) -> Expr:
+            if bound:
+                return value + self.graph.call("abs", factor) * x
+            return value - factor * x
+
+        y, x = list(right), [self.graph.constant(0)] * len(right)
+        for (i, _), below in zip(self.order, self.below, strict=True):
+            for r, share in below:
+                y[r] = less(y[r], share, y[i])
+        for k, (i, j) in reversed([*enumerate(self.order)]):
             rest = y[i]
             for c, value in self.right[k]:
-                rest = rest - value * x[c]
-            x[j] = rest * self.inverse[k]
-        return x
-
-    def bounds(self, right: Sequence[Expr]) -> list[Expr]:
-        """x with |A^-1| right <= x: the inverse of a triangle is at most that of its comparison."""
-        absolute, y = self.graph.call, list(right)
-        for k, (i, _) in enumerate(self.order):
-            for r, share in self.below[k]:
-                y[r] = y[r] + absolute("abs", share) * y[i]
-        x = [self.graph.constant(0)] * self.size
-        for k in reversed(range(self.size)):
-            i, j = self.order[k]
-            rest = y[i]
-            for c, value in self.right[k]:
-                rest = rest + absolute("abs", value) * x[c]
-            x[j] = rest * absolute("abs", self.inverse[k])
+                rest = less(rest, value, x[c])
+            x[j] = rest * (self.graph.call("abs", self.inverse[k]) if bound else self.inverse[k])
         return x

@@ -5,7 +5,6 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import sympy
@@ -15,16 +14,17 @@ from modeler.codegen.block import Block, float_text, make_block
 from modeler.codegen.closed import closed_functions, closure_tables, solving_of
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
-from modeler.codegen.functions import CFunction, tree_functions
-from modeler.codegen.fused import UNIT as TILE_UNIT
-from modeler.codegen.fused import Tile, tile_of
-from modeler.codegen.names import (
+from modeler.codegen.functions import (
+    CFunction,
     enumerators,
     graph_places,
     module_prefix,
     symbol_constants,
     symbol_macros,
+    tree_functions,
 )
+from modeler.codegen.fused import UNIT as TILE_UNIT
+from modeler.codegen.fused import Tile, tile_of
 from modeler.codegen.package import package_files, render
 from modeler.codegen.targets import OF_PRECISION, WIDE, of_precision
 from modeler.codegen.vectors import stored_states
@@ -51,80 +51,72 @@ from modeler.core.manifest import (
     code_digest,
     text_digest,
 )
-from modeler.derivation.columns import Signal, StandardColumn
 from modeler.derivation.geometry import Geometry, geometric_symbol
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.precise import precise_values
 from modeler.derivation.relations import coefficient_text
 from modeler.derivation.result import BaseParameters
-from modeler.robot.robot import Joint, Robot
+from modeler.robot.robot import Robot
 
 # The manifest of an emitted module: everything the numeric stages will know of the robot.
 
 
 def module_spec(
-    model: SymbolicModel, base: BaseParameters, blocks: Iterable[tuple[CFunction, Block | None]]
+    model: SymbolicModel, base: BaseParameters, blocks: Iterable[tuple[CFunction, Block]]
 ) -> ModuleSpec:
-    """The manifest of the module with these functions; None is a function that is all zeros."""
-    robot = model.robot
+    """The manifest of the module with these functions."""
+    robot, closure, closing = model.robot, model.closure, None
     prefix = module_prefix(robot.name)
-    values = model.geometry.values
+    if closure is not None:
+        closing = ClosureSpec(
+            variables=tuple(joint.name for joint in robot.free),
+            units=tuple(joint.unit for joint in robot.free),
+            given=closure.given,
+            platform=closure.platform or (),
+            home=closure.home,
+            carrier=robot.platform[-1] if robot.platform else "",
+        )
+    joints = tuple(
+        JointSpec(
+            name=joint.name,
+            kind="revolute" if joint.angular else "prismatic",
+            unit=joint.unit,
+            effort_unit=joint.effort_unit,
+            actuated=joint.actuated,
+            drive_gain=robot.drive_gains.get(joint.name),
+        )
+        for joint in robot.coordinates
+    )
+    standard = tuple(
+        ParameterSpec(
+            name=column.name,
+            unit=column.unit,
+            kind=column.kind,
+            effect=column.effect,
+            joint=robot.joints[column.row].name,
+            nominal=robot.parameters.get(column.name),
+            nonnegative=column.nonnegative,
+        )
+        for column in model.columns
+    )
+    units = {"time": "s", "temperature": "K or degC", "slip": "1"}
+    measured = [robot.joints[s.row].name if s.row >= 0 else "" for s in model.signals]
     return ModuleSpec(
         robot=robot.name,
         title=robot.title,
         prefix=prefix,
         format=FORMAT,
-        symbols=tuple(SymbolSpec(name, value) for name, value in values.items()),
-        joints=tuple(_joint(robot, joint) for joint in robot.coordinates),
-        standard=tuple(_standard(model, column) for column in model.columns),
+        symbols=tuple(SymbolSpec(*symbol) for symbol in model.geometry.values.items()),
+        joints=joints,
+        standard=standard,
         base=_bases(model, base),
         unidentifiable=tuple(base.unidentifiable),
         functions=function_specs(prefix, list(blocks)),
-        closure=_closure(model),
-        signals=tuple(_signal(model, signal) for signal in model.signals),
-    )
-
-
-def _signal(model: SymbolicModel, signal: Signal) -> SignalSpec:
-    joint = model.robot.joints[signal.row].name if signal.row >= 0 else ""
-    unit = {"time": "s", "temperature": "K or degC", "slip": "1"}[signal.kind]
-    return SignalSpec(signal.kind, joint, unit, signal.value)
-
-
-def _closure(model: SymbolicModel) -> ClosureSpec | None:
-    closure = model.closure
-    if closure is None:
-        return None
-    return ClosureSpec(
-        variables=tuple(joint.name for joint in model.robot.free),
-        units=tuple(joint.unit for joint in model.robot.free),
-        given=closure.given,
-        platform=closure.platform or (),
-        home=closure.home,
-        carrier=model.robot.platform[-1] if model.robot.platform else "",
-    )
-
-
-def _joint(robot: Robot, joint: Joint) -> JointSpec:
-    return JointSpec(
-        name=joint.name,
-        kind="revolute" if joint.angular else "prismatic",
-        unit=joint.unit,
-        effort_unit=joint.effort_unit,
-        actuated=joint.actuated,
-        drive_gain=robot.drive_gains.get(joint.name),
-    )
-
-
-def _standard(model: SymbolicModel, column: StandardColumn) -> ParameterSpec:
-    return ParameterSpec(
-        name=column.name,
-        unit=column.unit,
-        kind=column.kind,
-        effect=column.effect,
-        joint=model.robot.joints[column.row].name,
-        nominal=model.robot.parameters.get(column.name),
-        nonnegative=column.nonnegative,
+        closure=closing,
+        signals=tuple(
+            SignalSpec(signal.kind, joint, units[signal.kind], signal.value)
+            for signal, joint in zip(model.signals, measured, strict=True)
+        ),
     )
 
 
@@ -134,12 +126,12 @@ def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[BaseSpec, ...]:
     for joint, place in model.regressor:
         rows.setdefault(place, []).append(joint)
     every = range(len(model.closure.given)) if model.closure is not None else None
+    graph, values = model.graph, model.geometry.values
     terms: dict[sympy.Expr, tuple[str, float]] = {}
-    for parameter in base.parameters:
-        for term in parameter.terms:
-            if term.coefficient not in terms:
-                number = _number(model, term.coefficient, model.geometry.values)
-                terms[term.coefficient] = coefficient_text(term.coefficient), number
+    for coefficient in (term.coefficient for each in base.parameters for term in each.terms):
+        if coefficient not in terms:
+            number = precise_values(graph, [model.algebra.static(coefficient)], values)[0]
+            terms[coefficient] = coefficient_text(coefficient), float(number)
     found = []
     for parameter in base.parameters:
         column = model.columns[parameter.column]
@@ -157,14 +149,10 @@ def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[BaseSpec, ...]:
     return tuple(found)
 
 
-def _number(model: SymbolicModel, coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
-    return float(precise_values(model.graph, [model.algebra.static(coefficient)], values)[0])
-
-
 def function_specs(
     prefix: str,
-    blocks: Sequence[tuple[CFunction, Block | None]],
-    called: Sequence[tuple[CFunction, Block | None]] = (),
+    blocks: Sequence[tuple[CFunction, Block]],
+    called: Sequence[tuple[CFunction, Block]] = (),
 ) -> tuple[FunctionSpec, ...]:
     """The public ones; one that closes loops has the operations of all that it calls, once each.
 
@@ -173,14 +161,14 @@ def function_specs(
         blocks: the functions.
         called: functions of other units that they may call.
     """
-    own = {function.role: _operations(block) for function, block in (*called, *blocks)}
+    own = {
+        function.role: (block.additions, block.multiplications)
+        for function, block in (*called, *blocks)
+    }
     found = []
-    for function, block in blocks:
-        if function.internal:
-            continue
-        parts = [_operations(block)]
-        if function.closed is not None:
-            parts = [own[role] for role in function.closed.calls if role in own]
+    for function in (function for function, _ in blocks if not function.internal):
+        calls = (function.role,) if function.closed is None else function.closed.calls
+        parts = [own[role] for role in calls if role in own]
         found.append(
             FunctionSpec(
                 name=f"{prefix}_{function.role}",
@@ -193,10 +181,6 @@ def function_specs(
             )
         )
     return tuple(found)
-
-
-def _operations(block: Block | None) -> tuple[int, int]:
-    return (block.additions, block.multiplications) if block else (0, 0)
 
 
 # Geometric symbols in C: which of them -D may replace, and why the others not.
@@ -272,33 +256,33 @@ def deciding_symbols(geometry: Geometry) -> frozenset[str]:
         name: value * (1 + 1 / (97 + 12 * place))
         for place, (name, value) in enumerate(geometry.values.items())
     }
-    numbers = _numbers(robot, moved)
-    found: set[str] = set()
-    for cell, entry in _cells(geometry):
-        leaves = {name: moved[name] for name in _leaves(robot, cell) if name in moved}
-        found |= leaves.keys() - {symbol.name for symbol in entry.free_symbols}
-        if leaves and not _same(cell, entry, numbers, leaves):
-            found |= leaves.keys()
-    return frozenset(found)
-
-
-def _numbers(robot: Robot, moved: Mapping[str, float]) -> dict[str, float]:
-    """Values of all symbols, and 0 for the joint variables, with some symbols moved."""
-    values: dict[str, float] = {}
+    numbers: dict[str, float] = {}  # of all symbols and joint variables, some symbols moved
     for name, expression in robot.symbols.items():
         try:
-            values[name] = moved[name] if name in moved else expression.number(values)
+            numbers[name] = moved[name] if name in moved else expression.number(numbers)
         except (ArithmeticError, ValueError):
-            values[name] = math.nan  # equal to nothing
-    return values | {joint.variable: 0.0 for joint in robot.joints}
-
-
-def _cells(geometry: Geometry) -> Iterator[tuple[Expression, sympy.Expr]]:
-    """Every cell of the table and of gravity, as written and as an exact entry."""
-    for row in geometry.rows:
-        for column in ("gamma", "b", "alpha", "d", "theta", "r"):
-            yield getattr(row.joint, column), getattr(row, column)
-    yield from zip(geometry.robot.gravity, geometry.gravity, strict=True)
+            numbers[name] = math.nan  # equal to nothing
+    numbers |= {joint.variable: 0.0 for joint in robot.joints}
+    columns = ("gamma", "b", "alpha", "d", "theta", "r")
+    cells: list[tuple[Expression, sympy.Expr]] = [
+        (getattr(row.joint, column), getattr(row, column))
+        for row in geometry.rows
+        for column in columns
+    ]
+    found: set[str] = set()
+    for cell, entry in (*cells, *zip(robot.gravity, geometry.gravity, strict=True)):
+        leaves = {name: moved[name] for name in _leaves(robot, cell) if name in moved}
+        found |= leaves.keys() - {symbol.name for symbol in entry.free_symbols}
+        if not leaves:
+            continue
+        symbols = {geometric_symbol(name): value for name, value in leaves.items()}
+        try:
+            written, exact = cell.number(numbers), complex(entry.evalf(subs=symbols))
+        except (ArithmeticError, ValueError, TypeError):
+            written, exact = math.nan, 0j
+        if not abs(written - exact) <= _SAME * max(abs(written), *map(abs, leaves.values())):
+            found |= leaves.keys()
+    return frozenset(found)
 
 
 def _leaves(robot: Robot, cell: Expression) -> set[str]:
@@ -311,20 +295,6 @@ def _leaves(robot: Robot, cell: Expression) -> set[str]:
             found.add(name)
             waiting += robot.symbols[name].names
     return found
-
-
-def _same(
-    cell: Expression,
-    entry: sympy.Expr,
-    numbers: Mapping[str, float],
-    leaves: Mapping[str, float],
-) -> bool:
-    symbols = {geometric_symbol(name): value for name, value in leaves.items()}
-    try:
-        written, exact = cell.number(numbers), complex(entry.evalf(subs=symbols))
-    except (ArithmeticError, ValueError, TypeError):
-        return False
-    return abs(written - exact) <= _SAME * max(abs(written), *map(abs, leaves.values()))
 
 
 _CLOSED = {"double": 1e-9, "single": 1e-5}
@@ -369,13 +339,13 @@ def emit(
     """
     if not base.parameters:
         raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
-    module = _module(model, base, precision)
-    spec, values = module.spec, module.values
+    values = _module(model, base, precision)
+    spec: ModuleSpec = values["spec"]
     code = _code(spec, values)
-    kernels = cuda_files(spec, module.blocks, module.places, values) if cuda else {}
-    functions = [function for function, _ in module.blocks]
+    kernels = cuda_files(values) if cuda else {}
+    functions = [function for function, _ in values["blocks"]]
     if fitted is not None:
-        spec, unit = _fitted_unit(model, base, fitted, module)
+        spec, unit = _fitted_unit(model, base, fitted, values)
         functions += fitted_functions(model, base, fitted)
         values |= {"spec": spec}
         code |= unit
@@ -416,24 +386,8 @@ class _Files(Mapping[str, str]):
         return dict, (dict(self),)
 
 
-@dataclass(frozen=True)
-class _Module:
-    """A module before it is laid out.
-
-    Attributes:
-        spec: its manifest.
-        blocks: functions and their bodies.
-        places: C text of every symbol of the graph.
-        values: what the templates read.
-    """
-
-    spec: ModuleSpec
-    blocks: list[tuple[CFunction, Block | None]]
-    places: dict[str, str]
-    values: dict[str, Any]
-
-
-def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) -> _Module:
+def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) -> dict[str, Any]:
+    """What the templates read; the functions' bodies and the places of symbols with it."""
     prefix = module_prefix(model.robot.name)
     macros = symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
@@ -452,36 +406,72 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
     symbols = symbol_lines(model, base, macros)
     written = [_written(prefix, f, block) for f, block in blocks]
     relations = [layout.relation(parameter) for parameter in base.parameters]
-    values = _values(spec, symbols, written, relations)
-    closed = _CLOSED[precision]
-    values |= {"loops": closure_tables(model, solving, closed) if solving is not None else None}
-    values |= {"names": constants, "signature": ""}
-    values |= {"tile": tile_of(functions, places, spec.nonzeros) if precision == "double" else None}
+    chi, beta = layout.parameter_lines(spec, relations)
+    states = [f"const double *{name}" for name in ("q", "qd", "qdd")]
+    states += ["const double *s"] if spec.signals else []
+    status = ["int *status"] if spec.closure is not None else []
+    single = precision == "single"
+    values = {
+        "spec": spec,
+        "single": single,
+        "wide": WIDE if single else "",
+        "prefix": prefix,
+        "macro": prefix.upper(),
+        "title": layout.comment_text(spec.title or spec.robot),
+        "symbols": symbols,
+        "standard": chi,
+        "base": beta,
+        "enums": [
+            layout.name_lines(enumerators(prefix, kind, [each.name for each in parameters]))
+            for kind, parameters in (("chi", spec.standard), ("beta", spec.base))
+        ],
+        "joints": ", ".join(joint.name for joint in spec.joints),
+        "relations": relations,
+        "functions": written,
+        "signals": layout.signal_lines(spec),
+        "observation": [
+            layout.prototype(
+                f"{prefix}_observation",
+                ["size_t samples", *states, f"double *{restrict}W", *status],
+            )
+            for restrict in ("", _RESTRICT)
+        ],
+        "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
+        "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros]),
+        "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros]),
+        "loops": closure_tables(model, solving, _CLOSED[precision]) if solving else None,
+        "names": constants,
+        "signature": "",
+        "blocks": blocks,
+        "places": places,
+        "tile": None if single else tile_of(functions, places, spec.nonzeros),
+    }
     spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
-    return _Module(spec, blocks, places, values)
+    return values
 
 
 def _fitted_unit(
-    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec, module: _Module
+    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec, values: dict[str, Any]
 ) -> tuple[ModuleSpec, dict[str, str]]:
     """The manifest with the values, and the C of the functions that have them."""
-    prefix, values = module.spec.prefix, module.values
+    spec: ModuleSpec = values["spec"]
+    prefix = spec.prefix
     check_values(base, fitted)
     functions = fitted_functions(model, base, fitted)
     found = widths(prefix, model, functions)
     turning = {speed: width.constant for speed, width in found.items()}
     every = tuple(dict.fromkeys(found.values()))
-    blocks = [(f, _block(f, module.places, module.spec.precision, turning)) for f in functions]
+    blocks = [(f, _block(f, values["places"], spec.precision, turning)) for f in functions]
     written = [_written(prefix, f, block) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
         widths=tuple(width.macro for width in every),
-        functions=function_specs(prefix, blocks, module.blocks),
+        functions=function_specs(prefix, blocks, values["blocks"]),
         code="",
         signature="",
     )
-    values = values | fitted_texts(module.spec, fitted, every)
+    values = values | fitted_texts(spec, fitted, every)
     values |= {
         "functions": written,
         "inner": [f for f in written if f.internal],
@@ -491,7 +481,7 @@ def _fitted_unit(
     }
     # The signature stands in the unit, so it comes last: it covers all the rest.
     fitted = dataclasses.replace(fitted, code=code_digest(_fitted_files(prefix, values, fitted)))
-    spec = dataclasses.replace(module.spec, fitted=fitted)
+    spec = dataclasses.replace(spec, fitted=fitted)
     fitted = dataclasses.replace(fitted, signature=text_digest(spec.to_json()))
     return dataclasses.replace(spec, fitted=fitted), _fitted_files(prefix, values, fitted)
 
@@ -506,36 +496,31 @@ def _fitted_files(prefix: str, values: dict[str, Any], fitted: FittedSpec) -> di
 
 def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
     """The files that the library is compiled from."""
-    prefix = spec.prefix
-    files = {
-        f"{prefix}.h": render("module.h", **values),
-        **{
-            f"{prefix}{unit}.c": _unit(unit, values)
-            for unit in ("", "_regressor", "_base_regressor")
-        },
-        **(_loop_files(prefix, values) if spec.closure is not None else {}),
-        **(_tile_files(prefix, values) if spec.tile_sources else {}),
-        **_runtime(spec),
-    }
+    prefix, functions, initial = spec.prefix, values["functions"], values["symbols"].initial
+    files = {f"{prefix}.h": render("module.h", **values)}
+    for unit in ("", "_regressor", "_base_regressor"):
+        own = [f for f in functions if f.unit == unit]
+        more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
+        files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
+    runtime: tuple[str, ...] = RUNTIME
+    if spec.closure is not None:  # the opened tree's functions, and what closes the loops
+        inner = [f for f in functions if f.internal]
+        outer = [f for f in functions if f.unit == "_loops"]
+        files[f"{prefix}_tree.h"] = render("tree.h", **{**values, "functions": inner})
+        files[f"{prefix}_loops.c"] = render("loops.c", **{**values, "functions": outer})
+        runtime += CLOSURE_RUNTIME
+    if spec.tile_sources:
+        given = {**values, "constants": _constants([values["tile"]], values, initial)}
+        for kind in ("h", "c"):
+            files[f"{prefix}{TILE_UNIT}.{kind}"] = render(f"tile.{kind}", **given)
+        runtime += TILE_RUNTIME
+    folder = resource_dir("csrc")
+    for name in runtime:  # its own in that precision, where it has one
+        source = folder / spec.precision / name
+        if not source.is_file():
+            source = (folder / "include" if name.endswith(".h") else folder) / name
+        files[name] = source.read_text("utf-8")
     return of_precision(spec.precision, files)
-
-
-def _loop_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
-    """The header of the opened tree's functions, and the unit that closes the loops."""
-    functions = values["functions"]
-    inner = [f for f in functions if f.internal]
-    outer = [f for f in functions if f.unit == "_loops"]
-    return {
-        f"{prefix}_tree.h": render("tree.h", **{**values, "functions": inner}),
-        f"{prefix}_loops.c": render("loops.c", **{**values, "functions": outer}),
-    }
-
-
-def _tile_files(prefix: str, values: dict[str, Any]) -> dict[str, str]:
-    """Header and source of the unit of tiles."""
-    constants = _constants([values["tile"]], values, values["symbols"].initial)
-    given = {**values, "constants": constants}
-    return {f"{prefix}{TILE_UNIT}.{kind}": render(f"tile.{kind}", **given) for kind in ("h", "c")}
 
 
 def _block(
@@ -543,14 +528,12 @@ def _block(
     places: dict[str, str],
     precision: Precision,
     turning: Mapping[int, str] | None = None,
-) -> Block | None:
-    if not function.entries:
-        return None
+) -> Block:
     outputs = [(f"{function.output.name}[{index}]", value) for index, value in function.entries]
     return make_block(outputs, places, turning, OF_PRECISION[precision])
 
 
-def _written(prefix: str, function: CFunction, block: Block | None) -> _Written:
+def _written(prefix: str, function: CFunction, block: Block) -> _Written:
     name = f"{prefix}_{function.role}"
     returns = "void" if function.closed is None else "int"
     if function.internal and function.unit == UNIT:
@@ -562,51 +545,10 @@ def _written(prefix: str, function: CFunction, block: Block | None) -> _Written:
         declaration=layout.prototype(name, layout.arguments(function, ""), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
         lines=[] if function.closed else layout.body_lines(function, block),
-        symbols=block.symbols if block else frozenset(),
-        additions=block.additions if block else 0,
-        multiplications=block.multiplications if block else 0,
+        symbols=block.symbols,
+        additions=block.additions,
+        multiplications=block.multiplications,
     )
-
-
-def _values(
-    spec: ModuleSpec, symbols: SymbolLines, functions: list[_Written], relations: list[str]
-) -> dict[str, Any]:
-    standard, base = layout.parameter_lines(spec, relations)
-    return {
-        "spec": spec,
-        "single": spec.precision == "single",
-        "wide": WIDE if spec.precision == "single" else "",
-        "prefix": spec.prefix,
-        "macro": spec.prefix.upper(),
-        "title": layout.comment_text(spec.title or spec.robot),
-        "symbols": symbols,
-        "standard": standard,
-        "base": base,
-        "enums": [
-            layout.name_lines(enumerators(spec.prefix, kind, [each.name for each in parameters]))
-            for kind, parameters in (("chi", spec.standard), ("beta", spec.base))
-        ],
-        "joints": ", ".join(joint.name for joint in spec.joints),
-        "relations": relations,
-        "functions": functions,
-        "signals": layout.signal_lines(spec),
-        "observation": [
-            layout.observation_prototype(
-                spec.prefix, r, spec.closure is not None, bool(spec.signals)
-            )
-            for r in ("", _RESTRICT)
-        ],
-        "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
-        "nonzero_rows": layout.number_lines([row for row, _ in spec.nonzeros]),
-        "nonzero_columns": layout.number_lines([column for _, column in spec.nonzeros]),
-    }
-
-
-def _unit(unit: str, values: dict[str, Any]) -> str:
-    functions = [function for function in values["functions"] if function.unit == unit]
-    constants = _constants(functions, values, values["symbols"].initial)
-    more = {"functions": functions, "constants": constants, "main": not unit}
-    return render("module.c", **{**values, **more})
 
 
 def _constants(
@@ -615,18 +557,3 @@ def _constants(
     """(name, what it is initialised with) of the geometric constants that the functions read."""
     read = frozenset[str]().union(*(function.symbols for function in functions))
     return [(values["names"][symbol], text) for symbol, text in initial.items() if symbol in read]
-
-
-def _runtime(spec: ModuleSpec) -> dict[str, str]:
-    names = (*RUNTIME, *(CLOSURE_RUNTIME if spec.closure is not None else ()))
-    names += TILE_RUNTIME if spec.tile_sources else ()
-    return {name: _source(name, spec.precision).read_text("utf-8") for name in names}
-
-
-def _source(name: str, precision: Precision) -> Path:
-    """A file of the runtime: its own in that precision, where it has one."""
-    folder = resource_dir("csrc")
-    own = folder / precision / name
-    if own.is_file():
-        return own
-    return (folder / "include" if name.endswith(".h") else folder) / name

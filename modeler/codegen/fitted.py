@@ -14,12 +14,15 @@ from typing import Any
 
 from modeler.codegen import functions as layout
 from modeler.codegen.closed import closed_dynamics
-from modeler.codegen.functions import CFunction, Closed, arguments_of, dynamics_functions
-from modeler.codegen.names import enumerators
+from modeler.codegen.functions import (
+    CFunction,
+    arguments_of,
+    dynamics_functions,
+    enumerators,
+)
 from modeler.core.errors import EmitError
-from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec
+from modeler.core.manifest import FittedSpec, ModuleSpec
 from modeler.derivation.columns import ShaftColumn, along
-from modeler.derivation.graph import Node
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
 
@@ -83,18 +86,17 @@ def fitted_functions(
 
 def _public(function: CFunction) -> CFunction:
     """The function without beta."""
+    closed = function.closed
+    if closed is not None:
+        reads = ", ".join(name for name in closed.reads.split(", ") if name != "beta")
+        closed = dataclasses.replace(closed, tree=_TREE, reads=reads)
     return dataclasses.replace(
         function,
         unit=UNIT,
         role=f"fitted_{function.role}",
         inputs=tuple(a for a in function.inputs if a.name != "beta"),
-        closed=None if function.closed is None else _closed(function.closed),
+        closed=closed,
     )
-
-
-def _closed(closed: Closed) -> Closed:
-    reads = ", ".join(name for name in closed.reads.split(", ") if name != "beta")
-    return dataclasses.replace(closed, tree=_TREE, reads=reads)
 
 
 def widths(
@@ -105,7 +107,9 @@ def widths(
     Joints that always move alike have one speed, and the width of the first of them; a joint and
     its motor have one width. A sign of anything else than such a speed leaps where it did.
     """
-    read = {node.args[0] for node in _nodes(model, functions) if node.op == "sign"}
+    values = [value for function in functions for _, value in function.entries]
+    nodes = [model.graph.nodes[index] for index in model.graph.reachable(values)]
+    read = {node.args[0] for node in nodes if node.op == "sign"}
     found: dict[int, Width] = {}
     for column in model.columns:
         for part in column.parts if isinstance(column, ShaftColumn) else ():
@@ -120,39 +124,25 @@ def widths(
     return found
 
 
-def _nodes(model: SymbolicModel, functions: Sequence[CFunction]) -> list[Node]:
-    """All that the functions need."""
-    values = [value for function in functions for _, value in function.entries]
-    return [model.graph.nodes[index] for index in model.graph.reachable(values)]
-
-
 def fitted_texts(spec: ModuleSpec, fitted: FittedSpec, found: Sequence[Width]) -> dict[str, Any]:
     """Finished strings for the templates of the unit."""
     verdict = f"The fit of this model is {fitted.verdict or 'one that nobody has judged'}"
     doubts = [f"Doubt: {doubt}" for doubt in fitted.doubts if doubt not in fitted.verdict]
     warning = "" if fitted.usable else "WARNING. "
+    # Lines of the C table: the value, which it is, its unit, how sure it is.
+    places = enumerators(spec.prefix, "beta", [base.name for base in spec.base])
+    lines: list[str] = []
+    for parameter, place in zip(fitted.parameters, places, strict=True):
+        sure = "set aside: the logs do not tell it"
+        if parameter.sigma is not None:
+            sure = f"sigma {parameter.sigma:.2g}{'' if parameter.essential else ', not essential'}"
+        comma = "," if len(lines) + 1 < len(fitted.parameters) else " "
+        about = layout.comment_line(f"{place} [{parameter.unit}], {sure}")
+        lines.append(f"    {parameter.value!r:>24}{comma} /* {about} */")
     return {
         "widths": found,
         "remarks": layout.comment_lines([f"{warning}{verdict}", *doubts, *fitted.remarks]),
         "effort": " or ".join(dict.fromkeys(joint.effort_unit for joint in spec.joints)),
-        "lines": _value_lines(spec, fitted.parameters),
+        "lines": lines,
         "gains": layout.name_lines([repr(gain) for gain in fitted.gains]),
     }
-
-
-def _value_lines(spec: ModuleSpec, parameters: Sequence[FittedParameter]) -> list[str]:
-    """Lines of the C table: the value, which it is, its unit, how sure it is."""
-    places = enumerators(spec.prefix, "beta", [base.name for base in spec.base])
-    lines: list[str] = []
-    for parameter, place in zip(parameters, places, strict=True):
-        comma = "," if len(lines) + 1 < len(parameters) else " "
-        about = layout.comment_line(f"{place} [{parameter.unit}], {_sure(parameter)}")
-        lines.append(f"    {parameter.value!r:>24}{comma} /* {about} */")
-    return lines
-
-
-def _sure(parameter: FittedParameter) -> str:
-    if parameter.sigma is None:
-        return "set aside: the logs do not tell it"
-    told = f"sigma {parameter.sigma:.2g}"
-    return told if parameter.essential else f"{told}, not essential"

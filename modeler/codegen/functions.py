@@ -1,13 +1,15 @@
 """Which functions a module has: equation, arguments and the expression of every output."""
 
+import re
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from modeler.codegen.block import Block
+from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, ModuleSpec
-from modeler.derivation.columns import ShaftColumn, Signal
+from modeler.derivation.columns import ShaftColumn
 from modeler.derivation.graph import Expr
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.relations import relation_text
@@ -111,14 +113,18 @@ def beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, Expr]:
 def tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[CFunction, ...]:
     """All functions of a module without loops, in the order of the header."""
     given = arguments_of(model.robot.free, model, base)
-    beta = beta_symbols(model, base)
-    return (
-        *_regressors(model, base, given),
-        *dynamics_functions(model, beta, given),
-        grouping_function(model, base, given),
-        _kinematics(model, given),
-        *_advance(model, given),
-    )
+    regressors = _regressors(model, base, given)
+    dynamics = dynamics_functions(model, beta_symbols(model, base), given)
+    grouping, poses = grouping_function(model, base, given), model.forward_kinematics()
+    kinematics = CFunction(
+        "", "forward_kinematics", "Poses of the frames of all moving rows of the table, in order.",
+        "x0 = R x + p with T = [R | p], for a point x of the frame", (given.q,),
+        ArgumentSpec(
+            "T", (len(poses), 3, 4), "1 | m", "poses [R | p] of the links' frames in frame 0"
+        ),
+        entries_of([value for pose in poses for row in pose for value in row]),
+    )  # fmt: skip
+    return (*regressors, *dynamics, grouping, kinematics, *_advance(model, given))
 
 
 def arguments_of(joints: Sequence[Joint], model: SymbolicModel, base: BaseParameters) -> Arguments:
@@ -253,8 +259,15 @@ def _advance(model: SymbolicModel, given: Arguments) -> list[CFunction]:
         s = graph.symbol(f"s[{k}]")
         if signal.kind == "time":
             s = s + graph.symbol("dt[0]")
-        elif signal.kind == "slip":
-            s = _turned(model, signal, s)
+        elif signal.kind == "slip":  # Dahl's bristle, exact where the direction is constant
+            index = model.geometry.rows[signal.row].index
+            assert index is not None
+            moved = graph.constant(0)
+            for j, coefficient in model.geometry.forms[index].items():
+                moved = moved + graph.symbol(f"dq[{j}]") * coefficient
+            way = graph.call("sign", moved)
+            share = graph.call("abs", moved) / graph.constant(Fraction(repr(signal.value)))
+            s = way + (s - way) * graph.call("exp", -share)
         values.append(s)
     after = ArgumentSpec("after", (len(values),), "see above", "signals now")
     return [
@@ -264,19 +277,6 @@ def _advance(model: SymbolicModel, given: Arguments) -> list[CFunction]:
             (travel, step, *given.signals), after, entries_of(values),
         )
     ]  # fmt: skip
-
-
-def _turned(model: SymbolicModel, signal: Signal, z: Expr) -> Expr:
-    """The bristle of Dahl's friction after a small travel: exact for constant direction."""
-    graph = model.graph
-    index = next(row.index for k, row in enumerate(model.geometry.rows) if k == signal.row)
-    assert index is not None
-    travel = graph.constant(0)
-    for k, coefficient in model.geometry.forms[index].items():
-        travel = travel + graph.symbol(f"dq[{k}]") * coefficient
-    way = graph.call("sign", travel)
-    share = graph.call("abs", travel) / graph.constant(Fraction(repr(signal.value)))
-    return way + (z - way) * graph.call("exp", -share)
 
 
 def grouping_function(model: SymbolicModel, base: BaseParameters, given: Arguments) -> CFunction:
@@ -291,17 +291,6 @@ def grouping_function(model: SymbolicModel, base: BaseParameters, given: Argumen
     return CFunction(
         "", "base_parameters", "Base parameters from standard ones: the grouping relations.",
         "beta = K chi", (given.chi,), given.beta, entries_of(values),
-    )  # fmt: skip
-
-
-def _kinematics(model: SymbolicModel, given: Arguments) -> CFunction:
-    poses = model.forward_kinematics()
-    meaning = "poses [R | p] of the links' frames in frame 0"
-    return CFunction(
-        "", "forward_kinematics", "Poses of the frames of all moving rows of the table, in order.",
-        "x0 = R x + p with T = [R | p], for a point x of the frame", (given.q,),
-        ArgumentSpec("T", (len(poses), 3, 4), "1 | m", meaning),
-        entries_of([value for pose in poses for row in pose for value in row]),
     )  # fmt: skip
 
 
@@ -348,16 +337,11 @@ def parameter_lines(spec: ModuleSpec, relations: Sequence[str]) -> tuple[list[st
     ]
     base = []
     for i, (parameter, text) in enumerate(zip(spec.base, relations, strict=True)):
-        base += _wrap(f"{i:4d}  {text}  [{parameter.unit}]", " " * 8)
-    return [comment_line(line) for line in standard], base
-
-
-def _wrap(text: str, indent: str) -> list[str]:
-    lines = textwrap.wrap(
-        text, _WIDTH - 4, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False,
-        drop_whitespace=True, initial_indent="",
-    )  # fmt: skip
-    return [line.replace("*/", "* /") for line in lines]
+        base += textwrap.wrap(
+            f"{i:4d}  {text}  [{parameter.unit}]", _WIDTH - 4, subsequent_indent=" " * 8,
+            break_long_words=False, break_on_hyphens=False,
+        )  # fmt: skip
+    return [comment_line(line) for line in standard], [line.replace("*/", "* /") for line in base]
 
 
 def comment_line(text: str) -> str:
@@ -413,72 +397,121 @@ def signal_lines(spec: ModuleSpec) -> list[str]:
     ]
 
 
-def observation_prototype(
-    prefix: str, restrict: str, status: bool = False, signals: bool = False
-) -> str:
-    """Prototype of the loop over samples that fills W."""
-    states = ["const double *q", "const double *qd", "const double *qdd"]
-    states += ["const double *s"] if signals else []
-    outputs = [f"double *{restrict}W", *(["int *status"] if status else [])]
-    return prototype(f"{prefix}_observation", ["size_t samples", *states, *outputs])
-
-
-def body_lines(function: CFunction, block: Block | None) -> list[str]:
+def body_lines(function: CFunction, block: Block) -> list[str]:
     """All statements of a function."""
-    size = function.output.size
+    name, size = function.output.name, function.output.size
     written = {index for index, _ in function.entries}
     zeros = [index for index in range(size) if index not in written]
     lines = [f"(void){name};" for name in unread(function, block)]
-    body = block.body if block is not None else ()
+    body = list(block.body)
     if len(zeros) > _FEW:
-        name = function.output.name
         lines.append(f"MODELER_ALL_ZEROS({name}, {size});")
-        body = _mixed(body, [f"MODELER_ZEROS({name} + {a}, {n});" for a, n in _runs(zeros)])
+        runs: list[tuple[int, int]] = []  # (first, length) of neighbouring places
+        for place in zeros:
+            first, length = runs[-1] if runs else (place, 0)
+            if place == first + length and 0 < length < _RUN:
+                runs[-1] = (first, length + 1)
+            else:
+                runs.append((place, 1))
+        # Evenly between the statements: stores that wait for no arithmetic.
+        stores = [f"MODELER_ZEROS({name} + {first}, {length});" for first, length in runs]
+        due = [k * len(stores) // len(body) for k in range(len(body))] + [len(stores)]
+        statements, body, done = body, [], 0
+        for k, end in enumerate(due):
+            body += [*stores[done:end], *statements[k : k + 1]]
+            done = end
     else:
-        lines += [f"{function.output.name}[{index}] = 0.0;" for index in zeros]
-    for part in (block.constants, block.calls, body) if block is not None else (body,):
+        lines += [f"{name}[{index}] = 0.0;" for index in zeros]
+    for part in (block.constants, block.calls, body):
         lines += ["", *part] if lines and part else part
     return lines
 
 
-def _runs(places: Sequence[int]) -> list[tuple[int, int]]:
-    """(first, length) of neighbouring places."""
-    runs: list[tuple[int, int]] = []
-    for place in places:
-        first, length = runs[-1] if runs else (place, 0)
-        if place == first + length and 0 < length < _RUN:
-            runs[-1] = (first, length + 1)
-        else:
-            runs.append((place, 1))
-    return runs
-
-
-def _mixed(statements: Sequence[str], more: Sequence[str]) -> tuple[str, ...]:
-    """The statements with `more` evenly between them: stores that wait for no arithmetic."""
-    mixed: list[str] = []
-    done = 0
-    for k, statement in enumerate(statements):
-        due = k * len(more) // len(statements)
-        mixed += [*more[done:due], statement]
-        done = due
-    return (*mixed, *more[done:])
-
-
-def unread(function: CFunction, block: Block | None) -> Iterable[str]:
+def unread(function: CFunction, block: Block) -> Iterable[str]:
     """Names of the inputs of which no entry is read."""
-    read = block.symbols if block else frozenset()
     for argument in function.inputs:
-        if read.isdisjoint(f"{argument.name}[{i}]" for i in range(argument.shape[0])):
+        if block.symbols.isdisjoint(f"{argument.name}[{i}]" for i in range(argument.shape[0])):
             yield argument.name
 
 
-def number_lines(numbers: Sequence[int]) -> list[str]:
-    """The numbers of a C table, in lines of readable length."""
-    return name_lines([str(number) for number in numbers])
-
-
-def name_lines(names: Sequence[str]) -> list[str]:
-    """Words of a C table or enum, in lines of readable length."""
+def name_lines(names: Iterable[object]) -> list[str]:
+    """Words or numbers of a C table or enum, in lines of readable length."""
     return textwrap.wrap(
-        ", ".join(names), _WIDTH - 4, break_long_words=False, break_on_hyphens=False
+        ", ".join(map(str, names)), _WIDTH - 4, break_long_words=False, break_on_hyphens=False
     )
+
+
+# C names: of the module, of geometric symbols, of arrays.
+
+
+# Headers of C99: a file of that name beside the code would stand in their place.
+_HEADERS = (
+    "assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits",
+    "locale", "math", "setjmp", "signal", "stdarg", "stdbool", "stddef", "stdint", "stdio",
+    "stdlib", "string", "tgmath", "time", "wchar", "wctype",
+)  # fmt: skip
+
+
+def module_prefix(robot: str) -> str:
+    """Start of all C names of a robot: `sr400-tree` -> `sr400_tree`, `3rrr` -> `robot_3rrr`.
+
+    Raises:
+        EmitError: the name would clash with the runtime's or a header of C.
+    """
+    prefix = re.sub(r"[^A-Za-z0-9_]+", "_", robot).strip("_").lower() or "robot"
+    if prefix[0].isdigit():
+        prefix = f"robot_{prefix}"
+    if prefix == "modeler" or prefix.startswith("modeler_"):
+        raise EmitError(f'name "{robot}": names that start with modeler_ are taken; choose another')
+    if prefix in _HEADERS:
+        raise EmitError(f'name "{robot}": {prefix}.h is a header of C; choose another')
+    return prefix
+
+
+def symbol_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
+    """{geometric symbol: macro}, spelled as in the table: D4 -> PUMA560_GEO_D4.
+
+    The `GEO` keeps them apart from macros of the header (PUMA560_JOINTS) and of <math.h>: robot
+    `fp` with a symbol `NAN` would define FP_NAN.
+
+    Raises:
+        EmitError: a symbol is not a C name.
+    """
+    macros: dict[str, str] = {}
+    for symbol in symbols:
+        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", symbol):
+            raise EmitError(
+                f"symbol {symbol} has letters that C names cannot have; use a-z, A-Z, 0-9 and _"
+            )
+        macros[symbol] = f"{prefix.upper()}_GEO_{symbol}"
+    return macros
+
+
+def enumerators(prefix: str, kind: str, names: Iterable[str]) -> list[str]:
+    """C constants of places in a list of parameters: PUMA560_BETA_ZZ1R, spelled as it is printed.
+
+    `BETA` and `CHI` keep them apart from the header's other names, as GEO does symbols. The reader
+    of robot files sees to it that parameters have different names of letters, digits and `_`.
+
+    Args:
+        prefix: of the module.
+        kind: "beta" or "chi".
+        names: of the parameters, in order.
+    """
+    return [f"{prefix}_{kind}_".upper() + name for name in names]
+
+
+def symbol_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
+    """{geometric symbol: C constant that the functions read}: D4 -> puma560_geo_D4.
+
+    What stands in a macro is text, and may be any expression: `-0.613-0.01` squared would be no
+    square. As the initialiser of a `const double` it is one number.
+    """
+    return {symbol: f"{prefix}_geo_{symbol}" for symbol in symbols}
+
+
+def graph_places(joints: int, symbols: dict[str, str], arrays: Iterable[str]) -> dict[str, str]:
+    """C text of every graph symbol: entries of arrays as they are named, geometric symbols."""
+    kinds = ("q", "qd", "qdd", "dq")
+    inputs = [f"{kind}[{i}]" for kind in kinds for i in range(joints)]
+    return {**symbols, **{name: name for name in (*inputs, *arrays)}}

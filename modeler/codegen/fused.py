@@ -6,11 +6,12 @@ One expression graph shares what drift and regressor have in common, leaves out 
 the tree's regressor, and reads the sines and cosines that the closure equations have computed.
 """
 
+import operator
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from modeler.codegen.block import Block, make_block
+from modeler.codegen.block import make_block
 from modeler.codegen.elimination import Elimination
 from modeler.codegen.functions import CFunction
 from modeler.codegen.targets import TILE
@@ -19,6 +20,12 @@ from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
 
 _TURNS = ("sin", "cos")
+_ARITHMETIC: Mapping[str, Callable[[Expr, Expr], Expr]] = {
+    "add": operator.add,
+    "mul": operator.mul,
+    "div": operator.truediv,
+    "pow": lambda base, exponent: base.graph.power(base, exponent),
+}
 
 
 @dataclass(frozen=True)
@@ -76,9 +83,32 @@ def fused_regressor(
         eliminated: the elimination of the others.
         turns: what stands in t.
     """
-    graph = model.graph
-    shares = _shares(model, given, eliminated)
-    moving = _moving(model, given, eliminated, turns, shares)
+    closure, graph = model.closure, model.graph
+    assert closure is not None
+    # Rows of G: {place among the given: entry} of each free variable.
+    shares: list[dict[int, Expr]] = [{} for _ in closure.home]
+    for j, k in enumerate(given):
+        shares[k][j] = graph.constant(1)
+    for at, (k, j, _) in enumerate(eliminated.coupling):
+        shares[k][j] = graph.symbol(f"G[{at}]")
+
+    def carried(name: str) -> list[Expr]:
+        return [
+            sum((share * graph.symbol(f"{name}[{j}]") for j, share in own.items()),
+                graph.constant(0))
+            for own in shares
+        ]  # fmt: skip
+
+    # Speeds and accelerations of the free variables, by symbol.
+    moving = {f"qd[{k}]": value for k, value in enumerate(carried("v"))}
+    drift = replaced(graph, closure.drift, turns.symbols, moving)
+    right = {f"right[{i}]": value for i, value in enumerate(drift)}
+    back = replaced(graph, eliminated.solution, {}, right)
+    accelerations = carried("a")
+    solved = [k for k in range(len(shares)) if k not in given]
+    for k, value in zip(solved, back, strict=True):
+        accelerations[k] = accelerations[k] - value
+    moving |= {f"qdd[{k}]": value for k, value in enumerate(accelerations)}
     columns = base_columns(model, base)
     values = replaced(graph, list(columns.values()), turns.symbols, moving)
     phi: dict[int, Expr] = {}
@@ -91,48 +121,6 @@ def fused_regressor(
     return tuple((at, phi[at]) for at in order if not phi[at].is_zero)
 
 
-def _shares(
-    model: SymbolicModel, given: Sequence[int], eliminated: Elimination
-) -> list[dict[int, Expr]]:
-    """Rows of G: {place among the given: entry} of each free variable."""
-    assert model.closure is not None
-    shares: list[dict[int, Expr]] = [{} for _ in model.closure.home]
-    for j, k in enumerate(given):
-        shares[k][j] = model.graph.constant(1)
-    for at, (k, j, _) in enumerate(eliminated.coupling):
-        shares[k][j] = model.graph.symbol(f"G[{at}]")
-    return shares
-
-
-def _moving(
-    model: SymbolicModel,
-    given: Sequence[int],
-    eliminated: Elimination,
-    turns: Turns,
-    shares: Sequence[Mapping[int, Expr]],
-) -> dict[str, Expr]:
-    """Speeds and accelerations of the free variables, by symbol."""
-    closure, graph = model.closure, model.graph
-    assert closure is not None
-
-    def carried(name: str) -> list[Expr]:
-        return [
-            sum((share * graph.symbol(f"{name}[{j}]") for j, share in own.items()),
-                graph.constant(0))
-            for own in shares
-        ]  # fmt: skip
-
-    speeds = {f"qd[{k}]": value for k, value in enumerate(carried("v"))}
-    drift = replaced(graph, closure.drift, turns.symbols, speeds)
-    right = {f"right[{i}]": value for i, value in enumerate(drift)}
-    back = replaced(graph, eliminated.solution, {}, right)
-    accelerations = carried("a")
-    solved = [k for k in range(len(shares)) if k not in given]
-    for k, value in zip(solved, back, strict=True):
-        accelerations[k] = accelerations[k] - value
-    return speeds | {f"qdd[{k}]": value for k, value in enumerate(accelerations)}
-
-
 def replaced(
     graph: Graph,
     outputs: Sequence[Expr],
@@ -141,36 +129,26 @@ def replaced(
 ) -> list[Expr]:
     """The outputs with other expressions in place of some nodes, and of symbols by name."""
     found: dict[int, Expr] = {0: graph.constant(0), **nodes}
+
+    def signed(ref: int) -> Expr:
+        return found[ref] if ref >= 0 else -found[-ref]
+
     for index in graph.reachable(outputs):
-        if index not in found:
-            found[index] = _rebuilt(graph, index, found, symbols)
-    return [_signed(found, output.ref) for output in outputs]
-
-
-def _signed(found: Mapping[int, Expr], ref: int) -> Expr:
-    return found[ref] if ref >= 0 else -found[-ref]
-
-
-def _rebuilt(
-    graph: Graph, index: int, found: Mapping[int, Expr], symbols: Mapping[str, Expr]
-) -> Expr:
-    node = graph.nodes[index]
-    if node.op == "sym":
-        return symbols.get(node.args[0], Expr(graph, index))
-    if node.op in ("num", "pi") or node.static:
-        return Expr(graph, index)
-    args = [_signed(found, arg) for arg in node.args]
-    if all(new.ref == old for new, old in zip(args, node.args, strict=True)):
-        return Expr(graph, index)
-    if node.op == "add":
-        return args[0] + args[1]
-    if node.op == "mul":
-        return args[0] * args[1]
-    if node.op == "div":
-        return args[0] / args[1]
-    if node.op == "pow":
-        return graph.power(args[0], args[1])
-    return graph.call(node.op, args[0])
+        if index in found:
+            continue
+        node, found[index] = graph.nodes[index], Expr(graph, index)
+        if node.op == "sym":
+            found[index] = symbols.get(node.args[0], found[index])
+        if node.op in ("sym", "num", "pi") or node.static:
+            continue
+        args = [signed(arg) for arg in node.args]
+        if all(new.ref == old for new, old in zip(args, node.args, strict=True)):
+            continue
+        if node.op in _ARITHMETIC:
+            found[index] = _ARITHMETIC[node.op](*args)
+        else:
+            found[index] = graph.call(node.op, args[0])
+    return [signed(output.ref) for output in outputs]
 
 
 # The unit of tiles: base regressors of some samples at once, each in a lane of its own.
@@ -227,9 +205,18 @@ def tile_of(
         function.entries, key=lambda entry: (nonzeros[entry[0]][1], -nonzeros[entry[0]][0])
     )
     outputs = [(f"MODELER_PUT({index})", value) for index, value in entries]
-    block = make_block(outputs, {s: _lane(place) for s, place in places.items()}, target=TILE)
+    # `q[3]` of all lanes is the variable q_3.
+    lanes = {s: re.sub(r"^(q|qd|qdd|s)\[(\d+)\]$", r"\1_\2", at) for s, at in places.items()}
+    block = make_block(outputs, lanes, target=TILE)
     lengths = {argument.name: argument.shape[0] for argument in function.inputs}
-    loads = _loads(lengths, block)
+    loads: dict[str, list[str]] = {}
+    for name, length in lengths.items():
+        rows = f"_OF_ONE({name})" if length == 1 else f"({name}, {length}, {{}})"
+        loads[name] = [
+            f"const modeler_lanes {name}_{i} = MODELER_ROWS{rows.format(i)};"
+            for i in range(length)
+            if f"{name}[{i}]" in block.symbols
+        ]
     unread = tuple(name for name in ("q", "qd", "qdd", "s") if not loads.get(name))
     parts = [
         [f"(void){name};" for name in unread], block.constants,
@@ -247,27 +234,3 @@ def tile_of(
         multiplications=block.multiplications,
         signals=lengths.get("s", 0),
     )
-
-
-def _loads(lengths: Mapping[str, int], block: Block) -> dict[str, list[str]]:
-    """Of each input, the statements that take what is read of it."""
-    return {
-        name: [
-            f"const modeler_lanes {name}_{i} = {_load(name, length, i)};"
-            for i in range(length)
-            if f"{name}[{i}]" in block.symbols
-        ]
-        for name, length in lengths.items()
-    }
-
-
-def _lane(place: str) -> str:
-    """`q[3]` of all lanes is the variable q_3."""
-    entry = re.fullmatch(r"(q|qd|qdd|s)\[(\d+)\]", place)
-    return f"{entry[1]}_{entry[2]}" if entry else place
-
-
-def _load(name: str, length: int, index: int) -> str:
-    if length == 1:
-        return f"MODELER_ROWS_OF_ONE({name})"
-    return f"MODELER_ROWS({name}, {length}, {index})"

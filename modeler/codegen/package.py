@@ -4,29 +4,31 @@ import hashlib
 import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import jinja2
 
-from modeler.codegen.examples import (
-    COUNT,
-    EXAMPLES,
-    FOLDER,
-    PROGRAMS,
-    SELF_CHECK,
-    call_head,
-    count_values,
-    example_values,
-    examples_of,
-)
 from modeler.codegen.targets import of_precision
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
 from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec
+
+# The programs of a folder.
+
+
+FOLDER = "programs"
+"""Of a module's folder, so that all C files beside the library's are the library's."""
+
+EXAMPLES = ("example_computed_torque", "example_residual_observer")
+"""Templates, and names of the programs."""
+
+SELF_CHECK = "self_check"
+COUNT = "count_instructions"
+PROGRAMS = (SELF_CHECK, COUNT, *EXAMPLES)
+"""All programs that a module may have."""
 
 # Which files of a folder an earlier `modeler generate` wrote, and as what.
 #
@@ -208,25 +210,6 @@ C_INTERFACE = 1
 """Raised when a function of the emitted C takes other arguments under the same name."""
 
 
-@dataclass(frozen=True)
-class Package:
-    """How build systems see the folder.
-
-    Attributes:
-        signature: of the manifest; where it has fitted values, with these.
-        version: see `package_version`.
-        sources: C files of the library.
-        headers: all that its objects depend on.
-        public: headers that a controller includes, installed.
-    """
-
-    signature: str
-    version: str
-    sources: tuple[str, ...]
-    headers: tuple[str, ...]
-    public: tuple[str, ...]
-
-
 def package_version(signature: str) -> str:
     """`1.4660.22136.43981`: the C interface, then 48 bits of the signature, 16 in each number.
 
@@ -265,20 +248,13 @@ def package_files(
         "every": every,
         "fitted": spec.fitted,
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
-        **_counts(values["functions"], prefix),
+        # Operations of closing loops: equations and derivatives, and the solution.
+        "turn": _operations(values["functions"], f"{prefix}_tree_closure"),
+        "solving": _operations(
+            values["functions"], f"{prefix}_tree_factor", f"{prefix}_tree_solve"
+        ),
     }
-    texts = {name: render(template, **given) for name, template in _names(prefix).items()}
-    own = {name: example_values(spec, name) for name in examples}
-    own |= {SELF_CHECK: _checked(every, prefix)}
-    own |= {COUNT: count} if count is not None else {}
-    for name, more in own.items():
-        texts[f"{FOLDER}/{name}.c"] = render(f"{name}.c", **given, **more)
-    return of_precision(spec.precision, texts)
-
-
-def _names(prefix: str) -> dict[str, str]:
-    """{file: template} of what every folder has."""
-    return {
+    templates = {
         "Makefile": "Makefile",
         "CMakeLists.txt": "CMakeLists.txt",
         f"{prefix}.pc.in": "package.pc.in",
@@ -286,49 +262,114 @@ def _names(prefix: str) -> dict[str, str]:
         f"{prefix}-config-version.cmake": "config-version.cmake",
         "README.md": "README.md",
     }
-
-
-def _package(spec: ModuleSpec, code: Mapping[str, str]) -> Package:
-    prefix = spec.prefix
-    signature = spec.signature() if spec.fitted is None else spec.fitted.signature
-    public = [
-        name for name in (f"{prefix}.h", f"{prefix}_fitted.h", f"{prefix}_tile.h") if name in code
-    ]
-    for name in public:  # grows while it is read
-        public += [h for h in _included(code[name]) if h in code and h not in public]
-    return Package(
-        signature=signature,
-        version=package_version(signature),
-        sources=tuple(name for name in code if name.endswith(".c")),
-        headers=tuple(name for name in code if name.endswith(".h")),
-        public=tuple(public),
-    )
-
-
-def _included(text: str) -> list[str]:
-    return re.findall(r'^#include "([^"]+)"', text, flags=re.MULTILINE)
-
-
-def _checked(every: Sequence[FunctionSpec], prefix: str) -> dict[str, Any]:
-    """The functions in the order of the check: what is compared with others comes after them."""
+    texts = {name: render(template, **given) for name, template in templates.items()}
+    # What is compared with others is checked after them.
     products = {f"{prefix}_{role}" for role in PRODUCTS}
     order = sorted(every, key=lambda f: (f.name in products, f.name != f"{prefix}_base_parameters"))
     largest = max(f.outputs[0].size for f in every)
-    return {"checked": order, "products": PRODUCTS, "turning": TURNING, "largest": largest}
+    checked = {"checked": order, "products": PRODUCTS, "turning": TURNING, "largest": largest}
+    own = {name: example_values(spec, name) for name in examples} | {SELF_CHECK: checked}
+    own |= {COUNT: count} if count is not None else {}
+    for name, more in own.items():
+        texts[f"{FOLDER}/{name}.c"] = render(f"{name}.c", **given, **more)
+    return of_precision(spec.precision, texts)
 
 
-def _counts(functions: Sequence[Any], prefix: str) -> dict[str, dict[str, int]]:
-    """Operations of closing loops: equations and derivatives, and the solution."""
+def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
+    """How build systems see the folder.
+
+    The signature is the manifest's, with fitted values where it has any; all objects depend on the
+    headers, of which those that a controller includes are public, and installed.
+    """
+    signature = spec.signature() if spec.fitted is None else spec.fitted.signature
+    heads = (f"{spec.prefix}.h", f"{spec.prefix}_fitted.h", f"{spec.prefix}_tile.h")
+    public = [name for name in heads if name in code]
+    for name in public:  # grows while it is read
+        included = re.findall(r'^#include "([^"]+)"', code[name], flags=re.MULTILINE)
+        public += [h for h in included if h in code and h not in public]
     return {
-        "turn": _operations(functions, f"{prefix}_tree_closure"),
-        "solving": _operations(functions, f"{prefix}_tree_factor", f"{prefix}_tree_solve"),
+        "signature": signature,
+        "version": package_version(signature),
+        "sources": [name for name in code if name.endswith(".c")],
+        "headers": [name for name in code if name.endswith(".h")],
+        "public": public,
     }
 
 
 def _operations(functions: Sequence[Any], *names: str) -> dict[str, int]:
     """Operations of the functions of these names together."""
-    own = [f for f in functions if f.name in names]
+    kinds = ("additions", "multiplications")
+    return {k: sum(getattr(f, k) for f in functions if f.name in names) for k in kinds}
+
+
+# The example programs of a fitted module: which there are, and their calls as finished strings.
+
+
+def examples_of(spec: ModuleSpec) -> tuple[str, ...]:
+    """Those of a module: none without values, nor where a joint of q has no motor to obey."""
+    every = all(joint.actuated for joint in spec.joints)
+    return EXAMPLES if spec.fitted is not None and every else ()
+
+
+def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
+    """What the template of the program that counts instructions needs besides.
+
+    None of a robot with loops: how many turns of Newton close them depends on the posture.
+    """
+    if spec.closure is not None:
+        return None
+    functions = (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
     return {
-        "additions": sum(f.additions for f in own),
-        "multiplications": sum(f.multiplications for f in own),
+        "states": 16,
+        "largest": max(f.outputs[0].size for f in functions),
+        "counted": [
+            {
+                "name": f.name,
+                "role": f.name.removeprefix(f"{spec.prefix}_"),
+                "inputs": [argument.name for argument in f.inputs],
+            }
+            for f in functions
+        ],
+        "counts_of_inputs": sorted({len(f.inputs) for f in functions}),
     }
+
+
+def example_values(spec: ModuleSpec, name: str) -> dict[str, Any]:
+    """What the template of an example needs besides the values of all templates."""
+    assert spec.fitted is not None
+    roles = {f.name.removeprefix(f"{spec.prefix}_fitted_"): f for f in spec.fitted.functions}
+    measured = [k for k, signal in enumerate(spec.signals) if signal.kind == "temperature"]
+    torque = name == EXAMPLES[0]
+    line = "q, qd, commanded q, qd, qdd" if torque else "q, qd, tau"
+    values = {"temperatures": measured, "line": f"{line}, temperatures" if measured else line}
+    if torque:
+        now = {"q": "now->q", "qd": "now->qd", "qdd": "v", "s": "own->s"}
+        return {
+            **values,
+            "torque": call_head(roles["inverse_dynamics"], now),
+            "friction": call_head(roles["friction"], now),
+            "friction_d": call_head(roles["friction"], {**now, "qd": "now->qd_d"}),
+        }
+    now = {"qdd": "a", "s": "own->s"}
+    reads = {argument.name for argument in roles["friction"].inputs}
+    return {
+        **values,
+        "matrix": call_head(roles["inertia_matrix"], now),
+        "gravity": call_head(roles["gravity"], now),
+        "friction": call_head(roles["friction"], now),
+        "coriolis_ahead": call_head(roles["coriolis"], {**now, "qd": "ahead"}),
+        "coriolis_behind": call_head(roles["coriolis"], {**now, "qd": "behind"}),
+        "friction_reads_acceleration": "qdd" in reads,
+        "uses_own": "s" in reads,
+    }
+
+
+def call_head(function: FunctionSpec, named: Mapping[str, str] | None = None) -> str:
+    """The call up to its output: `wrist_gravity(q, beta`.
+
+    Args:
+        function: that is called.
+        named: {argument: C text that stands for it}; others are called as they are named.
+    """
+    given = ((named or {}).get(argument.name, argument.name) for argument in function.inputs)
+    return f"{function.name}({', '.join(given)}"

@@ -3,6 +3,7 @@
 One emitter writes a function for doubles, for floats, and for a vector whose lanes are samples.
 """
 
+import dataclasses
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -51,16 +52,12 @@ class Target:
         return self.constant or self
 
 
-def _largest(digits: int, exponent: int) -> Fraction:
-    return Fraction(2**digits - 1) * 2 ** (exponent - digits)
-
-
 DOUBLE = Target(
     number="double",
     suffix="",
     precision="double",
     exact=2**53,
-    largest=_largest(53, 1024),
+    largest=Fraction(2**53 - 1) * 2 ** (1024 - 53),
     functions=MappingProxyType(_MATH | {"sign": "modeler_sign"}),
     sincos="modeler_sincos",
     smooth_sign="smooth_sign",
@@ -71,7 +68,7 @@ SINGLE = Target(
     suffix="f",
     precision="single",
     exact=2**24,
-    largest=_largest(24, 128),
+    largest=Fraction(2**24 - 1) * 2 ** (128 - 24),
     functions=MappingProxyType(
         {name: f"{c}f" for name, c in _MATH.items()} | {"sign": "modelerf_sign"}
     ),
@@ -82,12 +79,12 @@ SINGLE = Target(
 OF_PRECISION: Mapping[Precision, Target] = MappingProxyType({"double": DOUBLE, "single": SINGLE})
 """Targets of one sample."""
 
-TILE = Target(
+CUDA = dataclasses.replace(DOUBLE, sincos="sincos")
+"""CUDA has all functions of math.h, and one of its own for both."""
+
+TILE = dataclasses.replace(
+    DOUBLE,
     number="modeler_lanes",
-    suffix="",
-    precision="double",
-    exact=DOUBLE.exact,
-    largest=DOUBLE.largest,
     functions=MappingProxyType({name: f"modeler_lanes_{c}" for name, c in _MATH.items()}),
     sincos="modeler_lanes_sincos",
     smooth_sign="modeler_lanes_smooth_sign",
@@ -164,21 +161,13 @@ def _word(match: re.Match[str]) -> str:
     if match["text"]:
         return word.replace("%lf", "%f").replace("%.17g", "%.9g")
     if match["number"] and re.fullmatch(r"[\d.]+([eE][+-]?\d+)?f?", word) and not word.isdigit():
-        return number_in_single(word.removesuffix("f"))
+        literal = word.removesuffix("f")
+        value = float(literal)
+        if value != 0.0 and not SMALLEST <= value <= LARGEST:
+            raise EmitError(
+                f"number {literal} is too {'large' if value > 1 else 'small'} for single "
+                f"precision, which has {SMALLEST:.2g} to {LARGEST:.2g}; rescale it, or generate in "
+                "double precision"
+            )
+        return f"{literal}f"
     return word
-
-
-def number_in_single(literal: str) -> str:
-    """A literal of C as one of single precision: the float nearest to what it says.
-
-    Raises:
-        EmitError: there is none but infinity, or one of fewer digits.
-    """
-    value = float(literal)
-    if value != 0.0 and not SMALLEST <= value <= LARGEST:
-        raise EmitError(
-            f"number {literal} is too {'large' if value > 1 else 'small'} for single precision, "
-            f"which has {SMALLEST:.2g} to {LARGEST:.2g}; rescale it, or generate in double "
-            "precision"
-        )
-    return f"{literal}f"

@@ -37,21 +37,24 @@ PLATFORM_FUNCTIONS = {
 READ_SIGNALS = ("regressor", "base_regressor", "base_regressor_nonzeros", "inverse_dynamics")
 """Functions with one input more where effects read signals."""
 
-_RUNTIME = """
-typedef struct { const double *data; size_t step; } modeler_input;
-void modeler_batch_1(void *, size_t, const modeler_input *, double *, size_t);
-void modeler_batch_2(void *, size_t, const modeler_input *, double *, size_t);
-void modeler_batch_3(void *, size_t, const modeler_input *, double *, size_t);
-void modeler_batch_4(void *, size_t, const modeler_input *, double *, size_t);
-void modeler_batch_5(void *, size_t, const modeler_input *, double *, size_t);
-"""
+_INPUT = "typedef struct { const double *data; size_t step; } modeler_input;"
+_BATCH = "void modeler_batch_{}(void *, size_t, const modeler_input *, double *, size_t{});"
 
-_LOOP_RUNTIME = """
-void modeler_batch_status_1(void *, size_t, const modeler_input *, double *, size_t, int *);
-void modeler_batch_status_2(void *, size_t, const modeler_input *, double *, size_t, int *);
-void modeler_batch_status_3(void *, size_t, const modeler_input *, double *, size_t, int *);
-void modeler_batch_status_4(void *, size_t, const modeler_input *, double *, size_t, int *);
-"""
+
+def _opened(declared: str, path: Path) -> tuple[cffi.FFI, Any]:
+    """The library at `path` with these functions.
+
+    Raises:
+        BuildError: it cannot be loaded.
+    """
+    ffi = cffi.FFI()
+    ffi.cdef(declared)
+    try:
+        return ffi, ffi.dlopen(str(path))
+    except OSError as error:
+        raise BuildError(
+            f"{path}: the compiled library cannot be loaded ({error}); delete it and try again"
+        ) from error
 
 
 class Library:
@@ -72,33 +75,27 @@ class Library:
             ManifestError: it was emitted with another manifest.
         """
         self.spec = spec
-        self._ffi = cffi.FFI()
         self._single = spec.precision == "single"
-        loops = _LOOP_RUNTIME if spec.closure is not None else ""
-        declared = _RUNTIME + loops + _declarations(spec)
-        self._ffi.cdef(_in_single(declared) if self._single else declared)
+        self._runtime = "modelerf" if self._single else "modeler"  # start of the names of the C's
+        declared = _declarations(spec)
+        if self._single:
+            declared = re.sub(r"\bdouble\b", "float", declared)
+            declared = re.sub(r"\bmodeler_", "modelerf_", declared)
+        self._ffi, self._library = _opened(declared, path)
         try:
-            self._library: Any = self._ffi.dlopen(str(path))
-            self._check()
-        except OSError as error:
-            raise BuildError(
-                f"{path}: the compiled library cannot be loaded ({error}); delete it and try again"
-            ) from error
+            answer = self._ffi.string(self._function("signature")()).decode()
+            if answer != spec.signature():
+                raise ManifestError(
+                    f"{spec.robot}: the compiled code answers {answer}, the manifest expects "
+                    f"{spec.signature()}; one of them is older, generate both again"
+                )
+            for function in spec.functions:
+                getattr(self._library, function.name)
         except AttributeError as error:
             raise ManifestError(
                 f"{spec.robot}: the compiled code lacks what its manifest names ({error}); "
                 "generate both again"
             ) from error
-
-    def _check(self) -> None:
-        answer = self._ffi.string(self._function("signature")()).decode()
-        if answer != self.spec.signature():
-            raise ManifestError(
-                f"{self.spec.robot}: the compiled code answers {answer}, the manifest expects "
-                f"{self.spec.signature()}; one of them is older, generate both again"
-            )
-        for function in self.spec.functions:
-            getattr(self._library, function.name)
 
     def _function(self, role: str) -> Any:
         return getattr(self._library, f"{self.spec.prefix}_{role}")
@@ -133,32 +130,27 @@ class Library:
         step = out.size // samples if samples else 0
         pointer = self._ffi.cast("void *", getattr(self._library, function.name))
         arguments = [pointer, samples, given, self._numbers(result), step]
-        if status is None:
-            getattr(self._library, f"{runtime}_batch_{len(inputs)}")(*arguments)
-        else:
-            driver = getattr(self._library, f"{runtime}_batch_status_{len(inputs)}")
-            driver(*arguments, self._integers(status))
+        kind = ""
+        if status is not None:
+            kind, arguments = "status_", [*arguments, self._integers(status)]
+        getattr(self._library, f"{runtime}_batch_{kind}{len(inputs)}")(*arguments)
         self._give_back(result, out)
 
     def observation(
-        self,
-        q: np.ndarray,
-        qd: np.ndarray,
-        qdd: np.ndarray,
-        W: np.ndarray,
-        status: np.ndarray | None = None,
-        s: np.ndarray | None = None,
+        self, states: Sequence[np.ndarray], W: np.ndarray, status: np.ndarray | None = None
     ) -> None:
-        """Fill W, (n*joints, columns), from (n, joints) arrays; (n,) `status` with loops.
+        """Fill W, (n*joints, columns).
 
-        s: (n, signals), for effects that read any.
+        Args:
+            states: (n, joints) q, qd, qdd and, for effects that read any, (n, signals) s.
+            W: is filled.
+            status: (n,) of the loops, where there are any.
         """
-        arrays = self._own([a for a in (q, qd, qdd, s) if a is not None])
-        result = self._place(W)
+        arrays, result = self._own(states), self._place(W)
         arguments = [self._numbers(a) for a in (*arrays, result)]
         if status is not None:
             arguments.append(self._integers(status))
-        self._function("observation")(len(q), *arguments)
+        self._function("observation")(len(states[0]), *arguments)
         self._give_back(result, W)
 
     def base_parameters(self, function: FunctionSpec, chi: np.ndarray, beta: np.ndarray) -> None:
@@ -166,11 +158,6 @@ class Library:
         (given,), result = self._own([chi]), self._place(beta)
         getattr(self._library, function.name)(self._numbers(given), self._numbers(result))
         self._give_back(result, beta)
-
-    @property
-    def _runtime(self) -> str:
-        """Start of the names of the C runtime."""
-        return "modelerf" if self._single else "modeler"
 
     def _own(self, arrays: Sequence[np.ndarray]) -> list[np.ndarray]:
         """The arrays as the code reads them."""
@@ -226,18 +213,16 @@ def check_names(spec: ModuleSpec) -> None:
             )
 
 
-def _in_single(declared: str) -> str:
-    """Declarations of the same code in single precision."""
-    return re.sub(r"\bmodeler_", "modelerf_", re.sub(r"\bdouble\b", "float", declared))
-
-
 def _declarations(spec: ModuleSpec) -> str:
-    status = ", int *" if spec.closure is not None else ""
+    loops = spec.closure is not None
     signals = "const double *, " if spec.signals else ""
     lines = [
+        _INPUT,
+        *(_BATCH.format(count, "") for count in range(1, 6)),
+        *(_BATCH.format(f"status_{count}", ", int *") for count in range(1, 5) if loops),
         f"const char *{spec.prefix}_signature(void);",
         f"void {spec.prefix}_observation(size_t, const double *, const double *, const double *, "
-        f"{signals}double *{status});",
+        f"{signals}double *{', int *' if loops else ''});",
     ]
     for function in spec.functions:
         inputs = ", ".join("const double *" for _ in function.inputs)
@@ -312,10 +297,7 @@ class Samples(NamedTuple):
 
     def part(self, block: slice) -> "Samples":
         """The samples of a block."""
-        s, use, weight = (x if x is None else x[block] for x in (self.s, self.use, self.weight))
-        return Samples(
-            self.q[block], self.qd[block], self.qdd[block], self.tau[block], s, use, weight
-        )
+        return Samples._make(None if array is None else array[block] for array in self)
 
 
 class FusedLibrary:
@@ -327,14 +309,7 @@ class FusedLibrary:
         Raises:
             BuildError: it cannot be loaded.
         """
-        self._ffi = cffi.FFI()
-        self._ffi.cdef(_FUSED_DECLARED)
-        try:
-            self._library: Any = self._ffi.dlopen(str(path))
-        except OSError as error:
-            raise BuildError(
-                f"{path}: the compiled library cannot be loaded ({error}); delete it and try again"
-            ) from error
+        self._ffi, self._library = _opened(_FUSED_DECLARED, path)
 
     def level(self, wanted: int = 0) -> int:
         """Which instructions a wanted level means here; 0: the best.
@@ -357,8 +332,7 @@ class FusedLibrary:
             state: triangles of all joints one after another, changed.
             rows: (joints,) of numpy.uintp, increased.
         """
-        joints = given.q.shape[1]
-        source = self._source(rows_of_entries, functions, joints)
+        source = self._source(rows_of_entries, functions, given.q.shape[1])
         work = self._work(self._library.modeler_fused_work(source))
         bad = np.zeros(len(given.q), dtype=np.uint8)
         self._library.modeler_fused_triangles(
@@ -506,14 +480,8 @@ class TileLibrary:
             BuildError: it cannot be loaded.
             ManifestError: it was emitted with another manifest.
         """
-        self._ffi = cffi.FFI()
-        self._ffi.cdef(_TILE_DECLARED.format(prefix=spec.prefix))
-        try:
-            self._library: Any = self._ffi.dlopen(str(path))
-        except OSError as error:
-            raise BuildError(
-                f"{path}: the compiled library cannot be loaded ({error}); delete it and try again"
-            ) from error
+        declared = _TILE_DECLARED.format(prefix=spec.prefix)
+        self._ffi, self._library = _opened(declared, path)
         answer = getattr(self._library, f"{spec.prefix}_tile_signature")()
         if (got := self._ffi.string(answer).decode()) != spec.signature():
             raise ManifestError(

@@ -69,15 +69,12 @@ def find_toolchain() -> Toolchain:
             raise BuildError(
                 f'C compiler: got CC="{wanted}", which is not found; correct it, or {_INSTALL}'
             )
-        return _examined(command, _own_flags())
-    for name in ("cc", "gcc", "clang"):
-        if shutil.which(name) is not None:
-            return _examined((name,), _own_flags())
-    raise BuildError(f"C compiler: none of cc, gcc, clang is found; {_INSTALL}")
-
-
-def _own_flags() -> tuple[str, ...]:
-    return _words("CFLAGS", os.environ.get("CFLAGS", ""))
+    else:
+        found = [(name,) for name in ("cc", "gcc", "clang") if shutil.which(name) is not None]
+        if not found:
+            raise BuildError(f"C compiler: none of cc, gcc, clang is found; {_INSTALL}")
+        command = found[0]
+    return _examined(command, _words("CFLAGS", os.environ.get("CFLAGS", "")))
 
 
 def _words(variable: str, text: str) -> tuple[str, ...]:

@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.checks import as_samples, as_vector, no_signals, same_samples
+from modeler.core.checks import as_samples, as_vector
 from modeler.core.errors import LoopError, ManifestError, ShapeError
 from modeler.core.files import read_file
 from modeler.core.manifest import MANIFEST, Emitted, FunctionSpec, ModuleSpec, module_from_json
 from modeler.core.result import Presented
 from modeler.runtime.bind import Library, check_names
 from modeler.runtime.build import build_library
-from modeler.runtime.fused import Reducing, Tiling, checked_out
+from modeler.runtime.fused import Reducing, checked_out
 
 _STATUS = {
     1: "the loops cannot be closed",
@@ -24,7 +24,7 @@ _STATUS = {
 """What a status of the C code says."""
 
 
-class CompiledModel(Tiling, Reducing, Presented):
+class CompiledModel(Reducing, Presented):
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
 
     q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the
@@ -80,10 +80,9 @@ class CompiledModel(Tiling, Reducing, Presented):
         shape = (len(inputs[0]) * self._joints, len(self.spec.base))
         W = np.empty(shape) if out is None else checked_out(out, shape)
         if not self._fill(inputs, W, dense=True):
-            q, qd, qdd, *signals = inputs
-            status = self._no_status(len(q))
-            self._library.observation(q, qd, qdd, W, status, *signals)
-            self._check(status, q)
+            status = self._no_status(len(inputs[0]))
+            self._library.observation(inputs, W, status)
+            self._check(status, inputs[0])
         return W
 
     def inverse_dynamics(self, q: Any, qd: Any, qdd: Any, beta: Any, s: Any = None) -> np.ndarray:
@@ -175,17 +174,6 @@ class CompiledModel(Tiling, Reducing, Presented):
         self._library.base_parameters(function, given, beta)
         return beta
 
-    def _motion(self, q: Any, qd: Any, qdd: Any, s: Any) -> tuple[np.ndarray, ...]:
-        """Checked q, qd, qdd and, where effects read any, signals."""
-        states = self._states({"q": q, "qd": qd, "qdd": qdd})
-        signals = self._signals(s, len(states["q"]))
-        return (*states.values(), *(() if signals is None else (signals,)))
-
-    def _states(self, arrays: Mapping[str, Any]) -> dict[str, np.ndarray]:
-        checked = {name: as_samples(a, name, self._joints) for name, a in arrays.items()}
-        same_samples(checked)
-        return checked
-
     def advance(self, dq: Any, dt: float, s: Any) -> np.ndarray:
         """The signals of effects one sample later, (m,): time and bristles; see the header.
 
@@ -205,20 +193,6 @@ class CompiledModel(Tiling, Reducing, Presented):
         out = np.empty((1, len(self.spec.signals)))
         self._library.batch(function, given, out)
         return out[0]
-
-    def _signals(self, s: Any, samples: int, finite: bool = True) -> np.ndarray | None:
-        """(n, m) signals of effects; None where the robot has none, and must be given none."""
-        wanted = len(self.spec.signals)
-        if not wanted:
-            no_signals(s, self.spec.robot)
-            return None
-        if s is None:
-            names = ", ".join(f"{x.kind} {x.joint}".strip() for x in self.spec.signals)
-            raise ShapeError(f"{self.spec.robot}: its effects read signals; give s ({names})")
-        checked = as_samples(s, "s", wanted, finite)
-        if len(checked) != samples:
-            raise ShapeError(f"s: got {len(checked)} samples, expected {samples} as of q")
-        return checked
 
     def _evaluate(
         self, role: str, states: Mapping[str, Any], beta: Any = None, s: Any = None

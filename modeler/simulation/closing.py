@@ -1,5 +1,6 @@
 """The joints that follow: closed postures along a commanded motion, speeds, and what ties cost."""
 
+import dataclasses
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -8,8 +9,9 @@ import casadi as ca
 import numpy as np
 
 from modeler.core.errors import DataError, RobotError
-from modeler.robot.robot import Robot
+from modeler.robot.robot import Limits, Robot
 from modeler.simulation.rigid import FUNCTIONS, Frame, world_frames
+from modeler.simulation.trajectory import Reference
 
 # What ties the joints of a simulated robot: relations and loops, as equations in all joints.
 #
@@ -49,7 +51,9 @@ def constraints_of(robot: Robot) -> Constraints:
         v[names.index(name)] - relation.fold(values, FUNCTIONS, float(np.pi), float)
         for name, relation in robot.relations.items()
     ]
-    size = _size(robot)
+    # The largest of the robot's lengths, m; 1 where none has a symbol.
+    lengths = [abs(value) for name, value in robot.symbol_values().items() if name != "g"]
+    size = max(lengths, default=1.0) or 1.0
     frames = {
         name: Frame(frame.rotation, frame.position / size, frame.axis)
         for name, frame in world_frames(robot, v).items()
@@ -68,12 +72,6 @@ def constraints_of(robot: Robot) -> Constraints:
         curvature=ca.Function("k", [v, vd], [ca.densify(ca.cse(bend))]),
         units=np.array([1.0 if joint.angular else size for joint in moving]),
     )
-
-
-def _size(robot: Robot) -> float:
-    """The largest of the robot's lengths, m; 1 where none has a symbol."""
-    values = robot.symbol_values().items()
-    return max((abs(value) for name, value in values if name != "g"), default=1.0) or 1.0
 
 
 def sampled(function: ca.Function, *samples: np.ndarray) -> np.ndarray:
@@ -300,24 +298,14 @@ def _polished(constraints: Constraints, v: np.ndarray) -> tuple[np.ndarray, np.n
         open_ = np.flatnonzero(np.max(np.abs(c), axis=1) >= _CLOSED)
         if not open_.size:
             break
-        Q, R = _factors(constraints, v[open_])
-        if not np.all(_regular(R)):
-            break
+        Q, R = np.linalg.qr(sampled(constraints.slope, v[open_])[:, :, constraints.others])
+        diagonal = np.abs(np.diagonal(R, axis1=1, axis2=2))
+        if not np.all(diagonal.min(axis=1) > _SINGULAR * diagonal.max(axis=1)):
+            break  # joints that are not given are not determined
         step = _least(Q, R, c[open_])
         longest = np.max(np.abs(step), axis=1, keepdims=True)
         v[open_[:, None], constraints.others] -= step * np.minimum(1.0, _LONGEST / longest)
     return v, np.max(np.abs(sampled(constraints.value, v)[:, :, 0]), axis=1) < _CLOSED
-
-
-def _factors(constraints: Constraints, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Q and R of the columns of J of the joints that are not given, (n, ...) each."""
-    return np.linalg.qr(sampled(constraints.slope, v)[:, :, constraints.others])
-
-
-def _regular(R: np.ndarray) -> np.ndarray:
-    """(n,) True where the joints that are not given are determined."""
-    diagonal = np.abs(np.diagonal(R, axis1=1, axis2=2))
-    return diagonal.min(axis=1) > _SINGULAR * diagonal.max(axis=1)
 
 
 def _solved(constraints: Constraints, v: np.ndarray) -> np.ndarray | None:
@@ -372,3 +360,91 @@ def untied(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
     """The same matrix and constants with every moving row free."""
     count = len(robot.moving)
     return np.eye(count), np.zeros(count)
+
+
+# Commanded motion of a robot with loops: closed all along, and away from singular postures.
+
+
+KEPT = 0.5
+"""Share of home's distance to a singular posture that a simulated motion keeps."""
+
+_NARROWER = 0.85  # of the range, from one attempt to the next
+_NARROWEST = 0.03
+_NEAR = 0.02  # rad or m, between postures looked at on the way from home to the first one
+_LOOKS = 100.0  # Hz, at which a motion is tried
+
+Motion = Callable[[tuple[Limits, ...]], Reference]
+"""A commanded motion within limits, in the order of `robot.coordinates`."""
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedMotion:
+    """A commanded motion and what follows from it.
+
+    Attributes:
+        reference: of the coordinates.
+        v: (n, moving rows) closed postures.
+        share: of the way from home to the limits, that the motion was given; 1 is the whole range.
+    """
+
+    reference: Reference
+    v: np.ndarray
+    share: float
+
+
+def closed_motion(
+    robot: Robot,
+    constraints: Constraints,
+    limits: tuple[Limits, ...],
+    motion: Motion,
+    progress: Callable[[float], None] | None = None,
+) -> ClosedMotion:
+    """The motion over the largest share of the range that keeps away from singular postures.
+
+    The loops close all along, and every posture keeps half of home's distance to a singular one
+    (see `distances`). Near one the motors' torques grow without bound, and so does every error.
+
+    Args:
+        robot: with loops.
+        constraints: its loops and relations.
+        limits: of the coordinates.
+        motion: makes the commanded motion within limits.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        RobotError: `home` does not close.
+        DataError: no share of the range will do.
+    """
+    home = np.array([robot.home.get(joint.name, 0.0) for joint in robot.coordinates])
+    least = KEPT * distances(constraints, followed(robot, constraints, home[None]))[0]
+
+    def keeps_away(reference: Reference) -> bool:
+        """True if the loops close from home on, nowhere nearer than `least` to a singularity."""
+        first = reference.q[0] - home
+        way = np.linspace(0.0, 1.0, 1 + int(np.ceil(np.max(np.abs(first)) / _NEAR)))
+        every = max(1, round(1 / (_LOOKS * (reference.time[1] - reference.time[0]))))
+        q = np.vstack([home + way[:, None] * first, reference.q[::every]])
+        try:
+            return bool(distances(constraints, followed(robot, constraints, q)).min() >= least)
+        except DataError:
+            return False
+
+    share = 1.0
+    while share > _NARROWEST:
+        near = []
+        for limit, at in zip(limits, home, strict=True):  # the same share of the way to both
+            middle = min(max(at, limit.lower), limit.upper)
+            lower = middle + share * (limit.lower - middle)
+            upper = middle + share * (limit.upper - middle)
+            near.append(dataclasses.replace(limit, lower=lower, upper=upper))
+        reference = motion(tuple(near))
+        if keeps_away(reference):
+            v = followed(robot, constraints, reference.q, progress)
+            return ClosedMotion(reference, v, share)
+        share *= _NARROWER
+    joints = ", ".join(joint.name for joint in robot.coordinates)
+    raise DataError(
+        f"simulation: no motion of joints {joints} of {robot.name} keeps its loops closed and away "
+        "from singular postures; expected [limits] around [home]; state other [limits], or "
+        "another [home]"
+    )

@@ -9,7 +9,6 @@ or its best is no body (Boyd and Vandenberghe 2004, sections 4.6 and 11.4). cvxp
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -187,10 +186,17 @@ def _feasible(problem: _BodyProblem) -> np.ndarray | None:
     if not len(problem.directions):
         return np.zeros(0)
     x, t = cp.Variable(len(problem.directions)), cp.Variable()
-    S = _written(problem, x)
+    S = problem.origin + sum(x[k] * E for k, E in enumerate(problem.directions))
     # The trace keeps free elements from running away.
     goal = cp.Maximize(t - _PULL * cp.trace(S))
-    return _solved(cp.Problem(goal, [S - t * np.eye(len(problem.rows)) >> 0, t <= 1.0]), x)
+    asked = cp.Problem(goal, [S - t * np.eye(len(problem.rows)) >> 0, t <= 1.0])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the caller looks at the answer itself
+        try:
+            asked.solve(solver=cp.CLARABEL, **_TOLERANCES)
+        except cp.SolverError:
+            return None
+    return None if x.value is None else np.asarray(x.value)
 
 
 def _flattened(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
@@ -232,23 +238,6 @@ def _nearest(problem: _BodyProblem, near: np.ndarray, x: np.ndarray) -> np.ndarr
         if not left:
             break
     return x
-
-
-def _written(problem: _BodyProblem, x: Any) -> Any:
-    return problem.origin + sum(x[k] * E for k, E in enumerate(problem.directions))
-
-
-def _solved(problem: Any, x: Any) -> np.ndarray | None:
-    """The value of x; None without an answer."""
-    import cvxpy as cp
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the caller looks at the answer itself
-        try:
-            problem.solve(solver=cp.CLARABEL, **_TOLERANCES)
-        except cp.SolverError:
-            return None
-    return None if x.value is None else np.asarray(x.value)
 
 
 def _matrix(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""What encoders and torque sensors read, and the controller that sees it."""
+"""What encoders and torque sensors read, the controller that sees it, and random torques."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.robot.robot import Joint
-from modeler.simulation.hidden import HiddenEffect
 from modeler.simulation.portable_math import exponential, sine_and_cosine
-from modeler.simulation.settings import SimulationSettings
+from modeler.simulation.settings import HiddenEffect, SimulationSettings
 
 _PASSES = 30  # of the fixed point that inverts an eccentric encoder; contracts to a hundredth
 
@@ -91,24 +90,19 @@ def logged_torques(faults: Faults, time: np.ndarray, held: np.ndarray) -> np.nda
         time: (n,) s.
         held: (n, joints) torques, each held from its sample to the next.
     """
-    before = np.vstack([held[:1], held[:-1]])
     if not faults.delay:
-        return _faulty(faults, time, (before + held) / 2)
+        return sampled_torques(faults, time, (np.vstack([held[:1], held[:-1]]) + held) / 2)
     # The mean over one interval runs straight between the middles of the ticks.
-    return _faulty(faults, time, _late(faults, time, time + (time[1] - time[0]) / 2, held))
+    return sampled_torques(faults, time, held, known=time + (time[1] - time[0]) / 2)
 
 
-def sampled_torques(faults: Faults, time: np.ndarray, tau: np.ndarray) -> np.ndarray:
-    """(n, joints) torques before noise, from (n, joints) torques at the samples themselves."""
-    return _faulty(faults, time, _late(faults, time, time, tau) if faults.delay else tau)
-
-
-def _late(faults: Faults, time: np.ndarray, known: np.ndarray, tau: np.ndarray) -> np.ndarray:
-    late = time - faults.delay
-    return np.column_stack([np.interp(late, known, column) for column in tau.T])
-
-
-def _faulty(faults: Faults, time: np.ndarray, tau: np.ndarray) -> np.ndarray:
+def sampled_torques(
+    faults: Faults, time: np.ndarray, tau: np.ndarray, known: np.ndarray | None = None
+) -> np.ndarray:
+    """(n, joints) torques before noise, from (n, joints) torques at the samples, or times known."""
+    if faults.delay:
+        at, late = time if known is None else known, time - faults.delay
+        tau = np.column_stack([np.interp(late, at, column) for column in tau.T])
     return tau * faults.ratio + faults.drift * time[:, None]
 
 
@@ -212,3 +206,29 @@ def control(
 def _product(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
     """matrix vector, by sums in a fixed order: libraries of linear algebra round as they like."""
     return np.asarray(np.sum(matrix * vector, axis=1))
+
+
+# A random torque on the machine itself, as from seals, cables and the air.
+
+
+_CORRELATION = 0.03  # s
+
+
+def process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarray) -> np.ndarray:
+    """(ticks, joints) an Ornstein-Uhlenbeck process on each joint, stationary, held over ticks.
+
+    Args:
+        settings: share, rate and seed.
+        ticks: number of samples.
+        rms: (joints,) torque of which it is a share, N m or N.
+    """
+    shape = (ticks, rms.size)
+    if not settings.process_noise:
+        return np.zeros(shape)
+    from scipy.signal import lfilter  # it takes long to load
+
+    white = np.random.default_rng([settings.seed, 5]).normal(size=shape)
+    kept = float(exponential(-1 / (settings.rate * _CORRELATION)))
+    white[1:] *= np.sqrt(1 - kept**2)  # the first sample has the variance of all
+    noise = lfilter([1.0], [1.0, -kept], white, axis=0)
+    return settings.process_noise * rms * np.round(noise, 10)  # the same on every machine

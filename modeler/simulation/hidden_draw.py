@@ -1,27 +1,21 @@
 """Hidden effects made complete: joints and values that were not given are drawn from the seed."""
 
-import dataclasses
-from collections.abc import Mapping, Sequence
-from functools import partial
+from collections.abc import Sequence
 
 import casadi as ca
 import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot.robot import Limits, Robot
-from modeler.simulation.closed_motion import closed_motion
-from modeler.simulation.closing import constraints_of, motor_torques, rates, sampled
-from modeler.simulation.hidden import HiddenEffect
-from modeler.simulation.hidden_bodies import last_link
-from modeler.simulation.hidden_catalogue import HIDDEN
-from modeler.simulation.hidden_kind import HiddenKind, Site
+from modeler.simulation.closing import closed_motion, constraints_of, motor_torques, rates, sampled
+from modeler.simulation.hidden import HIDDEN
 from modeler.simulation.parameters import PlantParameters, joint_scales
-from modeler.simulation.physics import ShaftScale
-from modeler.simulation.plant import torque_function
+from modeler.simulation.physics import HiddenKind, ShaftScale, Site
+from modeler.simulation.plant import last_link, torque_function
 from modeler.simulation.portable_math import ten_digits
 from modeler.simulation.rigid import gravity_vector, world_frames
-from modeler.simulation.settings import SimulationSettings
-from modeler.simulation.trajectory import Reference, exciting_reference
+from modeler.simulation.settings import HiddenEffect, SimulationSettings
+from modeler.simulation.trajectory import exciting_reference
 
 # How large a torque on a joint of a robot with loops is for the motors, which carry them.
 
@@ -54,7 +48,9 @@ def felt_by_motors(
     constraints = constraints_of(robot)
     names = [moving.name for moving in robot.moving]
     own = tuple(limits[names.index(moving.name)] for moving in robot.coordinates)
-    motion = closed_motion(robot, constraints, own, partial(_exciting, seed=seed))
+    motion = closed_motion(
+        robot, constraints, own, lambda near: exciting_reference(near, _DURATION, _RATE, seed)
+    )
     v, qd = motion.v, motion.reference.qd
     vd, vdd = rates(constraints, v, qd, motion.reference.qdd)
     torque, states = torque_function(robot, parameters, tuple(limits))
@@ -70,10 +66,6 @@ def felt_by_motors(
             shares.append(float(np.sqrt(np.mean(slope**2))) / torque_m)
     speed = float(np.quantile(np.abs(vd[:, row]), _TOP))
     return (1.0 / max(shares) if any(shares) else 1.0), speed or limits[row].speed
-
-
-def _exciting(limits: tuple[Limits, ...], seed: int) -> Reference:
-    return exciting_reference(limits, _DURATION, _RATE, seed)
 
 
 _OWN = ("Fv", "Fs", "Ia")
@@ -113,30 +105,19 @@ def complete_effects(
     scales = joint_scales(robot, parameters.bodies, limits, rng)
     found: list[HiddenEffect] = []
     for k, asked in enumerate(settings.hidden):
-        kind = _kind(robot, asked)
         before = sum(other.effect == asked.effect for other in settings.hidden[:k])
         seed = [settings.parameter_seed, 7, before, *asked.effect.encode()]
         rng = np.random.default_rng(seed)
-        joint = _joint(robot, parameters, kind, asked, rng)
-        site = _site(robot, parameters, limits, scales, settings, joint)
-        if joint is not None and kind.where == "pair":
-            site = _among_others(robot, site, scales, joint)
-        if joint is not None and robot.loops and kind.where in ("joint", "lever", "passive"):
-            felt = felt_by_motors(robot, parameters, limits, joint, settings.parameter_seed)
-            site = _as_felt(site, kind, *felt)
+        kind, joint = _kind_and_joint(robot, parameters, asked, rng)
+        site = _site(robot, parameters, limits, scales, settings, kind, joint)
         found.append(HiddenEffect(asked.effect, joint, _values(robot, kind, asked, site, rng)))
     _check_together(robot, found)
     return tuple(found)
 
 
-def _as_felt(site: Site, kind: HiddenKind, torque: float, speed: float) -> Site:
-    """The site in a closed machine; what no motor commands is as fast as the loops make it."""
-    if kind.where == "passive":
-        return dataclasses.replace(site, torque=torque, speed=speed)
-    return dataclasses.replace(site, torque=torque)
-
-
-def _kind(robot: Robot, asked: HiddenEffect) -> HiddenKind:
+def _kind_and_joint(
+    robot: Robot, parameters: PlantParameters, asked: HiddenEffect, rng: np.random.Generator
+) -> tuple[HiddenKind, str | None]:
     where = f"robot {robot.name}, hidden effect {asked.effect}"
     kind = HIDDEN.get(asked.effect)
     if kind is None:
@@ -146,7 +127,22 @@ def _kind(robot: Robot, asked: HiddenEffect) -> HiddenKind:
         raise RobotError(f"{where}: not simulated for robots with loops; expected one of {able}")
     if kind.role == "gravity" and not np.any(gravity_vector(robot)):
         raise RobotError(f"{where}: the robot has no gravity; state one, or hide another effect")
-    return kind
+    if kind.where == "system":
+        if asked.joint is not None:
+            raise RobotError(
+                f"{where}: got joint {asked.joint}; expected none, it belongs to the whole machine"
+            )
+        return kind, None
+    places = _places(robot, parameters, kind)
+    if not places:
+        needs = _WHY_NONE.get(kind.where, "a joint with a motor")
+        raise RobotError(f"{where}: no place for it; expected {needs}")
+    # The first link of an arm hardly feels what is on it.
+    inner = places[1:] if kind.where == "link" and len(places) > 1 else places
+    drawn = str(rng.choice(inner))  # also where one is given: values do not depend on that
+    if asked.joint is not None and asked.joint not in places:
+        raise RobotError(f"{where}: got joint {asked.joint}; expected one of {', '.join(places)}")
+    return kind, asked.joint or drawn
 
 
 def _places(robot: Robot, parameters: PlantParameters, kind: HiddenKind) -> list[str]:
@@ -170,102 +166,54 @@ def _places(robot: Robot, parameters: PlantParameters, kind: HiddenKind) -> list
     return names
 
 
-def _joint(
-    robot: Robot,
-    parameters: PlantParameters,
-    kind: HiddenKind,
-    asked: HiddenEffect,
-    rng: np.random.Generator,
-) -> str | None:
-    where = f"robot {robot.name}, hidden effect {kind.effect}"
-    if kind.where == "system":
-        if asked.joint is not None:
-            raise RobotError(
-                f"{where}: got joint {asked.joint}; expected none, it belongs to the whole machine"
-            )
-        return None
-    places = _places(robot, parameters, kind)
-    if not places:
-        needs = _WHY_NONE.get(kind.where, "a joint with a motor")
-        raise RobotError(f"{where}: no place for it; expected {needs}")
-    # The first link of an arm hardly feels what is on it.
-    inner = places[1:] if kind.where == "link" and len(places) > 1 else places
-    drawn = str(rng.choice(inner))  # also where one is given: values do not depend on that
-    if asked.joint is not None and asked.joint not in places:
-        raise RobotError(f"{where}: got joint {asked.joint}; expected one of {', '.join(places)}")
-    return asked.joint or drawn
-
-
 def _site(
     robot: Robot,
     parameters: PlantParameters,
     limits: tuple[Limits, ...],
     scales: Sequence[ShaftScale],
     settings: SimulationSettings,
+    kind: HiddenKind,
     joint: str | None,
 ) -> Site:
     names = [moving.name for moving in robot.moving]
     row = names.index(last_link(robot) if joint is None else joint)
     scale, limit, name = scales[row], limits[row], names[row]
     own = {p: parameters.standard[p + name] for p in _OWN if p + name in parameters.standard}
-    return Site(
-        torque=_whole_torque(scale, limit, own),
-        speed=scale.speed,
-        inertia=scale.inertia,
-        span=limit.upper - limit.lower,
-        angular=robot.moving[row].angular,
-        own=own,
-        body=parameters.bodies[name],
-        mass=sum(body.mass for body in parameters.bodies.values()),
-        lever=_lever(robot, parameters, limits, scales),
-        rate=settings.rate,
-        duration=settings.duration,
-    )
-
-
-def _among_others(
-    robot: Robot,
-    site: Site,
-    scales: Sequence[ShaftScale],
-    joint: str,
-) -> Site:
-    """The site of an effect that the next joint feels too: what is large for the weaker one."""
-    names = [moving.name for moving in robot.moving]
-    motors = [names.index(other.name) for other in robot.coordinates]
-    row = names.index(joint)
-    after = motors[motors.index(row) + 1]
-    return dataclasses.replace(
-        site,
-        torque=min(site.torque, scales[after].torque),
-        inertia=min(site.inertia, scales[after].inertia),
-    )
-
-
-def _whole_torque(scale: ShaftScale, limit: Limits, own: Mapping[str, float]) -> float:
-    """Rms torque with what the robot file knows of friction and rotor, in the same motion."""
+    # With what the robot file knows of friction and rotor, in the same motion.
     parts = (
         scale.torque,
         own.get("Ia", 0.0) * _LIVELY * limit.acceleration,
         own.get("Fv", 0.0) * _LIVELY * limit.speed,
         own.get("Fs", 0.0),
     )
-    return float(np.linalg.norm(parts))
-
-
-def _lever(
-    robot: Robot,
-    parameters: PlantParameters,
-    limits: tuple[Limits, ...],
-    scales: Sequence[ShaftScale],
-) -> float:
-    """Torque of a force of 1 N on the last body, per rms torque of the joint that feels it most."""
-    q = ca.SX.sym("q", len(limits))
-    frame = world_frames(robot, q)[robot.moving[-1].name]
-    point = frame.position + frame.rotation @ parameters.bodies[robot.moving[-1].name].centre
+    torque, speed, inertia = float(np.linalg.norm(parts)), scale.speed, scale.inertia
+    if kind.where == "pair":  # the next joint feels it too: what is large for the weaker one
+        motors = [names.index(other.name) for other in robot.coordinates]
+        after = scales[motors[motors.index(row) + 1]]
+        torque, inertia = min(torque, after.torque), min(inertia, after.inertia)
+    elif joint is not None and robot.loops and kind.where in ("joint", "lever", "passive"):
+        torque, felt = felt_by_motors(robot, parameters, limits, joint, settings.parameter_seed)
+        # What no motor commands is as fast as the loops make it.
+        speed = felt if kind.where == "passive" else speed
+    # Torque of a force of 1 N on the last body, per rms torque of the joint that feels it most.
+    q, last = ca.SX.sym("q", len(limits)), robot.moving[-1].name
+    frame = world_frames(robot, q)[last]
+    point = frame.position + frame.rotation @ parameters.bodies[last].centre
     slope = ca.Function("slope", [q], [ca.jacobian(point, q)])
-    middle = [(limit.lower + limit.upper) / 2 for limit in limits]
-    arms = np.linalg.norm(slope(middle).full(), axis=0)
-    return float(np.max(arms / [scale.torque for scale in scales]))
+    arms = np.linalg.norm(slope([(li.lower + li.upper) / 2 for li in limits]).full(), axis=0)
+    return Site(
+        torque=torque,
+        speed=speed,
+        inertia=inertia,
+        span=limit.upper - limit.lower,
+        angular=robot.moving[row].angular,
+        own=own,
+        body=parameters.bodies[name],
+        mass=sum(body.mass for body in parameters.bodies.values()),
+        lever=float(np.max(arms / [each.torque for each in scales])),
+        rate=settings.rate,
+        duration=settings.duration,
+    )
 
 
 def _values(

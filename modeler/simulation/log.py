@@ -16,8 +16,7 @@ from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.json import nulled
 from modeler.core.result import Presented
-from modeler.simulation.hidden import HiddenEffect
-from modeler.simulation.settings import SimulationSettings
+from modeler.simulation.settings import HiddenEffect, SimulationSettings
 
 
 @dataclass(frozen=True, eq=False)

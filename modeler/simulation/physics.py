@@ -1,14 +1,20 @@
 """Effects beyond rigid links as physics: torques on shafts, inertias of shafts, inner states.
 
-To simulate one more effect, add an `EffectPhysics` to `PHYSICS`. This is deliberately a second
-statement of each effect, apart from the catalogue from which regressors are made.
+To simulate one more effect of robot files, add an `EffectPhysics` to `PHYSICS`; one that the robot
+file lacks is a `HiddenKind` in `hidden.py`. This is deliberately a second statement of each effect,
+apart from the catalogue from which regressors are made.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Literal, TypeVar
 
 import casadi as ca
 import numpy as np
+
+from modeler.simulation.rigid import Body
+
+Values = Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -53,6 +59,9 @@ class Contribution:
     temperature: ca.SX | None = None
 
 
+Act = Callable[[Shaft, Values], Contribution]
+
+
 @dataclass(frozen=True)
 class ShaftScale:
     """What is large and small on a joint, for plausible values.
@@ -69,24 +78,117 @@ class ShaftScale:
 
 
 @dataclass(frozen=True)
+class Site(ShaftScale):
+    """What is large and small where a hidden effect sits; known friction is in the torque.
+
+    Attributes:
+        span: range of motion, rad or m.
+        angular: True if the joint turns.
+        own: the joint's parameters that the robot file knows, by prefix (Fv, Fs, Ia).
+        body: the link that the joint moves, or the last one.
+        mass: of all links, kg.
+        lever: torque or force of a joint per newton at the last body, the largest of all joints
+            per rms torque: 1/N.
+        rate: samples per second.
+        duration: of the measurement, s.
+    """
+
+    span: float
+    angular: bool
+    own: Values
+    body: Body
+    mass: float
+    lever: float
+    rate: float
+    duration: float
+
+
+Scale = TypeVar("Scale", bound=ShaftScale)
+
+
+def share(
+    low: float, high: float, of: str = "", either: bool = False
+) -> Callable[[np.random.Generator, ShaftScale], float]:
+    """A plausible value: uniform from low to high, as a share of what is large on the shaft.
+
+    Args:
+        low: smallest share.
+        high: largest share.
+        of: what it is a share of, as "torque" or "torque/speed"; "": of 1.
+        either: True if it has either sign.
+    """
+    over, _, under = of.partition("/")
+
+    def draw(rng: np.random.Generator, scale: ShaftScale) -> float:
+        value = (either_sign(rng) if either else 1.0) * rng.uniform(low, high)
+        value *= getattr(scale, over) if over else 1.0
+        return float(value / getattr(scale, under) if under else value)
+
+    return draw
+
+
+def either_sign(rng: np.random.Generator, scale: ShaftScale | None = None) -> float:
+    """-1 or 1, whatever the scale."""
+    return float(rng.choice([-1.0, 1.0]))
+
+
+def plausible(
+    **draws: Callable[[np.random.Generator, Scale], float],
+) -> Callable[[np.random.Generator, Scale], dict[str, float]]:
+    """Values by name, each drawn by itself, in this order."""
+    return lambda rng, scale: {name: draw(rng, scale) for name, draw in draws.items()}
+
+
+@dataclass(frozen=True)
 class EffectPhysics:
-    """One simulated effect.
+    """One simulated effect of robot files.
 
     Attributes:
         effect: id as in robot files.
         prefixes: of its parameters; the joint's name follows.
-        on_motor: True if it acts on the motor shaft of `[coupling]`, False if on the joint.
         draw: plausible parameters, prefix -> value, SI.
         act: its contribution, given its parameters by prefix.
+        on_motor: True if it acts on the motor shaft of `[coupling]`, False if on the joint.
         signed: prefixes that may be negative.
     """
 
     effect: str
     prefixes: tuple[str, ...]
-    on_motor: bool
     draw: Callable[[np.random.Generator, ShaftScale], dict[str, float]]
-    act: Callable[[Shaft, Mapping[str, float]], Contribution]
+    act: Act
+    on_motor: bool = False
     signed: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class HiddenKind:
+    """One effect that can be hidden.
+
+    Attributes:
+        effect: id.
+        where: what it sits on. joint: with a motor; lever: the same, and turning; pair: a joint and
+            the next one; geared: a joint with a rotor inertia; link: between the first and the
+            last; passive: a joint of a loop without motor; system: no joint.
+        draw: plausible values, by name; these are all the values it has.
+        act: on a shaft: what it adds there.
+        role: what it changes: a torque on a shaft, what lies between motor and link, the bodies,
+            the direction of gravity, a force on the last link, what is measured.
+        spring: of a transmission: torque by which it pulls the link back, from how far the link is
+            ahead of the motor and how fast that grows.
+        replaces: effects of the robot file that are not simulated beside it on the same joint.
+        signed: values that may be negative or 0.
+        loops: True if it can be simulated on robots with loops.
+    """
+
+    effect: str
+    where: Literal["joint", "lever", "pair", "geared", "link", "passive", "system"]
+    draw: Callable[[np.random.Generator, Site], dict[str, float]]
+    act: Act | None = None
+    role: Literal["shaft", "transmission", "body", "gravity", "push", "sensor"] = "shaft"
+    spring: Callable[[ca.SX, ca.SX, Values], ca.SX] | None = None
+    replaces: tuple[str, ...] = ()
+    signed: tuple[str, ...] = ()
+    loops: bool = True
 
 
 def dry_friction(shaft: Shaft, level: ca.SX | float) -> ca.SX:
@@ -96,58 +198,56 @@ def dry_friction(shaft: Shaft, level: ca.SX | float) -> ca.SX:
     return level * ca.tanh(shaft.speed / shaft.settling)
 
 
+def moving_with(inertia: str) -> Act:
+    """The shaft's own inertia, the value of that name."""
+    return lambda shaft, value: Contribution(inertia=value[inertia])
+
+
+def rubbing(viscous: str, dry: str) -> Act:
+    """Viscous and dry friction, the values of these names."""
+    return lambda shaft, value: Contribution(
+        value[viscous] * shaft.speed + dry_friction(shaft, value[dry])
+    )
+
+
 PHYSICS: Mapping[str, EffectPhysics] = {
     physics.effect: physics
     for physics in (
         EffectPhysics(
-            "rotor_inertia",
-            ("Ia",),
-            on_motor=False,
-            draw=lambda rng, scale: {"Ia": scale.inertia * rng.uniform(0.2, 0.6)},
-            act=lambda shaft, value: Contribution(inertia=value["Ia"]),
+            "rotor_inertia", ("Ia",), plausible(Ia=share(0.2, 0.6, "inertia")), moving_with("Ia")
         ),
         EffectPhysics(
             "viscous",
             ("Fv",),
-            on_motor=False,
-            draw=lambda rng, scale: {"Fv": scale.torque * rng.uniform(0.05, 0.15) / scale.speed},
-            act=lambda shaft, value: Contribution(torque=value["Fv"] * shaft.speed),
+            plausible(Fv=share(0.05, 0.15, "torque/speed")),
+            lambda shaft, value: Contribution(value["Fv"] * shaft.speed),
         ),
         EffectPhysics(
             "coulomb",
             ("Fs",),
-            on_motor=False,
-            draw=lambda rng, scale: {"Fs": scale.torque * rng.uniform(0.06, 0.15)},
-            act=lambda shaft, value: Contribution(torque=dry_friction(shaft, value["Fs"])),
+            plausible(Fs=share(0.06, 0.15, "torque")),
+            lambda shaft, value: Contribution(dry_friction(shaft, value["Fs"])),
         ),
         EffectPhysics(
             "offset",
             ("Off",),
-            on_motor=False,
-            draw=lambda rng, scale: {
-                "Off": scale.torque * rng.choice([-1.0, 1.0]) * rng.uniform(0.01, 0.04)
-            },
-            act=lambda shaft, value: Contribution(torque=ca.SX(value["Off"])),
+            plausible(Off=share(0.01, 0.04, "torque", either=True)),
+            lambda shaft, value: Contribution(ca.SX(value["Off"])),
             signed=("Off",),
         ),
         EffectPhysics(
             "coupled_inertia",
             ("Iam",),
+            plausible(Iam=share(0.1, 0.3, "inertia")),
+            moving_with("Iam"),
             on_motor=True,
-            draw=lambda rng, scale: {"Iam": scale.inertia * rng.uniform(0.1, 0.3)},
-            act=lambda shaft, value: Contribution(inertia=value["Iam"]),
         ),
         EffectPhysics(
             "coupled_friction",
             ("Fvm", "Fsm"),
+            plausible(Fvm=share(0.03, 0.1, "torque/speed"), Fsm=share(0.04, 0.1, "torque")),
+            rubbing("Fvm", "Fsm"),
             on_motor=True,
-            draw=lambda rng, scale: {
-                "Fvm": scale.torque * rng.uniform(0.03, 0.1) / scale.speed,
-                "Fsm": scale.torque * rng.uniform(0.04, 0.1),
-            },
-            act=lambda shaft, value: Contribution(
-                torque=value["Fvm"] * shaft.speed + dry_friction(shaft, value["Fsm"])
-            ),
         ),
     )
 }

@@ -1,25 +1,79 @@
 """The simulated robot: rigid links and effects as one ordinary differential equation."""
 
+import dataclasses
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import casadi as ca
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from modeler.core.errors import DataError, RobotError
-from modeler.robot.robot import Limits, Robot
-from modeler.simulation.closing import tree_from_free, untied
-from modeler.simulation.hidden import HiddenEffect
+from modeler.core.expression import parse
+from modeler.robot.robot import Joint, Limits, Robot
+from modeler.simulation.closing import Constraints, tree_from_free, untied
+from modeler.simulation.hidden import HIDDEN
 from modeler.simulation.parameters import PlantParameters
-from modeler.simulation.portable_math import portable
-from modeler.simulation.rigid import RigidDynamics, rigid_dynamics, tied_dynamics
+from modeler.simulation.portable_math import portable, ten_digits
+from modeler.simulation.rigid import (
+    Body,
+    RigidDynamics,
+    body_from_standard,
+    gravity_vector,
+    rigid_dynamics,
+    standard_from_body,
+    tied_dynamics,
+)
+from modeler.simulation.settings import HiddenEffect
 from modeler.simulation.shafts import ShaftEffects, Transmissions, shaft_effects, transmissions_of
 
 _LOAD_PASSES = 3  # friction of a share mu of the load is then exact to about mu^4
+
+
+def machine(
+    robot: Robot, parameters: PlantParameters, effects: Sequence[HiddenEffect]
+) -> tuple[Robot, PlantParameters]:
+    """The robot with hidden loads on its links, on a base that stands askew."""
+    bodies = dict(parameters.bodies)
+    for effect in effects:
+        role, values = HIDDEN[effect.effect].role, effect.values
+        if role == "gravity":
+            robot = _tilted(robot, values["angle"], values["heading"])
+        elif role == "body":  # a ball of that radius of gyration: all ten parameters change
+            name = effect.joint or last_link(robot)
+            inertia = values["mass"] * values["radius"] ** 2 * np.eye(3)
+            ball = Body(values["mass"], np.array([values[k] for k in "xyz"]), inertia)
+            one, other = standard_from_body(bodies[name]), standard_from_body(ball)
+            bodies[name] = body_from_standard({p: one[p] + other[p] for p in one})
+    return robot, dataclasses.replace(parameters, bodies=bodies)
+
+
+def last_link(robot: Robot) -> str:
+    """The row that carries a load: the platform, or the last one that moves."""
+    return robot.platform[-1] if robot.platform else robot.moving[-1].name
+
+
+def _tilted(robot: Robot, angle: float, heading: float) -> Robot:
+    """Gravity turned by `angle` about a horizontal axis, `heading` away from the first one.
+
+    The horizontal axes are the world's two that are farther from gravity, made square to it.
+    """
+    gravity = gravity_vector(robot)
+    down = gravity / np.linalg.norm(gravity)
+    first, second = (np.eye(3)[i] for i in np.sort(np.argsort(np.abs(down), kind="stable")[:2]))
+    first = first - (first @ down) * down
+    first /= np.linalg.norm(first)
+    second = second - (second @ down) * down - (second @ first) * first
+    second /= np.linalg.norm(second)
+    axis = np.cos(heading) * first + np.sin(heading) * second
+    turned = Rotation.from_rotvec(angle * axis).apply(gravity)
+    x, y, z = (parse(ten_digits(component)) for component in turned)
+    return dataclasses.replace(robot, gravity=(x, y, z))
 
 
 @dataclass(frozen=True)
@@ -70,19 +124,24 @@ def build_plant(
     parameters: PlantParameters,
     limits: tuple[Limits, ...],
     hidden: tuple[HiddenEffect, ...] = (),
+    constraints: Constraints | None = None,
 ) -> Plant:
-    """The plant with these parameters, in the coordinates of the free joints.
+    """The plant with these parameters, in the coordinates.
 
     Args:
-        robot: without loops.
+        robot: its table and effects.
         parameters: of its links and effects.
         limits: in the order of `robot.moving`; they set the speed scale of dry friction.
         hidden: further effects on shafts and in transmissions, all their values given.
+        constraints: of a robot with loops.
 
     Raises:
         RobotError: a joint that nothing gives an inertia, or an effect that cannot be simulated.
     """
     links = rigid_dynamics(robot, parameters.bodies)
+    if constraints is not None:
+        effects = shaft_effects(robot, parameters, limits, links, untied(robot), hidden)
+        return _closed_plant(robot, links, effects, constraints)
     tie = tree_from_free(robot)
     if robot.relations:
         links = tied_dynamics(links, *tie)
@@ -91,14 +150,23 @@ def build_plant(
         links = tied_dynamics(links, giving.turns, np.zeros(len(robot.free)))
         tie = np.hstack([tie[0], np.zeros((len(tie[0]), len(giving.rows)))]), tie[1]
     effects = shaft_effects(robot, parameters, limits, links, tie, hidden)
-    plant = _assembled(robot, links, effects, giving)
-    _check_inertia(robot, plant, of_free(robot, limits))
+    plant = _open_plant(robot, links, effects, giving)
+    for pose in sample_poses(of_free(robot, limits)):
+        values, vectors = np.linalg.eigh(plant.inertia(pose).full())
+        if values[0] <= 1e-12 * values[-1]:
+            joint = plant.joints[int(np.argmax(np.abs(vectors[:, 0])))]
+            raise RobotError(
+                f"robot {robot.name}, joint {joint}: nothing gives it an inertia (smallest "
+                f"eigenvalue {values[0]:.3g} of the inertia matrix); state a mass or a rotor "
+                "inertia"
+            )
     return plant
 
 
-def _assembled(
+def _open_plant(
     robot: Robot, links: RigidDynamics, effects: ShaftEffects, giving: Transmissions
 ) -> Plant:
+    """Without loops, in the coordinates of the free joints."""
     n, k = len(robot.free), len(giving.rows)
     q, qd = links.q[:n, :], links.qd[:n, :]
     ahead, ahead_rate = links.q[n:, :], links.qd[n:, :]
@@ -107,10 +175,8 @@ def _assembled(
     inertia = links.inertia + ca.SX(effects.inertia)
     spring = ca.vertcat(ca.SX.zeros(n), giving.torque(ahead, ahead_rate))
     solved = _solved(links, effects, inertia, spring, ca.vertcat(tau, ca.SX.zeros(k)))
-    z_rate = ca.vertcat(ahead_rate, solved[n:, :], effects.rate)
     rotors = ca.dot(qd, ca.SX(effects.inertia[:n, :n]) @ qd) / 2
-    rest = ca.SX.zeros(n + k)
-    at_rest = ca.substitute(links.bias + spring, links.qd, rest)[n:, :]
+    at_rest = ca.substitute(links.bias + spring, links.qd, ca.SX.zeros(n + k))[n:, :]
 
     def following(expression: ca.SX) -> ca.SX:
         """Of links that move with their motors."""
@@ -119,22 +185,43 @@ def _assembled(
 
     asked = links.inertia[:n, :n] @ qdd + links.bias[:n, :]
     load = links.bias[:n, :] + _loaded(effects, ca.vertcat(asked, ca.SX.zeros(k)))[:n, :]
-    still = _loaded(effects, links.bias)[:n, :]
-    energies = [following(links.kinetic) + rotors, following(links.potential)]
-    temperatures = ca.vertcat(ca.SX(0, 1), *effects.temperatures.values())
+    z_rate = ca.vertcat(ahead_rate, solved[n:, :], effects.rate)
+    return _plant(
+        robot.free,
+        effects,
+        {"q": q, "qd": qd, "qdd": qdd, "z": z, "tau": tau},
+        acceleration=("q qd z tau", solved[:n, :], z_rate),
+        torque=("q qd qdd z", inertia[:n, :n] @ qdd + load),
+        inertia=("q", ca.densify(following(inertia[:n, :n]))),
+        resistance=("q qd z", _loaded(effects, links.bias)[:n, :]),
+        energy=("q qd", following(links.kinetic) + rotors, following(links.potential)),
+        strain=("q z", at_rest),
+        temperatures=("z", ca.vertcat(ca.SX(0, 1), *effects.temperatures.values())),
+    )
+
+
+def _plant(
+    joints: Sequence[Joint],
+    effects: ShaftEffects,
+    symbols: dict[str, ca.SX],
+    **functions: tuple[Any, ...],
+) -> Plant:
+    """The plant with these functions: names of their inputs, and their results."""
+    made = {
+        name: portable(
+            ca.Function(
+                name, [symbols[k] for k in given.split()], [ca.cse(result) for result in results]
+            )
+        )
+        for name, (given, *results) in functions.items()
+    }
     return Plant(
-        joints=tuple(joint.name for joint in robot.free),
-        driven=np.array([joint.actuated for joint in robot.free]),
-        states=z.shape[0],
-        acceleration=_function("acceleration", [q, qd, z, tau], [ca.cse(solved[:n, :]), z_rate]),
-        torque=_function("torque", [q, qd, qdd, z], [inertia[:n, :n] @ qdd + load]),
-        inertia=_function("inertia", [q], [ca.densify(following(inertia[:n, :n]))]),
-        resistance=_function("resistance", [q, qd, z], [still]),
-        energy=_function("energy", [q, qd], energies),
-        strain=_function("strain", [q, z], [at_rest]),
+        joints=tuple(joint.name for joint in joints),
+        driven=np.array([joint.actuated for joint in joints]),
+        states=symbols["z"].shape[0],
         fastest=effects.fastest,
-        temperatures=_function("temperatures", [z], [temperatures]),
         warmed=tuple(effects.temperatures),
+        **made,
     )
 
 
@@ -149,10 +236,9 @@ def _solved(
         return ca.ldl_solve(tau - resisting - spring, diagonal, lower, order)
 
     solved = moved(links.bias)
-    if not ca.depends_on(effects.torque, effects.load):
-        return solved
-    for _ in range(_LOAD_PASSES):  # friction slows the links, whose load makes the friction
-        solved = moved(links.inertia @ solved + links.bias)
+    if ca.depends_on(effects.torque, effects.load):
+        for _ in range(_LOAD_PASSES):  # friction slows the links, whose load makes the friction
+            solved = moved(links.inertia @ solved + links.bias)
     return solved
 
 
@@ -160,6 +246,67 @@ def _loaded(effects: ShaftEffects, load: ca.SX) -> ca.SX:
     if not ca.depends_on(effects.torque, effects.load):
         return effects.torque
     return ca.substitute(effects.torque, effects.load, load)
+
+
+def _closed_plant(
+    robot: Robot, links: RigidDynamics, effects: ShaftEffects, constraints: Constraints
+) -> Plant:
+    """With loops; the joints that follow the coordinates are the first of the inner states.
+
+    With J the constraints' slope, vd = G qd and vdd = G qdd + g in all moving rows, where
+    J_s G_s = -J_q and J_s g_s = -J' vd by least squares. The principle of virtual work gives
+    G^T M G qdd + G^T (M g + h) = tau: no constraint force does work.
+    """
+    given, others, rows = constraints.given, constraints.others, len(robot.moving)
+    q, qd, qdd, tau = (ca.SX.sym(name, len(given)) for name in ("q", "qd", "qdd", "tau"))
+    follow = ca.SX.sym("follow", len(others))
+    v, G, g = ca.SX.zeros(rows), ca.SX.zeros(rows, len(given)), ca.SX.zeros(rows)
+    v[given], v[others] = q, follow
+    slope = _expression(constraints.slope, v)
+    inner = slope[:, others]
+    factors = ca.ldl(inner.T @ inner, False)  # L D L' without pivoting: away from singularities
+
+    def least(right: ca.SX) -> ca.SX:
+        return ca.ldl_solve(inner.T @ right, *factors)
+
+    G[given, :], G[others, :] = ca.SX.eye(len(given)), -least(slope[:, given])
+    vd = G @ qd
+    g[others] = -least(_expression(constraints.curvature, v, vd))
+    closer = follow - least(_expression(constraints.value, v))  # after a step of Newton
+    z = ca.vertcat(follow, effects.state)
+    tree = [links.inertia + ca.SX(effects.inertia), links.bias, effects.torque, effects.rate]
+    tree += [links.kinetic, links.potential, *effects.temperatures.values()]
+    M, bias, friction, rate, kinetic, potential, *readings = ca.substitute(
+        tree, [links.q, links.qd], [v, vd]
+    )
+    inertia, load = G.T @ M @ G, G.T @ (M @ g + bias + friction)
+    rotors = ca.dot(vd, ca.SX(effects.inertia) @ vd) / 2
+    solved = ca.ldl_solve(tau - load, *ca.ldl(inertia, False))
+    return _plant(
+        robot.coordinates,
+        effects,
+        {"q": q, "qd": qd, "qdd": qdd, "z": z, "tau": tau},
+        acceleration=("q qd z tau", solved, ca.vertcat(vd[others], rate)),
+        torque=("q qd qdd z", inertia @ qdd + load),
+        inertia=("q z", ca.densify(inertia)),
+        resistance=("q qd z", G.T @ friction),
+        energy=("q qd z", kinetic + rotors, potential),
+        strain=("q z", ca.SX(0, 1)),
+        temperatures=("z", ca.vertcat(ca.SX(0, 1), *readings)),
+        closer=("q z", ca.densify(ca.vertcat(closer, effects.state))),
+    )
+
+
+def _expression(function: ca.Function, *arguments: ca.SX) -> ca.SX:
+    """What the function computes, in place of a call of it."""
+    return function.call(list(arguments), True, False)[0]
+
+
+def inner_states(plant: Plant, constraints: Constraints, v: np.ndarray) -> np.ndarray:
+    """(n, plant.states) of a plant with loops at rest in postures v (n, moving rows)."""
+    z = np.zeros((len(v), plant.states))
+    z[:, : len(constraints.others)] = v[:, constraints.others]
+    return z
 
 
 def torque_function(
@@ -173,12 +320,8 @@ def torque_function(
     effects = shaft_effects(robot, parameters, limits, links, untied(robot), hidden)
     qdd = ca.SX.sym("qdd", len(limits))
     torque = (links.inertia + ca.SX(effects.inertia)) @ qdd + links.bias + effects.torque
-    inputs = [links.q, links.qd, qdd, effects.state]
-    return _function("torque", inputs, [ca.cse(torque)]), effects.state.shape[0]
-
-
-def _function(name: str, inputs: list[ca.SX], outputs: list[ca.SX]) -> ca.Function:
-    return portable(ca.Function(name, inputs, outputs))
+    function = ca.Function("torque", [links.q, links.qd, qdd, effects.state], [ca.cse(torque)])
+    return portable(function), effects.state.shape[0]
 
 
 def felt_inertia(plant: Plant) -> ca.Function:
@@ -212,18 +355,6 @@ def sample_poses(limits: tuple[Limits, ...], count: int = 16) -> np.ndarray:
     share = np.random.default_rng(0).uniform(size=(count, len(limits)))
     share[0] = 0.5
     return lower + share * (upper - lower)
-
-
-def _check_inertia(robot: Robot, plant: Plant, limits: tuple[Limits, ...]) -> None:
-    for pose in sample_poses(limits):
-        values, vectors = np.linalg.eigh(plant.inertia(pose).full())
-        if values[0] <= 1e-12 * values[-1]:
-            joint = plant.joints[int(np.argmax(np.abs(vectors[:, 0])))]
-            raise RobotError(
-                f"robot {robot.name}, joint {joint}: nothing gives it an inertia (smallest "
-                f"eigenvalue {values[0]:.3g} of the inertia matrix); state a mass or a rotor "
-                "inertia"
-            )
 
 
 # Fixed-step integration of the plant over one control tick.

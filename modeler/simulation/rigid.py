@@ -10,8 +10,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from modeler.core.expression import Expression
-from modeler.robot.robot import INERTIAL, Joint, Robot
+from modeler.robot.robot import INERTIAL, Robot
 from modeler.simulation.portable_math import sine_and_cosine
 
 # Where the links are: frames of a modified Denavit-Hartenberg table in the world frame.
@@ -56,9 +55,20 @@ def world_frames(robot: Robot, q: ca.SX) -> dict[str, Frame]:
     variables = {joint.name: q[i] for i, joint in enumerate(robot.moving)}
     frames = {BASE: Frame(ca.SX(np.eye(3)), ca.SX(np.zeros((3, 1))), ca.SX.zeros(3))}
     for joint in robot.joints:
-        frames[joint.name] = _placed(
-            frames[joint.antecedent], joint, symbols, variables.get(joint.name)
+        before, variable = frames[joint.antecedent], variables.get(joint.name)
+        own = {**symbols, joint.variable: variable}
+        gamma, b, alpha, d, theta, r = (
+            cell.fold(own, FUNCTIONS, float(np.pi), float)
+            if joint.variable in cell.names
+            else cell.number(symbols)
+            for cell in (joint.gamma, joint.b, joint.alpha, joint.d, joint.theta, joint.r)
         )
+        swing = before.rotation @ _rotation(gamma, about="z")
+        tilt = swing @ _rotation(alpha, about="x")
+        rotation = tilt @ _rotation(theta, about="z")
+        position = before.position + swing[:, 2] * b + tilt[:, 0] * d + rotation[:, 2] * r
+        rate = ca.SX(0) if variable is None else ca.jacobian(ca.SX(theta + r), variable)
+        frames[joint.name] = Frame(rotation, position, rotation[:, 2] * rate)
     return frames
 
 
@@ -68,45 +78,14 @@ def gravity_vector(robot: Robot) -> np.ndarray:
     return np.array([component.number(symbols) for component in robot.gravity])
 
 
-def _placed(
-    antecedent: Frame, joint: Joint, symbols: dict[str, float], variable: ca.SX | None
-) -> Frame:
-    def cell(expression: Expression) -> ca.SX | float:
-        if joint.variable not in expression.names:
-            return expression.number(symbols)
-        values = {**symbols, joint.variable: variable}
-        return expression.fold(values, FUNCTIONS, float(np.pi), float)
-
-    swing = antecedent.rotation @ _rotation_z(cell(joint.gamma))
-    tilt = swing @ _rotation_x(cell(joint.alpha))
-    theta, r = cell(joint.theta), cell(joint.r)
-    rotation = tilt @ _rotation_z(theta)
-    position = (
-        antecedent.position
-        + swing[:, 2] * cell(joint.b)
-        + tilt[:, 0] * cell(joint.d)
-        + rotation[:, 2] * r
-    )
-    rate = ca.SX(0) if variable is None else ca.jacobian(ca.SX(theta + r), variable)
-    return Frame(rotation, position, rotation[:, 2] * rate)
-
-
-def _rotation_z(angle: ca.SX | float) -> ca.SX:
-    c, s = _cosine_and_sine(angle)
-    return ca.vertcat(ca.horzcat(c, -s, 0), ca.horzcat(s, c, 0), ca.horzcat(0, 0, 1))
-
-
-def _rotation_x(angle: ca.SX | float) -> ca.SX:
-    c, s = _cosine_and_sine(angle)
-    return ca.vertcat(ca.horzcat(1, 0, 0), ca.horzcat(0, c, -s), ca.horzcat(0, s, c))
-
-
-def _cosine_and_sine(angle: ca.SX | float) -> tuple[ca.SX, ca.SX]:
+def _rotation(angle: ca.SX | float, about: str) -> ca.SX:
     if isinstance(angle, ca.SX):
-        return ca.cos(angle), ca.sin(angle)
-    # cos(pi/2) is 6e-17 in floating point; an exact 0 keeps the expressions small.
-    s, c = (float(value) for value in sine_and_cosine(angle))
-    return ca.SX(c if abs(c) > 1e-15 else 0.0), ca.SX(s if abs(s) > 1e-15 else 0.0)
+        c, s = ca.cos(angle), ca.sin(angle)
+    else:  # cos(pi/2) is 6e-17 in floating point; an exact 0 keeps the expressions small
+        s, c = (ca.SX(x if abs(x) > 1e-15 else 0.0) for x in map(float, sine_and_cosine(angle)))
+    if about == "z":
+        return ca.vertcat(ca.horzcat(c, -s, 0), ca.horzcat(s, c, 0), ca.horzcat(0, 0, 1))
+    return ca.vertcat(ca.horzcat(1, 0, 0), ca.horzcat(0, c, -s), ca.horzcat(0, s, c))
 
 
 # A rigid link as a workshop describes it: mass, mass centre, inertia about the mass centre.
@@ -140,20 +119,13 @@ def body_from_standard(values: Mapping[str, float]) -> Body:
     mass = values["M"]
     moment = np.array([values["MX"], values["MY"], values["MZ"]])
     centre = moment / mass if mass else np.zeros(3)
-    origin = np.zeros((3, 3))
-    for name, (row, column) in _PLACE.items():
-        origin[row, column] = origin[column, row] = values[name]
-    return Body(mass, centre, origin - mass * _spread(centre))
+    return Body(mass, centre, _inertia_at_origin(values) - mass * _spread(centre))
 
 
 def standard_from_body(body: Body) -> dict[str, float]:
     """The ten standard parameters at the origin of frame j, in the order of `INERTIAL`."""
     origin = body.inertia + body.mass * _spread(body.centre)
-    moment = body.mass * body.centre
-    values = {name: float(origin[place]) for name, place in _PLACE.items()}
-    values |= {name: float(moment[i]) for i, name in enumerate(("MX", "MY", "MZ"))}
-    values["M"] = float(body.mass)
-    return {name: values[name] for name in INERTIAL}
+    return _standard(origin, body.mass * body.centre, body.mass)
 
 
 def pseudo_inertia(values: Mapping[str, float]) -> np.ndarray:
@@ -162,9 +134,7 @@ def pseudo_inertia(values: Mapping[str, float]) -> np.ndarray:
     A set of ten parameters is that of some distribution of mass if and only if this matrix is
     positive semi-definite (Wensing, Kim and Slotine 2018, IEEE RA-L 3(1)).
     """
-    origin = np.zeros((3, 3))
-    for name, (row, column) in _PLACE.items():
-        origin[row, column] = origin[column, row] = values[name]
+    origin = _inertia_at_origin(values)
     matrix = np.empty((4, 4))
     matrix[:3, :3] = np.trace(origin) / 2 * np.eye(3) - origin
     matrix[:3, 3] = matrix[3, :3] = [values["MX"], values["MY"], values["MZ"]]
@@ -175,11 +145,7 @@ def pseudo_inertia(values: Mapping[str, float]) -> np.ndarray:
 def standard_from_pseudo_inertia(matrix: np.ndarray) -> dict[str, float]:
     """Inverse of `pseudo_inertia`."""
     second = matrix[:3, :3]
-    origin = np.trace(second) * np.eye(3) - second
-    values = {name: float(origin[place]) for name, place in _PLACE.items()}
-    values |= {name: float(matrix[i, 3]) for i, name in enumerate(("MX", "MY", "MZ"))}
-    values["M"] = float(matrix[3, 3])
-    return {name: values[name] for name in INERTIAL}
+    return _standard(np.trace(second) * np.eye(3) - second, matrix[:3, 3], matrix[3, 3])
 
 
 def is_physical(values: Mapping[str, float], tolerance: float = 1e-9) -> bool:
@@ -193,6 +159,19 @@ def is_physical(values: Mapping[str, float], tolerance: float = 1e-9) -> bool:
         return False
     scale = np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
     return bool(np.linalg.eigvalsh(matrix / np.outer(scale, scale))[0] >= -tolerance)
+
+
+def _inertia_at_origin(values: Mapping[str, float]) -> np.ndarray:
+    origin = np.zeros((3, 3))
+    for name, (row, column) in _PLACE.items():
+        origin[row, column] = origin[column, row] = values[name]
+    return origin
+
+
+def _standard(origin: np.ndarray, moment: np.ndarray, mass: float) -> dict[str, float]:
+    values = {name: float(origin[place]) for name, place in _PLACE.items()}
+    values |= dict(zip(("MX", "MY", "MZ"), map(float, moment), strict=True)) | {"M": float(mass)}
+    return {name: values[name] for name in INERTIAL}
 
 
 def _spread(centre: np.ndarray) -> np.ndarray:

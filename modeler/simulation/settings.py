@@ -1,7 +1,7 @@
 """What a simulated measurement is asked to be."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from modeler.core.brief import Brief
 from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
-from modeler.robot.robot import Limits
-from modeler.simulation.hidden import HiddenEffect
+from modeler.robot.robot import Limits, Robot
 
 if TYPE_CHECKING:
     from modeler.simulation.trajectory import Reference
@@ -23,6 +22,23 @@ _MOST = {
 """What may be 0 and more, up to this."""
 _EMPTY: Mapping = MappingProxyType({})
 _MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
+_FORM = "EFFECT, EFFECT@JOINT or EFFECT@JOINT:name=value,..., as in stribeck@2:extra=3"
+
+
+@dataclass(frozen=True)
+class HiddenEffect:
+    """One effect that the robot file does not know of.
+
+    Attributes:
+        effect: id.
+        joint: name of the joint or link; None for an effect of the whole machine, and, where one
+            is asked for, for a joint that is drawn.
+        values: physical parameters by name, SI; those left out are drawn.
+    """
+
+    effect: str
+    joint: str | None = None
+    values: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
 
 
 @dataclass(frozen=True)
@@ -111,3 +127,64 @@ def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> Non
                 f"simulation, torque_limits of joint {joint}: got {value}; expected a number "
                 "above 0"
             )
+
+
+def hidden_from_text(text: str) -> HiddenEffect:
+    """The effect that a user writes as "stribeck", "stribeck@2" or "stribeck@2:extra=3,speed=0.1".
+
+    Raises:
+        DataError: the text has another form, or a value is no number.
+    """
+    place, colon, listed = text.partition(":")
+    effect, at, joint = place.partition("@")
+    if not effect or (at and not joint) or (colon and not listed):
+        raise DataError(f"hidden effect: got {text!r}; expected {_FORM}")
+    values: dict[str, float] = {}
+    for entry in listed.split(",") if colon else []:
+        name, equals, number = (part.strip() for part in entry.partition("="))
+        if not (name and equals) or name in values:
+            raise DataError(
+                f"hidden effect {text!r}: got {entry!r}; expected each value once as name=value"
+            )
+        values[name] = _number(number)
+        if not math.isfinite(values[name]):
+            raise DataError(f"hidden effect {text!r}, {name}: got {number!r}; expected a number")
+    return HiddenEffect(effect.strip(), joint.strip() or None, values)
+
+
+def drive_gains(texts: Sequence[str], robot: Robot) -> dict[str, float]:
+    """Torque per drive unit by joint, N m or N, from texts such as "11=2110".
+
+    Raises:
+        DataError: another form, no such joint or one without a motor, a joint twice, a gain that
+            is no number or 0.
+    """
+    motors = [joint.name for joint in robot.coordinates if joint.actuated]
+    found: dict[str, float] = {}
+    for text in texts:
+        joint, equals, number = (part.strip() for part in text.partition("="))
+        if not equals or joint in found:
+            raise DataError(
+                f"--drive-gain {text}: expected each joint once as JOINT=VALUE, as in "
+                f"{motors[0] if motors else 1}=12.5"
+            )
+        if joint not in motors:
+            raise DataError(
+                f"--drive-gain {text}: {robot.name} has no joint {joint} with a motor; expected "
+                f"one of {', '.join(motors)}"
+            )
+        found[joint] = _number(number)
+        if not math.isfinite(found[joint]) or found[joint] == 0.0:
+            raise DataError(
+                f"--drive-gain {text}: got {number or 'nothing'}; expected torque per drive unit, "
+                "a number other than 0"
+            )
+    return found
+
+
+def _number(text: str) -> float:
+    """NaN of what is none."""
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan

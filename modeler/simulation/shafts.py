@@ -1,6 +1,6 @@
 """What acts on the shafts of a simulated robot: the robot file's effects and the hidden ones."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import casadi as ca
@@ -8,11 +8,11 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot.robot import Limits, Robot
-from modeler.simulation.hidden import HiddenEffect
-from modeler.simulation.hidden_catalogue import HIDDEN
+from modeler.simulation.hidden import HIDDEN
 from modeler.simulation.parameters import PlantParameters, effects_of
-from modeler.simulation.physics import Contribution, EffectPhysics, Shaft
+from modeler.simulation.physics import Act, Contribution, Shaft, Values
 from modeler.simulation.rigid import RigidDynamics, world_frames
+from modeler.simulation.settings import HiddenEffect
 
 _CORE = 1e-3  # width of the smooth core of dry friction, relative to the top speed
 _RISE = 5e-3  # s, in which a push sets in
@@ -40,16 +40,6 @@ class ShaftEffects:
     temperatures: dict[str, ca.SX]
 
 
-@dataclass(frozen=True)
-class _Acting:
-    """An effect on the shaft that turns with row . qd; `joint` sets its speed scale."""
-
-    name: str
-    joint: str
-    row: np.ndarray  # (moving rows,)
-    act: Callable[[Shaft], Contribution]
-
-
 def shaft_effects(
     robot: Robot,
     parameters: PlantParameters,
@@ -68,18 +58,27 @@ def shaft_effects(
         tie: F and c of v = F u + c for the variables v of all moving rows.
         hidden: further effects.
     """
-    n = tie[0].shape[1]
+    turns, offset = tie
+    n = turns.shape[1]
     load, torque, inertia = ca.SX.sym("load", n), ca.SX.zeros(n), np.zeros((n, n))
     speeds = {j.name: limit.speed for j, limit in zip(robot.moving, limits, strict=True)}
     found: list[Contribution] = []
     temperatures: dict[str, ca.SX] = {}
-    for acting in _all_acting(robot, parameters, hidden):
-        row, contribution = _on_shaft(acting, links, tie, load, speeds[acting.joint])
-        torque += ca.SX(row) * contribution.torque
-        inertia += contribution.inertia * np.outer(row, row)
-        found.append(contribution)
-        if contribution.temperature is not None:
-            temperatures[acting.joint] = contribution.temperature
+    for name, joint, row, act, values in _acting(robot, parameters, hidden):
+        turn = row @ turns  # speed of the shaft = turn . ud
+        shaft = Shaft(
+            position=ca.dot(ca.SX(turn), links.q) + float(row @ offset),
+            speed=ca.dot(ca.SX(turn), links.qd),
+            settling=_CORE * speeds[joint],
+            name=name,
+            load=ca.dot(ca.SX(turn), load),
+            top=speeds[joint],
+        )
+        found.append(act(shaft, values))
+        torque += ca.SX(turn) * found[-1].torque
+        inertia += found[-1].inertia * np.outer(turn, turn)
+        if found[-1].temperature is not None:
+            temperatures[joint] = found[-1].temperature
     for effect in hidden:
         if HIDDEN[effect.effect].role == "push":
             found.append(_push(robot, effect, links, tie))
@@ -90,69 +89,34 @@ def shaft_effects(
     return ShaftEffects(torque, inertia, state, rate, load, fastest, temperatures)
 
 
-def _on_shaft(
-    acting: _Acting,
-    links: RigidDynamics,
-    tie: tuple[np.ndarray, np.ndarray],
-    load: ca.SX,
-    top: float,
-) -> tuple[np.ndarray, Contribution]:
-    """(coordinates,) shaft speed = row . ud, and what the effect adds there."""
-    turns, offset = tie
-    row = acting.row @ turns
-    shaft = Shaft(
-        position=ca.dot(ca.SX(row), links.q) + float(acting.row @ offset),
-        speed=ca.dot(ca.SX(row), links.qd),
-        settling=_CORE * top,
-        name=acting.name,
-        load=ca.dot(ca.SX(row), load),
-        top=top,
-    )
-    return row, acting.act(shaft)
-
-
-def _all_acting(
+def _acting(
     robot: Robot, parameters: PlantParameters, hidden: tuple[HiddenEffect, ...]
-) -> Iterator[_Acting]:
+) -> Iterator[tuple[str, str, np.ndarray, Act, Values]]:
+    """Name, joint, (moving rows,) r of the speed r . qd of its shaft, physics and its values."""
+    unit = dict(zip((joint.name for joint in robot.moving), np.eye(len(robot.moving)), strict=True))
     gone = {(old, h.joint) for h in hidden for old in HIDDEN[h.effect].replaces}
-    for joint in robot.moving:
-        for physics in effects_of(robot, joint.name):
-            if (physics.effect, joint.name) not in gone:
-                yield _of_file(robot, parameters, joint.name, physics)
+    for joint in unit:
+        for physics in effects_of(robot, joint):
+            if (physics.effect, joint) in gone:
+                continue
+            if physics.on_motor and joint not in robot.coupling:
+                raise RobotError(
+                    f"robot {robot.name}, joint {joint}: {physics.effect} needs the motor's "
+                    f'coupling; add {joint} = "q{joint} + ..." under [coupling]'
+                )
+            turned = robot.coupling[joint] if physics.on_motor else {joint: 1.0}
+            row = sum(float(share) * unit[name] for name, share in turned.items())
+            values = {p: parameters.standard[p + joint] for p in physics.prefixes}
+            yield f"{physics.effect}_{joint}", joint, np.asarray(row), physics.act, values
+    names = [joint.name for joint in robot.coordinates]
     for effect in hidden:
-        if HIDDEN[effect.effect].role == "shaft":
-            yield _of_hidden(robot, effect)
-
-
-def _of_file(
-    robot: Robot, parameters: PlantParameters, joint: str, physics: EffectPhysics
-) -> _Acting:
-    values = {p: parameters.standard[p + joint] for p in physics.prefixes}
-    return _Acting(
-        f"{physics.effect}_{joint}",
-        joint,
-        _shaft_row(robot, joint, physics),
-        lambda shaft: physics.act(shaft, values),
-    )
-
-
-def _of_hidden(robot: Robot, effect: HiddenEffect) -> _Acting:
-    kind = HIDDEN[effect.effect]
-    act = kind.act
-    assert act is not None and effect.joint is not None
-    names = [moving.name for moving in robot.moving]
-    row = np.zeros(len(names))
-    row[names.index(effect.joint)] = 1.0
-    if kind.where == "pair":
-        joints = [joint.name for joint in robot.coordinates]
-        after = joints[joints.index(effect.joint) + 1]
-        row[names.index(after)] = effect.values["ratio"]
-    return _Acting(
-        f"hidden_{effect.effect}_{effect.joint}",
-        effect.joint,
-        row,
-        lambda shaft: act(shaft, effect.values),
-    )
+        kind, own = HIDDEN[effect.effect], effect.joint
+        if kind.act is None or own is None:
+            continue
+        row = unit[own]
+        if kind.where == "pair":
+            row = row + effect.values["ratio"] * unit[names[names.index(own) + 1]]
+        yield f"hidden_{effect.effect}_{own}", own, row, kind.act, effect.values
 
 
 def _push(
@@ -172,23 +136,6 @@ def _push(
     ended = ca.tanh((clock - values["start"] - values["length"]) / _RISE)
     torque = -ca.jacobian(work, links.q).T * (begun - ended) / 2
     return Contribution(torque=torque, state=clock, rate=ca.SX(1.0))
-
-
-def _shaft_row(robot: Robot, joint: str, physics: EffectPhysics) -> np.ndarray:
-    """(moving rows,) shaft speed = row . qd."""
-    names = [moving.name for moving in robot.moving]
-    row = np.zeros(len(names))
-    if not physics.on_motor:
-        row[names.index(joint)] = 1.0
-        return row
-    if joint not in robot.coupling:
-        raise RobotError(
-            f"robot {robot.name}, joint {joint}: {physics.effect} needs the motor's coupling; "
-            f'add {joint} = "q{joint} + ..." under [coupling]'
-        )
-    for name, coefficient in robot.coupling[joint].items():
-        row[names.index(name)] = coefficient
-    return row
 
 
 # Transmissions that give way: motor and link as two bodies with a spring between them.

@@ -14,7 +14,7 @@ from scipy.interpolate import BPoly, make_interp_spline
 
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import check_unpacked, read_file
-from modeler.robot.robot import Joint, Limits, Robot
+from modeler.robot.robot import Limits, Robot
 from modeler.simulation.portable_math import sine_and_cosine, ten_digits
 
 _MARGIN = 0.92  # of the limits: the joints overshoot the command a little
@@ -80,14 +80,14 @@ def point_to_point_reference(
     Raises:
         DataError: no time for a move there and back, or what `exciting_reference` refuses.
     """
-    path, time = _at_rest(limits, duration, rate)
-    rng = np.random.default_rng([seed, 4])
-    if _add_moves(path, time, limits, float(time[-1]), rng, exciting=False) == 0.0:
+    path = _Path(limits, duration, rate)
+    until = float(path.time[-1])
+    if path.add_moves(until, np.random.default_rng([seed, 4]), exciting=False) == 0.0:
         raise DataError(
             f"reference motion: got duration {duration} s, too short for a move and back; expected "
             "more, or faster [limits]"
         )
-    return Reference(time, *path)
+    return path.reference()
 
 
 def one_joint_reference(
@@ -112,57 +112,36 @@ def one_joint_reference(
     Raises:
         DataError: no time for one joint, or what `exciting_reference` refuses.
     """
-    along = np.eye(len(limits)) if directions is None else directions
-    path, time = _at_rest(limits, duration, rate)
-    rng = np.random.default_rng([seed, 6])
-    middle = path[0, 0].copy()
-    now, here, turn = _PAUSE, middle.copy(), 0
+    directions = np.eye(len(limits)) if directions is None else directions
+    path, rng = _Path(limits, duration, rate), np.random.default_rng([seed, 6])
+    lower, upper = path.middle - path.reach, path.middle + path.reach
+    now, here, turn = _PAUSE, path.middle, 0
     while True:
-        steps, there = _there_and_back(limits, middle, here, along[turn % len(along)], rng)
-        moves = [(step, _move_time(step, limits, level)) for step, level in steps]
-        home = _move_time(middle - there, limits, 1.0)
-        if now + sum(lasts + _REST for _, lasts in moves) + home + _PAUSE > time[-1]:
+        way = directions[turn % len(directions)]
+        place = path.random_place(rng)
+        # How far one can go along `way` from there, back and forth, within the range.
+        on = way != 0
+        sides = np.stack([(edge - place)[on] / way[on] for edge in (lower, upper)])
+        first = float(np.max(np.min(sides, axis=0)))
+        last = float(np.min(np.max(sides, axis=0)))
+        there, along = place + first * way, (last - first) * way
+        steps = [(there - here, 1.0)]
+        steps += [(sign * along, level) for level in _ALONE for sign in (1, -1)]
+        moves = [(step, path.move_time(step, level)) for step, level in steps]
+        home = path.move_time(path.middle - there)
+        if now + sum(lasts + _REST for _, lasts in moves) + home + _PAUSE > path.time[-1]:
             break
         for step, lasts in moves:
-            _add_move(path, time, now, lasts, step)
+            path.add_move(now, lasts, step)
             now += lasts + _REST
         here, turn = there, turn + 1
-    _check_moved(turn, duration)
-    _add_move(path, time, now, _move_time(middle - here, limits, 1.0), middle - here)
-    return Reference(time, *path)
-
-
-def _check_moved(turns: int, duration: float) -> None:
-    if not turns:
+    if not turn:
         raise DataError(
             f"reference motion: got duration {duration} s, too short for one joint to move there "
             "and back; expected more, or faster [limits]"
         )
-
-
-def _there_and_back(
-    limits: tuple[Limits, ...],
-    middle: np.ndarray,
-    here: np.ndarray,
-    way: np.ndarray,
-    rng: np.random.Generator,
-) -> tuple[list[tuple[np.ndarray, float]], np.ndarray]:
-    """Steps and their speeds: to a random place, then along `way` over its range; and the place."""
-    reach = _MARGIN * np.array([(limit.upper - limit.lower) / 2 for limit in limits])
-    place = middle + reach * np.round(rng.uniform(-1, 1, len(limits)), 10)
-    first, last = _ends(place, way, middle - reach, middle + reach)
-    there, along = place + first * way, (last - first) * way
-    alone = [(sign * along, level) for level in _ALONE for sign in (1, -1)]
-    return [(there - here, 1.0), *alone], there
-
-
-def _ends(
-    place: np.ndarray, way: np.ndarray, lower: np.ndarray, upper: np.ndarray
-) -> tuple[float, float]:
-    """How far along `way` one can go from `place`, back and forth, within the range."""
-    moved = way != 0
-    sides = np.stack([(lower - place)[moved] / way[moved], (upper - place)[moved] / way[moved]])
-    return float(np.max(np.min(sides, axis=0))), float(np.min(np.max(sides, axis=0)))
+    path.add_move(now, path.move_time(path.middle - here), path.middle - here)
+    return path.reference()
 
 
 def exciting_reference(
@@ -184,90 +163,111 @@ def exciting_reference(
     Raises:
         DataError: duration too short for one sample, or a rate not above 0.
     """
-    path, time = _at_rest(limits, duration, rate)
-    rng = np.random.default_rng([seed, 2])
-    start = _add_moves(path, time, limits, duration / 2, rng)
-    _add_series(path, time, limits, start, float(time[-1]), rng)
-    return Reference(time, *path)
+    path, rng = _Path(limits, duration, rate), np.random.default_rng([seed, 2])
+    path.add_series(path.add_moves(duration / 2, rng), rng)
+    return path.reference()
 
 
-def _at_rest(
-    limits: tuple[Limits, ...], duration: float, rate: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """(3, n, joints) positions in the middle of the range and their derivatives, and (n,) time."""
-    if not rate > 0 or not duration > 0 or not np.isfinite(duration * rate):
-        raise DataError(
-            f"reference motion: got duration {duration} s at {rate} samples per second; "
-            "expected both above 0"
-        )
-    count = round(duration * rate)
-    if count < 2:
-        raise DataError(
-            f"reference motion: duration {duration} s holds {count} samples at {rate} per second; "
-            "expected at least 2"
-        )
-    time = np.arange(count) / rate
-    middle = np.array([(limit.lower + limit.upper) / 2 for limit in limits])
-    path = np.zeros((3, count, len(limits)))
-    path[0] = middle
-    return path, time
+class _Path:
+    """A motion in the making: at rest in the middle of the range, until moves are added.
 
-
-def _add_moves(
-    path: np.ndarray,
-    time: np.ndarray,
-    limits: tuple[Limits, ...],
-    until: float,
-    rng: np.random.Generator,
-    exciting: bool = True,
-) -> float:
-    """Moves from the middle and back to it; gives the time at which they end, 0 without any.
-
-    Exciting ones are of several speeds, some of only some joints, and none takes long.
+    Attributes:
+        limits: in the order of q.
+        time: (n,) s.
+        values: (3, n, joints) positions and their derivatives.
+        middle: (joints,) of the range.
+        reach: (joints,) how far a joint may go from there.
     """
-    speeds, longest = (_SPEEDS, _LONGEST) if exciting else (_AS_FAST_AS_CAN_BE, np.inf)
-    middle = path[0, 0].copy()
-    reach = _MARGIN * np.array([(limit.upper - limit.lower) / 2 for limit in limits])
-    now, here, turn = _PAUSE, middle.copy(), 0
-    while True:
-        level = speeds[turn % len(speeds)]
-        joins = rng.random(len(limits)) < (0.5 if exciting and turn % 3 == 2 else 1.1)
-        joins[rng.integers(len(limits))] = True
-        share = np.round(rng.uniform(-1, 1, len(limits)), 10)
-        target = np.where(joins, middle + reach * share, here)
-        needed = _move_time(target - here, limits, level)
-        target = here + (target - here) * min(1.0, longest / max(needed, 1e-9))
-        lasts = _move_time(target - here, limits, level)
-        home = _move_time(middle - target, limits, 1.0)
-        if now + lasts + home + 2 * _PAUSE > until:
-            break
-        _add_move(path, time, now, lasts, target - here)
-        now, here, turn = now + lasts + _PAUSE, target, turn + 1
-    back = _move_time(middle - here, limits, 1.0)
-    _add_move(path, time, now, back, middle - here)
-    return now + back + _PAUSE if turn else 0.0
 
+    def __init__(self, limits: tuple[Limits, ...], duration: float, rate: float) -> None:
+        if not rate > 0 or not duration > 0 or not np.isfinite(duration * rate):
+            raise DataError(
+                f"reference motion: got duration {duration} s at {rate} samples per second; "
+                "expected both above 0"
+            )
+        count = round(duration * rate)
+        if count < 2:
+            raise DataError(
+                f"reference motion: duration {duration} s holds {count} samples at {rate} per "
+                "second; expected at least 2"
+            )
+        self.limits, self.time = limits, np.arange(count) / rate
+        self.middle = np.array([(limit.lower + limit.upper) / 2 for limit in limits])
+        self.reach = _MARGIN * np.array([(limit.upper - limit.lower) / 2 for limit in limits])
+        self.values = np.zeros((3, count, len(limits)))
+        self.values[0] = self.middle
 
-def _move_time(distance: np.ndarray, limits: tuple[Limits, ...], level: float) -> float:
-    """Duration of a quintic move of all joints together, none above level * top speed, s."""
-    speed = _MARGIN * level * np.array([limit.speed for limit in limits])
-    lift = _MARGIN * np.array([limit.acceleration for limit in limits])
-    length = np.abs(distance)
-    return float(
-        max(
-            np.max(_PEAK_SPEED * length / speed),
-            np.max(np.sqrt(_PEAK_ACCELERATION * length / lift)),
-        )
-    )
+    def reference(self) -> Reference:
+        return Reference(self.time, *self.values)
 
+    def random_place(self, rng: np.random.Generator) -> np.ndarray:
+        """(joints,) positions within reach."""
+        return self.middle + self.reach * np.round(rng.uniform(-1, 1, len(self.limits)), 10)
 
-def _add_move(
-    path: np.ndarray, time: np.ndarray, begin: float, lasts: float, distance: np.ndarray
-) -> None:
-    if lasts > 0:
-        step = _quintic_step((time - begin) / lasts)
-        for order in range(3):
-            path[order] += step[order][:, None] / lasts**order * distance
+    def move_time(self, distance: np.ndarray, level: float = 1.0) -> float:
+        """Duration of a quintic move of all joints together, none above level * top speed, s."""
+        speed = _MARGIN * level * np.array([limit.speed for limit in self.limits])
+        lift = _MARGIN * np.array([limit.acceleration for limit in self.limits])
+        length = np.abs(distance)
+        times = [_PEAK_SPEED * length / speed, np.sqrt(_PEAK_ACCELERATION * length / lift)]
+        return float(np.max(times))
+
+    def add_move(self, begin: float, lasts: float, distance: np.ndarray) -> None:
+        if lasts > 0:
+            step = _quintic_step((self.time - begin) / lasts)
+            for order in range(3):
+                self.values[order] += step[order][:, None] / lasts**order * distance
+
+    def add_moves(self, until: float, rng: np.random.Generator, exciting: bool = True) -> float:
+        """Moves from the middle and back to it; gives the time at which they end, 0 without any.
+
+        Exciting ones are of several speeds, some of only some joints, and none takes long.
+        """
+        speeds, longest = (_SPEEDS, _LONGEST) if exciting else (_AS_FAST_AS_CAN_BE, np.inf)
+        now, here, turn = _PAUSE, self.middle, 0
+        while True:
+            level = speeds[turn % len(speeds)]
+            joins = rng.random(len(here)) < (0.5 if exciting and turn % 3 == 2 else 1.1)
+            joins[rng.integers(len(here))] = True
+            target = np.where(joins, self.random_place(rng), here)
+            needed = self.move_time(target - here, level)
+            target = here + (target - here) * min(1.0, longest / max(needed, 1e-9))
+            lasts = self.move_time(target - here, level)
+            home = self.move_time(self.middle - target)
+            if now + lasts + home + 2 * _PAUSE > until:
+                break
+            self.add_move(now, lasts, target - here)
+            now, here, turn = now + lasts + _PAUSE, target, turn + 1
+        back = self.move_time(self.middle - here)
+        self.add_move(now, back, self.middle - here)
+        return now + back + _PAUSE if turn else 0.0
+
+    def add_series(self, begin: float, rng: np.random.Generator) -> None:
+        """A sum of harmonics for each joint, faded in from `begin` and out to the end."""
+        time, end = self.time, float(self.time[-1])
+        lasts = end - begin
+        fade = min(1.0, lasts / 3)
+        lowest = max(_LOWEST, 1.0 / lasts)
+        rise = _quintic_step((time - begin) / fade)
+        fall = _quintic_step((time - (end - fade)) / fade)
+        window = [(rise[k] - fall[k]) / fade**k for k in range(3)]
+        for i, limit in enumerate(self.limits):
+            series = np.zeros((3, time.size))
+            for harmonic in range(1, _HARMONICS + 1):
+                omega = 2 * np.pi * lowest * harmonic * ten_digits(rng.uniform(0.9, 1.1))
+                phase = omega * (time - begin) + ten_digits(rng.uniform(0, 2 * np.pi))
+                size = ten_digits(rng.uniform(0.5, 1.0)) / harmonic
+                sine, cosine = sine_and_cosine(phase)
+                series += size * np.array([sine, omega * cosine, -(omega**2) * sine])
+            shaped = np.array([
+                window[0] * series[0],
+                window[1] * series[0] + window[0] * series[1],
+                window[2] * series[0] + 2 * window[1] * series[1] + window[0] * series[2],
+            ])  # fmt: skip
+            bounds = ((limit.upper - limit.lower) / 2, limit.speed, limit.acceleration)
+            peaks = np.max(np.abs(shaped), axis=1)
+            shares = [bound / peak for bound, peak in zip(bounds, peaks, strict=True) if peak > 0]
+            self.values[:, :, i] += shaped * _MARGIN * min(shares, default=0.0)
 
 
 def _quintic_step(s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -277,40 +277,6 @@ def _quintic_step(s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     slope = 30 * x**2 * (1 - x) ** 2
     bend = 60 * x * (1 - x) * (1 - 2 * x)
     return value, slope, bend
-
-
-def _add_series(
-    path: np.ndarray,
-    time: np.ndarray,
-    limits: tuple[Limits, ...],
-    begin: float,
-    end: float,
-    rng: np.random.Generator,
-) -> None:
-    """A sum of harmonics for each joint, faded in from `begin` and out to `end`."""
-    lasts = end - begin
-    fade = min(1.0, lasts / 3)
-    lowest = max(_LOWEST, 1.0 / lasts)
-    rise = _quintic_step((time - begin) / fade)
-    fall = _quintic_step((time - (end - fade)) / fade)
-    window = [(rise[k] - fall[k]) / fade**k for k in range(3)]
-    for i, limit in enumerate(limits):
-        series = np.zeros((3, time.size))
-        for harmonic in range(1, _HARMONICS + 1):
-            omega = 2 * np.pi * lowest * harmonic * ten_digits(rng.uniform(0.9, 1.1))
-            phase = omega * (time - begin) + ten_digits(rng.uniform(0, 2 * np.pi))
-            size = ten_digits(rng.uniform(0.5, 1.0)) / harmonic
-            sine, cosine = sine_and_cosine(phase)
-            series += size * np.array([sine, omega * cosine, -(omega**2) * sine])
-        shaped = np.array([
-            window[0] * series[0],
-            window[1] * series[0] + window[0] * series[1],
-            window[2] * series[0] + 2 * window[1] * series[1] + window[0] * series[2],
-        ])  # fmt: skip
-        bounds = ((limit.upper - limit.lower) / 2, limit.speed, limit.acceleration)
-        peaks = np.max(np.abs(shaped), axis=1)
-        shares = [bound / peak for bound, peak in zip(bounds, peaks, strict=True) if peak > 0]
-        path[:, :, i] += shaped * _MARGIN * min(shares, default=0.0)
 
 
 # A commanded motion from a file: what `modeler excite` writes, or a log's commands.
@@ -452,28 +418,23 @@ def motion_limits(robot: Robot, changes: Mapping[str, Limits] | None = None) -> 
         where = f"robot {robot.name}, limits of joint {name}"
         if name not in names:
             raise RobotError(f"{where}: no such moving joint; expected one of {', '.join(names)}")
-        _check(limits, where)
-    return tuple(stated.get(joint.name, _default(robot, joint)) for joint in robot.moving)
-
-
-def _default(robot: Robot, joint: Joint) -> Limits:
-    usual = REVOLUTE if joint.angular else PRISMATIC
-    if not robot.loops:
-        return usual
-    home, reach = robot.home.get(joint.name, 0.0), _AROUND_HOME * usual.upper
-    return Limits(home - reach, home + reach, usual.speed, usual.acceleration)
-
-
-def _check(limits: Limits, where: str) -> None:
-    values = (limits.lower, limits.upper, limits.speed, limits.acceleration)
-    if not all(math.isfinite(value) for value in values):
-        raise RobotError(f"{where}: got {values}; expected finite numbers")
-    if limits.lower >= limits.upper:
-        raise RobotError(
-            f"{where}: got lower {limits.lower}, upper {limits.upper}; expected lower < upper"
-        )
-    if limits.speed <= 0 or limits.acceleration <= 0:
-        raise RobotError(
-            f"{where}: got speed {limits.speed}, acceleration {limits.acceleration}; "
-            "expected both above 0"
-        )
+        values = (limits.lower, limits.upper, limits.speed, limits.acceleration)
+        if not all(math.isfinite(value) for value in values):
+            raise RobotError(f"{where}: got {values}; expected finite numbers")
+        if limits.lower >= limits.upper:
+            raise RobotError(
+                f"{where}: got lower {limits.lower}, upper {limits.upper}; expected lower < upper"
+            )
+        if limits.speed <= 0 or limits.acceleration <= 0:
+            raise RobotError(
+                f"{where}: got speed {limits.speed}, acceleration {limits.acceleration}; "
+                "expected both above 0"
+            )
+    found = []
+    for joint in robot.moving:
+        usual = REVOLUTE if joint.angular else PRISMATIC
+        if robot.loops:
+            home, reach = robot.home.get(joint.name, 0.0), _AROUND_HOME * usual.upper
+            usual = Limits(home - reach, home + reach, usual.speed, usual.acceleration)
+        found.append(stated.get(joint.name, usual))
+    return tuple(found)

@@ -13,9 +13,8 @@ import sympy
 
 import modeler
 from modeler.codegen.emit import emit
-from modeler.codegen.examples import FOLDER, PROGRAMS
-from modeler.codegen.names import module_prefix, symbol_macros
-from modeler.codegen.package import write_emitted
+from modeler.codegen.functions import module_prefix, symbol_macros
+from modeler.codegen.package import FOLDER, PROGRAMS, write_emitted
 from modeler.core.errors import EmitError, ModelerError
 from modeler.core.manifest import module_from_json
 from modeler.derivation.numeric_rank import grouping_matrix

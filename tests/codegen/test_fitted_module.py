@@ -7,7 +7,7 @@ import subprocess
 import pytest
 
 from modeler.codegen.emit import emit
-from modeler.codegen.names import enumerators
+from modeler.codegen.functions import enumerators
 from modeler.codegen.package import write_emitted
 from modeler.core.manifest import module_from_json
 from modeler.derivation.base_parameters import base_parameters

@@ -17,7 +17,7 @@ from modeler.simulation.control import encoder_resolution, quantised
 from modeler.simulation.hidden_draw import complete_effects
 from modeler.simulation.parameters import plant_parameters
 from modeler.simulation.plant import FastFunction, steps_per_tick, tick_function
-from modeler.simulation.run import _closed_task, _needed, _postures, _task
+from modeler.simulation.run import needed_torques, postures_of, task_of
 from modeler.simulation.trajectory import motion_limits
 
 
@@ -45,18 +45,17 @@ class Machine:
     def __init__(self, robot: Robot, settings: SimulationSettings) -> None:
         every = motion_limits(robot, settings.limits)
         parameters = plant_parameters(robot, every, settings.parameter_seed)
-        make = _closed_task if robot.loops else _task
         self.hidden = complete_effects(robot, parameters, every, settings)
         self.standard = parameters.standard
-        self.task = make(robot, parameters, every, settings, self.hidden)
+        self.task = task_of(robot, parameters, every, settings, self.hidden)
         self.reference = self.task.reference
         self.resolution = encoder_resolution(robot.coordinates, settings)
         plant, tick = self.task.plant, 1 / settings.rate
-        steps = steps_per_tick(plant, self.task.limits, tick, _postures(self.task))
+        steps = steps_per_tick(plant, self.task.limits, tick, postures_of(self.task))
         self._advance = FastFunction(tick_function(plant, tick, steps))
         self.joints = len(plant.joints)
         self.moved = self.reference.q - self.reference.q.mean(axis=0)
-        needed = _needed(self.task)
+        needed = needed_torques(self.task)
         self.torque = float(np.min(rms(needed)))
 
     def drive(

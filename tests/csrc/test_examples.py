@@ -157,7 +157,7 @@ def test_a_robot_with_a_joint_that_nothing_drives_has_no_example_loop():
     made = module("demo-arm")
     spec = made.emitted.spec
     passive = dataclasses.replace(spec.joints[1], actuated=False)
-    from modeler.codegen.examples import examples_of
+    from modeler.codegen.package import examples_of
 
     fitted: FittedSpec = fitted_of(spec)
     whole = dataclasses.replace(spec, fitted=fitted)

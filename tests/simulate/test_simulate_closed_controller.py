@@ -18,9 +18,8 @@ from modeler.simulation import (
     simulate,
     write_log,
 )
-from modeler.simulation.closed import build_closed_plant, inner_states
 from modeler.simulation.closing import constraints_of, followed, rates, sampled
-from modeler.simulation.plant import tick_function
+from modeler.simulation.plant import build_plant, inner_states, tick_function
 from tests.robots import TIED
 
 QUICK = ("five-bar", "sr400", "orthoglide-2003")
@@ -37,7 +36,7 @@ DRIVEN = SimulationSettings(
 def plant_of(source: Robot):
     limits, constraints = motion_limits(source), constraints_of(source)
     parameters = plant_parameters(source, limits)
-    return build_closed_plant(source, parameters, limits, constraints), constraints
+    return build_plant(source, parameters, limits, constraints=constraints), constraints
 
 
 @pytest.mark.parametrize("name", LOOPS)

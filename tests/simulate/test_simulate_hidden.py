@@ -22,9 +22,8 @@ from modeler.simulation import (
     write_truth,
 )
 from modeler.simulation.closing import constraints_of, followed, rates
-from modeler.simulation.hidden_bodies import machine
 from modeler.simulation.hidden_draw import complete_effects
-from modeler.simulation.plant import build_plant, steps_per_tick
+from modeler.simulation.plant import build_plant, machine, steps_per_tick
 from modeler.simulation.rigid import gravity_vector, world_frames
 from modeler.simulation.shafts import settled
 

@@ -10,7 +10,7 @@ from modeler.core.builtin import builtin_names
 from modeler.core.errors import RobotError
 from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL, Limits
-from modeler.simulation import links, motion_limits, plant_parameters
+from modeler.simulation import motion_limits, plant_parameters
 from modeler.simulation.completion import Completion, completed
 from modeler.simulation.rigid import (
     Body,
@@ -199,7 +199,9 @@ def test_the_completion_is_the_reference_where_that_fits():
 
 
 def test_a_search_that_fails_does_not_claim_that_no_body_exists(monkeypatch):
-    monkeypatch.setattr(links, "completed", lambda stated, reference: Completion(None))
+    monkeypatch.setattr(
+        "modeler.simulation.parameters.completed", lambda stated, reference: Completion(None)
+    )
     source = robot(ARM, parameters="M1 = 1.0")
     with pytest.raises(RobotError, match=r"link 1: found no rigid body .*M1 = 1, nor a proof"):
         plant_parameters(source, motion_limits(source))
