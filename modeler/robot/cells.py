@@ -9,8 +9,17 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core import rounded
-from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, ExpressionError, parse
-from modeler.robot.robot import Place, listed, near, shown
+from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, parse
+from modeler.core.toml_cells import (
+    LARGEST,
+    Place,
+    expression_at,
+    list_at,
+    listed,
+    near,
+    shown,
+    table_at,
+)
 
 # Expressions that are linear in the joint variables, taken apart.
 
@@ -123,8 +132,6 @@ def _real(value: complex | float) -> float:
     return float(value)
 
 
-LARGEST = 1e12
-"""Size of any number, in SI units: squares and products of larger ones leave double precision."""
 LARGEST_LENGTH = 1e4
 """m, and of an acceleration of gravity, m/s2. Beside it a link of a few cm is lost in rounding."""
 LARGEST_RATIO = 1e4
@@ -135,21 +142,6 @@ MOST_NAME_LETTERS = 63
 _QUARTER = math.pi / 2
 _EXACT = 1e-9  # rad; nearer to a multiple of pi/2 than this is that multiple
 _ROUNDED = 5e-3  # rad; nearer than this, and written with few digits: 1.57, 3.14
-
-
-def expression_at(value: Any, place: Place) -> Expression:
-    """The cell as an `Expression`; names are not checked.
-
-    Raises:
-        RobotError: not a number or an expression.
-    """
-    try:
-        return parse(value)
-    except ExpressionError as error:
-        told = str(error)
-        if isinstance(value, str):
-            told = told.replace(f'"{value.strip()}"', shown(value.strip()))
-        raise place.error(told) from None
 
 
 def form_at(
@@ -233,65 +225,6 @@ def number_at(value: Any, symbols: Mapping[str, float], place: Place) -> float:
     expression = expression_at(value, place)
     check_declared(expression, symbols, place)
     return form_at(expression, symbols, place).constant
-
-
-def plain_number(value: Any, place: Place, example: str) -> float:
-    """A finite number, not an expression.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise place.error(f"got {shown(value)}; expected a number such as {example}")
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
-    if not math.isfinite(number):
-        raise place.error(f"got {shown(value)}; expected a finite number such as {example}")
-    if abs(number) > LARGEST:
-        raise place.error(
-            f"got {shown(value)}; expected at most {LARGEST:g} in SI units, such as {example}"
-        )
-    return number
-
-
-def table_at(value: Any, place: Place, example: str) -> dict[str, Any]:
-    """A TOML table.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if not isinstance(value, dict):
-        raise place.error(f"got {shown(value)}; expected a table, as in {example}")
-    return value
-
-
-def list_at(value: Any, place: Place, example: str, length: int | None = None) -> list[Any]:
-    """A TOML array, of `length` entries if that is given.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if not isinstance(value, list):
-        raise place.error(f"got {shown(value)}; expected a list such as {example}")
-    if length is not None and len(value) != length:
-        raise place.error(
-            f"got {len(value)} entries, expected {length}, as in {example}; "
-            f"{'add' if len(value) < length else 'remove'} {abs(len(value) - length)}"
-        )
-    return value
-
-
-def text_at(value: Any, place: Place, example: str) -> str:
-    """A TOML string that is not empty.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if not isinstance(value, str) or not value.strip():
-        raise place.error(f"got {shown(value)}; expected text such as {example}")
-    return value
 
 
 def name_of(value: Any) -> Any:

@@ -8,11 +8,12 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from modeler.core.errors import RobotError
+from modeler.core.toml_cells import Place
 from modeler.effects.catalogue import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, effect_named
 from modeler.effects.effect import Effect
 from modeler.robot.effects import read_own_effects
 from modeler.robot.loops import MARK, expanded, leg_names
-from modeler.robot.robot import INERTIAL, Place
+from modeler.robot.robot import INERTIAL
 
 Effects = Mapping[str, str | list]
 """Effect id or alias -> "all", the names of the joints that have it, or tables with shapes."""

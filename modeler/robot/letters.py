@@ -8,10 +8,10 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from modeler.core.expression import FUNCTIONS
+from modeler.core.toml_cells import listed
 from modeler.effects.catalogue import CATALOGUE
 from modeler.robot.cells import C_WORDS
 from modeler.robot.par_text import INERTIA, INVERSE, Each, ParFormula, renamed, value, written
-from modeler.robot.robot import listed
 
 GRAVITY = 9.81  # m/s2
 _PRIMES = [n for n in range(29, 1000) if all(n % k for k in range(2, 32) if k < n)]

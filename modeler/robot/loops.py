@@ -6,19 +6,26 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeler.core.expression import Expression
+from modeler.core.toml_cells import (
+    Place,
+    check_keys,
+    expression_at,
+    list_at,
+    listed,
+    near,
+    shown,
+    table_at,
+    text_at,
+)
 from modeler.robot.cells import (
     LARGEST_RATIO,
     check_declared,
     check_size,
-    expression_at,
     form_at,
-    list_at,
     name_of,
     number_at,
-    table_at,
-    text_at,
 )
-from modeler.robot.robot import LOOP_KINDS, Joint, JointKind, Loop, Place, listed, near, shown
+from modeler.robot.robot import LOOP_KINDS, Joint, JointKind, Loop
 from modeler.robot.sections import other_joint
 from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
 
@@ -41,11 +48,7 @@ def read_loops(value: Any, joints: Sequence[Joint], place: Place) -> tuple[Loop,
     if value is None:
         return ()
     table = table_at(value, place, f"[loops] {_EXAMPLE}")
-    for key in table:
-        if key not in ("columns", "rows"):
-            raise place.error(
-                f"unknown key {shown(key)}{near(key, ('columns', 'rows'))}; write {_EXAMPLE}"
-            )
+    check_keys(table, ("columns", "rows"), place, f"write {_EXAMPLE}")
     columns = list_at(table.get("columns", list(_COLUMNS)), place.at("columns"), _EXAMPLE)
     if sorted(map(str, columns)) != sorted(_COLUMNS):
         raise place.at("columns").error(f"got {shown(columns)}; expected {listed(_COLUMNS)}")
@@ -405,13 +408,7 @@ def read_platform(value: Any, place: Place) -> tuple[list[tuple[Row, Place]], tu
 
 def _stated(table: dict[str, Any], place: Place) -> tuple[str, str]:
     """Name and motion of the platform."""
-    keys = ("name", "motion")
-    for key in table:
-        if key not in keys:
-            raise place.error(f"unknown key {shown(key)}{near(key, keys)}; expected {listed(keys)}")
-    for key in ("name", "motion"):
-        if key not in table:
-            raise place.error(f"{key} is missing; write {_PLATFORM_EXAMPLE}")
+    check_keys(table, ("name", "motion"), place, missing=f"write {_PLATFORM_EXAMPLE}")
     name = text_at(name_of(table["name"]), place.at("name"), '"P"')
     if not ROW_NAME.fullmatch(name):
         raise place.at("name").error(f'got {shown(name)}; expected letters and digits such as "P"')

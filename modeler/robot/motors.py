@@ -11,30 +11,26 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core.expression import Expression
+from modeler.core.toml_cells import (
+    Place,
+    expression_at,
+    list_at,
+    listed,
+    near,
+    shown,
+    table_at,
+    text_at,
+)
 from modeler.robot.cells import (
     LARGEST_RATIO,
     check_declared,
     check_name_length,
     check_size,
-    expression_at,
     form_at,
-    list_at,
     name_of,
-    table_at,
-    text_at,
 )
 from modeler.robot.loops import MARK
-from modeler.robot.robot import (
-    INERTIAL,
-    Joint,
-    JointKind,
-    Place,
-    Robot,
-    SharedParameter,
-    listed,
-    near,
-    shown,
-)
+from modeler.robot.robot import INERTIAL, Joint, JointKind, Robot, SharedParameter
 from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
 
 _EXAMPLE = '[motors] m1 = "q1", m2 = "q2 - 0.4*q1"'

@@ -5,6 +5,7 @@ import unicodedata
 from dataclasses import dataclass, field
 from pathlib import PurePath
 
+from modeler.core.toml_cells import listed
 from modeler.robot.letters import Symbols
 from modeler.robot.par_table import (
     GEOMETRY,
@@ -27,7 +28,6 @@ from modeler.robot.par_text import (
     formula,
     scan,
 )
-from modeler.robot.robot import listed
 
 # What a `.par` file says of the links: which parameters they have, values, friction, rotors.
 

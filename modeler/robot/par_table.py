@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from modeler.core.toml_cells import Place, listed
 from modeler.robot.letters import Symbols, declare, new_names, reserved, without_inverse
 from modeler.robot.par_text import (
     BODIES,
@@ -17,7 +18,6 @@ from modeler.robot.par_text import (
     renamed,
     written,
 )
-from modeler.robot.robot import Place, listed
 
 # The frames of a `.par` file: how many there are, what carries them, where their joints are.
 

@@ -11,7 +11,7 @@ from decimal import Decimal
 from fractions import Fraction
 
 from modeler.core.expression import FUNCTIONS, ExpressionError, parse
-from modeler.robot.robot import Place, listed, near, shown
+from modeler.core.toml_cells import Place, listed, near, shown
 
 SCALARS = ("NF", "NL", "NJ", "Type", "is_mobile", "is_floating")
 FRAMES = ("Ant", "Sigma", "b", "d", "r", "gamma", "alpha", "Mu", "theta")

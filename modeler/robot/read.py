@@ -15,16 +15,18 @@ from modeler.core.builtin import builtin_names, builtin_text
 from modeler.core.errors import RobotError
 from modeler.core.files import read_text
 from modeler.core.json import TomlError, parse_toml
-from modeler.robot.cells import (
-    check_name_length,
-    form_at,
+from modeler.core.toml_cells import (
+    Place,
+    check_keys,
     list_at,
+    listed,
+    near,
     plain_number,
-    read_gravity,
-    read_symbols,
+    shown,
     table_at,
     text_at,
 )
+from modeler.robot.cells import check_name_length, form_at, read_gravity, read_symbols
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.library import check_known_format, converted
 from modeler.robot.loops import (
@@ -44,7 +46,7 @@ from modeler.robot.motors import (
     shared_names,
     with_driven,
 )
-from modeler.robot.robot import Joint, Loop, Place, Robot, listed, near, shown
+from modeler.robot.robot import Joint, Loop, Robot
 from modeler.robot.sections import (
     read_coupling,
     read_drive_gains,
@@ -230,11 +232,7 @@ def _document(text: str, place: Place) -> dict[str, Any]:
             f"not TOML ({match[1]}); correct that line (texts stand in quotes, entries are "
             "separated by commas)"
         ) from None
-    for key in document:
-        if key not in _KEYS:
-            raise place.error(
-                f"unknown key {shown(key)}{near(key, _KEYS)}; expected {listed(_KEYS)}"
-            )
+    check_keys(document, _KEYS, place)
     for key, advice in _NEEDED.items():
         if key not in document:
             raise place.at(key).error(f"is missing; {advice}")

@@ -1,27 +1,29 @@
 """The tables of a robot file that name joints: effects, coupling, drives, limits, links."""
 
-import itertools
-import math
-import random
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from modeler.core.expression import Expression
-from modeler.effects.effect import VARIABLES, EffectColumn, Form, Shape
+from modeler.core.toml_cells import (
+    Place,
+    check_keys,
+    expression_at,
+    list_at,
+    listed,
+    near,
+    plain_number,
+    shown,
+    table_at,
+)
 from modeler.robot.cells import (
-    LARGEST,
     LARGEST_RATIO,
     check_declared,
     check_size,
-    expression_at,
     form_at,
-    list_at,
     name_of,
     number_at,
-    plain_number,
-    table_at,
 )
-from modeler.robot.robot import Joint, Limits, PhysicalLink, Place, listed, near, shown
+from modeler.robot.robot import Joint, Limits, PhysicalLink
 
 Coupling = dict[str, dict[str, float]]
 
@@ -159,12 +161,7 @@ def read_physical(value: Any, moving: Mapping[str, Joint], place: Place) -> dict
 def _physical_link(value: Any, variables: Collection[str], place: Place) -> PhysicalLink:
     table = table_at(value, place, 'mass = "m1", centre = [x, y, z], inertia = [XX, ..., ZZ]')
     keys = ("mass", "centre", "inertia")
-    for key in table:
-        if key not in keys:
-            raise place.error(f"unknown key {shown(key)}{near(key, keys)}; expected {listed(keys)}")
-    for key in keys:
-        if key not in table:
-            raise place.error(f"{key} is missing; expected {listed(keys)}")
+    check_keys(table, keys, place, missing=f"expected {listed(keys)}")
 
     def letters(key: str, entries: list[Any]) -> list[Expression]:
         here = place.at(key)
@@ -236,70 +233,3 @@ def other_joint(kind: str) -> str | None:
         if name in names:
             return told
     return None
-
-
-# Equations of effects have a finite real value wherever a joint may be.
-
-
-MOST = 100
-"""Combinations of the first values of shapes: a diagnosis tries each on each joint."""
-
-_STATES = 12
-
-
-def check_combinations(shapes: Sequence[Shape], place: Place) -> None:
-    """Refuse more combinations of shapes than a diagnosis should try.
-
-    Raises:
-        RobotError: more than `MOST`.
-    """
-    count = math.prod(len(shape.grid) for shape in shapes)
-    if count > MOST:
-        raise place.error(
-            f"got {count} combinations of {listed(shape.name for shape in shapes)}; expected at "
-            f"most {MOST}: give fewer values, they are refined"
-        )
-
-
-def check_finite(form: Form, place: Place, given: Mapping[str, float] | None = None) -> None:
-    """Refuse equations that have no real value up to `LARGEST` at rest or in a random state.
-
-    Args:
-        form: of an effect.
-        place: of its equations.
-        given: values of its shapes; None for all combinations of their first values.
-
-    Raises:
-        RobotError: says the equation and where it has no value.
-    """
-    states = list(_states())
-    for shapes in [given] if given is not None else _grid(form.shapes):
-        for column, state in itertools.product(form.columns, states):
-            if not _is_finite(column, {**state, **shapes}):
-                used = column.equation.names
-                values = {**{n: v for n, v in state.items() if n in used}, **shapes}
-                raise place.error(
-                    f"{column.prefix} = {shown(column.equation.text)} has no finite value at "
-                    f"{listed(f'{name} = {value:.3g}' for name, value in values.items())}; "
-                    f"expected one of at most {LARGEST:g} in every state of the joint, at rest too"
-                )
-
-
-def _grid(shapes: Sequence[Shape]) -> Iterator[Mapping[str, float]]:
-    for values in itertools.product(*(shape.grid for shape in shapes)):
-        yield {shape.name: value for shape, value in zip(shapes, values, strict=True)}
-
-
-def _states() -> Iterator[Mapping[str, float]]:
-    """Rest, and states with both signs of everything."""
-    yield dict.fromkeys(VARIABLES, 0.0)
-    draw = random.Random(0)
-    for _ in range(_STATES):
-        yield {name: draw.uniform(-3.0, 3.0) for name in VARIABLES}
-
-
-def _is_finite(column: EffectColumn, values: Mapping[str, float]) -> bool:
-    try:
-        return abs(column.equation.number(values)) <= LARGEST
-    except (ArithmeticError, ValueError, TypeError):  # a root of a negative number is complex
-        return False

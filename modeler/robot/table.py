@@ -5,20 +5,27 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeler.core.expression import Expression, parse
+from modeler.core.toml_cells import (
+    Place,
+    check_keys,
+    expression_at,
+    list_at,
+    listed,
+    near,
+    shown,
+    table_at,
+)
 from modeler.robot.cells import (
     LARGEST_LENGTH,
     check_declared,
     check_name_length,
     check_size,
     exact_angle,
-    expression_at,
     form_at,
     length_at,
-    list_at,
     name_of,
-    table_at,
 )
-from modeler.robot.robot import Joint, JointKind, Place, listed, near, shown
+from modeler.robot.robot import Joint, JointKind
 
 COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
 _GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
@@ -46,15 +53,8 @@ def table_rows(
         RobotError: columns, row lengths, row names or antecedents are wrong.
     """
     table = table_at(value, place, f"[mdh] {_EXAMPLE}")
-    for key in table:
-        if key not in ("columns", "rows"):
-            raise place.error(
-                f"unknown key {shown(key)}{near(key, ('columns', 'rows'))}; expected columns "
-                "and rows only"
-            )
-    for key in ("columns", "rows"):
-        if key not in table:
-            raise place.error(f"{key} is missing; write {_EXAMPLE}")
+    only = "expected columns and rows only"
+    check_keys(table, ("columns", "rows"), place, only, missing=f"write {_EXAMPLE}")
     columns = _columns(table["columns"], place.at("columns"))
     rows: list[tuple[Row, Place]] = list(platform)
     listed_rows = _listed_rows(table["rows"], len(platform), place.at("rows"))
