@@ -73,7 +73,10 @@ class Linear:
         power = exponent if isinstance(exponent, int) else exponent._number()
         if abs(power) > LARGEST_EXPONENT:
             raise HighPower
-        return Linear(_real(rounded.power(self._number(), power)))
+        value = rounded.power(self._number(), power)
+        if isinstance(value, complex):
+            raise ArithmeticError
+        return Linear(float(value))
 
     def _times(self, factor: float) -> "Linear":
         return Linear(self.constant * factor, {n: c * factor for n, c in self.coefficients.items()})
@@ -98,7 +101,7 @@ def linear_form(expression: Expression, symbols: Mapping[str, float]) -> Linear:
         name: Linear(symbols[name]) if name in symbols else Linear(0.0, {name: 1.0})
         for name in expression.names
     }
-    form = expression.fold(values, _LIFTED, Linear(math.pi), _constant)
+    form = expression.fold(values, _LIFTED, Linear(math.pi), lambda value: Linear(float(value)))
     form = Linear(form.constant, {n: c for n, c in form.coefficients.items() if c != 0.0})
     if not all(map(math.isfinite, (form.constant, *form.coefficients.values()))):
         raise OverflowError
@@ -120,16 +123,6 @@ def _lifted(name: str) -> Callable[["Linear"], "Linear"]:
 
 
 _LIFTED = {name: _lifted(name) for name in FUNCTIONS}
-
-
-def _constant(value: Fraction) -> Linear:
-    return Linear(float(value))
-
-
-def _real(value: complex | float) -> float:
-    if isinstance(value, complex):
-        raise ArithmeticError
-    return float(value)
 
 
 LARGEST_LENGTH = 1e4
@@ -262,6 +255,7 @@ def exact_angle(expression: Expression, variable: str | None, place: Place) -> E
     form = form_at(expression, {}, place)
     turns = round(form.constant / _QUARTER)
     error = abs(form.constant - turns * _QUARTER)
+    multiple = pi_multiple(Fraction(turns, 2))
     if abs(form.constant) > 4 * _QUARTER + _EXACT:
         raise place.error(
             f"got {shown(expression.text)}: {form.constant:g} rad is more than a turn; angles are "
@@ -270,9 +264,13 @@ def exact_angle(expression: Expression, variable: str | None, place: Place) -> E
     if "pi" in re.findall(r"[A-Za-z_]\w*", expression.text):
         return expression
     if error <= _EXACT:
-        return _with_quarters(form, variable, turns)
-    multiple = _quarters(turns)
-    if turns != 0 and error <= min(_ROUNDED, _last_digit(expression.text)):
+        if not form.coefficients:
+            return parse(multiple)
+        head = f"{variable}" if form.coefficients[variable or ""] > 0 else f"-{variable}"
+        return parse(f"{head} + {multiple}".replace("+ -", "- ").removesuffix(" + 0"))
+    decimals = [len(digits) for digits in re.findall(r"\.(\d*)", expression.text)]
+    last_digit = 10.0 ** -max(decimals, default=0)
+    if turns != 0 and error <= min(_ROUNDED, last_digit):
         raise place.error(
             f"got {shown(expression.text)}, a rounded {multiple}; write {multiple} where the angle "
             "is exact, or declare a measured angle among [symbols] and use its name"
@@ -280,29 +278,13 @@ def exact_angle(expression: Expression, variable: str | None, place: Place) -> E
     return expression
 
 
-def _with_quarters(form: Linear, variable: str | None, turns: int) -> Expression:
-    if not form.coefficients:
-        return parse(_quarters(turns))
-    head = f"{variable}" if form.coefficients[variable or ""] > 0 else f"-{variable}"
-    if turns == 0:
-        return parse(head)
-    return parse(f"{head} {'-' if turns < 0 else '+'} {_quarters(abs(turns))}")
-
-
-def _quarters(turns: int) -> str:
-    """`turns` times pi/2 as text: `0`, `pi/2`, `-pi`, `3*pi/2`."""
+def pi_multiple(turns: Fraction) -> str:
+    """`turns` times pi as text: `pi/2`, `-pi`, `3*pi/4`, `0`."""
     if turns == 0:
         return "0"
-    sign = "-" if turns < 0 else ""
-    size = abs(turns)
-    count, half = (size // 2, "") if size % 2 == 0 else (size, "/2")
-    return f"{sign}{'' if count == 1 else f'{count}*'}pi{half}"
-
-
-def _last_digit(text: str) -> float:
-    """One unit of the last decimal that is written: 0.01 for 1.57."""
-    decimals = [len(digits) for digits in re.findall(r"\.(\d*)", text)]
-    return 10.0 ** -max(decimals, default=0)
+    head = "" if abs(turns.numerator) == 1 else f"{abs(turns.numerator)}*"
+    tail = "" if turns.denominator == 1 else f"/{turns.denominator}"
+    return f"{'-' if turns < 0 else ''}{head}pi{tail}"
 
 
 # The `[symbols]` table and the gravity of a robot file.
@@ -331,7 +313,22 @@ def read_symbols(value: Any, variables: Collection[str], place: Place) -> dict[s
     table = table_at(value, place, "[symbols] D3 = 0.45")
     symbols = {}
     for name, cell in table.items():
-        _check_name(name, variables, place)
+        if not _NAME.fullmatch(name):
+            raise place.error(
+                f"got the name {shown(name)}; expected a letter, then letters, digits or _, such "
+                "as D3"
+            )
+        check_name_length(name, place)
+        taken = {
+            "a joint variable": name in variables,
+            "the number pi": name == "pi",
+            "a function": name in FUNCTIONS,
+            "a word of the C language": name in C_WORDS.split(),
+            "a word of the expression language": keyword.iskeyword(name),
+        }
+        for what, is_taken in taken.items():
+            if is_taken:
+                raise place.error(f"{shown(name)} is the name of {what}; choose another name")
         symbols[name] = expression_at(cell, place.at(name))
         check_declared(symbols[name], table, place.at(name))
     return _ordered(symbols, place)
@@ -346,6 +343,7 @@ def read_gravity(
         RobotError: not three entries, or entries that are not constants.
     """
     cells = list_at(value, place, '[0, 0, "-g"]', length=3)
+    gravity = []
     for number, cell in enumerate(cells, start=1):
         here = place.at(f"entry {number}")
         expression = expression_at(cell, here)
@@ -357,26 +355,9 @@ def read_gravity(
             )
         check_declared(expression, symbols, here)
         length_at(expression, symbols, here)
-    x, y, z = (expression_at(cell, place) for cell in cells)
+        gravity.append(expression)
+    x, y, z = gravity
     return x, y, z
-
-
-def _check_name(name: str, variables: Collection[str], place: Place) -> None:
-    if not name.isascii() or not _NAME.fullmatch(name):
-        raise place.error(
-            f"got the name {shown(name)}; expected a letter, then letters, digits or _, such as D3"
-        )
-    check_name_length(name, place)
-    taken = {
-        "a joint variable": name in variables,
-        "the number pi": name == "pi",
-        "a function": name in FUNCTIONS,
-        "a word of the C language": name in C_WORDS.split(),
-        "a word of the expression language": keyword.iskeyword(name),
-    }
-    for what, is_taken in taken.items():
-        if is_taken:
-            raise place.error(f"{shown(name)} is the name of {what}; choose another name")
 
 
 def _ordered(symbols: Mapping[str, Expression], place: Place) -> dict[str, Expression]:
