@@ -25,7 +25,7 @@ from modeler.robot.cells import (
     name_of,
     number_at,
 )
-from modeler.robot.robot import LOOP_KINDS, Joint, JointKind, Loop
+from modeler.robot.robot import LOOP_KINDS, Joint, Loop
 from modeler.robot.sections import other_joint
 from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
 
@@ -51,7 +51,7 @@ def read_loops(value: Any, joints: Sequence[Joint], place: Place) -> tuple[Loop,
     check_keys(table, ("columns", "rows"), place, f"write {_EXAMPLE}")
     columns = list_at(table.get("columns", list(_COLUMNS)), place.at("columns"), _EXAMPLE)
     if sorted(map(str, columns)) != sorted(_COLUMNS):
-        raise place.at("columns").error(f"got {shown(columns)}; expected {listed(_COLUMNS)}")
+        raise place.at("columns").mismatch(columns, listed(_COLUMNS))
     if "rows" not in table:
         raise place.error(f"rows is missing; write {_EXAMPLE}")
     rows = list_at(table["rows"], place.at("rows"), _EXAMPLE)
@@ -70,17 +70,14 @@ def read_loops(value: Any, joints: Sequence[Joint], place: Place) -> tuple[Loop,
             'the table is empty; write one row per loop, as in ["A", "9", "10", "rigid"], or leave '
             "[loops] out"
         )
-    _check_names([loop.name for loop in loops], place)
-    return tuple(loops)
-
-
-def _check_names(names: Sequence[str], place: Place) -> None:
+    names = [loop.name for loop in loops]
     for number, name in enumerate(names, start=1):
         if name in names[: number - 1]:
             raise place.at(f"row {number}").error(
                 f"{shown(name)} is the name of row {names.index(name) + 1} too; give every loop "
                 "its own name"
             )
+    return tuple(loops)
 
 
 def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Loop:
@@ -91,19 +88,23 @@ def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Lo
     for column, known in (("frame", names), ("meets", {"0", *names})):
         frame = name_of(cells[column])
         if frame not in known:
-            hint = near(frame, known) if isinstance(frame, str) else ""
             raise here.at(f"column {column}").error(
-                f"got {shown(frame)}, which is no row of the table{hint}; expected one of "
-                f"{listed(joint.name for joint in joints)}"
+                f"got {shown(frame)}, which is no row of the table{near(frame, known)}; expected "
+                f"one of {listed(joint.name for joint in joints)}"
             )
         frames.append(frame)
     kind = cells["joint"]
     if kind not in LOOP_KINDS:
         instead = other_joint(kind) if isinstance(kind, str) else None
-        hint = near(kind, LOOP_KINDS) if isinstance(kind, str) else ""
-        told = f"; {instead}" if instead else f"{hint}; expected one of {listed(LOOP_KINDS)}"
-        raise here.at("column joint").error(f"got {shown(kind)}{told}")
-    bodies = [_body(frame, joints) for frame in frames]
+        other = f"{near(kind, LOOP_KINDS)}; expected one of {listed(LOOP_KINDS)}"
+        raise here.at("column joint").error(
+            f"got {shown(kind)}{f'; {instead}' if instead else other}"
+        )
+    rows, bodies = {joint.name: joint for joint in joints}, []
+    for frame in frames:  # the moving row that carries it, "0" for the base
+        while frame != "0" and not rows[frame].moves:
+            frame = rows[frame].antecedent
+        bodies.append(frame)
     if bodies[0] == bodies[1]:
         raise here.error(
             f"frames {frames[0]} and {frames[1]} are both fixed on "
@@ -111,14 +112,6 @@ def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Lo
             "close; name a frame of another link"
         )
     return Loop(name, frames[0], frames[1], kind)
-
-
-def _body(frame: str, joints: Sequence[Joint]) -> str:
-    """The moving row that carries the frame, "0" for the base."""
-    rows = {joint.name: joint for joint in joints}
-    while frame != "0" and not rows[frame].moves:
-        frame = rows[frame].antecedent
-    return frame
 
 
 def read_home(
@@ -138,17 +131,14 @@ def read_home(
                 f"is no joint variable{near(key, variables)}; expected some of "
                 f"{listed(list(variables)[:12])}"
             )
-        home[variables[key]] = number_at(cell, symbols, here)
-        _check_turn(moving[variables[key]], home[variables[key]], here)
+        angle = number_at(cell, symbols, here)
+        if moving[variables[key]].angular and abs(angle) > 2 * math.pi + _ROUNDING:
+            raise here.error(
+                f"got {angle:g} rad, which is more than a turn; angles are in radians: write "
+                f'"{angle:g}*pi/180" for degrees'
+            )
+        home[variables[key]] = angle
     return home
-
-
-def _check_turn(joint: Joint, value: float, place: Place) -> None:
-    if joint.kind is JointKind.REVOLUTE and abs(value) > 2 * math.pi + _ROUNDING:
-        raise place.error(
-            f"got {value:g} rad, which is more than a turn; angles are in radians: write "
-            f'"{value:g}*pi/180" for degrees'
-        )
 
 
 # Joints that follow others: `[relations]`, and cells that hold other rows' variables.
@@ -174,7 +164,7 @@ def read_relations(
     """
     kinds = {row["j"]: row_kind(row, spot) for row, spot in rows}
     variables = {f"q{name}": name for name, kind in kinds.items() if kind in HOME}
-    places = {row["j"]: spot for row, spot in rows}
+    by_name = {row["j"]: (row, spot) for row, spot in rows}
     found: dict[str, tuple[Expression, Place]] = {}
     for row, spot in rows:
         _take_cell(row, spot.at(f"column {HOME.get(kinds[row['j']], '')}"), kinds, found)
@@ -190,9 +180,26 @@ def read_relations(
         found[variables[key]] = (expression_at(cell, here), here)
     for name, (expression, here) in found.items():
         _check(name, expression, variables, symbols, here)
-        _make_passive(next(row for row, _ in rows if row["j"] == name), places[name], here)
-    _check_circles({name: expression for name, (expression, _) in found.items()}, place)
-    return {name: expression for name, (expression, _) in found.items()}
+        row, spot = by_name[name]
+        if row.get("mu", 0) == 1:
+            raise spot.at("column mu").error(
+                f"got 1, and q{name} follows other joints ({here.spot}); write 0, or remove the "
+                "relation"
+            )
+        row["mu"] = 0
+    relations = {name: expression for name, (expression, _) in found.items()}
+    left = dict(relations)
+    while left:
+        names = {f"q{name}" for name in left}
+        ready = [name for name, expression in left.items() if not expression.names & names]
+        if not ready:
+            raise place.error(
+                f"{', '.join(f'q{name}' for name in left)} follow each other in a circle; leave "
+                "one of them free"
+            )
+        for name in ready:
+            del left[name]
+    return relations
 
 
 def _take_cell(
@@ -229,36 +236,12 @@ def _check(
         )
 
 
-def _make_passive(row: Row, place: Place, relation: Place) -> None:
-    if row.get("mu", 0) == 1:
-        raise place.at("column mu").error(
-            f"got 1, and q{row['j']} follows other joints ({relation.spot}); write 0, or remove "
-            "the relation"
-        )
-    row["mu"] = 0
-
-
-def _check_circles(relations: Mapping[str, Expression], place: Place) -> None:
-    left = dict(relations)
-    while left:
-        names = {f"q{name}" for name in left}
-        ready = [name for name, expression in left.items() if not expression.names & names]
-        if not ready:
-            raise place.error(
-                f"{', '.join(f'q{name}' for name in left)} follow each other in a circle; leave "
-                "one of them free"
-            )
-        for name in ready:
-            del left[name]
-
-
 # Legs that are alike: what holds {i} is written once and stands for every leg.
 
 
 MARK = "{i}"
 MOST_LEGS = 50
 """Legs of three rows fill the longest table."""
-_NAME = re.compile(r"[A-Za-z0-9]+")
 _UNTOUCHED = ("legs", "shared", "notes", "title", "name", "log")
 
 
@@ -293,10 +276,8 @@ def leg_names(value: Any, place: Place) -> tuple[str, ...]:
             "the robot in files of their own"
         )
     for leg in legs:
-        if not isinstance(leg, str) or not _NAME.fullmatch(leg) or not leg.isascii():
-            raise place.error(
-                f'got {shown(leg)}; expected names of letters and digits, as in ["1", "2", "3"]'
-            )
+        if not isinstance(leg, str) or not ROW_NAME.fullmatch(leg):
+            raise place.mismatch(leg, 'names of letters and digits, as in ["1", "2", "3"]')
         if legs.count(leg) > 1:
             raise place.error(f"{shown(leg)} stands there twice; give each leg its own name")
     if not legs:
@@ -392,7 +373,16 @@ def read_platform(value: Any, place: Place) -> tuple[list[tuple[Row, Place]], tu
     """
     if value is None:
         return [], ()
-    name, motion = _stated(table_at(value, place, _PLATFORM_EXAMPLE), place)
+    table = table_at(value, place, _PLATFORM_EXAMPLE)
+    check_keys(table, ("name", "motion"), place, missing=f"write {_PLATFORM_EXAMPLE}")
+    name = text_at(name_of(table["name"]), place.at("name"), '"P"')
+    if not ROW_NAME.fullmatch(name):
+        raise place.at("name").mismatch(name, 'letters and digits such as "P"')
+    motion = table["motion"]
+    if motion not in _MOTIONS:
+        raise place.at("motion").error(
+            f"got {shown(motion)}{near(motion, _MOTIONS)}; expected {listed(_MOTIONS)}"
+        )
     names = [name if len(step) == 1 else f"{name}{step[0]}" for step in _MOTIONS[motion]]
     antecedents = ["0", *names]
     rows = []
@@ -404,16 +394,3 @@ def read_platform(value: Any, place: Place) -> tuple[list[tuple[Row, Place]], tu
         }  # fmt: skip
         rows.append((row, place))
     return rows, tuple(names)
-
-
-def _stated(table: dict[str, Any], place: Place) -> tuple[str, str]:
-    """Name and motion of the platform."""
-    check_keys(table, ("name", "motion"), place, missing=f"write {_PLATFORM_EXAMPLE}")
-    name = text_at(name_of(table["name"]), place.at("name"), '"P"')
-    if not ROW_NAME.fullmatch(name):
-        raise place.at("name").error(f'got {shown(name)}; expected letters and digits such as "P"')
-    motion = table["motion"]
-    if motion not in _MOTIONS:
-        hint = near(motion, _MOTIONS) if isinstance(motion, str) else ""
-        raise place.at("motion").error(f"got {shown(motion)}{hint}; expected {listed(_MOTIONS)}")
-    return name, motion

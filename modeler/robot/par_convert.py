@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from pathlib import PurePath
 
 from modeler.core.toml_cells import listed
-from modeler.robot.letters import Symbols
 from modeler.robot.par_table import (
     GEOMETRY,
     Counts,
     ParFrame,
+    Symbols,
     counts,
     frames,
     gravity,
@@ -20,12 +20,10 @@ from modeler.robot.par_table import (
 from modeler.robot.par_text import (
     BASE,
     FORCES,
-    FRICTION,
     INERTIA,
     JOINTS,
     ParFormula,
     Statements,
-    formula,
     scan,
 )
 
@@ -45,12 +43,21 @@ class Bodies:
         parameters: nominal values.
         effects: effect id -> its joints.
         notes: what was not carried over.
+        others: parameters that the file has under another letter.
     """
 
     links: dict[str, list[str]] = field(default_factory=dict)
     parameters: dict[str, float] = field(default_factory=dict)
     effects: dict[str, list[str]] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    others: list[str] = field(default_factory=list)
+
+    def add(self, name: str, cell: ParFormula) -> None:
+        """Keep the value of a parameter, or its letter if that is another."""
+        if cell.literal is not None:
+            self.parameters[name] = float(cell.literal)
+        elif cell.text.lower() != name.lower():
+            self.others.append(f"{name} (there {cell.written})")
 
 
 def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodies:
@@ -63,9 +70,12 @@ def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodie
         RobotError: an entry is no formula.
     """
     result = Bodies()
-    others = []
+
+    def cell(key: str, k: int) -> ParFormula:
+        return statements.formula(key, k + found.floating, f"{key}{k + 1}")
+
     for k in range(found.links):
-        cells = {key: _cell(statements, key, k, found) for key in INERTIA}
+        cells = {key: cell(key, k) for key in INERTIA}
         if made[k].home is None:
             if any(key in statements.by_key and not cells[key].is_zero for key in INERTIA):
                 result.notes.append(
@@ -73,63 +83,39 @@ def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodie
                     f"to link {made[k].antecedent}"
                 )
             continue
-        has = [key for key, cell in cells.items() if not cell.is_zero]
-        if has and all(cell.literal is not None for cell in cells.values()):
+        has = [key for key, entry in cells.items() if not entry.is_zero]
+        if has and all(entry.literal is not None for entry in cells.values()):
             has = list(INERTIA)
         if len(has) < len(INERTIA):
             result.links[f"{k + 1}"] = has
         for key in has:
-            others += _parameter(f"{key}{k + 1}", cells[key], result)
+            result.add(f"{key}{k + 1}", cells[key])
     for j in range(found.links, found.joints):
         if made[j].home is not None:
             result.links[f"{j + 1}"] = []
-    others += _effects(statements, found, made, result)
-    if others:
-        result.notes.append(f"parameters that are not letters of their own: {listed(others)}")
-    _left_out(statements, found, result)
-    return result
-
-
-def _cell(statements: Statements, key: str, k: int, found: Counts) -> ParFormula:
-    statement = statements.by_key.get(key)
-    if statement is None:
-        return formula(f"{key}{k + 1}", statements.place)
-    k += found.floating
-    return formula(statement.entries[k], statement.entry_place(k + 1))
-
-
-def _parameter(name: str, cell: ParFormula, result: Bodies) -> list[str]:
-    """Keep the value; the name with what the file has for it, if that is another letter."""
-    if cell.literal is not None:
-        result.parameters[name] = float(cell.literal)
-        return []
-    same = cell.text.lower() == name.lower()
-    return [] if same else [f"{name} (there {cell.written})"]
-
-
-def _effects(
-    statements: Statements, found: Counts, made: list[ParFrame], result: Bodies
-) -> list[str]:
-    others: list[str] = []
     without = []
-    for key in FRICTION:
-        effect, prefix = _EFFECT[key]
+    for key, (effect, prefix) in _EFFECT.items():
         if key not in statements.by_key:
             continue
         for k in range(found.links):
-            cell = _cell(statements, key, k, found)
-            if cell.is_zero or made[k].home is None:
+            entry = cell(key, k)
+            if entry.is_zero or made[k].home is None:
                 continue
             if effect == "rotor_inertia" and not made[k].mu:
-                without.append(cell.written)
+                without.append(entry.written)
                 continue
             result.effects.setdefault(effect, []).append(f"{k + 1}")
-            others += _parameter(f"{prefix}{k + 1}", cell, result)
+            result.add(f"{prefix}{k + 1}", entry)
     if without:
         result.notes.append(
             f"{listed(without)}: left out, rotor inertias of joints without a motor (Mu 0)"
         )
-    return others
+    if result.others:
+        result.notes.append(
+            f"parameters that are not letters of their own: {listed(result.others)}"
+        )
+    _left_out(statements, found, result)
+    return result
 
 
 def _left_out(statements: Statements, found: Counts, result: Bodies) -> None:
@@ -139,21 +125,19 @@ def _left_out(statements: Statements, found: Counts, result: Bodies) -> None:
             "is_mobile, is_floating: the base stands still here, its own parameters are left out"
         )
     forces = [key for key in FORCES if any(e != "0" for e in statements.entries(key))]
-    if forces:
-        result.notes.append(
-            f"{listed(forces)} are left out: a robot file states no forces on links; see "
-            "modeler effects external_force"
-        )
     springs = [key for key in ("eta", "k") if any(e != "0" for e in statements.entries(key))]
-    if springs:
-        result.notes.append(f"{listed(springs)} are left out: joints are rigid here")
     states = [key for key in JOINTS[:3] if _has_numbers(statements.entries(key))]
-    if states:
-        result.notes.append(f"{listed(states)} are left out: they are a state, no robot")
     moves = [key for key in BASE[:4] if any(not _zero(e) for e in statements.entries(key))]
-    moves = [key for key in moves if key != "VP0" or _states_gravity(statements)]
-    if moves:
-        result.notes.append(f"{listed(moves)} are left out: the base stands still here")
+    if not _states_gravity(statements):  # VP0 is gravity then
+        moves = [key for key in moves if key != "VP0"]
+    for why, keys in (
+        ("a robot file states no forces on links; see modeler effects external_force", forces),
+        ("joints are rigid here", springs),
+        ("they are a state, no robot", states),
+        ("the base stands still here", moves),
+    ):
+        if keys:
+            result.notes.append(f"{listed(keys)} are left out: {why}")
     if statements.entries("Z") and list(statements.entries("Z")) != _IDENTITY:
         result.notes.append("Z is left out: frame 0 is where the robot starts")
 
@@ -252,15 +236,8 @@ def _structure_notes(statements: Statements, found: Counts) -> list[str]:
         RobotError: Type is no type.
     """
     notes = [_NO_HOME] if found.loops else []
-    statement = statements.by_key.get("Type")
-    if statement is None:
-        return notes
-    kind = statement.entries[0]
-    if kind not in ("0", "1", "2"):
-        raise statement.place.error(
-            f'Type: got "{kind}"; expected 0 (simple), 1 (tree) or 2 (closed)'
-        )
-    if (kind == "2") != bool(found.loops):
+    kind = statements.scalar("Type", "[012]", "0 (simple), 1 (tree) or 2 (closed)")
+    if kind and (kind == "2") != bool(found.loops):
         notes.append(
             f"Type is {kind}, but NJ - NL says that {found.loops} joints are cut, which counts"
         )

@@ -21,7 +21,6 @@ from modeler.core.toml_cells import (
     list_at,
     listed,
     near,
-    plain_number,
     shown,
     table_at,
     text_at,
@@ -46,13 +45,13 @@ from modeler.robot.motors import (
     shared_names,
     with_driven,
 )
-from modeler.robot.robot import Joint, Loop, Robot
+from modeler.robot.robot import Joint, Robot
 from modeler.robot.sections import (
     read_coupling,
     read_drive_gains,
     read_limits,
+    read_numbers,
     read_physical,
-    read_reference,
 )
 from modeler.robot.table import Row, table_joints, table_rows
 
@@ -99,18 +98,13 @@ def read_robot(robot: str | Path) -> Robot:
     if not found:
         raise RobotError(_not_found(path))
     check_known_format(path)
-    _check_no_model(path, text)
-    return robot_from_text(text, str(path))
-
-
-def _check_no_model(path: Path, text: str) -> None:
-    """A model file is JSON, a robot file never starts as JSON does."""
-    if text.lstrip().startswith("{"):
+    if text.lstrip().startswith("{"):  # as JSON does and a robot file never
         what = "a model file" if '"modeler model"' in text else "JSON"
         raise RobotError(
             f"{path}: is {what}; expected a robot: give its robot file (TOML) or the name of a "
             "built-in one; models are taken by `modeler compare`, `add` and others"
         )
+    return robot_from_text(text, str(path))
 
 
 def robot_from_text(text: str, where: str) -> Robot:
@@ -134,21 +128,26 @@ def robot_from_text(text: str, where: str) -> Robot:
     for symbol, expression in symbols.items():
         values[symbol] = form_at(expression, values, place).constant
     motors, driven = read_motors(document.get("motors", {}), rows, values, place.at("[motors]"))
-    stated = table_at(document.get("relations", {}), place.at("[relations]"), "[relations]")
-    stated = with_driven(stated, driven, place.at("[relations]"))
-    relations = read_relations(stated, rows, values, place.at("[relations]"))
+    here = place.at("[relations]")
+    stated = table_at(document.get("relations", {}), here, "[relations]")
+    relations = read_relations(with_driven(stated, driven, here), rows, values, here)
+    title = text_at(document.get("title", document["name"]), place.at("title"), '"my robot"')
+    if len(title.splitlines()) > 1:
+        raise place.at("title").mismatch(title, "one line; put the rest into notes")
     robot = Robot(
         name=document["name"],
-        title=_title(document, place),
+        title=title,
         gravity=read_gravity(document["gravity"], variables, values, place.at("gravity")),
         symbols=symbols,
         joints=table_joints(rows, values),
         relations=relations,
         motors={m: {j: float(c) for j, c in row.items()} for m, row in motors.items()},
         platform=platform,
-        notes=_text(document, "notes", "", place),
         text=text,
     )
+    if "notes" in document:
+        notes = text_at(document["notes"], place.at("notes"), '"my robot"')
+        robot = dataclasses.replace(robot, notes=notes)
     check_driven(robot, place.at("[motors]"))
     return _with_tables(robot, document, values, place)
 
@@ -173,15 +172,27 @@ def _with_tables(
     legs = leg_names(document.get("legs"), place.at("legs"))
     shared = read_shared(document.get("shared", []), every, legs, place.at("shared"))
     known = shared_names(every, shared)
+    loops = read_loops(document.get("loops"), robot.joints, place.at("[loops]"))
+    if loops and not any(joint.actuated for joint in robot.free):
+        raise place.at("[loops]").error(
+            "no joint is actuated; write mu 1 in the rows that have a motor"
+        )
     return dataclasses.replace(
         robot,
-        loops=_loops(document.get("loops"), robot, place.at("[loops]")),
+        loops=loops,
         home=read_home(document.get("home", {}), moving, values, place.at("[home]")),
         shared=shared,
         reference=_reference(document, robot, known, place.at("[reference]")),
         coupling=coupling,
         priority=_priority(document.get("priority", []), known, robot, place.at("priority")),
-        parameters=_parameters(document.get("parameters", {}), known, place.at("[parameters]")),
+        parameters=read_numbers(
+            document.get("parameters", {}),
+            known,
+            place.at("[parameters]"),
+            "[parameters]",
+            f"names such as {listed(known[:12])} (friction and rotors only where [effects] has "
+            "them)",
+        ),  # fmt: skip
         drive_gains=read_drive_gains(
             document.get("drive_gains", {}), moving, place.at("[drive_gains]")
         ),
@@ -190,13 +201,6 @@ def _with_tables(
         terms=table_at(document.get("terms", {}), place.at("[terms]"), "[terms]"),
         log=table_at(document.get("log", {}), place.at("[log]"), '"q<j>" = "position_{j} [deg]"'),
     )
-
-
-def _loops(value: Any, robot: Robot, place: Place) -> tuple[Loop, ...]:
-    loops = read_loops(value, robot.joints, place)
-    if loops and not any(joint.actuated for joint in robot.free):
-        raise place.error("no joint is actuated; write mu 1 in the rows that have a motor")
-    return loops
 
 
 def _not_found(path: Path) -> str:
@@ -236,32 +240,14 @@ def _document(text: str, place: Place) -> dict[str, Any]:
     for key, advice in _NEEDED.items():
         if key not in document:
             raise place.at(key).error(f"is missing; {advice}")
-    _check_name(document["name"], place)
-    return document
-
-
-def _check_name(name: Any, place: Place) -> None:
-    if not isinstance(name, str) or not name.isascii() or not _ROBOT_NAME.fullmatch(name):
-        raise place.at("name").error(
-            f"got {shown(name)}; expected letters, digits, - and _ such as "
-            '"arm-2" (it becomes part of names in the C code)'
+    name = document["name"]
+    if not isinstance(name, str) or not _ROBOT_NAME.fullmatch(name):
+        raise place.at("name").mismatch(
+            name,
+            'letters, digits, - and _ such as "arm-2" (it becomes part of names in the C code)',
         )
     check_name_length(name, place.at("name"))
-
-
-def _text(document: Mapping[str, Any], key: str, default: str, place: Place) -> str:
-    if key not in document:
-        return default
-    return text_at(document[key], place.at(key), '"my robot"')
-
-
-def _title(document: Mapping[str, Any], place: Place) -> str:
-    title = _text(document, "title", document["name"], place)
-    if len(title.splitlines()) > 1:
-        raise place.at("title").error(
-            f"got {shown(title)}; expected one line; put the rest into notes"
-        )
-    return title
+    return document
 
 
 def _joint_columns(rows: tuple[tuple[Row, Place], ...]) -> dict[str, str]:
@@ -330,7 +316,8 @@ def _reference(
             f"is missing; {needed[0]} depends on the torques of the links: state their parameters "
             "there, as `modeler add` does"
         )
-    return read_reference(document.get("reference", {}), known, place)
+    expected = "names of standard parameters, such as ZZ1"
+    return read_numbers(document.get("reference", {}), known, place, "[reference]", expected)
 
 
 def _priority(value: Any, known: tuple[str, ...], robot: Robot, place: Place) -> tuple[str, ...]:
@@ -346,15 +333,3 @@ def _priority(value: Any, known: tuple[str, ...], robot: Robot, place: Place) ->
                 f"patterns of {listed(known[:12])} ..."
             )
     return tuple(p for p in patterns if any(fnmatch.fnmatchcase(name, p) for name in known))
-
-
-def _parameters(value: Any, known: tuple[str, ...], place: Place) -> dict[str, float]:
-    parameters = {}
-    for name, cell in table_at(value, place, "[parameters] ZZ1 = 0.5").items():
-        if name not in known:
-            raise place.error(
-                f"there is no parameter {shown(name)}{near(name, known)}; expected names such as "
-                f"{listed(known[:12])} (friction and rotors only where [effects] has them)"
-            )
-        parameters[name] = plain_number(cell, place.at(name), "0.5")
-    return parameters

@@ -1,6 +1,6 @@
 """The tables of a robot file that name joints: effects, coupling, drives, limits, links."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 from modeler.core.expression import Expression
@@ -36,11 +36,24 @@ def joint_at(name: Any, moving: Mapping[str, Joint], place: Place) -> Joint:
     """
     key = name_of(name)
     if not isinstance(key, str) or key not in moving:
-        hint = near(key, moving) if isinstance(key, str) else ""
         raise place.error(
-            f"there is no moving joint {shown(name)}{hint}; expected one of {listed(moving)}"
+            f"there is no moving joint {shown(name)}{near(key, moving)}; expected one of "
+            f"{listed(moving)}"
         )
     return moving[key]
+
+
+def _by_joint(
+    value: Any, moving: Mapping[str, Joint], place: Place, example: str
+) -> Iterator[tuple[Joint, Any, Place]]:
+    """The joints that a table names, each with its cell and where that stands.
+
+    Raises:
+        RobotError: no table, or a name of no moving joint.
+    """
+    for name, cell in table_at(value, place, example).items():
+        here = place.at(shown(name))
+        yield joint_at(name, moving, here), cell, here
 
 
 def read_coupling(
@@ -52,9 +65,7 @@ def read_coupling(
         RobotError: unknown joints, or a speed that is not a sum of joint variables.
     """
     coupling: Coupling = {}
-    for name, cell in table_at(value, place, '[coupling] "6" = "q5 + q6"').items():
-        here = place.at(shown(name))
-        motor = joint_at(name, moving, here)
+    for motor, cell, here in _by_joint(value, moving, place, '[coupling] "6" = "q5 + q6"'):
         expression = expression_at(cell, here)
         variables = {joint.variable: joint for joint in moving.values()}
         known = {**symbols, **dict.fromkeys(variables, 0.0)}
@@ -79,18 +90,26 @@ def read_coupling(
     return coupling
 
 
-def read_reference(value: Any, known: Collection[str], place: Place) -> dict[str, float]:
-    """Standard parameters about which effects that depend on the load are linearised.
+def read_numbers(
+    value: Any, known: Collection[str], place: Place, table: str, expected: str
+) -> dict[str, float]:
+    """Values of standard parameters: `[parameters]` or `[reference]`.
+
+    Args:
+        value: the table.
+        known: names of the parameters that the robot has.
+        place: of the table.
+        table: its head.
+        expected: what to write for a name that is unknown.
 
     Raises:
         RobotError: an unknown parameter, or no number.
     """
     found = {}
-    for name, cell in table_at(value, place, "[reference] ZZ1 = 0.5").items():
+    for name, cell in table_at(value, place, f"{table} ZZ1 = 0.5").items():
         if name not in known:
             raise place.error(
-                f"there is no parameter {shown(name)}{near(name, known)}; expected names of "
-                "standard parameters, such as ZZ1"
+                f"there is no parameter {shown(name)}{near(name, known)}; expected {expected}"
             )
         found[name] = plain_number(cell, place.at(name), "0.5")
     return found
@@ -103,9 +122,7 @@ def read_drive_gains(value: Any, moving: Mapping[str, Joint], place: Place) -> d
         RobotError: unknown joint, or a gain that is no number or zero.
     """
     gains = {}
-    for name, cell in table_at(value, place, '[drive_gains] "1" = 12.5').items():
-        here = place.at(shown(name))
-        joint = joint_at(name, moving, here)
+    for joint, cell, here in _by_joint(value, moving, place, '[drive_gains] "1" = 12.5'):
         gains[joint.name] = plain_number(cell, here, "12.5")
         if gains[joint.name] == 0.0:
             raise here.error(
@@ -124,9 +141,7 @@ def read_limits(
         RobotError: unknown joint, wrong entries, an empty range.
     """
     limits = {}
-    for name, cell in table_at(value, place, '[limits] "1" = [-2, 2, 3, 10]').items():
-        here = place.at(shown(name))
-        joint = joint_at(name, moving, here)
+    for joint, cell, here in _by_joint(value, moving, place, '[limits] "1" = [-2, 2, 3, 10]'):
         cells = list_at(cell, here, "[lower, upper, speed, acceleration]", length=4)
         lower, upper, speed, acceleration = (
             number_at(entry, symbols, here.at(f"entry {k}")) for k, entry in enumerate(cells, 1)
@@ -151,35 +166,31 @@ def read_physical(value: Any, moving: Mapping[str, Joint], place: Place) -> dict
     """
     links = {}
     variables = {joint.variable for joint in moving.values()}
-    for name, cell in table_at(value, place, "[physical.1]").items():
-        here = place.at(shown(name))
-        joint = joint_at(name, moving, here)
-        links[joint.name] = _physical_link(cell, variables, here)
+    for joint, cell, here in _by_joint(value, moving, place, "[physical.1]"):
+        table = table_at(cell, here, 'mass = "m1", centre = [x, y, z], inertia = [XX, ..., ZZ]')
+        keys = ("mass", "centre", "inertia")
+        check_keys(table, keys, here, missing=f"expected {listed(keys)}")
+        spots = [here.at(key) for key in keys]
+        (mass,) = _letters([table["mass"]], variables, spots[0])
+        centre = list_at(table["centre"], spots[1], "[x, y, z]", 3)
+        x, y, z = _letters(centre, variables, spots[1])
+        inertia = list_at(table["inertia"], spots[2], "[XX, XY, XZ, YY, YZ, ZZ]", 6)
+        inertia = _letters(inertia, variables, spots[2])
+        links[joint.name] = PhysicalLink(mass, (x, y, z), tuple(inertia))
     return links
 
 
-def _physical_link(value: Any, variables: Collection[str], place: Place) -> PhysicalLink:
-    table = table_at(value, place, 'mass = "m1", centre = [x, y, z], inertia = [XX, ..., ZZ]')
-    keys = ("mass", "centre", "inertia")
-    check_keys(table, keys, place, missing=f"expected {listed(keys)}")
-
-    def letters(key: str, entries: list[Any]) -> list[Expression]:
-        here = place.at(key)
-        expressions = [expression_at(entry, here) for entry in entries]
-        for expression in expressions:
-            if expression.names & set(variables):
-                raise here.error(
-                    f"got {shown(expression.text)}, which uses the joint variable "
-                    f"{min(expression.names & set(variables))}; links are rigid: expected letters "
-                    "and numbers"
-                )
-        return expressions
-
-    example = "[XX, XY, XZ, YY, YZ, ZZ]"
-    (mass,) = letters("mass", [table["mass"]])
-    x, y, z = letters("centre", list_at(table["centre"], place.at("centre"), "[x, y, z]", 3))
-    inertia = letters("inertia", list_at(table["inertia"], place.at("inertia"), example, 6))
-    return PhysicalLink(mass, (x, y, z), tuple(inertia))
+def _letters(entries: list[Any], variables: set[str], place: Place) -> list[Expression]:
+    """The entries, which hold no joint variable."""
+    expressions = [expression_at(entry, place) for entry in entries]
+    for expression in expressions:
+        if expression.names & variables:
+            raise place.error(
+                f"got {shown(expression.text)}, which uses the joint variable "
+                f"{min(expression.names & variables)}; links are rigid: expected letters and "
+                "numbers"
+            )
+    return expressions
 
 
 # Joints that close no loop under their name, and what to write in their place.

@@ -56,43 +56,35 @@ def table_rows(
     only = "expected columns and rows only"
     check_keys(table, ("columns", "rows"), place, only, missing=f"write {_EXAMPLE}")
     columns = _columns(table["columns"], place.at("columns"))
+    listed_rows = list_at(table["rows"], place.at("rows"), _EXAMPLE)
+    count = len(listed_rows) + len(platform)
+    if count > MOST_ROWS:  # before any work that nobody could wait for
+        raise place.at("rows").error(
+            f"got {count} rows, those of all legs and of the platform counted; "
+            f"expected at most {MOST_ROWS}: model parts of the robot in files of their own"
+        )
+    if not listed_rows:
+        raise place.at("rows").error(
+            f"the table is empty; write one row per joint, as in {_EXAMPLE}"
+        )
     rows: list[tuple[Row, Place]] = list(platform)
-    listed_rows = _listed_rows(table["rows"], len(platform), place.at("rows"))
     for number, cells in enumerate(listed_rows, start=1):
         row = _row(number, cells, columns, place)
         name = _row_name(row["j"], place.at(f"row {number}, column j"))
         here = place.at(f'row "{name}"')
         names = [earlier["j"] for earlier, _ in rows]
-        _check_new(name, names, number, len(platform), here)
+        if name in names:
+            first = names.index(name) + 1 - len(platform)
+            where = f"in rows {first} and" if first > 0 else "in [platform] and in row"
+            raise here.error(
+                f"the name {shown(name)} stands {where} {number}; give each row its own name"
+            )
         row["j"] = name
         above = names[-1] if len(names) > len(platform) else "0"
         row["a"] = name_of(row.get("a", above))
         rows.append((row, here))
     _check_antecedents(rows)
     return tuple(rows)
-
-
-def _listed_rows(value: Any, platform: int, place: Place) -> list[Any]:
-    """The rows as written; tables that nobody could wait for are refused before any work."""
-    rows = list_at(value, place, _EXAMPLE)
-    if len(rows) + platform > MOST_ROWS:
-        raise place.error(
-            f"got {len(rows) + platform} rows, those of all legs and of the platform counted; "
-            f"expected at most {MOST_ROWS}: model parts of the robot in files of their own"
-        )
-    if not rows:
-        raise place.error(f"the table is empty; write one row per joint, as in {_EXAMPLE}")
-    return rows
-
-
-def _check_new(name: str, names: list[str], number: int, platform: int, place: Place) -> None:
-    """Refuse a name that an earlier row has; `platform` rows stand before those of the table."""
-    if name in names:
-        first = names.index(name) + 1 - platform
-        where = f"in rows {first} and" if first > 0 else "in [platform] and in row"
-        raise place.error(
-            f"the name {shown(name)} stands {where} {number}; give each row its own name"
-        )
 
 
 def table_joints(
@@ -120,9 +112,9 @@ def _columns(value: Any, place: Place) -> list[str]:
     columns = list_at(value, place, '["j", "alpha", "d", "theta", "r"]')
     for number, column in enumerate(columns, start=1):
         if column not in COLUMNS:
-            hint = near(column, COLUMNS) if isinstance(column, str) else ""
             raise place.error(
-                f"entry {number} is {shown(column)}{hint}; expected names among {listed(COLUMNS)}"
+                f"entry {number} is {shown(column)}{near(column, COLUMNS)}; expected names among "
+                f"{listed(COLUMNS)}"
             )
         if column in columns[: number - 1]:
             raise place.error(f"{shown(column)} stands twice; remove one and its cells")
@@ -148,10 +140,11 @@ def _row(number: int, cells: Any, columns: list[str], place: Place) -> Row:
 
 def _row_name(cell: Any, place: Place) -> str:
     name = name_of(cell)
-    if not isinstance(name, str) or not ROW_NAME.fullmatch(name) or not name.isascii():
-        raise place.error(
-            f"got {shown(cell)}; expected a name of letters and digits such as "
-            '"1" or "12" (it becomes part of names in the C code)'
+    if not isinstance(name, str) or not ROW_NAME.fullmatch(name):
+        raise place.mismatch(
+            cell,
+            'a name of letters and digits such as "1" or "12" (it becomes part of names in the C '
+            "code)",
         )
     check_name_length(name, place)
     if name == "0":
@@ -166,22 +159,17 @@ def _check_antecedents(rows: list[tuple[Row, Place]]) -> None:
         name, antecedent = row["j"], row["a"]
         here = place.at("column a")
         if not isinstance(antecedent, str) or antecedent not in {"0", *antecedents}:
-            hint = near(antecedent, antecedents) if isinstance(antecedent, str) else ""
-            raise here.error(
-                f'got {shown(antecedent)}; expected "0" (the base) or the name of an earlier row '
-                f"({listed(seen[1:])}){hint}"
+            raise here.mismatch(
+                antecedent,
+                f'"0" (the base) or the name of an earlier row ({listed(seen[1:])})'
+                f"{near(antecedent, antecedents)}",
             )
         if antecedent not in seen:
-            cycle = _cycle(name, antecedents)
-            if cycle:
-                raise here.error(
-                    f"got {shown(antecedent)}, which closes the circle {' -> '.join(cycle)}; "
-                    'every chain of antecedents must end at "0"'
-                )
-            raise here.error(
-                f"got {shown(antecedent)}, which is a later row; move row {shown(antecedent)} "
-                f"above row {shown(name)}"
-            )
+            told = f"is a later row; move row {shown(antecedent)} above row {shown(name)}"
+            if cycle := _cycle(name, antecedents):
+                told = f"closes the circle {' -> '.join(cycle)}; every chain of antecedents must "
+                told += 'end at "0"'
+            raise here.error(f"got {shown(antecedent)}, which {told}")
         seen.append(name)
 
 
@@ -203,9 +191,7 @@ def row_kind(row: Row, place: Place) -> JointKind:
     """
     cell = row.get("sigma", 0)
     if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1, 2):
-        raise place.at("column sigma").error(
-            f"got {shown(cell)}; expected 0 (revolute), 1 (prismatic) or 2 (fixed)"
-        )
+        raise place.at("column sigma").mismatch(cell, "0 (revolute), 1 (prismatic) or 2 (fixed)")
     return JointKind(cell)
 
 
@@ -214,9 +200,7 @@ def _actuated(row: Row, kind: JointKind, place: Place) -> bool:
         return kind is not JointKind.FIXED
     cell = row["mu"]
     if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1):
-        raise place.at("column mu").error(
-            f"got {shown(cell)}; expected 1 (actuated) or 0 (passive)"
-        )
+        raise place.at("column mu").mismatch(cell, "1 (actuated) or 0 (passive)")
     if cell == 1 and kind is JointKind.FIXED:
         raise place.at("column mu").error(
             "got 1 on a fixed row (sigma 2), which has no motor; write 0, or correct sigma"
