@@ -2,7 +2,7 @@
 
 import difflib
 import math
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,14 +17,22 @@ _LONGEST = 60  # letters of the user's text that are quoted
 
 @dataclass(frozen=True)
 class Place:
-    """A place in a robot file: `arm.toml: [mdh] row "3", column theta`."""
+    """A place in a robot file, `arm.toml: [mdh] row "3", column theta`, and what stands there.
+
+    Its methods give that value as what it has to be; each raises a `RobotError` if it is not.
+    """
 
     file: str
     spot: str = ""
+    value: Any = None
 
-    def at(self, spot: str) -> "Place":
+    def at(self, spot: str, value: Any = None) -> "Place":
         """The place inside this one."""
-        return Place(self.file, f"{self.spot}, {spot}" if self.spot else spot)
+        return Place(self.file, f"{self.spot}, {spot}" if self.spot else spot, value)
+
+    def holding(self, value: Any) -> "Place":
+        """The same place with another value: one of the entries that stand there."""
+        return Place(self.file, self.spot, value)
 
     def error(self, what: str) -> RobotError:
         """The error to raise: the place and `what`, as one line."""
@@ -32,9 +40,83 @@ class Place:
         words = (w if len(w) <= _LONGEST else f"{w[:_LONGEST]}..." for w in what.split())
         return RobotError(" ".join([*f"{where}:".split(), *words]))
 
-    def mismatch(self, value: Any, expected: str) -> RobotError:
-        """The error to raise where `value` stands and not what is expected."""
-        return self.error(f"got {shown(value)}; expected {expected}")
+    def mismatch(self, expected: str) -> RobotError:
+        """The error to raise where something else stands than is expected."""
+        return self.error(f"got {shown(self.value)}; expected {expected}")
+
+    def expression(self) -> Expression:
+        """An `Expression` or a number; names are not checked."""
+        try:
+            return parse(self.value)
+        except ExpressionError as error:
+            told = str(error)
+            if isinstance(self.value, str):
+                told = told.replace(f'"{self.value.strip()}"', shown(self.value.strip()))
+            raise self.error(told) from None
+
+    def number(self, example: str) -> float:
+        """A finite number, not an expression."""
+        if isinstance(self.value, bool) or not isinstance(self.value, int | float):
+            raise self.mismatch(f"a number such as {example}")
+        try:
+            number = float(self.value)
+        except OverflowError:
+            number = math.inf
+        if not math.isfinite(number):
+            raise self.mismatch(f"a finite number such as {example}")
+        if abs(number) > LARGEST:
+            raise self.mismatch(f"at most {LARGEST:g} in SI units, such as {example}")
+        return number
+
+    def text(self, example: str) -> str:
+        """A TOML string that is not empty."""
+        if not isinstance(self.value, str) or not self.value.strip():
+            raise self.mismatch(f"text such as {example}")
+        return self.value
+
+    def entries(self, example: str, length: int | None = None) -> list[Any]:
+        """A TOML array, of `length` entries if that is given."""
+        if not isinstance(self.value, list):
+            raise self.mismatch(f"a list such as {example}")
+        count = len(self.value)
+        if length is not None and count != length:
+            raise self.error(
+                f"got {count} entries, expected {length}, as in {example}; "
+                f"{'add' if count < length else 'remove'} {abs(count - length)}"
+            )
+        return self.value
+
+    def table(self, example: str) -> dict[str, Any]:
+        """A TOML table."""
+        if not isinstance(self.value, dict):
+            raise self.mismatch(f"a table, as in {example}")
+        return self.value
+
+    def items(self, example: str) -> "Iterator[tuple[str, Place]]":
+        """The keys of a TOML table, each with what stands there."""
+        for key, value in self.table(example).items():
+            yield key, self.at(shown(key), value)
+
+    def checked_table(
+        self, keys: Collection[str], example: str, unknown: str = "", missing: str = ""
+    ) -> dict[str, Any]:
+        """A TOML table with the keys that it may have and those that it needs.
+
+        Args:
+            keys: that it may have.
+            example: of a table.
+            unknown: what to do about another one; by default `keys` are listed.
+            missing: what to do about one that is missing; empty if all may be.
+        """
+        table = self.table(example)
+        for key in table:
+            if key not in keys:
+                told = unknown or f"expected {listed(keys)}"
+                raise self.error(f"unknown key {shown(key)}{near(key, keys)}; {told}")
+        for key in keys:
+            if missing and key not in table:
+                raise self.error(f"{key} is missing; {missing}")
+        return table
 
 
 def shown(value: Any) -> str:
@@ -66,103 +148,3 @@ def near(name: Any, names: Iterable[str]) -> str:
     if not found:
         return ""
     return f" (did you mean {' or '.join(shown(known[key]) for key in found)}?)"
-
-
-def expression_at(value: Any, place: Place) -> Expression:
-    """The cell as an `Expression`; names are not checked.
-
-    Raises:
-        RobotError: not a number or an expression.
-    """
-    try:
-        return parse(value)
-    except ExpressionError as error:
-        told = str(error)
-        if isinstance(value, str):
-            told = told.replace(f'"{value.strip()}"', shown(value.strip()))
-        raise place.error(told) from None
-
-
-def plain_number(value: Any, place: Place, example: str) -> float:
-    """A finite number, not an expression.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise place.mismatch(value, f"a number such as {example}")
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
-    if not math.isfinite(number):
-        raise place.mismatch(value, f"a finite number such as {example}")
-    if abs(number) > LARGEST:
-        raise place.mismatch(value, f"at most {LARGEST:g} in SI units, such as {example}")
-    return number
-
-
-def table_at(value: Any, place: Place, example: str) -> dict[str, Any]:
-    """A TOML table.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if not isinstance(value, dict):
-        raise place.mismatch(value, f"a table, as in {example}")
-    return value
-
-
-def check_keys(
-    table: Collection[str],
-    keys: Collection[str],
-    place: Place,
-    unknown: str = "",
-    missing: str = "",
-) -> None:
-    """Refuse a table with keys that it does not have, or without those that it needs.
-
-    Args:
-        table: its keys.
-        keys: those that it may have.
-        place: of the table.
-        unknown: what to do about one that is unknown; by default `keys` are listed.
-        missing: what to do about one that is missing; empty if all may be.
-
-    Raises:
-        RobotError: names the first.
-    """
-    for key in table:
-        if key not in keys:
-            told = unknown or f"expected {listed(keys)}"
-            raise place.error(f"unknown key {shown(key)}{near(key, keys)}; {told}")
-    for key in keys:
-        if missing and key not in table:
-            raise place.error(f"{key} is missing; {missing}")
-
-
-def list_at(value: Any, place: Place, example: str, length: int | None = None) -> list[Any]:
-    """A TOML array, of `length` entries if that is given.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if not isinstance(value, list):
-        raise place.mismatch(value, f"a list such as {example}")
-    if length is not None and len(value) != length:
-        raise place.error(
-            f"got {len(value)} entries, expected {length}, as in {example}; "
-            f"{'add' if len(value) < length else 'remove'} {abs(len(value) - length)}"
-        )
-    return value
-
-
-def text_at(value: Any, place: Place, example: str) -> str:
-    """A TOML string that is not empty.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if not isinstance(value, str) or not value.strip():
-        raise place.mismatch(value, f"text such as {example}")
-    return value

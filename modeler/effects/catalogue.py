@@ -13,8 +13,7 @@ def _catalogue() -> tuple[Effect, ...]:
     file = Path(__file__).with_name("catalogue.toml")
     found: list[Effect] = []
     for name, table in tomllib.loads(file.read_text(encoding="utf-8")).items():
-        place = Place(file.name).at(f"[{name}]")
-        found.append(read_definition(name, table, place, {}, own=False))
+        found.append(read_definition(name, Place(file.name, f"[{name}]", table), {}, own=False))
     return tuple(found)
 
 

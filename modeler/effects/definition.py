@@ -8,18 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from modeler.core.expression import FUNCTIONS
-from modeler.core.toml_cells import (
-    LARGEST,
-    Place,
-    check_keys,
-    expression_at,
-    listed,
-    near,
-    plain_number,
-    shown,
-    table_at,
-    text_at,
-)
+from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 from modeler.effects.effect import (
     VARIABLES,
     Acts,
@@ -67,16 +56,13 @@ _AXES: dict[str, Shows] = {
 something else shows itself there, turned with the motion."""
 
 
-def read_definition(
-    name: str, value: Any, place: Place, taken: Mapping[str, str], own: bool = True
-) -> Effect:
+def read_definition(name: str, place: Place, taken: Mapping[str, str], own: bool = True) -> Effect:
     """The effect of one table.
 
     Args:
         name: its id.
-        value: the table: title, columns, shapes, unit, nonnegative, acts; in the catalogue also
+        place: the table: title, columns, shapes, unit, nonnegative, acts; in the catalogue also
             what else an `Effect` says of itself.
-        place: of the table.
         taken: names of parameters that it must not have -> whose they are.
         own: of a robot file: it has the first keys only, and its equations are tried.
 
@@ -84,9 +70,8 @@ def read_definition(
         RobotError: equations that cannot be read or that have no finite value, unknown variables,
             shapes that no equation uses, other mistakes.
     """
-    table = table_at(value, place, EXAMPLE)
-    check_keys(table, _KEYS if own else _CATALOGUE_KEYS, place)
-    acts, variables = _acts(table.get("acts", "joint"), place.at("acts"), own)
+    table = place.checked_table(_KEYS if own else _CATALOGUE_KEYS, EXAMPLE)
+    acts, variables = _acts(place.at("acts", table.get("acts", "joint")), own)
     forms = tuple(
         _form({**table, **form}, variables, taken, place) for form in table.get("forms", [{}])
     )
@@ -95,7 +80,7 @@ def read_definition(
     columns, used = forms[0].columns, forms[0].names
     quantities = " and ".join(dict.fromkeys(_PLAIN[v] for v in _PLAIN if v in used)) or "time"
     axis = next((axis for variable, axis in _AXES.items() if variable in used), "v")
-    title = table.get("title", f"{name} of the robot file")
+    title = place.at("title", table.get("title", f"{name} of the robot file"))
     stated: dict[str, Any] = {
         "aliases": (),
         "equation": " + ".join(f"{c.prefix} * ({c.equation.text})" for c in columns),
@@ -113,7 +98,7 @@ def read_definition(
             stated[key] = tuple(table[key]) if isinstance(table[key], list) else table[key]
     return Effect(
         id=name,
-        title=text_at(title, place.at("title"), '"drag"'),
+        title=title.text('"drag"'),
         forms=forms,
         acts=acts,
         needs=tuple(Needs[need.upper()] for need in table.get("needs", [])),
@@ -121,25 +106,24 @@ def read_definition(
     )
 
 
-def _acts(value: Any, place: Place, own: bool) -> tuple[Acts, Sequence[str]]:
+def _acts(place: Place, own: bool) -> tuple[Acts, Sequence[str]]:
     """On what it acts, and the variables that its equations may use."""
     if not own:
-        return Acts[value.upper()], tuple(VARIABLES)
-    if value == "joint":
+        return Acts[place.value.upper()], tuple(VARIABLES)
+    if place.value == "joint":
         return Acts.JOINT, tuple(name for name in VARIABLES if name != "rate")
-    if value == "position":
+    if place.value == "position":
         return Acts.POSITION, ("q",)
     raise place.mismatch(
-        value,
         '"joint" (adds to the torque of its joint) or "position" (moves the links from the '
-        "measured position)",
+        "measured position)"
     )
 
 
 def _form(
     table: Mapping[str, Any], variables: Sequence[str], taken: Mapping[str, str], place: Place
 ) -> Form:
-    shapes = _shapes(table, place.at("shapes"))
+    shapes = _shapes(table, place.at("shapes", table.get("shapes", {})))
     allowed = (*variables, *(shape.name for shape in shapes))
     columns = _columns(table, allowed, taken, place)
     memory = None
@@ -158,8 +142,7 @@ def _form(
 def _shapes(table: Mapping[str, Any], place: Place) -> tuple[Shape, ...]:
     shapes = []
     scales, limits, meanings = (table.get(key, {}) for key in ("scale", "limits", "meaning"))
-    cells = table_at(table.get("shapes", {}), place, "shapes = {c = [-1, 0, 1]}")
-    for name, cell in cells.items():
+    for name, cell in place.table("shapes = {c = [-1, 0, 1]}").items():
         scale = scales.get(name, "own")
         named = _SHAPE.fullmatch(name) and name not in VARIABLES and name not in _RESERVED
         if not named and scale == "own":
@@ -167,9 +150,9 @@ def _shapes(table: Mapping[str, Any], place: Place) -> tuple[Shape, ...]:
                 f"got the name {shown(name)}; expected letters, digits and _, and neither a "
                 f"variable ({listed(VARIABLES)}) nor {listed(_RESERVED)}"
             )
-        here = place.at(name)
+        here = place.at(name, cell)
         entries = cell if isinstance(cell, list) else [cell]
-        grid = sorted(plain_number(entry, here, "0.1") for entry in entries)
+        grid = sorted(here.holding(entry).number("0.1") for entry in entries)
         if not grid and scale == "own":
             raise here.error("got an empty list; expected values to try first, as in [0.1, 0.3]")
         if len(set(grid)) < len(grid):
@@ -198,15 +181,15 @@ def _limits(grid: Sequence[float]) -> tuple[float, float]:
 def _columns(
     table: Mapping[str, Any], allowed: Sequence[str], taken: Mapping[str, str], place: Place
 ) -> tuple[EffectColumn, ...]:
-    here = place.at("columns")
-    if not table.get("columns"):
+    here = place.at("columns", table.get("columns"))
+    if not here.value:
         raise here.error(f"is missing; expected parameters and their equations, as in {EXAMPLE}")
-    cells = table_at(table["columns"], here, EXAMPLE)
+    cells = here.table(EXAMPLE)
     units = _units(table.get("unit", "SI"), list(cells), place.at("unit"))
     prismatic = _units(table.get("prismatic_unit", units), list(cells), place.at("unit"))
     nonnegative = table.get("nonnegative", False)
     if not isinstance(nonnegative, bool):
-        raise place.at("nonnegative").mismatch(nonnegative, "true or false")
+        raise place.at("nonnegative", nonnegative).mismatch("true or false")
     energy = table.get("energy", "own")
     columns = []
     for prefix, cell in cells.items():
@@ -220,7 +203,7 @@ def _columns(
                 f"the parameter {shown(prefix)} is that of {taken[prefix]} already; choose "
                 "another name"
             )
-        equation = expression_at(cell, here.at(prefix))
+        equation = here.at(prefix, cell).expression()
         for name in sorted(equation.names):
             if name not in allowed:
                 raise here.at(prefix).error(
@@ -245,7 +228,7 @@ def _units(value: Any, prefixes: Sequence[str], place: Place) -> dict[str, str]:
                 f"{listed(prefixes)}"
             )
         if not isinstance(unit, str) or not _UNIT.fullmatch(unit):
-            raise place.mismatch(unit, 'text such as "N*m*s/rad"')
+            raise place.error(f'got {shown(unit)}; expected text such as "N*m*s/rad"')
     return dict.fromkeys(prefixes, "SI") | cells
 
 

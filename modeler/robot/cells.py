@@ -10,16 +10,7 @@ from typing import Any
 
 from modeler.core import rounded
 from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, parse
-from modeler.core.toml_cells import (
-    LARGEST,
-    Place,
-    expression_at,
-    list_at,
-    listed,
-    near,
-    shown,
-    table_at,
-)
+from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 
 # Expressions that are linear in the joint variables, taken apart.
 
@@ -209,13 +200,13 @@ def check_declared(expression: Expression, known: Mapping[str, Any], place: Plac
             )
 
 
-def number_at(value: Any, symbols: Mapping[str, float], place: Place) -> float:
+def number_at(place: Place, symbols: Mapping[str, float]) -> float:
     """The cell as a number; it may be an expression of the declared symbols.
 
     Raises:
         RobotError: not a number, or a name that is not declared.
     """
-    expression = expression_at(value, place)
+    expression = place.expression()
     check_declared(expression, symbols, place)
     return form_at(expression, symbols, place).constant
 
@@ -299,18 +290,17 @@ C_WORDS = """
 """
 
 
-def read_symbols(value: Any, variables: Collection[str], place: Place) -> dict[str, Expression]:
+def read_symbols(place: Place, variables: Collection[str]) -> dict[str, Expression]:
     """Symbols and their values, so ordered that each stands after those its value uses.
 
     Args:
-        value: the table.
+        place: the table.
         variables: names of the joint variables, which symbols must not shadow.
-        place: where it stands.
 
     Raises:
         RobotError: a bad name, a value that is no number, a circle of values.
     """
-    table = table_at(value, place, "[symbols] D3 = 0.45")
+    table = place.table("[symbols] D3 = 0.45")
     symbols = {}
     for name, cell in table.items():
         if not _NAME.fullmatch(name):
@@ -329,24 +319,23 @@ def read_symbols(value: Any, variables: Collection[str], place: Place) -> dict[s
         for what, is_taken in taken.items():
             if is_taken:
                 raise place.error(f"{shown(name)} is the name of {what}; choose another name")
-        symbols[name] = expression_at(cell, place.at(name))
+        symbols[name] = place.at(name, cell).expression()
         check_declared(symbols[name], table, place.at(name))
     return _ordered(symbols, place)
 
 
 def read_gravity(
-    value: Any, variables: Collection[str], symbols: Mapping[str, float], place: Place
+    place: Place, variables: Collection[str], symbols: Mapping[str, float]
 ) -> tuple[Expression, Expression, Expression]:
     """Acceleration of gravity in frame 0, m/s2.
 
     Raises:
         RobotError: not three entries, or entries that are not constants.
     """
-    cells = list_at(value, place, '[0, 0, "-g"]', length=3)
     gravity = []
-    for number, cell in enumerate(cells, start=1):
-        here = place.at(f"entry {number}")
-        expression = expression_at(cell, here)
+    for number, cell in enumerate(place.entries('[0, 0, "-g"]', length=3), start=1):
+        here = place.at(f"entry {number}", cell)
+        expression = here.expression()
         moving = sorted(expression.names & set(variables))
         if moving:
             raise here.error(

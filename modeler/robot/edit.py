@@ -252,7 +252,7 @@ def with_home_text(text: str, stated: Mapping[str, float], home: Mapping[str, fl
     Raises:
         RobotError: the file's own [home] is written in a way that cannot be replaced line by line.
     """
-    legs = leg_names(tomllib.loads(text).get("legs"), _WHERE)
+    legs = leg_names(_WHERE.holding(tomllib.loads(text).get("legs")))
     for lines in _written(text.splitlines(), stated, home, legs):
         changed = "\n".join(lines) + "\n"
         if _says(changed, text, home):

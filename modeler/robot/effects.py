@@ -5,7 +5,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from modeler.core.toml_cells import Place, listed, near, plain_number, shown, table_at
+from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.effects.catalogue import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, effect_named
 from modeler.effects.definition import EXAMPLE, check_finite, read_definition
 from modeler.effects.effect import Acts, Effect
@@ -28,8 +28,8 @@ def read_own_effects(value: Any, place: Place) -> tuple[Effect, ...]:
         RobotError: names that the catalogue has, and what `read_definition` refuses.
     """
     found: list[Effect] = []
-    for name, cell in table_at(value, place.at("[own_effects]"), EXAMPLE).items():
-        here = place.at(f"[own_effects.{name}]")
+    for name, cell in place.at("[own_effects]", value).table(EXAMPLE).items():
+        here = place.at(f"[own_effects.{name}]", cell)
         if not _ID.fullmatch(name) or name in _WORDS:
             raise here.error(
                 f"got the name {shown(name)}; expected small letters, digits and _, such as brake, "
@@ -42,7 +42,7 @@ def read_own_effects(value: Any, place: Place) -> tuple[Effect, ...]:
             )
         taken = parameter_owners((*CATALOGUE, *found)) | dict.fromkeys(INERTIAL, "the links")
         taken |= dict.fromkeys(_LOGGED, "the logs")
-        found.append(read_definition(name, cell, here, taken))
+        found.append(read_definition(name, here, taken))
     return tuple(found)
 
 
@@ -59,11 +59,10 @@ _ZERO = {"t": "t0", "T": "T0"}
 
 
 def read_effects(
-    value: Any,
+    place: Place,
     moving: Mapping[str, Joint],
     coupling: Coupling,
     catalogue: Sequence[Effect],
-    place: Place,
     platform: Sequence[str] = (),
 ) -> tuple[EffectUse, ...]:
     """Effects and their joints, in catalogue order.
@@ -74,24 +73,23 @@ def read_effects(
     shape parameters stand as a list of tables: stribeck = [{joint = "2", vs = 0.1, d = 1}].
 
     Args:
-        value: the table.
+        place: the table.
         moving: the joints by name.
         coupling: motors that turn with several of them.
         catalogue: the effects there are, those of the file included.
-        place: of the table.
         platform: rows that move the platform: no joints that rub.
 
     Raises:
         RobotError: unknown effects, joints or shapes.
     """
     uses: dict[str, EffectUse] = {}
-    for name, cell in table_at(value, place, '[effects] viscous = "all"').items():
+    for name, cell in place.table('[effects] viscous = "all"').items():
         effect = _effect(name, catalogue, place)
         if effect.id in uses:
             raise place.error(
                 f"{shown(name)} is {effect.id}, which stands there already; keep one of them"
             )
-        here = place.at(name)
+        here = place.at(name, cell)
         if effect.coupled and not coupling:
             raise here.error(
                 "acts on motors that turn with several joints, and the file couples none; add a "
@@ -100,11 +98,11 @@ def read_effects(
         away = platform if effect.acts is Acts.PASSIVE else ()
         rows = {row: joint for row, joint in moving.items() if row not in away}
         if isinstance(cell, list) and any(isinstance(entry, dict) for entry in cell):
-            uses[effect.id] = _shaped(effect, cell, rows, coupling, here)
+            uses[effect.id] = _shaped(effect, rows, coupling, here)
         elif effect.forms[0].free:
-            raise here.mismatch(cell, f"its shapes, as in {_example(effect)}")
+            raise here.mismatch(f"its shapes, as in {_example(effect)}")
         else:  # shapes of one value have that value
-            joints = _joints(effect, cell, rows, coupling, here)
+            joints = _joints(effect, rows, coupling, here)
             fixed = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
             shaped = tuple(EffectInstance(joint, 0, fixed) for joint in joints) if fixed else ()
             uses[effect.id] = EffectUse(effect.id, joints, shaped)
@@ -158,20 +156,20 @@ def _effect(name: str, catalogue: Sequence[Effect], place: Place) -> Effect:
 
 
 def _joints(
-    effect: Effect, cell: Any, moving: Mapping[str, Joint], coupling: Coupling, place: Place
+    effect: Effect, moving: Mapping[str, Joint], coupling: Coupling, place: Place
 ) -> tuple[str, ...]:
     passive = effect.acts is Acts.PASSIVE
     if passive and all(joint.actuated for joint in moving.values()):
         raise place.error("acts on joints without motor, and every joint has one; leave it out")
-    if cell == "all":
+    if place.value == "all":
         return tuple(
             name
             for name, joint in moving.items()
             if (name in coupling if effect.coupled else joint.actuated is not passive)
         )
-    if not isinstance(cell, list):
-        raise place.mismatch(cell, 'the joints that have it: "all" or ["1", "2"]')
-    named = [joint_at(entry, moving, place).name for entry in cell]
+    if not isinstance(place.value, list):
+        raise place.mismatch('the joints that have it: "all" or ["1", "2"]')
+    named = [joint_at(entry, moving, place).name for entry in place.value]
     for name in named:
         if named.count(name) > 1:
             raise place.error(f"joint {shown(name)} stands there twice; name it once")
@@ -190,19 +188,19 @@ def _check_coupled(effect: Effect, name: str, coupling: Coupling, place: Place) 
 
 
 def _shaped(
-    effect: Effect, cell: list[Any], moving: Mapping[str, Joint], coupling: Coupling, place: Place
+    effect: Effect, moving: Mapping[str, Joint], coupling: Coupling, place: Place
 ) -> EffectUse:
     found: list[EffectInstance] = []
-    for entry in cell:
+    for entry in place.value:
         if not isinstance(entry, dict) or "joint" not in entry:
-            raise place.mismatch(entry, f"tables, as in {_example(effect)}")
+            raise place.error(f"got {shown(entry)}; expected tables, as in {_example(effect)}")
         name = joint_at(entry["joint"], moving, place).name
         _check_coupled(effect, name, coupling, place)
         given = {key: value for key, value in entry.items() if key != "joint"}
         number = _form_of(effect, given, place)
         form = effect.forms[number]
         shapes = {s.name: s.grid[0] for s in form.shapes if len(s.grid) == 1}
-        shapes |= {k: plain_number(v, place.at(k), "0.1") for k, v in given.items()}
+        shapes |= {k: place.at(k, v).number("0.1") for k, v in given.items()}
         here = place.at(f"joint {shown(name)}")
         for shape in form.shapes:  # lengths, times, powers below zero; ripples without waves
             worth, waves = shapes[shape.name], shape.scale == "waves"

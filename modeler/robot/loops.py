@@ -6,17 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeler.core.expression import Expression
-from modeler.core.toml_cells import (
-    Place,
-    check_keys,
-    expression_at,
-    list_at,
-    listed,
-    near,
-    shown,
-    table_at,
-    text_at,
-)
+from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import (
     LARGEST_RATIO,
     check_declared,
@@ -39,22 +29,23 @@ _ROUNDING = 1e-3
 """rad by which a full turn may be rounded up."""
 
 
-def read_loops(value: Any, joints: Sequence[Joint], place: Place) -> tuple[Loop, ...]:
+def read_loops(place: Place, joints: Sequence[Joint]) -> tuple[Loop, ...]:
     """The loops of a file.
 
     Raises:
         RobotError: columns, rows, frames or joints are wrong, or there is nothing to close.
     """
-    if value is None:
+    if place.value is None:
         return ()
-    table = table_at(value, place, f"[loops] {_EXAMPLE}")
-    check_keys(table, ("columns", "rows"), place, f"write {_EXAMPLE}")
-    columns = list_at(table.get("columns", list(_COLUMNS)), place.at("columns"), _EXAMPLE)
+    advice = f"write {_EXAMPLE}"
+    table = place.checked_table(("columns", "rows"), f"[loops] {_EXAMPLE}", advice)
+    here = place.at("columns", table.get("columns", list(_COLUMNS)))
+    columns = here.entries(_EXAMPLE)
     if sorted(map(str, columns)) != sorted(_COLUMNS):
-        raise place.at("columns").mismatch(columns, listed(_COLUMNS))
+        raise here.mismatch(listed(_COLUMNS))
     if "rows" not in table:
-        raise place.error(f"rows is missing; write {_EXAMPLE}")
-    rows = list_at(table["rows"], place.at("rows"), _EXAMPLE)
+        raise place.error(f"rows is missing; {advice}")
+    rows = place.at("rows", table["rows"]).entries(_EXAMPLE)
     if len(rows) > MOST_LOOPS:
         raise place.at("rows").error(
             f"got {len(rows)} loops, those of all legs counted; expected at most {MOST_LOOPS}: "
@@ -62,8 +53,8 @@ def read_loops(value: Any, joints: Sequence[Joint], place: Place) -> tuple[Loop,
         )
     loops = []
     for number, cells in enumerate(rows, start=1):
-        here = place.at(f"row {number}")
-        cells = list_at(cells, here, '["A", "9", "10", "rigid"]', length=len(_COLUMNS))
+        here = place.at(f"row {number}", cells)
+        cells = here.entries('["A", "9", "10", "rigid"]', length=len(_COLUMNS))
         loops.append(_loop(dict(zip(columns, cells, strict=True)), joints, here))
     if not loops:
         raise place.at("rows").error(
@@ -81,7 +72,7 @@ def read_loops(value: Any, joints: Sequence[Joint], place: Place) -> tuple[Loop,
 
 
 def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Loop:
-    name = text_at(name_of(cells["loop"]), place.at("column loop"), '"A"')
+    name = place.at("column loop", name_of(cells["loop"])).text('"A"')
     here = place.at(shown(name))
     names = {joint.name for joint in joints}
     frames = []
@@ -115,7 +106,7 @@ def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Lo
 
 
 def read_home(
-    value: Any, moving: Mapping[str, Joint], symbols: Mapping[str, float], place: Place
+    place: Place, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> dict[str, float]:
     """The posture from which loops are closed, by row: `[home] q2 = "-pi/2"`.
 
@@ -124,14 +115,13 @@ def read_home(
     """
     variables = {joint.variable: name for name, joint in moving.items()}
     home = {}
-    for key, cell in table_at(value, place, '[home] q2 = "-pi/2"').items():
-        here = place.at(shown(key))
+    for key, here in place.items('[home] q2 = "-pi/2"'):
         if key not in variables:
             raise here.error(
                 f"is no joint variable{near(key, variables)}; expected some of "
                 f"{listed(list(variables)[:12])}"
             )
-        angle = number_at(cell, symbols, here)
+        angle = number_at(here, symbols)
         if moving[variables[key]].angular and abs(angle) > 2 * math.pi + _ROUNDING:
             raise here.error(
                 f"got {angle:g} rad, which is more than a turn; angles are in radians: write "
@@ -148,10 +138,7 @@ _RELATION_EXAMPLE = '[relations] q4 = "-q3"'
 
 
 def read_relations(
-    value: Any,
-    rows: Sequence[tuple[Row, Place]],
-    symbols: Mapping[str, float],
-    place: Place,
+    place: Place, rows: Sequence[tuple[Row, Place]], symbols: Mapping[str, float]
 ) -> dict[str, Expression]:
     """The relations of a file, by row; rows that follow others become passive in `rows`.
 
@@ -166,10 +153,17 @@ def read_relations(
     variables = {f"q{name}": name for name, kind in kinds.items() if kind in HOME}
     by_name = {row["j"]: (row, spot) for row, spot in rows}
     found: dict[str, tuple[Expression, Place]] = {}
-    for row, spot in rows:
-        _take_cell(row, spot.at(f"column {HOME.get(kinds[row['j']], '')}"), kinds, found)
-    for key, cell in table_at(value, place, _RELATION_EXAMPLE).items():
-        here = place.at(shown(key))
+    for row, spot in rows:  # a cell that is a relation is taken out of its row
+        column, own = HOME.get(kinds[row["j"]]), f"q{row['j']}"
+        if column is None or not isinstance(row.get(column), str):
+            continue
+        here = spot.at(f"column {column}", row[column])
+        expression = here.expression()
+        others = {n for n in expression.names if n.startswith("q") and n[1:] in kinds and n != own}
+        if others and own not in expression.names:
+            found[row["j"]] = (expression, here)
+            row[column] = own
+    for key, here in place.items(_RELATION_EXAMPLE):
         if key not in variables:
             raise here.error(
                 f"is no joint variable{near(key, variables)}; expected one such as "
@@ -177,7 +171,7 @@ def read_relations(
             )
         if variables[key] in found:
             raise here.error(f"{key} stands as a relation in the table too; keep one of them")
-        found[variables[key]] = (expression_at(cell, here), here)
+        found[variables[key]] = (here.expression(), here)
     for name, (expression, here) in found.items():
         _check(name, expression, variables, symbols, here)
         row, spot = by_name[name]
@@ -200,20 +194,6 @@ def read_relations(
         for name in ready:
             del left[name]
     return relations
-
-
-def _take_cell(
-    row: Row, place: Place, kinds: Mapping[str, Any], found: dict[str, tuple[Expression, Place]]
-) -> None:
-    """Take a cell that is a relation out of the row."""
-    column, own = HOME.get(kinds[row["j"]]), f"q{row['j']}"
-    if column is None or not isinstance(row.get(column), str):
-        return
-    expression = expression_at(row[column], place)
-    others = {n for n in expression.names if n.startswith("q") and n[1:] in kinds and n != own}
-    if others and own not in expression.names:
-        found[row["j"]] = (expression, place)
-        row[column] = own
 
 
 def _check(
@@ -254,22 +234,22 @@ def expanded(document: dict[str, Any], place: Place) -> dict[str, Any]:
     Raises:
         RobotError: {i} without `legs`, wrong names of legs, another mark in braces.
     """
-    legs = leg_names(document.get("legs"), place.at("legs"))
+    legs = leg_names(place.at("legs", document.get("legs")))
     return {
         key: value if key in _UNTOUCHED else _expanded(value, legs, place.at(key))
         for key, value in document.items()
     }
 
 
-def leg_names(value: Any, place: Place) -> tuple[str, ...]:
+def leg_names(place: Place) -> tuple[str, ...]:
     """Names of the legs; empty if the file has no `legs`.
 
     Raises:
         RobotError: not a list of different letters and digits.
     """
-    if value is None:
+    if place.value is None:
         return ()
-    legs = [name_of(leg) for leg in list_at(value, place, '["1", "2", "3"]')]
+    legs = [name_of(leg) for leg in place.entries('["1", "2", "3"]')]
     if len(legs) > MOST_LEGS:
         raise place.error(
             f"got {len(legs)} legs; expected at most {MOST_LEGS}: model a few of them, or parts of "
@@ -277,7 +257,9 @@ def leg_names(value: Any, place: Place) -> tuple[str, ...]:
         )
     for leg in legs:
         if not isinstance(leg, str) or not ROW_NAME.fullmatch(leg):
-            raise place.mismatch(leg, 'names of letters and digits, as in ["1", "2", "3"]')
+            raise place.error(
+                f'got {shown(leg)}; expected names of letters and digits, as in ["1", "2", "3"]'
+            )
         if legs.count(leg) > 1:
             raise place.error(f"{shown(leg)} stands there twice; give each leg its own name")
     if not legs:
@@ -358,7 +340,7 @@ _MOTIONS = {
 """Per motion, the rows: suffix of the name and sigma."""
 
 
-def read_platform(value: Any, place: Place) -> tuple[list[tuple[Row, Place]], tuple[str, ...]]:
+def read_platform(place: Place) -> tuple[list[tuple[Row, Place]], tuple[str, ...]]:
     """Rows that carry the platform, and their names; none without a platform.
 
     They stand before the table's, so that frames may be fixed on the platform. Each turns the axes
@@ -371,13 +353,14 @@ def read_platform(value: Any, place: Place) -> tuple[list[tuple[Row, Place]], tu
     Raises:
         RobotError: unknown keys or motion, no name.
     """
-    if value is None:
+    if place.value is None:
         return [], ()
-    table = table_at(value, place, _PLATFORM_EXAMPLE)
-    check_keys(table, ("name", "motion"), place, missing=f"write {_PLATFORM_EXAMPLE}")
-    name = text_at(name_of(table["name"]), place.at("name"), '"P"')
+    advice = f"write {_PLATFORM_EXAMPLE}"
+    table = place.checked_table(("name", "motion"), _PLATFORM_EXAMPLE, missing=advice)
+    here = place.at("name", name_of(table["name"]))
+    name = here.text('"P"')
     if not ROW_NAME.fullmatch(name):
-        raise place.at("name").mismatch(name, 'letters and digits such as "P"')
+        raise here.mismatch('letters and digits such as "P"')
     motion = table["motion"]
     if motion not in _MOTIONS:
         raise place.at("motion").error(

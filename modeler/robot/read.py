@@ -15,16 +15,7 @@ from modeler.core.builtin import builtin_names, builtin_text
 from modeler.core.errors import RobotError
 from modeler.core.files import read_text
 from modeler.core.json import TomlError, parse_toml
-from modeler.core.toml_cells import (
-    Place,
-    check_keys,
-    list_at,
-    listed,
-    near,
-    shown,
-    table_at,
-    text_at,
-)
+from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import check_name_length, form_at, read_gravity, read_symbols
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.library import check_known_format, converted
@@ -119,25 +110,29 @@ def robot_from_text(text: str, where: str) -> Robot:
     """
     place = Place(where)
     document = expanded(_document(text, place), place)
-    platform_rows, platform = read_platform(document.get("platform"), place.at("[platform]"))
-    rows = table_rows(document["mdh"], place.at("[mdh]"), platform_rows)
-    rows += motor_rows(document.get("motors", {}), rows, place.at("[motors]"))
+
+    def section(key: str, otherwise: Any = None) -> Place:
+        return place.at(f"[{key}]", document.get(key, otherwise))
+
+    platform_rows, platform = read_platform(section("platform"))
+    rows = table_rows(section("mdh"), platform_rows)
+    rows += motor_rows(section("motors", {}), rows)
     variables = _joint_columns(rows)
-    symbols = read_symbols(document.get("symbols", {}), variables, place.at("[symbols]"))
+    symbols = read_symbols(section("symbols", {}), variables)
     values: dict[str, float] = {}
     for symbol, expression in symbols.items():
         values[symbol] = form_at(expression, values, place).constant
-    motors, driven = read_motors(document.get("motors", {}), rows, values, place.at("[motors]"))
-    here = place.at("[relations]")
-    stated = table_at(document.get("relations", {}), here, "[relations]")
-    relations = read_relations(with_driven(stated, driven, here), rows, values, here)
-    title = text_at(document.get("title", document["name"]), place.at("title"), '"my robot"')
+    motors, driven = read_motors(section("motors", {}), rows, values)
+    stated = section("relations", {})
+    stated = section("relations", with_driven(stated.table("[relations]"), driven, stated))
+    relations = read_relations(stated, rows, values)
+    title = place.at("title", document.get("title", document["name"])).text('"my robot"')
     if len(title.splitlines()) > 1:
-        raise place.at("title").mismatch(title, "one line; put the rest into notes")
+        raise place.at("title", title).mismatch("one line; put the rest into notes")
     robot = Robot(
         name=document["name"],
         title=title,
-        gravity=read_gravity(document["gravity"], variables, values, place.at("gravity")),
+        gravity=read_gravity(place.at("gravity", document["gravity"]), variables, values),
         symbols=symbols,
         joints=table_joints(rows, values),
         relations=relations,
@@ -146,7 +141,7 @@ def robot_from_text(text: str, where: str) -> Robot:
         text=text,
     )
     if "notes" in document:
-        notes = text_at(document["notes"], place.at("notes"), '"my robot"')
+        notes = place.at("notes", document["notes"]).text('"my robot"')
         robot = dataclasses.replace(robot, notes=notes)
     check_driven(robot, place.at("[motors]"))
     return _with_tables(robot, document, values, place)
@@ -156,50 +151,47 @@ def _with_tables(
     robot: Robot, document: Mapping[str, Any], values: Mapping[str, float], place: Place
 ) -> Robot:
     """The robot with what the tables say that name its joints."""
+
+    def section(key: str) -> Place:
+        return place.at(f"[{key}]", document.get(key, {}))
+
     moving = {joint.name: joint for joint in robot.moving}
-    coupling = read_coupling(document.get("coupling", {}), moving, values, place.at("[coupling]"))
+    coupling = read_coupling(section("coupling"), moving, values)
     own = read_own_effects(document.get("own_effects", {}), place)
     robot = dataclasses.replace(robot, own_effects=own)
-    effects = read_effects(
-        document.get("effects", {}), moving, coupling, robot.catalogue, place.at("[effects]"),
-        robot.platform,
-    )  # fmt: skip
+    effects = read_effects(section("effects"), moving, coupling, robot.catalogue, robot.platform)
     links: dict[str, tuple[str, ...]] = dict.fromkeys(robot.platform[:-1], ())
     links |= dict.fromkeys(robot.motors, ())
-    links |= read_links(document.get("links", {}), moving, place.at("[links]"))
+    links |= read_links(section("links"), moving)
     robot = dataclasses.replace(robot, links=links, effects=effects)
     every = _parameter_names(robot, moving, place)
-    legs = leg_names(document.get("legs"), place.at("legs"))
-    shared = read_shared(document.get("shared", []), every, legs, place.at("shared"))
+    legs = leg_names(place.at("legs", document.get("legs")))
+    shared = read_shared(place.at("shared", document.get("shared", [])), every, legs)
     known = shared_names(every, shared)
-    loops = read_loops(document.get("loops"), robot.joints, place.at("[loops]"))
+    loops = read_loops(place.at("[loops]", document.get("loops")), robot.joints)
     if loops and not any(joint.actuated for joint in robot.free):
         raise place.at("[loops]").error(
             "no joint is actuated; write mu 1 in the rows that have a motor"
         )
+    home = read_home(section("home"), moving, values)
+    reference = _reference(document, robot, known, section("reference"))
+    names = (
+        f"names such as {listed(known[:12])} (friction and rotors only where [effects] has them)"
+    )
     return dataclasses.replace(
         robot,
         loops=loops,
-        home=read_home(document.get("home", {}), moving, values, place.at("[home]")),
+        home=home,
         shared=shared,
-        reference=_reference(document, robot, known, place.at("[reference]")),
+        reference=reference,
         coupling=coupling,
-        priority=_priority(document.get("priority", []), known, robot, place.at("priority")),
-        parameters=read_numbers(
-            document.get("parameters", {}),
-            known,
-            place.at("[parameters]"),
-            "[parameters]",
-            f"names such as {listed(known[:12])} (friction and rotors only where [effects] has "
-            "them)",
-        ),  # fmt: skip
-        drive_gains=read_drive_gains(
-            document.get("drive_gains", {}), moving, place.at("[drive_gains]")
-        ),
-        limits=read_limits(document.get("limits", {}), moving, values, place.at("[limits]")),
-        physical=read_physical(document.get("physical", {}), moving, place.at("[physical]")),
-        terms=table_at(document.get("terms", {}), place.at("[terms]"), "[terms]"),
-        log=table_at(document.get("log", {}), place.at("[log]"), '"q<j>" = "position_{j} [deg]"'),
+        priority=_priority(place.at("priority", document.get("priority", [])), known, robot),
+        parameters=read_numbers(section("parameters"), known, "[parameters]", names),
+        drive_gains=read_drive_gains(section("drive_gains"), moving),
+        limits=read_limits(section("limits"), moving, values),
+        physical=read_physical(section("physical"), moving),
+        terms=section("terms").table("[terms]"),
+        log=section("log").table('"q<j>" = "position_{j} [deg]"'),
     )
 
 
@@ -236,17 +228,16 @@ def _document(text: str, place: Place) -> dict[str, Any]:
             f"not TOML ({match[1]}); correct that line (texts stand in quotes, entries are "
             "separated by commas)"
         ) from None
-    check_keys(document, _KEYS, place)
+    place.holding(document).checked_table(_KEYS, "")
     for key, advice in _NEEDED.items():
         if key not in document:
             raise place.at(key).error(f"is missing; {advice}")
-    name = document["name"]
-    if not isinstance(name, str) or not _ROBOT_NAME.fullmatch(name):
-        raise place.at("name").mismatch(
-            name,
-            'letters, digits, - and _ such as "arm-2" (it becomes part of names in the C code)',
+    name = place.at("name", document["name"])
+    if not isinstance(name.value, str) or not _ROBOT_NAME.fullmatch(name.value):
+        raise name.mismatch(
+            'letters, digits, - and _ such as "arm-2" (it becomes part of names in the C code)'
         )
-    check_name_length(name, place.at("name"))
+    check_name_length(name.value, name)
     return document
 
 
@@ -316,17 +307,16 @@ def _reference(
             f"is missing; {needed[0]} depends on the torques of the links: state their parameters "
             "there, as `modeler add` does"
         )
-    expected = "names of standard parameters, such as ZZ1"
-    return read_numbers(document.get("reference", {}), known, place, "[reference]", expected)
+    return read_numbers(place, known, "[reference]", "names of standard parameters, such as ZZ1")
 
 
-def _priority(value: Any, known: tuple[str, ...], robot: Robot, place: Place) -> tuple[str, ...]:
+def _priority(place: Place, known: tuple[str, ...], robot: Robot) -> tuple[str, ...]:
     """The patterns that match a parameter; those of effects that the robot lacks are left out."""
-    patterns = list_at(value, place, '["ZZ*", "Ia?"]')
+    patterns = place.entries('["ZZ*", "Ia?"]')
     prefixes = [c.prefix for e in robot.catalogue for form in e.forms for c in form.columns]
     possible = [*known, *(prefix + joint.name for prefix in prefixes for joint in robot.moving)]
-    for pattern in patterns:
-        pattern = text_at(pattern, place, '"ZZ*"')
+    for entry in patterns:
+        pattern = place.holding(entry).text('"ZZ*"')
         if not any(fnmatch.fnmatchcase(name, pattern) for name in possible):
             raise place.error(
                 f"{shown(pattern)} matches no parameter{near(pattern, known)}; expected names or "

@@ -4,17 +4,7 @@ from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 from modeler.core.expression import Expression
-from modeler.core.toml_cells import (
-    Place,
-    check_keys,
-    expression_at,
-    list_at,
-    listed,
-    near,
-    plain_number,
-    shown,
-    table_at,
-)
+from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import (
     LARGEST_RATIO,
     check_declared,
@@ -44,20 +34,19 @@ def joint_at(name: Any, moving: Mapping[str, Joint], place: Place) -> Joint:
 
 
 def _by_joint(
-    value: Any, moving: Mapping[str, Joint], place: Place, example: str
-) -> Iterator[tuple[Joint, Any, Place]]:
-    """The joints that a table names, each with its cell and where that stands.
+    place: Place, moving: Mapping[str, Joint], example: str
+) -> Iterator[tuple[Joint, Place]]:
+    """The joints that a table names, each with its cell.
 
     Raises:
         RobotError: no table, or a name of no moving joint.
     """
-    for name, cell in table_at(value, place, example).items():
-        here = place.at(shown(name))
-        yield joint_at(name, moving, here), cell, here
+    for name, here in place.items(example):
+        yield joint_at(name, moving, here), here
 
 
 def read_coupling(
-    value: Any, moving: Mapping[str, Joint], symbols: Mapping[str, float], place: Place
+    place: Place, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> Coupling:
     """Motors that turn with several joints: {joint of the motor: {joint: coefficient}}.
 
@@ -65,8 +54,8 @@ def read_coupling(
         RobotError: unknown joints, or a speed that is not a sum of joint variables.
     """
     coupling: Coupling = {}
-    for motor, cell, here in _by_joint(value, moving, place, '[coupling] "6" = "q5 + q6"'):
-        expression = expression_at(cell, here)
+    for motor, here in _by_joint(place, moving, '[coupling] "6" = "q5 + q6"'):
+        expression = here.expression()
         variables = {joint.variable: joint for joint in moving.values()}
         known = {**symbols, **dict.fromkeys(variables, 0.0)}
         check_declared(expression, known, here)
@@ -91,14 +80,13 @@ def read_coupling(
 
 
 def read_numbers(
-    value: Any, known: Collection[str], place: Place, table: str, expected: str
+    place: Place, known: Collection[str], table: str, expected: str
 ) -> dict[str, float]:
     """Values of standard parameters: `[parameters]` or `[reference]`.
 
     Args:
-        value: the table.
+        place: the table.
         known: names of the parameters that the robot has.
-        place: of the table.
         table: its head.
         expected: what to write for a name that is unknown.
 
@@ -106,24 +94,24 @@ def read_numbers(
         RobotError: an unknown parameter, or no number.
     """
     found = {}
-    for name, cell in table_at(value, place, f"{table} ZZ1 = 0.5").items():
+    for name, cell in place.table(f"{table} ZZ1 = 0.5").items():
         if name not in known:
             raise place.error(
                 f"there is no parameter {shown(name)}{near(name, known)}; expected {expected}"
             )
-        found[name] = plain_number(cell, place.at(name), "0.5")
+        found[name] = place.at(name, cell).number("0.5")
     return found
 
 
-def read_drive_gains(value: Any, moving: Mapping[str, Joint], place: Place) -> dict[str, float]:
+def read_drive_gains(place: Place, moving: Mapping[str, Joint]) -> dict[str, float]:
     """Joint torque per unit of the logged current, by joint.
 
     Raises:
         RobotError: unknown joint, or a gain that is no number or zero.
     """
     gains = {}
-    for joint, cell, here in _by_joint(value, moving, place, '[drive_gains] "1" = 12.5'):
-        gains[joint.name] = plain_number(cell, here, "12.5")
+    for joint, here in _by_joint(place, moving, '[drive_gains] "1" = 12.5'):
+        gains[joint.name] = here.number("12.5")
         if gains[joint.name] == 0.0:
             raise here.error(
                 "got 0; expected joint torque per unit of logged current, not zero; leave the "
@@ -133,7 +121,7 @@ def read_drive_gains(value: Any, moving: Mapping[str, Joint], place: Place) -> d
 
 
 def read_limits(
-    value: Any, moving: Mapping[str, Joint], symbols: Mapping[str, float], place: Place
+    place: Place, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> dict[str, Limits]:
     """Range of motion by joint.
 
@@ -141,10 +129,10 @@ def read_limits(
         RobotError: unknown joint, wrong entries, an empty range.
     """
     limits = {}
-    for joint, cell, here in _by_joint(value, moving, place, '[limits] "1" = [-2, 2, 3, 10]'):
-        cells = list_at(cell, here, "[lower, upper, speed, acceleration]", length=4)
+    for joint, here in _by_joint(place, moving, '[limits] "1" = [-2, 2, 3, 10]'):
+        cells = here.entries("[lower, upper, speed, acceleration]", length=4)
         lower, upper, speed, acceleration = (
-            number_at(entry, symbols, here.at(f"entry {k}")) for k, entry in enumerate(cells, 1)
+            number_at(here.at(f"entry {k}", entry), symbols) for k, entry in enumerate(cells, 1)
         )
         if lower >= upper:
             raise here.error(
@@ -158,7 +146,7 @@ def read_limits(
     return limits
 
 
-def read_physical(value: Any, moving: Mapping[str, Joint], place: Place) -> dict[str, PhysicalLink]:
+def read_physical(place: Place, moving: Mapping[str, Joint]) -> dict[str, PhysicalLink]:
     """The letters of a paper for the links, by joint; letters need not be declared.
 
     Raises:
@@ -166,23 +154,21 @@ def read_physical(value: Any, moving: Mapping[str, Joint], place: Place) -> dict
     """
     links = {}
     variables = {joint.variable for joint in moving.values()}
-    for joint, cell, here in _by_joint(value, moving, place, "[physical.1]"):
-        table = table_at(cell, here, 'mass = "m1", centre = [x, y, z], inertia = [XX, ..., ZZ]')
-        keys = ("mass", "centre", "inertia")
-        check_keys(table, keys, here, missing=f"expected {listed(keys)}")
-        spots = [here.at(key) for key in keys]
-        (mass,) = _letters([table["mass"]], variables, spots[0])
-        centre = list_at(table["centre"], spots[1], "[x, y, z]", 3)
-        x, y, z = _letters(centre, variables, spots[1])
-        inertia = list_at(table["inertia"], spots[2], "[XX, XY, XZ, YY, YZ, ZZ]", 6)
-        inertia = _letters(inertia, variables, spots[2])
-        links[joint.name] = PhysicalLink(mass, (x, y, z), tuple(inertia))
+    keys = ("mass", "centre", "inertia")
+    example = 'mass = "m1", centre = [x, y, z], inertia = [XX, ..., ZZ]'
+    for joint, here in _by_joint(place, moving, "[physical.1]"):
+        table = here.checked_table(keys, example, missing=f"expected {listed(keys)}")
+        mass, centre, inertia = (here.at(key, table[key]) for key in keys)
+        (m,) = _letters([mass.value], variables, mass)
+        x, y, z = _letters(centre.entries("[x, y, z]", 3), variables, centre)
+        six = _letters(inertia.entries("[XX, XY, XZ, YY, YZ, ZZ]", 6), variables, inertia)
+        links[joint.name] = PhysicalLink(m, (x, y, z), tuple(six))
     return links
 
 
 def _letters(entries: list[Any], variables: set[str], place: Place) -> list[Expression]:
     """The entries, which hold no joint variable."""
-    expressions = [expression_at(entry, place) for entry in entries]
+    expressions = [place.holding(entry).expression() for entry in entries]
     for expression in expressions:
         if expression.names & variables:
             raise place.error(

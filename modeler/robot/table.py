@@ -5,16 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeler.core.expression import Expression, parse
-from modeler.core.toml_cells import (
-    Place,
-    check_keys,
-    expression_at,
-    list_at,
-    listed,
-    near,
-    shown,
-    table_at,
-)
+from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import (
     LARGEST_LENGTH,
     check_declared,
@@ -42,7 +33,7 @@ HOME = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}
 
 
 def table_rows(
-    value: Any, place: Place, platform: Sequence[tuple[Row, Place]] = ()
+    place: Place, platform: Sequence[tuple[Row, Place]] = ()
 ) -> tuple[tuple[Row, Place], ...]:
     """The rows of `[mdh]` as {column: cell}, each with its place; names and antecedents filled in.
 
@@ -52,11 +43,12 @@ def table_rows(
     Raises:
         RobotError: columns, row lengths, row names or antecedents are wrong.
     """
-    table = table_at(value, place, f"[mdh] {_EXAMPLE}")
-    only = "expected columns and rows only"
-    check_keys(table, ("columns", "rows"), place, only, missing=f"write {_EXAMPLE}")
-    columns = _columns(table["columns"], place.at("columns"))
-    listed_rows = list_at(table["rows"], place.at("rows"), _EXAMPLE)
+    table = place.checked_table(
+        ("columns", "rows"), f"[mdh] {_EXAMPLE}", "expected columns and rows only",
+        missing=f"write {_EXAMPLE}",
+    )  # fmt: skip
+    columns = _columns(place.at("columns", table["columns"]))
+    listed_rows = place.at("rows", table["rows"]).entries(_EXAMPLE)
     count = len(listed_rows) + len(platform)
     if count > MOST_ROWS:  # before any work that nobody could wait for
         raise place.at("rows").error(
@@ -70,7 +62,7 @@ def table_rows(
     rows: list[tuple[Row, Place]] = list(platform)
     for number, cells in enumerate(listed_rows, start=1):
         row = _row(number, cells, columns, place)
-        name = _row_name(row["j"], place.at(f"row {number}, column j"))
+        name = _row_name(place.at(f"row {number}, column j", row["j"]))
         here = place.at(f'row "{name}"')
         names = [earlier["j"] for earlier, _ in rows]
         if name in names:
@@ -108,8 +100,8 @@ def table_joints(
     return tuple(_joint(row, place, kinds, symbols) for row, place in rows)
 
 
-def _columns(value: Any, place: Place) -> list[str]:
-    columns = list_at(value, place, '["j", "alpha", "d", "theta", "r"]')
+def _columns(place: Place) -> list[str]:
+    columns = place.entries('["j", "alpha", "d", "theta", "r"]')
     for number, column in enumerate(columns, start=1):
         if column not in COLUMNS:
             raise place.error(
@@ -127,8 +119,8 @@ def _row(number: int, cells: Any, columns: list[str], place: Place) -> Row:
     # The name is told if it can be read: it is what the user looks for.
     named = isinstance(cells, list) and cells and columns[0] == "j"
     name = f" ({shown(cells[0])})" if named else ""
-    here = place.at(f"row {number}{name}")
-    cells = list_at(cells, here, '["1", "0", 0, 0, "q1", 0]')
+    here = place.at(f"row {number}{name}", cells)
+    cells = here.entries('["1", "0", 0, 0, "q1", 0]')
     if len(cells) != len(columns):
         raise here.error(
             f"got {len(cells)} cells, expected {len(columns)}, one for each of "
@@ -138,13 +130,12 @@ def _row(number: int, cells: Any, columns: list[str], place: Place) -> Row:
     return dict(zip(columns, cells, strict=True))
 
 
-def _row_name(cell: Any, place: Place) -> str:
-    name = name_of(cell)
+def _row_name(place: Place) -> str:
+    name = name_of(place.value)
     if not isinstance(name, str) or not ROW_NAME.fullmatch(name):
         raise place.mismatch(
-            cell,
             'a name of letters and digits such as "1" or "12" (it becomes part of names in the C '
-            "code)",
+            "code)"
         )
     check_name_length(name, place)
     if name == "0":
@@ -157,12 +148,11 @@ def _check_antecedents(rows: list[tuple[Row, Place]]) -> None:
     seen = ["0"]
     for row, place in rows:
         name, antecedent = row["j"], row["a"]
-        here = place.at("column a")
+        here = place.at("column a", antecedent)
         if not isinstance(antecedent, str) or antecedent not in {"0", *antecedents}:
             raise here.mismatch(
-                antecedent,
                 f'"0" (the base) or the name of an earlier row ({listed(seen[1:])})'
-                f"{near(antecedent, antecedents)}",
+                f"{near(antecedent, antecedents)}"
             )
         if antecedent not in seen:
             told = f"is a later row; move row {shown(antecedent)} above row {shown(name)}"
@@ -191,7 +181,7 @@ def row_kind(row: Row, place: Place) -> JointKind:
     """
     cell = row.get("sigma", 0)
     if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1, 2):
-        raise place.at("column sigma").mismatch(cell, "0 (revolute), 1 (prismatic) or 2 (fixed)")
+        raise place.at("column sigma", cell).mismatch("0 (revolute), 1 (prismatic) or 2 (fixed)")
     return JointKind(cell)
 
 
@@ -200,7 +190,7 @@ def _actuated(row: Row, kind: JointKind, place: Place) -> bool:
         return kind is not JointKind.FIXED
     cell = row["mu"]
     if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1):
-        raise place.at("column mu").mismatch(cell, "1 (actuated) or 0 (passive)")
+        raise place.at("column mu", cell).mismatch("1 (actuated) or 0 (passive)")
     if cell == 1 and kind is JointKind.FIXED:
         raise place.at("column mu").error(
             "got 1 on a fixed row (sigma 2), which has no motor; write 0, or correct sigma"
@@ -215,7 +205,8 @@ def _joint(
     # The place of the variable last: a variable in the wrong column is told there, not as missing.
     order = sorted(_GEOMETRY, key=lambda column: column == HOME.get(kind))
     cells = {
-        column: _cell(row, column, place.at(f"column {column}"), kinds, symbols) for column in order
+        column: _cell(row, column, place.at(f"column {column}", row.get(column, 0)), kinds, symbols)
+        for column in order
     }
     return Joint(row["j"], row["a"], _actuated(row, kind, place), kind, **cells)
 
@@ -227,7 +218,7 @@ def _cell(
     kinds: Mapping[str, JointKind],
     symbols: Mapping[str, float],
 ) -> Expression:
-    expression = expression_at(row.get(column, 0), place)
+    expression = place.expression()
     kind, own = kinds[row["j"]], f"q{row['j']}"
     home = HOME.get(kind)
     _check_variables(expression, own, home, column, kinds, place)
