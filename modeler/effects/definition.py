@@ -27,16 +27,11 @@ MOST = 100
 """Combinations of the first values of shapes: a diagnosis tries each on each joint."""
 
 _KEYS = ("title", "columns", "shapes", "unit", "nonnegative", "acts")
-_STATED = (
-    "aliases", "equation", "family", "signature", "shows", "look_alikes", "range", "source",
-    "same_as", "twin", "rare", "several", "orders", "whole_axis", "last_link", "knocks",
-    "hindrance", "turns", "rarely_negative", "timing", "negative",
-)  # fmt: skip
-"""Fields of an `Effect` that the catalogue states as they are."""
 _CATALOGUE_KEYS = (
-    *_KEYS, *_STATED, "needs", "forms", "scale", "limits", "meaning", "prismatic_unit", "kind",
-    "energy", "largest", "resonance",
+    *_KEYS, "scale", "limits", "meaning", "prismatic_unit", "kind", "energy", "largest",
+    "resonance", "forms", "needs",
 )  # fmt: skip
+"""What the catalogue says of an effect, besides fields of `Effect` as they are."""
 
 _PREFIX = re.compile(r"[A-Za-z]([A-Za-z0-9]*[A-Za-z])?")
 _SHAPE = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -70,7 +65,7 @@ def read_definition(name: str, place: Place, taken: Mapping[str, str], own: bool
         RobotError: equations that cannot be read or that have no finite value, unknown variables,
             shapes that no equation uses, other mistakes.
     """
-    table = place.checked_table(_KEYS if own else _CATALOGUE_KEYS, EXAMPLE)
+    table = place.checked_table(_KEYS, EXAMPLE) if own else place.table(EXAMPLE)
     acts, variables = _acts(place.at("acts", table.get("acts", "joint")), own)
     forms = tuple(
         _form({**table, **form}, variables, taken, place) for form in table.get("forms", [{}])
@@ -93,9 +88,8 @@ def read_definition(name: str, place: Place, taken: Mapping[str, str], own: bool
         "source": "the robot file",
         "timing": "a" in used,
     }
-    for key in _STATED:
-        if key in table:
-            stated[key] = tuple(table[key]) if isinstance(table[key], list) else table[key]
+    for key in table.keys() - set(_CATALOGUE_KEYS):
+        stated[key] = tuple(table[key]) if isinstance(table[key], list) else table[key]
     return Effect(
         id=name,
         title=title.text('"drag"'),

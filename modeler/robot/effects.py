@@ -106,29 +106,17 @@ def read_effects(
             fixed = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
             shaped = tuple(EffectInstance(joint, 0, fixed) for joint in joints) if fixed else ()
             uses[effect.id] = EffectUse(effect.id, joints, shaped)
-    _spell_out(uses, moving, place)
-    return tuple(uses[e.id] for e in catalogue if e.id in uses and uses[e.id].joints)
-
-
-def _spell_out(uses: dict[str, EffectUse], moving: Mapping[str, Joint], place: Place) -> None:
-    """`passive_friction` becomes what it is made of: viscous and Coulomb friction.
-
-    Raises:
-        RobotError: one of its joints has either already.
-    """
-    rubbing = uses.pop(PASSIVE_FRICTION, None)
-    if rubbing is None:
-        return
-    for effect in PASSIVE_FRICTION_IS:
-        own = uses[effect].joints if effect in uses else ()
-        for name in rubbing.joints:
-            if name in own:
+    if rubbing := uses.pop(PASSIVE_FRICTION, None):  # it becomes what it is made of
+        for part in PASSIVE_FRICTION_IS:
+            has = uses[part].joints if part in uses else ()
+            if twice := [name for name in rubbing.joints if name in has]:
                 raise place.at(PASSIVE_FRICTION).error(
-                    f"joint {shown(name)} has {effect} already, which is a part of it; take the "
+                    f"joint {shown(twice[0])} has {part} already, which is a part of it; take the "
                     "joint out of one of them"
                 )
-        both = tuple(name for name in moving if name in own or name in rubbing.joints)
-        uses[effect] = EffectUse(effect, both)
+            both = {*has, *rubbing.joints}
+            uses[part] = EffectUse(part, tuple(name for name in moving if name in both))
+    return tuple(uses[e.id] for e in catalogue if e.id in uses and uses[e.id].joints)
 
 
 def needs_reference(effect: Effect, instance: EffectInstance) -> bool:

@@ -138,17 +138,33 @@ _RELATION_EXAMPLE = '[relations] q4 = "-q3"'
 
 
 def read_relations(
-    place: Place, rows: Sequence[tuple[Row, Place]], symbols: Mapping[str, float]
+    place: Place,
+    driven: Mapping[str, str],
+    rows: Sequence[tuple[Row, Place]],
+    symbols: Mapping[str, float],
 ) -> dict[str, Expression]:
     """The relations of a file, by row; rows that follow others become passive in `rows`.
 
     A row whose theta (revolute) or r (prismatic) holds other rows' variables and not its own
     follows them: its variable is that cell.
 
+    Args:
+        place: the table.
+        driven: relations of joints that follow motors, as it would have them.
+        rows: of the table of joints and motors.
+        symbols: values of the declared symbols.
+
     Raises:
         RobotError: unknown joints, a relation that is not linear, a circle, an actuated joint
-            that follows others.
+            that follows others, or one that follows another joint and motors.
     """
+    stated = place.table("[relations]")
+    for name in stated:
+        if name in driven:
+            raise place.at(name).error(
+                f"follows motors of [motors] too; take {name} out of the sums there, or remove "
+                "the relation"
+            )
     kinds = {row["j"]: row_kind(row, spot) for row, spot in rows}
     variables = {f"q{name}": name for name, kind in kinds.items() if kind in HOME}
     by_name = {row["j"]: (row, spot) for row, spot in rows}
@@ -163,7 +179,7 @@ def read_relations(
         if others and own not in expression.names:
             found[row["j"]] = (expression, here)
             row[column] = own
-    for key, here in place.items(_RELATION_EXAMPLE):
+    for key, here in place.holding({**driven, **stated}).items(_RELATION_EXAMPLE):
         if key not in variables:
             raise here.error(
                 f"is no joint variable{near(key, variables)}; expected one such as "
@@ -173,7 +189,14 @@ def read_relations(
             raise here.error(f"{key} stands as a relation in the table too; keep one of them")
         found[variables[key]] = (here.expression(), here)
     for name, (expression, here) in found.items():
-        _check(name, expression, variables, symbols, here)
+        check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, here)
+        got = f"got {shown(expression.text)}"
+        if f"q{name}" in expression.names:
+            raise here.error(f"{got}, which holds q{name} itself; expected other joints")
+        form = form_at(expression, symbols, here, "-q2 - pi/2")
+        check_size(expression, form.coefficients.values(), LARGEST_RATIO, here)
+        if not form.coefficients:
+            raise here.error(f"{got}, a constant; a joint that does not move has sigma 2")
         row, spot = by_name[name]
         if row.get("mu", 0) == 1:
             raise spot.at("column mu").error(
@@ -194,26 +217,6 @@ def read_relations(
         for name in ready:
             del left[name]
     return relations
-
-
-def _check(
-    name: str,
-    expression: Expression,
-    variables: Mapping[str, str],
-    symbols: Mapping[str, float],
-    place: Place,
-) -> None:
-    check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, place)
-    if f"q{name}" in expression.names:
-        raise place.error(
-            f"got {shown(expression.text)}, which holds q{name} itself; expected other joints"
-        )
-    form = form_at(expression, symbols, place, "-q2 - pi/2")
-    check_size(expression, form.coefficients.values(), LARGEST_RATIO, place)
-    if not form.coefficients:
-        raise place.error(
-            f"got {shown(expression.text)}, a constant; a joint that does not move has sigma 2"
-        )
 
 
 # Legs that are alike: what holds {i} is written once and stands for every leg.

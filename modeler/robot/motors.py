@@ -8,9 +8,7 @@ q_a = G^-1 q_m, and by virtual work tau_m = G^-T tau_a (Hanssen, Hovland and Bro
 import fnmatch
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import Any
 
-from modeler.core.expression import Expression
 from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import (
     LARGEST_RATIO,
@@ -89,10 +87,18 @@ def read_motors(
         return {}, {}
     names = [row["j"] for row, _ in rows if row["j"] not in table]
     variables = {f"q{name}": name for name in names}
-    ratios = {
-        motor: _ratios(here.expression(), variables, symbols, here)
-        for motor, here in place.items(_EXAMPLE)
-    }
+    ratios: dict[str, dict[str, Fraction]] = {}
+    for motor, here in place.items(_EXAMPLE):
+        expression = here.expression()
+        check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, here)
+        form = form_at(expression, symbols, here, "q2 - 0.4*q1")
+        check_size(expression, form.coefficients.values(), LARGEST_RATIO, here)
+        if form.constant != 0.0:
+            raise here.error(
+                f"got {shown(expression.text)}, with the constant {form.constant:g}; expected a "
+                "sum of joint variables only: the motor reads 0 where the joints do"
+            )
+        ratios[motor] = {variables[name]: _fraction(c) for name, c in form.coefficients.items()}
     joints = [name for name in names if any(name in row for row in ratios.values())]
     if len(ratios) != len(joints):
         raise place.error(
@@ -104,23 +110,6 @@ def read_motors(
         f"q{joint}": _sum({f"q{motor}": c for motor, c in zip(ratios, row, strict=True)})
         for joint, row in zip(joints, inverse, strict=True)
     }
-
-
-def with_driven(
-    stated: Mapping[str, Any], driven: Mapping[str, str], place: Place
-) -> dict[str, Any]:
-    """The table `[relations]` with the joints that follow motors.
-
-    Raises:
-        RobotError: a joint that follows another joint and motors.
-    """
-    for name in stated:
-        if name in driven:
-            raise place.at(name).error(
-                f"follows motors of [motors] too; take {name} out of the sums there, or remove "
-                "the relation"
-            )
-    return {**driven, **stated}
 
 
 def check_driven(robot: Robot, place: Place) -> None:
@@ -151,28 +140,6 @@ def joint_directions(robot: Robot) -> dict[str, tuple[float, ...]]:
         joint: tuple(robot.motors[motor].get(joint, 0.0) for motor in coordinates)
         for joint in joints
     }
-
-
-def _ratios(
-    expression: Expression,
-    variables: Mapping[str, str],
-    symbols: Mapping[str, float],
-    place: Place,
-) -> dict[str, Fraction]:
-    """{joint: coefficient} of one motor.
-
-    Raises:
-        RobotError: not linear, a constant, a name that is not known.
-    """
-    check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, place)
-    form = form_at(expression, symbols, place, "q2 - 0.4*q1")
-    check_size(expression, form.coefficients.values(), LARGEST_RATIO, place)
-    if form.constant != 0.0:
-        raise place.error(
-            f"got {shown(expression.text)}, with the constant {form.constant:g}; expected a sum of "
-            "joint variables only: the motor reads 0 where the joints do"
-        )
-    return {variables[name]: _fraction(c) for name, c in form.coefficients.items() if c != 0.0}
 
 
 def _fraction(value: float) -> Fraction:
@@ -287,21 +254,19 @@ def read_shared(
             head = name[: len(name) - len(first.rsplit("*", 1)[-1])]
             own = head + stem + pattern.split(MARK)[1]
             members = tuple(head + stem + leg + pattern.split(MARK)[1] for leg in legs)
-            _check_members(own, members, known, place)
+            for member in members:
+                if member not in known:
+                    raise place.error(
+                        f"{shown(members[0])} has no counterpart {shown(member)}; share what all "
+                        "legs have"
+                    )
+            if own in known:
+                raise place.error(
+                    f"{shown(own)} would be shared by the legs and is a parameter already; rename "
+                    "that row"
+                )
             found[own] = SharedParameter(own, members)
     return tuple(found.values())
-
-
-def _check_members(name: str, members: Sequence[str], known: Sequence[str], place: Place) -> None:
-    for member in members:
-        if member not in known:
-            raise place.error(
-                f"{shown(members[0])} has no counterpart {shown(member)}; share what all legs have"
-            )
-    if name in known:
-        raise place.error(
-            f"{shown(name)} would be shared by the legs and is a parameter already; rename that row"
-        )
 
 
 def shared_names(known: Sequence[str], shared: Sequence[SharedParameter]) -> tuple[str, ...]:

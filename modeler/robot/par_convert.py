@@ -211,7 +211,10 @@ def par_to_toml(data: bytes, where: str) -> Converted:
     found = counts(statements)
     made = frames(statements, found)
     symbols = Symbols()
-    _settle_motors(made, found, symbols.notes)
+    if not found.loops and not any(frame.mu for frame in made):  # it says nothing of motors
+        for frame in made:
+            frame.mu = int(frame.home is not None)
+        symbols.notes.append("Mu is 0 for every joint: all are taken as actuated")
     names = variables(made, statements)
     other = [theirs for theirs, ours in names.items() if theirs != ours]
     if other:
@@ -219,47 +222,25 @@ def par_to_toml(data: bytes, where: str) -> Converted:
     table_cells(made, found, names, symbols, statements.place)
     links = bodies(statements, found, made)
     pull = gravity(gravity_entries(statements, symbols.notes), symbols, statements.place)
-    notes = (*symbols.notes, *links.notes, *_structure_notes(statements, found))
-    parts = [
-        *_head(statements, where, notes, pull), "",
-        *_symbols(symbols), *_table(made), *_loops(found), *_tables(links, made),
-    ]  # fmt: skip
-    while not parts[-1]:
-        parts.pop()
-    return Converted("\n".join(parts) + "\n", notes)
-
-
-def _structure_notes(statements: Statements, found: Counts) -> list[str]:
-    """What is to be known of the loops.
-
-    Raises:
-        RobotError: Type is no type.
-    """
-    notes = [_NO_HOME] if found.loops else []
+    notes = [*symbols.notes, *links.notes, *([_NO_HOME] if found.loops else [])]
     kind = statements.scalar("Type", "[012]", "0 (simple), 1 (tree) or 2 (closed)")
     if kind and (kind == "2") != bool(found.loops):
         notes.append(
             f"Type is {kind}, but NJ - NL says that {found.loops} joints are cut, which counts"
         )
-    return notes
-
-
-def _head(statements: Statements, where: str, notes: tuple[str, ...], pull: list[str]) -> list[str]:
     name = _name(statements, where)
-    return [
+    title = "".join(c for c in statements.name if c.isprintable() and c not in '"\\').strip()
+    parts = [
         f'name = "{name}"',
-        f'title = "{_title(statements, name)}"',
+        f'title = "{title or name}"',
         _notes(where, notes),
         f"gravity = [{', '.join(_quoted(cell) for cell in pull)}]",
+        "",
+        *_tables(symbols, found, links, made),
     ]
-
-
-def _settle_motors(made: list[ParFrame], found: Counts, notes: list[str]) -> None:
-    """A file in which no joint has a motor says nothing of motors, if there are no loops."""
-    if not found.loops and not any(frame.mu for frame in made):
-        for frame in made:
-            frame.mu = int(frame.home is not None)
-        notes.append("Mu is 0 for every joint: all are taken as actuated")
+    while not parts[-1]:
+        parts.pop()
+    return Converted("\n".join(parts) + "\n", tuple(notes))
 
 
 def _name(statements: Statements, where: str) -> str:
@@ -272,12 +253,7 @@ def _name(statements: Statements, where: str) -> str:
     return "robot"
 
 
-def _title(statements: Statements, name: str) -> str:
-    title = "".join(c for c in statements.name if c.isprintable() and c not in '"\\')
-    return title.strip() or name
-
-
-def _notes(where: str, notes: tuple[str, ...]) -> str:
+def _notes(where: str, notes: list[str]) -> str:
     lines = [f"Read from the SYMORO file {PurePath(where).name}.", *(f"* {n}." for n in notes)]
     text = "\n".join(lines).replace("\\", "/").replace('"""', "'''")
     text = "".join(c for c in text if c.isprintable() or c == "\n")
@@ -287,18 +263,6 @@ def _notes(where: str, notes: tuple[str, ...]) -> str:
 def _quoted(cell: str) -> str:
     """A TOML cell: whole numbers bare, all else as text."""
     return cell if re.fullmatch(r"-?\d+(\.\d+)?", cell) else f'"{cell}"'
-
-
-def _symbols(symbols: Symbols) -> list[str]:
-    if not symbols.values:
-        return []
-    lines = ["[symbols]"]
-    for name, worth in symbols.values.items():
-        value = f'"{worth}"' if isinstance(worth, str) else repr(worth)
-        comment = symbols.comments.get(name)
-        start = f"{name} = {value}"
-        lines.append(f"{start:<37} # {comment}" if comment else start)
-    return [*lines, ""]
 
 
 def _table(made: list[ParFrame]) -> list[str]:
@@ -329,38 +293,38 @@ def _table(made: list[ParFrame]) -> list[str]:
     ]
 
 
-def _loops(found: Counts) -> list[str]:
-    """Every cut joint meets its second frame."""
-    if not found.loops:
-        return []
-    rows = [
+def _section(head: str, lines: list[str]) -> list[str]:
+    """A table and a blank line; nothing for one without entries."""
+    return [head, *lines, ""] if lines else []
+
+
+def _tables(symbols: Symbols, found: Counts, links: Bodies, made: list[ParFrame]) -> list[str]:
+    """`[symbols]` and all below."""
+    declared = []
+    for name, worth in symbols.values.items():
+        start = f'{name} = "{worth}"' if isinstance(worth, str) else f"{name} = {worth!r}"
+        comment = symbols.comments.get(name)
+        declared.append(f"{start:<37} # {comment}" if comment else start)
+    loops = [  # every cut joint meets its second frame
         f'  ["cut{k + 1}", "{found.links + k + 1}", "{found.joints + k + 1}", "rigid"],'
         for k in range(found.loops)
     ]
-    columns = 'columns = ["loop", "frame", "meets", "joint"]'
-    return ["[loops]", columns, "rows = [", *rows, "]", ""]
-
-
-def _tables(links: Bodies, made: list[ParFrame]) -> list[str]:
-    lines = []
-    if links.links:
-        lines += ["[links]                               # parameters that these rows have"]
-        for name, has in links.links.items():
-            lines.append(f"{name} = [{', '.join(_quoted(key) for key in has)}]")
-        lines.append("")
+    columns = 'columns = ["loop", "frame", "meets", "joint"]\nrows = ['
+    has = [
+        f"{name} = [{', '.join(_quoted(key) for key in keys)}]"
+        for name, keys in links.links.items()
+    ]
     actuated = [str(frame.number) for frame in made if frame.mu]
-    if links.effects:
-        lines.append("[effects]")
-        for effect, joints in links.effects.items():
-            names = ", ".join(f'"{joint}"' for joint in joints)
-            where = '"all"' if joints == actuated else f"[{names}]"
-            lines.append(f"{effect} = {where}")
-        lines.append("")
-    if links.parameters:
-        lines.append("[parameters]                          # kg m^2, kg m, kg; N m s/rad, N m")
-        lines += [f"{name} = {worth!r}" for name, worth in links.parameters.items()]
-        lines.append("")
-    return lines
-
-
-# SYMORO's `.par` files as robot files: from their bytes to the text of ours, and what is lost.
+    effects = []
+    for effect, joints in links.effects.items():
+        names = ", ".join(f'"{joint}"' for joint in joints)
+        effects.append(f"{effect} = " + ('"all"' if joints == actuated else f"[{names}]"))
+    numbers = [f"{name} = {worth!r}" for name, worth in links.parameters.items()]
+    return [
+        *_section("[symbols]", declared),
+        *_table(made),
+        *_section(f"[loops]\n{columns}", [*loops, "]"] if loops else []),
+        *_section(f"{'[links]':<37} # parameters that these rows have", has),
+        *_section("[effects]", effects),
+        *_section(f"{'[parameters]':<37} # kg m^2, kg m, kg; N m s/rad, N m", numbers),
+    ]

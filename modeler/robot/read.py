@@ -34,7 +34,6 @@ from modeler.robot.motors import (
     read_motors,
     read_shared,
     shared_names,
-    with_driven,
 )
 from modeler.robot.robot import Joint, Robot
 from modeler.robot.sections import (
@@ -123,9 +122,7 @@ def robot_from_text(text: str, where: str) -> Robot:
     for symbol, expression in symbols.items():
         values[symbol] = form_at(expression, values, place).constant
     motors, driven = read_motors(section("motors", {}), rows, values)
-    stated = section("relations", {})
-    stated = section("relations", with_driven(stated.table("[relations]"), driven, stated))
-    relations = read_relations(stated, rows, values)
+    relations = read_relations(section("relations", {}), driven, rows, values)
     title = place.at("title", document.get("title", document["name"])).text('"my robot"')
     if len(title.splitlines()) > 1:
         raise place.at("title", title).mismatch("one line; put the rest into notes")
@@ -174,7 +171,14 @@ def _with_tables(
             "no joint is actuated; write mu 1 in the rows that have a motor"
         )
     home = read_home(section("home"), moving, values)
-    reference = _reference(document, robot, known, section("reference"))
+    for joint in robot.moving:
+        for effect, _, instance in robot.effects_on(joint.name):
+            if needs_reference(effect, instance) and "reference" not in document:
+                raise section("reference").error(
+                    f"is missing; {effect.id} depends on the torques of the links: state their "
+                    "parameters there, as `modeler add` does"
+                )
+    standard = "names of standard parameters, such as ZZ1"
     names = (
         f"names such as {listed(known[:12])} (friction and rotors only where [effects] has them)"
     )
@@ -183,7 +187,7 @@ def _with_tables(
         loops=loops,
         home=home,
         shared=shared,
-        reference=reference,
+        reference=read_numbers(section("reference"), known, "[reference]", standard),
         coupling=coupling,
         priority=_priority(place.at("priority", document.get("priority", [])), known, robot),
         parameters=read_numbers(section("parameters"), known, "[parameters]", names),
@@ -290,24 +294,6 @@ def _parameter_names(robot: Robot, moving: Mapping[str, Joint], place: Place) ->
                 "called when others group into it; choose a name that does not end in R"
             )
     return tuple(names)
-
-
-def _reference(
-    document: Mapping[str, Any], robot: Robot, known: tuple[str, ...], place: Place
-) -> dict[str, float]:
-    """The table, which effects need that depend on what the links ask of the joints."""
-    needed = [
-        effect.id
-        for joint in robot.moving
-        for effect, _, instance in robot.effects_on(joint.name)
-        if needs_reference(effect, instance)
-    ]
-    if needed and "reference" not in document:
-        raise place.error(
-            f"is missing; {needed[0]} depends on the torques of the links: state their parameters "
-            "there, as `modeler add` does"
-        )
-    return read_numbers(place, known, "[reference]", "names of standard parameters, such as ZZ1")
 
 
 def _priority(place: Place, known: tuple[str, ...], robot: Robot) -> tuple[str, ...]:

@@ -219,33 +219,9 @@ def _cell(
     symbols: Mapping[str, float],
 ) -> Expression:
     expression = place.expression()
-    kind, own = kinds[row["j"]], f"q{row['j']}"
-    home = HOME.get(kind)
-    _check_variables(expression, own, home, column, kinds, place)
-    check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
-    if column == home:
-        _check_motion(expression, own, column, symbols, place)
-    elif column in _ANGLES:
-        form_at(expression, symbols, place)
-    else:
-        length_at(expression, symbols, place)
-    if column in _ANGLES:
-        return exact_angle(expression, own if column == home else None, place)
-    # -0.0 and the like: one zero, so that everyone may drop it.
-    return parse(0) if expression.is_zero else expression
-
-
-def _check_variables(
-    expression: Expression,
-    own: str,
-    home: str | None,
-    column: str,
-    kinds: Mapping[str, JointKind],
-    place: Place,
-) -> None:
-    """Refuse joint variables anywhere but in the place of this row's own."""
     got = f"got {shown(expression.text)}"
-    for name in sorted(expression.names):
+    own, home = f"q{row['j']}", HOME.get(kinds[row["j"]])
+    for name in sorted(expression.names):  # joint variables stand in the place of their own only
         if name == own and home is None:
             raise place.error(f"{got}, but the row is fixed (sigma 2); remove {name} or set sigma")
         if name == own and column != home:
@@ -254,30 +230,33 @@ def _check_variables(
                 f"belongs into column {home}; move it there, or correct sigma"
             )
         if name != own and name.startswith("q") and name[1:] in kinds:
-            column = home or "theta or r"
             raise place.error(
                 f"{got}, which uses the variable {name} of another row; expected {own} and "
                 "constants, or, where the joint follows others, a sum of their variables in "
-                f"column {column} without {own}"
+                f"column {home or 'theta or r'} without {own}"
             )
-
-
-def _check_motion(
-    expression: Expression, own: str, column: str, symbols: Mapping[str, float], place: Place
-) -> None:
-    # A prismatic joint's offset is a length.
-    example = f"{own} + {'pi/2' if column == 'theta' else '0.1'}"
-    if own not in expression.names:
-        raise place.error(
-            f"got {shown(expression.text)}, without the joint variable; expected {own}, as in "
-            f"{shown(example)}; a row that does not move has sigma 2"
-        )
-    form = form_at(expression, symbols, place, example)
-    if form.coefficients.get(own) not in (1.0, -1.0):
-        raise place.error(
-            f"got {shown(expression.text)}: {own} has the coefficient "
-            f"{form.coefficients.get(own, 0.0):g}; expected 1 or -1, as in "
-            f'{shown(example)} or "-{own}" (a gear ratio belongs into the drive gain)'
-        )
-    if column not in _ANGLES:
-        check_size(expression, (form.constant,), LARGEST_LENGTH, place)
+    check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
+    if column == home:
+        example = f"{own} + {'pi/2' if column == 'theta' else '0.1'}"
+        if own not in expression.names:
+            raise place.error(
+                f"{got}, without the joint variable; expected {own}, as in {shown(example)}; a row "
+                "that does not move has sigma 2"
+            )
+        form = form_at(expression, symbols, place, example)
+        factor = form.coefficients.get(own, 0.0)
+        if factor not in (1.0, -1.0):
+            raise place.error(
+                f"{got}: {own} has the coefficient {factor:g}; expected 1 or -1, as in "
+                f'{shown(example)} or "-{own}" (a gear ratio belongs into the drive gain)'
+            )
+        if column not in _ANGLES:  # a prismatic joint's offset is a length
+            check_size(expression, (form.constant,), LARGEST_LENGTH, place)
+    elif column in _ANGLES:
+        form_at(expression, symbols, place)
+    else:
+        length_at(expression, symbols, place)
+    if column in _ANGLES:
+        return exact_angle(expression, own if column == home else None, place)
+    # -0.0 and the like: one zero, so that everyone may drop it.
+    return parse(0) if expression.is_zero else expression
