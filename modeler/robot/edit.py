@@ -96,7 +96,8 @@ def with_drive_gains(text: str, gains: Mapping[str, float]) -> str:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
     changed = _with_numbers(text, "drive_gains", gains)
-    if _document(changed) != tomllib.loads(text) | {"drive_gains": dict(gains)}:
+    before = _document(text)
+    if before is None or _document(changed) != before | {"drive_gains": dict(gains)}:
         raise RobotError(
             "the [drive_gains] table cannot be replaced; write it as a table of its own, one joint "
             "a line"

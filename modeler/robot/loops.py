@@ -74,9 +74,9 @@ def read_loops(place: Place, joints: Sequence[Joint]) -> tuple[Loop, ...]:
 def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Loop:
     name = place.at("column loop", name_of(cells["loop"])).text('"A"')
     here = place.at(shown(name))
-    names = {joint.name for joint in joints}
+    names = [joint.name for joint in joints]
     frames = []
-    for column, known in (("frame", names), ("meets", {"0", *names})):
+    for column, known in (("frame", names), ("meets", ["0", *names])):
         frame = name_of(cells[column])
         if frame not in known:
             raise here.at(f"column {column}").error(
@@ -365,7 +365,7 @@ def read_platform(place: Place) -> tuple[list[tuple[Row, Place]], tuple[str, ...
     if not ROW_NAME.fullmatch(name):
         raise here.mismatch('letters and digits such as "P"')
     motion = table["motion"]
-    if motion not in _MOTIONS:
+    if motion not in list(_MOTIONS):
         raise place.at("motion").error(
             f"got {shown(motion)}{near(motion, _MOTIONS)}; expected {listed(_MOTIONS)}"
         )
