@@ -2,7 +2,6 @@
 
 import itertools
 import math
-import random
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -271,6 +270,8 @@ def check_finite(form: Form, place: Place, given: Mapping[str, float] | None = N
 
 def _states() -> Iterator[Mapping[str, float]]:
     """Rest, and states with both signs of everything."""
+    import random  # as long to load as the whole catalogue is to read, and seldom needed
+
     yield dict.fromkeys(VARIABLES, 0.0)
     draw = random.Random(0)
     for _ in range(_STATES):

@@ -2,7 +2,9 @@
 
 import math
 import re
+import tomllib
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from modeler.core.expression import Expression
@@ -16,11 +18,11 @@ from modeler.robot.cells import (
     number_at,
 )
 from modeler.robot.robot import LOOP_KINDS, Joint, Loop
-from modeler.robot.sections import other_joint
 from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
 
 MOST_LOOPS = 50
 """As many as legs."""
+OTHER_JOINTS = Path(__file__).with_name("other_joints.toml")
 _COLUMNS = ("loop", "frame", "meets", "joint")
 _EXAMPLE = 'columns = ["loop", "frame", "meets", "joint"], rows = [["A", "9", "10", "rigid"]]'
 
@@ -86,7 +88,7 @@ def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Lo
         frames.append(frame)
     kind = cells["joint"]
     if kind not in LOOP_KINDS:
-        instead = other_joint(kind) if isinstance(kind, str) else None
+        instead = _other_joint(kind) if isinstance(kind, str) else None
         other = f"{near(kind, LOOP_KINDS)}; expected one of {listed(LOOP_KINDS)}"
         raise here.at("column joint").error(
             f"got {shown(kind)}{f'; {instead}' if instead else other}"
@@ -103,6 +105,13 @@ def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Lo
             "close; name a frame of another link"
         )
     return Loop(name, frames[0], frames[1], kind)
+
+
+def _other_joint(kind: str) -> str | None:
+    """What to write instead of a joint of that name; None if the name says nothing."""
+    name = kind.strip().lower().replace("_", " ").replace("-", " ").removesuffix(" joint")
+    advice = tomllib.loads(OTHER_JOINTS.read_text(encoding="utf-8"))
+    return next((instead for instead, names in advice.items() if name in names), None)
 
 
 def read_home(
