@@ -271,20 +271,6 @@ def new_names(letters: Iterable[str], taken: Collection[str], symbols: Symbols) 
     return names
 
 
-def declare(lengths: Iterable[str], angles: Iterable[str], symbols: Symbols) -> None:
-    """Declare letters without a value in the file: distinct stand-ins, told in the notes."""
-    stand_ins = {name: _PRIMES[k % len(_PRIMES)] / 100 for k, name in enumerate(lengths)}
-    for k, name in enumerate(angles):
-        stand_ins[name] = round(_PRIMES[k % len(_PRIMES)] / 100 + 0.05, 2)
-    symbols.values |= stand_ins
-    symbols.comments |= dict.fromkeys(stand_ins, "no value in the file")
-    if stand_ins:
-        symbols.notes.append(
-            f"no values in the file: {listed(stand_ins)}; [symbols] holds stand-ins, write the "
-            "true ones there (relations keep the letters)"
-        )
-
-
 def without_inverse(cells: list[ParFormula], symbols: Symbols) -> list[ParFormula]:
     """The formulas without atan2, atan, acos and asin, which robot files do not have.
 
@@ -339,7 +325,7 @@ def _make_polar(
 ) -> bool:
     """Have y and x as L*sin(A) and L*cos(A); False if one of them is so with another letter."""
     if frozenset((y, x)) in polar:
-        return symbols.values[y] == _polar_text(*polar[frozenset((y, x))], "sin")
+        return symbols.values[y] == "{}*sin({})".format(*polar[frozenset((y, x))])
     across, along = symbols.values[y], symbols.values[x]
     if isinstance(across, str) or isinstance(along, str):
         return False
@@ -347,17 +333,13 @@ def _make_polar(
     angle = symbols.add("A1", round(math.atan2(across, along), 4), "rad")
     polar[frozenset((y, x))] = (length, angle)
     for name, function in ((y, "sin"), (x, "cos")):
-        symbols.values[name] = _polar_text(length, angle, function)
+        symbols.values[name] = f"{length}*{function}({angle})"
         symbols.comments.pop(name, None)
     symbols.notes.append(
         f"{y} = {length}*sin({angle}) and {x} = {length}*cos({angle}): {length} and {angle} take "
         f"the place of these letters, so that atan2 is exact"
     )
     return True
-
-
-def _polar_text(length: str, angle: str, function: str) -> str:
-    return f"{length}*{function}({angle})"
 
 
 # The cells of the frames as those of a robot file.
@@ -423,7 +405,7 @@ def _on_loops(made: list[ParFrame], found: Counts) -> set[int]:
 def _name_letters(
     made: list[ParFrame], found: Counts, variables: dict[str, str], symbols: Symbols
 ) -> None:
-    """Declare the letters of the geometry, and put our names for theirs."""
+    """Declare the letters of the geometry by distinct stand-ins; put our names for theirs."""
     places = [
         (letter, column)
         for frame in made
@@ -432,12 +414,20 @@ def _name_letters(
     ]
     letters = list(dict.fromkeys(letter for letter, _ in places))
     names = new_names(letters, reserved(found.frames), symbols)
-    lengths = dict.fromkeys(letter for letter, column in places if column not in ANGLES)
-    declare(
-        [names.get(letter, letter) for letter in letters if letter in lengths],
-        [names.get(letter, letter) for letter in letters if letter not in lengths],
-        symbols,
-    )
+    lengths = {letter for letter, column in places if column not in ANGLES}
+    stand_ins = {}
+    for k, letter in enumerate(letter for letter in letters if letter in lengths):
+        stand_ins[names.get(letter, letter)] = _PRIMES[k % len(_PRIMES)] / 100
+    for k, letter in enumerate(letter for letter in letters if letter not in lengths):
+        worth = round(_PRIMES[k % len(_PRIMES)] / 100 + 0.05, 2)
+        stand_ins[names.get(letter, letter)] = worth
+    symbols.values |= stand_ins
+    symbols.comments |= dict.fromkeys(stand_ins, "no value in the file")
+    if stand_ins:
+        symbols.notes.append(
+            f"no values in the file: {listed(stand_ins)}; [symbols] holds stand-ins, write the "
+            "true ones there (relations keep the letters)"
+        )
     for frame in made:
         for column in GEOMETRY:
             cell = frame.cells[column]
