@@ -227,7 +227,7 @@ def test_the_package_itself_loads_nothing() -> None:
     assert not subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 
 
-ENGINE = ("hypotheses", "scoring", "diagnose", "pages", "improve")
+ENGINE = ("diagnosis", "report")
 
 
 @pytest.mark.parametrize("stage", ENGINE)
