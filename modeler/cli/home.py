@@ -124,7 +124,7 @@ def _near(args: argparse.Namespace, robot: Robot) -> dict[str, float] | None:
             )
         values[name] = value
     moving = {joint.name: joint for joint in robot.moving}
-    return dict(read_home(values, moving, robot.symbol_values(), Place("--near")))
+    return dict(read_home(Place("--near", value=values), moving, robot.symbol_values()))
 
 
 def _table(found: HomeModes) -> list[str]:

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Literal
 
 from modeler.core.brief import Brief
-from modeler.core.expression import Expression, parse
+from modeler.core.expression import Expression
 
 
 class EnergyBlock(enum.Enum):
@@ -50,46 +50,27 @@ class Needs(enum.Enum):
     FRICTION = "it is a part of the friction of its joint, never larger than all of it"
 
 
-Scale = Literal[
-    "speed",
-    "travel",
-    "place",
-    "bend",
-    "load",
-    "turn",
-    "number",
-    "angle",
-    "seconds",
-    "hertz",
-    "waves",
-    "moment",
-    "own",
-]
-"""Of a shape parameter's grid: fractions of the joint's top speed or of its rms load; radians of
-travel (for a prismatic joint, thirds of its range of motion), the same from the middle of the
-motion, or one over their square; one per rad (for a prismatic joint, a turn per stroke); plain
-numbers, radians, seconds, hertz; waves per turn, found in the order spectrum where the grid has
-none; 1, or 0 where the first moment of the link has that part; what a robot file gives for an
-effect of its own, SI."""
-
-
 Shows = Literal["q", "v", "a", "load", "torque", "rate", "t", "T", "travel", "waves", "itself"]
 """The axis against which a residual shows an effect: a variable of `VARIABLES`; the travel since
 the joint last turned back; waves per turn; or the torque of the effect itself, where it is a
 function of no single quantity."""
 
-_SHAPE_UNITS: Mapping[Scale, tuple[str, str]] = {
-    "speed": ("rad/s", "m/s"),
-    "travel": ("rad", "m"),
-    "place": ("rad", "m"),
-    "bend": ("1/rad^2", "1/m^2"),
-    "load": ("N m", "N"),
-    "turn": ("1", "1/m"),
+SCALES: Mapping[str, tuple[str, str]] = {
+    "speed": ("rad/s", "m/s"),  # fractions of the joint's top speed
+    "travel": ("rad", "m"),  # for a prismatic joint, thirds of its range of motion
+    "place": ("rad", "m"),  # the same from the middle of the motion
+    "bend": ("1/rad^2", "1/m^2"),  # one over the square of a travel
+    "load": ("N m", "N"),  # fractions of the joint's rms load
+    "turn": ("1", "1/m"),  # one per rad; for a prismatic joint, a turn per stroke
+    "number": ("1", "1"),
     "angle": ("rad", "rad"),
     "seconds": ("s", "s"),
     "hertz": ("Hz", "Hz"),
-    "waves": ("1", "1/m"),
+    "waves": ("1", "1/m"),  # per turn; found in the order spectrum where the grid has none
+    "moment": ("1", "1"),  # 1, or 0 where the first moment of the link has that part
+    "own": ("1", "1"),  # SI, as a robot file gives it for an effect of its own
 }
+"""What the grid of a shape parameter is measured in -> its unit where the joint turns, slides."""
 
 
 @dataclass(frozen=True)
@@ -98,14 +79,14 @@ class Shape(Brief):
 
     Attributes:
         name: in the equations.
-        scale: what the grid is measured in.
+        scale: what the grid is measured in, one of `SCALES`.
         grid: values tried first.
         limits: least and largest value that make sense; equal where only those of the grid do.
         meaning: plain language.
     """
 
     name: str
-    scale: Scale
+    scale: str
     grid: tuple[float, ...]
     limits: tuple[float, float]
     meaning: str
@@ -117,7 +98,7 @@ class Shape(Brief):
 
     def unit(self, linear: bool) -> str:
         """On a prismatic joint or on one that turns; "1" for a number, or if nobody knows."""
-        return _SHAPE_UNITS.get(self.scale, ("1", "1"))[linear]
+        return SCALES[self.scale][linear]
 
 
 @dataclass(frozen=True)
@@ -292,39 +273,3 @@ class Effect(Brief):
     def coupled(self) -> bool:
         """True if it acts on the shaft of a motor that turns with several joints."""
         return self.acts is Acts.MOTOR
-
-
-# Short forms for writing the catalogue.
-
-
-_PER = {
-    "torque": ("N m", "N"),
-    "speed": ("N m s/rad", "N s/m"),
-    "position": ("N m/rad", "N/m"),
-    "ratio": ("1", "1"),
-    "time": ("N m/s", "N/s"),
-    "seconds": ("s", "s"),
-    "angle": ("rad", "m"),
-    "compliance": ("rad/(N m)", "m/N"),
-    "heat": ("N m/K", "N/K"),
-    "heat_speed": ("N m s/(rad K)", "N s/(m K)"),
-}
-
-
-def column(
-    prefix: str, equation: str, per: str, kind: str = "friction", nonnegative: bool = False,
-    largest: float = math.inf,
-) -> EffectColumn:  # fmt: skip
-    """A column that never groups with another; `per` says what its parameter multiplies."""
-    revolute, prismatic = _PER[per]
-    return EffectColumn(
-        prefix, parse(equation), revolute, prismatic, kind, EnergyBlock.OWN, nonnegative,
-        largest,
-    )  # fmt: skip
-
-
-def form(
-    *columns: EffectColumn, shapes: tuple[Shape, ...] = (), memory: Memory | None = None
-) -> Form:
-    """A form of an effect."""
-    return Form(columns, shapes, memory)

@@ -9,8 +9,8 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core import rounded
-from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, ExpressionError, parse
-from modeler.robot.robot import Place, listed, near, shown
+from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, parse
+from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 
 # Expressions that are linear in the joint variables, taken apart.
 
@@ -64,7 +64,10 @@ class Linear:
         power = exponent if isinstance(exponent, int) else exponent._number()
         if abs(power) > LARGEST_EXPONENT:
             raise HighPower
-        return Linear(_real(rounded.power(self._number(), power)))
+        value = rounded.power(self._number(), power)
+        if isinstance(value, complex):
+            raise ArithmeticError
+        return Linear(float(value))
 
     def _times(self, factor: float) -> "Linear":
         return Linear(self.constant * factor, {n: c * factor for n, c in self.coefficients.items()})
@@ -89,7 +92,7 @@ def linear_form(expression: Expression, symbols: Mapping[str, float]) -> Linear:
         name: Linear(symbols[name]) if name in symbols else Linear(0.0, {name: 1.0})
         for name in expression.names
     }
-    form = expression.fold(values, _LIFTED, Linear(math.pi), _constant)
+    form = expression.fold(values, _LIFTED, Linear(math.pi), lambda value: Linear(float(value)))
     form = Linear(form.constant, {n: c for n, c in form.coefficients.items() if c != 0.0})
     if not all(map(math.isfinite, (form.constant, *form.coefficients.values()))):
         raise OverflowError
@@ -113,18 +116,6 @@ def _lifted(name: str) -> Callable[["Linear"], "Linear"]:
 _LIFTED = {name: _lifted(name) for name in FUNCTIONS}
 
 
-def _constant(value: Fraction) -> Linear:
-    return Linear(float(value))
-
-
-def _real(value: complex | float) -> float:
-    if isinstance(value, complex):
-        raise ArithmeticError
-    return float(value)
-
-
-LARGEST = 1e12
-"""Size of any number, in SI units: squares and products of larger ones leave double precision."""
 LARGEST_LENGTH = 1e4
 """m, and of an acceleration of gravity, m/s2. Beside it a link of a few cm is lost in rounding."""
 LARGEST_RATIO = 1e4
@@ -135,21 +126,6 @@ MOST_NAME_LETTERS = 63
 _QUARTER = math.pi / 2
 _EXACT = 1e-9  # rad; nearer to a multiple of pi/2 than this is that multiple
 _ROUNDED = 5e-3  # rad; nearer than this, and written with few digits: 1.57, 3.14
-
-
-def expression_at(value: Any, place: Place) -> Expression:
-    """The cell as an `Expression`; names are not checked.
-
-    Raises:
-        RobotError: not a number or an expression.
-    """
-    try:
-        return parse(value)
-    except ExpressionError as error:
-        told = str(error)
-        if isinstance(value, str):
-            told = told.replace(f'"{value.strip()}"', shown(value.strip()))
-        raise place.error(told) from None
 
 
 def form_at(
@@ -224,74 +200,15 @@ def check_declared(expression: Expression, known: Mapping[str, Any], place: Plac
             )
 
 
-def number_at(value: Any, symbols: Mapping[str, float], place: Place) -> float:
+def number_at(place: Place, symbols: Mapping[str, float]) -> float:
     """The cell as a number; it may be an expression of the declared symbols.
 
     Raises:
         RobotError: not a number, or a name that is not declared.
     """
-    expression = expression_at(value, place)
+    expression = place.expression()
     check_declared(expression, symbols, place)
     return form_at(expression, symbols, place).constant
-
-
-def plain_number(value: Any, place: Place, example: str) -> float:
-    """A finite number, not an expression.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise place.error(f"got {shown(value)}; expected a number such as {example}")
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
-    if not math.isfinite(number):
-        raise place.error(f"got {shown(value)}; expected a finite number such as {example}")
-    if abs(number) > LARGEST:
-        raise place.error(
-            f"got {shown(value)}; expected at most {LARGEST:g} in SI units, such as {example}"
-        )
-    return number
-
-
-def table_at(value: Any, place: Place, example: str) -> dict[str, Any]:
-    """A TOML table.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if not isinstance(value, dict):
-        raise place.error(f"got {shown(value)}; expected a table, as in {example}")
-    return value
-
-
-def list_at(value: Any, place: Place, example: str, length: int | None = None) -> list[Any]:
-    """A TOML array, of `length` entries if that is given.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if not isinstance(value, list):
-        raise place.error(f"got {shown(value)}; expected a list such as {example}")
-    if length is not None and len(value) != length:
-        raise place.error(
-            f"got {len(value)} entries, expected {length}, as in {example}; "
-            f"{'add' if len(value) < length else 'remove'} {abs(len(value) - length)}"
-        )
-    return value
-
-
-def text_at(value: Any, place: Place, example: str) -> str:
-    """A TOML string that is not empty.
-
-    Raises:
-        RobotError: anything else.
-    """
-    if not isinstance(value, str) or not value.strip():
-        raise place.error(f"got {shown(value)}; expected text such as {example}")
-    return value
 
 
 def name_of(value: Any) -> Any:
@@ -329,6 +246,7 @@ def exact_angle(expression: Expression, variable: str | None, place: Place) -> E
     form = form_at(expression, {}, place)
     turns = round(form.constant / _QUARTER)
     error = abs(form.constant - turns * _QUARTER)
+    multiple = pi_multiple(Fraction(turns, 2))
     if abs(form.constant) > 4 * _QUARTER + _EXACT:
         raise place.error(
             f"got {shown(expression.text)}: {form.constant:g} rad is more than a turn; angles are "
@@ -337,9 +255,13 @@ def exact_angle(expression: Expression, variable: str | None, place: Place) -> E
     if "pi" in re.findall(r"[A-Za-z_]\w*", expression.text):
         return expression
     if error <= _EXACT:
-        return _with_quarters(form, variable, turns)
-    multiple = _quarters(turns)
-    if turns != 0 and error <= min(_ROUNDED, _last_digit(expression.text)):
+        if not form.coefficients:
+            return parse(multiple)
+        head = f"{variable}" if form.coefficients[variable or ""] > 0 else f"-{variable}"
+        return parse(f"{head} + {multiple}".replace("+ -", "- ").removesuffix(" + 0"))
+    decimals = [len(digits) for digits in re.findall(r"\.(\d*)", expression.text)]
+    last_digit = 10.0 ** -max(decimals, default=0)
+    if turns != 0 and error <= min(_ROUNDED, last_digit):
         raise place.error(
             f"got {shown(expression.text)}, a rounded {multiple}; write {multiple} where the angle "
             "is exact, or declare a measured angle among [symbols] and use its name"
@@ -347,29 +269,13 @@ def exact_angle(expression: Expression, variable: str | None, place: Place) -> E
     return expression
 
 
-def _with_quarters(form: Linear, variable: str | None, turns: int) -> Expression:
-    if not form.coefficients:
-        return parse(_quarters(turns))
-    head = f"{variable}" if form.coefficients[variable or ""] > 0 else f"-{variable}"
-    if turns == 0:
-        return parse(head)
-    return parse(f"{head} {'-' if turns < 0 else '+'} {_quarters(abs(turns))}")
-
-
-def _quarters(turns: int) -> str:
-    """`turns` times pi/2 as text: `0`, `pi/2`, `-pi`, `3*pi/2`."""
+def pi_multiple(turns: Fraction) -> str:
+    """`turns` times pi as text: `pi/2`, `-pi`, `3*pi/4`, `0`."""
     if turns == 0:
         return "0"
-    sign = "-" if turns < 0 else ""
-    size = abs(turns)
-    count, half = (size // 2, "") if size % 2 == 0 else (size, "/2")
-    return f"{sign}{'' if count == 1 else f'{count}*'}pi{half}"
-
-
-def _last_digit(text: str) -> float:
-    """One unit of the last decimal that is written: 0.01 for 1.57."""
-    decimals = [len(digits) for digits in re.findall(r"\.(\d*)", text)]
-    return 10.0 ** -max(decimals, default=0)
+    head = "" if abs(turns.numerator) == 1 else f"{abs(turns.numerator)}*"
+    tail = "" if turns.denominator == 1 else f"/{turns.denominator}"
+    return f"{'-' if turns < 0 else ''}{head}pi{tail}"
 
 
 # The `[symbols]` table and the gravity of a robot file.
@@ -384,38 +290,52 @@ C_WORDS = """
 """
 
 
-def read_symbols(value: Any, variables: Collection[str], place: Place) -> dict[str, Expression]:
+def read_symbols(place: Place, variables: Collection[str]) -> dict[str, Expression]:
     """Symbols and their values, so ordered that each stands after those its value uses.
 
     Args:
-        value: the table.
+        place: the table.
         variables: names of the joint variables, which symbols must not shadow.
-        place: where it stands.
 
     Raises:
         RobotError: a bad name, a value that is no number, a circle of values.
     """
-    table = table_at(value, place, "[symbols] D3 = 0.45")
+    table = place.table("[symbols] D3 = 0.45")
     symbols = {}
     for name, cell in table.items():
-        _check_name(name, variables, place)
-        symbols[name] = expression_at(cell, place.at(name))
+        if not _NAME.fullmatch(name):
+            raise place.error(
+                f"got the name {shown(name)}; expected a letter, then letters, digits or _, such "
+                "as D3"
+            )
+        check_name_length(name, place)
+        taken = {
+            "a joint variable": name in variables,
+            "the number pi": name == "pi",
+            "a function": name in FUNCTIONS,
+            "a word of the C language": name in C_WORDS.split(),
+            "a word of the expression language": keyword.iskeyword(name),
+        }
+        for what, is_taken in taken.items():
+            if is_taken:
+                raise place.error(f"{shown(name)} is the name of {what}; choose another name")
+        symbols[name] = place.at(name, cell).expression()
         check_declared(symbols[name], table, place.at(name))
     return _ordered(symbols, place)
 
 
 def read_gravity(
-    value: Any, variables: Collection[str], symbols: Mapping[str, float], place: Place
+    place: Place, variables: Collection[str], symbols: Mapping[str, float]
 ) -> tuple[Expression, Expression, Expression]:
     """Acceleration of gravity in frame 0, m/s2.
 
     Raises:
         RobotError: not three entries, or entries that are not constants.
     """
-    cells = list_at(value, place, '[0, 0, "-g"]', length=3)
-    for number, cell in enumerate(cells, start=1):
-        here = place.at(f"entry {number}")
-        expression = expression_at(cell, here)
+    gravity = []
+    for number, cell in enumerate(place.entries('[0, 0, "-g"]', length=3), start=1):
+        here = place.at(f"entry {number}", cell)
+        expression = here.expression()
         moving = sorted(expression.names & set(variables))
         if moving:
             raise here.error(
@@ -424,26 +344,9 @@ def read_gravity(
             )
         check_declared(expression, symbols, here)
         length_at(expression, symbols, here)
-    x, y, z = (expression_at(cell, place) for cell in cells)
+        gravity.append(expression)
+    x, y, z = gravity
     return x, y, z
-
-
-def _check_name(name: str, variables: Collection[str], place: Place) -> None:
-    if not name.isascii() or not _NAME.fullmatch(name):
-        raise place.error(
-            f"got the name {shown(name)}; expected a letter, then letters, digits or _, such as D3"
-        )
-    check_name_length(name, place)
-    taken = {
-        "a joint variable": name in variables,
-        "the number pi": name == "pi",
-        "a function": name in FUNCTIONS,
-        "a word of the C language": name in C_WORDS.split(),
-        "a word of the expression language": keyword.iskeyword(name),
-    }
-    for what, is_taken in taken.items():
-        if is_taken:
-            raise place.error(f"{shown(name)} is the name of {what}; choose another name")
 
 
 def _ordered(symbols: Mapping[str, Expression], place: Place) -> dict[str, Expression]:

@@ -5,14 +5,17 @@ import math
 import re
 import tomllib
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
 from modeler.core.errors import RobotError
+from modeler.core.toml_cells import Place
 from modeler.effects.catalogue import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, effect_named
 from modeler.effects.effect import Effect
-from modeler.robot.effects import read_own_effects
+from modeler.robot.cells import pi_multiple
+from modeler.robot.effects import parameter_owners, read_own_effects
 from modeler.robot.loops import MARK, expanded, leg_names
-from modeler.robot.robot import INERTIAL, Place
+from modeler.robot.robot import INERTIAL
 
 Effects = Mapping[str, str | list]
 """Effect id or alias -> "all", the names of the joints that have it, or tables with shapes."""
@@ -78,17 +81,12 @@ def _catalogue(text: str) -> tuple[Effect, ...]:
 def with_parameters(text: str, values: Mapping[str, float]) -> str:
     """The robot file with these nominal values, and others only for what they leave open."""
     before = tomllib.loads(text).get("parameters", {})
-    lines = _without_table(text, "[parameters]")
-    entries = {**before, **values}
-    lines += ["", "[parameters]", *(f'"{name}" = {value!r}' for name, value in entries.items())]
-    return "\n".join(lines) + "\n"
+    return _with_numbers(text, "parameters", {**before, **values})
 
 
 def with_reference(text: str, values: Mapping[str, float]) -> str:
     """The robot file with another table [reference]."""
-    lines = _without_table(text, "[reference]")
-    lines += ["", "[reference]", *(f'"{name}" = {value!r}' for name, value in values.items())]
-    return "\n".join(lines) + "\n"
+    return _with_numbers(text, "reference", values)
 
 
 def with_drive_gains(text: str, gains: Mapping[str, float]) -> str:
@@ -97,19 +95,38 @@ def with_drive_gains(text: str, gains: Mapping[str, float]) -> str:
     Raises:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
-    lines = _without_table(text, "[drive_gains]")
-    lines += ["", "[drive_gains]", *(f'"{name}" = {gain!r}' for name, gain in gains.items())]
-    changed = "\n".join(lines) + "\n"
-    try:
-        same = tomllib.loads(changed) == tomllib.loads(text) | {"drive_gains": dict(gains)}
-    except tomllib.TOMLDecodeError:
-        same = False
-    if not same:
+    changed = _with_numbers(text, "drive_gains", gains)
+    before = _document(text)
+    if before is None or _document(changed) != before | {"drive_gains": dict(gains)}:
         raise RobotError(
             "the [drive_gains] table cannot be replaced; write it as a table of its own, one joint "
             "a line"
         )
     return changed
+
+
+def _with_numbers(text: str, table: str, values: Mapping[str, float]) -> str:
+    """The text with another table of numbers, at its end."""
+    kept = [line for head, line in _lines(text) if head != f"[{table}]"]
+    entries = [f'"{name}" = {value!r}' for name, value in values.items()]
+    return "\n".join([*kept, "", f"[{table}]", *entries]) + "\n"
+
+
+def _lines(text: str) -> Iterator[tuple[str, str]]:
+    """Every line with the head of the table that it belongs to: its own, or the last before it."""
+    head = ""
+    for line in text.splitlines():
+        if line.startswith("["):
+            head = line.split("#")[0].strip()
+        yield head, line
+
+
+def _document(text: str) -> dict[str, Any] | None:
+    """What the text says; None if it is no TOML any more."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        return None
 
 
 def with_gravity(text: str, gravity: Sequence[float]) -> str:
@@ -135,16 +152,6 @@ def with_coupling(text: str, joint: str, speed: str) -> str:
     return "\n".join([*lines, "", "[coupling]", entry]) + "\n"
 
 
-def _without_table(text: str, name: str) -> list[str]:
-    kept, table = [], ""
-    for line in text.splitlines():
-        if line.startswith("["):
-            table = line.split("#")[0].strip()
-        if table != name:
-            kept.append(line)
-    return kept
-
-
 def with_effects(text: str, effects: Effects) -> str:
     """The robot file with another `[effects]` table.
 
@@ -154,42 +161,32 @@ def with_effects(text: str, effects: Effects) -> str:
     Raises:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
-    kept, table = [], ""
     catalogue, motors = _catalogue(text), tomllib.loads(text).get("motors", {})
-    for line in text.splitlines():
-        if line.startswith("["):
-            table = line.split("#")[0].strip()
-        gone = table == "[parameters]" and not _belongs(_key(line), effects, catalogue, motors)
-        if table != "[effects]" and not gone:
+
+    def belongs(parameter: str) -> bool:
+        return _belongs(parameter, effects, catalogue, motors)
+
+    def others(document: dict[str, Any] | None) -> dict[str, Any] | None:
+        """What it says but for its effects and the values of effects that are gone."""
+        if document is None:
+            return None
+        values = {n: v for n, v in document.get("parameters", {}).items() if belongs(n)}
+        return {**document, "effects": None, "parameters": values}
+
+    kept = []
+    for head, line in _lines(text):
+        entry = re.match(r"\s*[\"']?([\w{}]+)[\"']?\s*=", line)
+        gone = head == "[parameters]" and entry is not None and not belongs(entry[1])
+        if head != "[effects]" and not gone:
             kept.append(line)
     lines = ["[effects]", *(f"{name} = {_toml(joints)}" for name, joints in effects.items())]
     changed = "\n".join([*kept, "", *lines]) + "\n"
-    try:
-        same = _others(text, effects, catalogue) == _others(changed, effects, catalogue)
-    except tomllib.TOMLDecodeError:
-        same = False
-    if not same:
+    if others(tomllib.loads(text)) != others(_document(changed)):
         raise RobotError(
             "the [effects] table cannot be replaced; write it as a table of its own, one effect a "
             "line, each with its joints on the same line"
         )
     return changed
-
-
-def _others(text: str, effects: Effects, catalogue: Sequence[Effect]) -> dict:
-    """What the file says but for its effects and the values of effects that are gone."""
-    document = tomllib.loads(text)
-    document.pop("effects", None)
-    values = document.get("parameters", {})
-    motors = document.get("motors", {})
-    kept = {n: v for n, v in values.items() if _belongs(n, effects, catalogue, motors)}
-    return document | {"parameters": kept}
-
-
-def _key(line: str) -> str:
-    """The key of a line `key = value`; empty where there is none."""
-    found = re.match(r"\s*[\"']?([\w{}]+)[\"']?\s*=", line)
-    return found[1] if found else ""
 
 
 def _belongs(
@@ -199,7 +196,7 @@ def _belongs(
 
     Its prefix is the longest, or one that a motor's name follows: Fvm1 is Fv of a motor m1.
     """
-    owners = {c.prefix: e.id for e in catalogue for form in e.forms for c in form.columns}
+    owners = parameter_owners(catalogue)
     prefixes = [p for p in (*INERTIAL, *owners) if parameter.startswith(p)]
     prefix = max(prefixes, key=lambda p: (parameter[len(p) :] in motors, len(p)), default="")
     if prefix not in owners:
@@ -209,13 +206,8 @@ def _belongs(
         if effect is None:
             continue
         parts = PASSIVE_FRICTION_IS if effect.id == PASSIVE_FRICTION else (effect.id,)
-        if owners[prefix] in parts and (
-            joints == "all"
-            or any(
-                parameter[len(prefix) :] == (entry["joint"] if isinstance(entry, dict) else entry)
-                for entry in joints
-            )
-        ):
+        named = [entry["joint"] if isinstance(entry, dict) else entry for entry in joints]
+        if owners[prefix] in parts and (joints == "all" or parameter[len(prefix) :] in named):
             return True
     return False
 
@@ -226,11 +218,8 @@ def _toml(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, dict):
-        return (
-            "{"
-            + ", ".join(f"{_toml_key(key)} = {_toml(entry)}" for key, entry in value.items())
-            + "}"
-        )
+        entries = ", ".join(f"{_toml_key(key)} = {_toml(entry)}" for key, entry in value.items())
+        return f"{{{entries}}}"
     if isinstance(value, list):
         return "[" + ", ".join(_toml(entry) for entry in value) + "]"
     return repr(value)
@@ -264,7 +253,7 @@ def with_home_text(text: str, stated: Mapping[str, float], home: Mapping[str, fl
     Raises:
         RobotError: the file's own [home] is written in a way that cannot be replaced line by line.
     """
-    legs = leg_names(tomllib.loads(text).get("legs"), _WHERE)
+    legs = leg_names(_WHERE.holding(tomllib.loads(text).get("legs")))
     for lines in _written(text.splitlines(), stated, home, legs):
         changed = "\n".join(lines) + "\n"
         if _says(changed, text, home):
@@ -277,7 +266,7 @@ def with_home_text(text: str, stated: Mapping[str, float], home: Mapping[str, fl
 
 def home_lines(home: Mapping[str, float]) -> list[str]:
     """`q2 = -1.2` for every row."""
-    return [f"{_home_key(f'q{name}')} = {_number(value)}" for name, value in home.items()]
+    return [f"{_toml_key(f'q{name}')} = {_number(value)}" for name, value in home.items()]
 
 
 def _written(
@@ -290,34 +279,34 @@ def _written(
 
     What looks like the head of a table may stand in a text.
     """
-    begin = next((i for i, line in enumerate(lines) if _is_header(line, "home")), None)
-    if begin is not None:
-        end = _end(lines, begin + 1)
+    heads = [i for i, line in enumerate(lines) if _HEADER.fullmatch(line)]
+    names = {i: lines[i].split("#")[0].strip(" []\t\"'") for i in heads}
+
+    def span(name: str) -> tuple[int, int] | None:
+        """Where the first table of that name begins, and where the next does."""
+        begin = next((i for i in heads if names[i] == name), None)
+        if begin is None:
+            return None
+        return begin, next((i for i in heads if i > begin), len(lines))
+
+    if found := span("home"):
+        begin, end = found
+        while end > begin + 1 and (not lines[end - 1].strip() or _is_comment(lines[end - 1])):
+            end -= 1  # blank lines and comments after the entries belong to the next table
         body = _body(lines[begin + 1 : end], stated, home, legs)
         yield [*lines[: begin + 1], *body, *lines[end:]]
     table = ["[home]", *home_lines(home), ""]
-    after = next((i for i, line in enumerate(lines) if _is_header(line, "loops")), None)
-    if after is not None:
-        place = next(
-            (i for i in range(after + 1, len(lines)) if _HEADER.fullmatch(lines[i])), len(lines)
-        )
-        while place > after and lines[place - 1].lstrip().startswith("#"):
-            place -= 1  # a comment above a table belongs to it
-        gap = [] if not lines[place - 1].strip() else [""]
-        yield [*lines[:place], *gap, *table, *lines[place:]]
+    if found := span("loops"):
+        begin, end = found
+        while end > begin and _is_comment(lines[end - 1]):
+            end -= 1  # a comment above a table belongs to it
+        gap = [] if not lines[end - 1].strip() else [""]
+        yield [*lines[:end], *gap, *table, *lines[end:]]
     yield [*lines, "", *table[:-1]]
 
 
-def _is_header(line: str, name: str) -> bool:
-    return bool(_HEADER.fullmatch(line)) and line.split("#")[0].strip(" []\t\"'") == name
-
-
-def _end(lines: Sequence[str], begin: int) -> int:
-    """Where the table's entries end; blank lines and comments after them belong to the next."""
-    end = next((i for i in range(begin, len(lines)) if _HEADER.fullmatch(lines[i])), len(lines))
-    while end > begin and (not lines[end - 1].strip() or lines[end - 1].lstrip().startswith("#")):
-        end -= 1
-    return end
+def _is_comment(line: str) -> bool:
+    return line.lstrip().startswith("#")
 
 
 def _body(
@@ -337,7 +326,7 @@ def _body(
         filled = [pattern.replace(MARK, leg) for leg in legs] if MARK in pattern else [pattern]
         names = [name.removeprefix("q") for name in filled]
         values = {name: left.pop(name) for name in names if name in left}
-        if all(_same(stated.get(name), value) for name, value in values.items()):
+        if all(abs(stated.get(name, math.inf) - value) < _KEPT for name, value in values.items()):
             body.append(line)
         elif len(values) == len(names) and len({_number(v) for v in values.values()}) == 1:
             body.append(found["key"] + _number(values[names[0]]) + found["rest"])
@@ -347,25 +336,13 @@ def _body(
     return body + home_lines(left)
 
 
-def _same(before: float | None, after: float) -> bool:
-    return before is not None and abs(before - after) < _KEPT
-
-
 def _number(value: float) -> str:
     """As short as it may be; multiples of pi/6 and pi/4 as such."""
     twelfths = value / (math.pi / 12)
     whole = round(twelfths)
     if whole and (whole % 2 == 0 or whole % 3 == 0) and abs(value - whole * math.pi / 12) < _KEPT:
-        shared = math.gcd(whole, 12)
-        times, over = whole // shared, 12 // shared
-        sign = "-" if times < 0 else ""
-        factor = "" if abs(times) == 1 else f"{abs(times)}*"
-        return json.dumps(f"{sign}{factor}pi" + (f"/{over}" if over > 1 else ""))
+        return json.dumps(pi_multiple(Fraction(whole, 12)))
     return repr(float(f"{value:.12g}") + 0.0)
-
-
-def _home_key(name: str) -> str:
-    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else json.dumps(name)
 
 
 def _says(changed: str, text: str, home: Mapping[str, float]) -> bool:
@@ -375,10 +352,6 @@ def _says(changed: str, text: str, home: Mapping[str, float]) -> bool:
         stated = expanded(after, _WHERE).get("home", {})
     except (tomllib.TOMLDecodeError, RobotError):
         return False
-    after.pop("home", None)
-    before.pop("home", None)
-    return _plain(after) == _plain(before) and {f"q{name}" for name in home} <= stated.keys()
-
-
-def _plain(document: Mapping[str, Any]) -> str:
-    return json.dumps(document, default=str)
+    others = [{k: v for k, v in document.items() if k != "home"} for document in (after, before)]
+    same = json.dumps(others[0], default=str) == json.dumps(others[1], default=str)
+    return same and {f"q{name}" for name in home} <= stated.keys()

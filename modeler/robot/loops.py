@@ -2,28 +2,27 @@
 
 import math
 import re
+import tomllib
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from modeler.core.expression import Expression
+from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import (
     LARGEST_RATIO,
     check_declared,
     check_size,
-    expression_at,
     form_at,
-    list_at,
     name_of,
     number_at,
-    table_at,
-    text_at,
 )
-from modeler.robot.robot import LOOP_KINDS, Joint, JointKind, Loop, Place, listed, near, shown
-from modeler.robot.sections import other_joint
+from modeler.robot.robot import LOOP_KINDS, Joint, Loop
 from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
 
 MOST_LOOPS = 50
 """As many as legs."""
+OTHER_JOINTS = Path(__file__).with_name("other_joints.toml")
 _COLUMNS = ("loop", "frame", "meets", "joint")
 _EXAMPLE = 'columns = ["loop", "frame", "meets", "joint"], rows = [["A", "9", "10", "rigid"]]'
 
@@ -32,26 +31,23 @@ _ROUNDING = 1e-3
 """rad by which a full turn may be rounded up."""
 
 
-def read_loops(value: Any, joints: Sequence[Joint], place: Place) -> tuple[Loop, ...]:
+def read_loops(place: Place, joints: Sequence[Joint]) -> tuple[Loop, ...]:
     """The loops of a file.
 
     Raises:
         RobotError: columns, rows, frames or joints are wrong, or there is nothing to close.
     """
-    if value is None:
+    if place.value is None:
         return ()
-    table = table_at(value, place, f"[loops] {_EXAMPLE}")
-    for key in table:
-        if key not in ("columns", "rows"):
-            raise place.error(
-                f"unknown key {shown(key)}{near(key, ('columns', 'rows'))}; write {_EXAMPLE}"
-            )
-    columns = list_at(table.get("columns", list(_COLUMNS)), place.at("columns"), _EXAMPLE)
+    advice = f"write {_EXAMPLE}"
+    table = place.checked_table(("columns", "rows"), f"[loops] {_EXAMPLE}", advice)
+    here = place.at("columns", table.get("columns", list(_COLUMNS)))
+    columns = here.entries(_EXAMPLE)
     if sorted(map(str, columns)) != sorted(_COLUMNS):
-        raise place.at("columns").error(f"got {shown(columns)}; expected {listed(_COLUMNS)}")
+        raise here.mismatch(listed(_COLUMNS))
     if "rows" not in table:
-        raise place.error(f"rows is missing; write {_EXAMPLE}")
-    rows = list_at(table["rows"], place.at("rows"), _EXAMPLE)
+        raise place.error(f"rows is missing; {advice}")
+    rows = place.at("rows", table["rows"]).entries(_EXAMPLE)
     if len(rows) > MOST_LOOPS:
         raise place.at("rows").error(
             f"got {len(rows)} loops, those of all legs counted; expected at most {MOST_LOOPS}: "
@@ -59,48 +55,49 @@ def read_loops(value: Any, joints: Sequence[Joint], place: Place) -> tuple[Loop,
         )
     loops = []
     for number, cells in enumerate(rows, start=1):
-        here = place.at(f"row {number}")
-        cells = list_at(cells, here, '["A", "9", "10", "rigid"]', length=len(_COLUMNS))
+        here = place.at(f"row {number}", cells)
+        cells = here.entries('["A", "9", "10", "rigid"]', length=len(_COLUMNS))
         loops.append(_loop(dict(zip(columns, cells, strict=True)), joints, here))
     if not loops:
         raise place.at("rows").error(
             'the table is empty; write one row per loop, as in ["A", "9", "10", "rigid"], or leave '
             "[loops] out"
         )
-    _check_names([loop.name for loop in loops], place)
-    return tuple(loops)
-
-
-def _check_names(names: Sequence[str], place: Place) -> None:
+    names = [loop.name for loop in loops]
     for number, name in enumerate(names, start=1):
         if name in names[: number - 1]:
             raise place.at(f"row {number}").error(
                 f"{shown(name)} is the name of row {names.index(name) + 1} too; give every loop "
                 "its own name"
             )
+    return tuple(loops)
 
 
 def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Loop:
-    name = text_at(name_of(cells["loop"]), place.at("column loop"), '"A"')
+    name = place.at("column loop", name_of(cells["loop"])).text('"A"')
     here = place.at(shown(name))
-    names = {joint.name for joint in joints}
+    names = [joint.name for joint in joints]
     frames = []
-    for column, known in (("frame", names), ("meets", {"0", *names})):
+    for column, known in (("frame", names), ("meets", ["0", *names])):
         frame = name_of(cells[column])
         if frame not in known:
-            hint = near(frame, known) if isinstance(frame, str) else ""
             raise here.at(f"column {column}").error(
-                f"got {shown(frame)}, which is no row of the table{hint}; expected one of "
-                f"{listed(joint.name for joint in joints)}"
+                f"got {shown(frame)}, which is no row of the table{near(frame, known)}; expected "
+                f"one of {listed(joint.name for joint in joints)}"
             )
         frames.append(frame)
     kind = cells["joint"]
     if kind not in LOOP_KINDS:
-        instead = other_joint(kind) if isinstance(kind, str) else None
-        hint = near(kind, LOOP_KINDS) if isinstance(kind, str) else ""
-        told = f"; {instead}" if instead else f"{hint}; expected one of {listed(LOOP_KINDS)}"
-        raise here.at("column joint").error(f"got {shown(kind)}{told}")
-    bodies = [_body(frame, joints) for frame in frames]
+        instead = _other_joint(kind) if isinstance(kind, str) else None
+        other = f"{near(kind, LOOP_KINDS)}; expected one of {listed(LOOP_KINDS)}"
+        raise here.at("column joint").error(
+            f"got {shown(kind)}{f'; {instead}' if instead else other}"
+        )
+    rows, bodies = {joint.name: joint for joint in joints}, []
+    for frame in frames:  # the moving row that carries it, "0" for the base
+        while frame != "0" and not rows[frame].moves:
+            frame = rows[frame].antecedent
+        bodies.append(frame)
     if bodies[0] == bodies[1]:
         raise here.error(
             f"frames {frames[0]} and {frames[1]} are both fixed on "
@@ -110,16 +107,15 @@ def _loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: Place) -> Lo
     return Loop(name, frames[0], frames[1], kind)
 
 
-def _body(frame: str, joints: Sequence[Joint]) -> str:
-    """The moving row that carries the frame, "0" for the base."""
-    rows = {joint.name: joint for joint in joints}
-    while frame != "0" and not rows[frame].moves:
-        frame = rows[frame].antecedent
-    return frame
+def _other_joint(kind: str) -> str | None:
+    """What to write instead of a joint of that name; None if the name says nothing."""
+    name = kind.strip().lower().replace("_", " ").replace("-", " ").removesuffix(" joint")
+    advice = tomllib.loads(OTHER_JOINTS.read_text(encoding="utf-8"))
+    return next((instead for instead, names in advice.items() if name in names), None)
 
 
 def read_home(
-    value: Any, moving: Mapping[str, Joint], symbols: Mapping[str, float], place: Place
+    place: Place, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> dict[str, float]:
     """The posture from which loops are closed, by row: `[home] q2 = "-pi/2"`.
 
@@ -128,24 +124,20 @@ def read_home(
     """
     variables = {joint.variable: name for name, joint in moving.items()}
     home = {}
-    for key, cell in table_at(value, place, '[home] q2 = "-pi/2"').items():
-        here = place.at(shown(key))
+    for key, here in place.items('[home] q2 = "-pi/2"'):
         if key not in variables:
             raise here.error(
                 f"is no joint variable{near(key, variables)}; expected some of "
                 f"{listed(list(variables)[:12])}"
             )
-        home[variables[key]] = number_at(cell, symbols, here)
-        _check_turn(moving[variables[key]], home[variables[key]], here)
+        angle = number_at(here, symbols)
+        if moving[variables[key]].angular and abs(angle) > 2 * math.pi + _ROUNDING:
+            raise here.error(
+                f"got {angle:g} rad, which is more than a turn; angles are in radians: write "
+                f'"{angle:g}*pi/180" for degrees'
+            )
+        home[variables[key]] = angle
     return home
-
-
-def _check_turn(joint: Joint, value: float, place: Place) -> None:
-    if joint.kind is JointKind.REVOLUTE and abs(value) > 2 * math.pi + _ROUNDING:
-        raise place.error(
-            f"got {value:g} rad, which is more than a turn; angles are in radians: write "
-            f'"{value:g}*pi/180" for degrees'
-        )
 
 
 # Joints that follow others: `[relations]`, and cells that hold other rows' variables.
@@ -155,28 +147,48 @@ _RELATION_EXAMPLE = '[relations] q4 = "-q3"'
 
 
 def read_relations(
-    value: Any,
+    place: Place,
+    driven: Mapping[str, str],
     rows: Sequence[tuple[Row, Place]],
     symbols: Mapping[str, float],
-    place: Place,
 ) -> dict[str, Expression]:
     """The relations of a file, by row; rows that follow others become passive in `rows`.
 
     A row whose theta (revolute) or r (prismatic) holds other rows' variables and not its own
     follows them: its variable is that cell.
 
+    Args:
+        place: the table.
+        driven: relations of joints that follow motors, as it would have them.
+        rows: of the table of joints and motors.
+        symbols: values of the declared symbols.
+
     Raises:
         RobotError: unknown joints, a relation that is not linear, a circle, an actuated joint
-            that follows others.
+            that follows others, or one that follows another joint and motors.
     """
+    stated = place.table("[relations]")
+    for name in stated:
+        if name in driven:
+            raise place.at(name).error(
+                f"follows motors of [motors] too; take {name} out of the sums there, or remove "
+                "the relation"
+            )
     kinds = {row["j"]: row_kind(row, spot) for row, spot in rows}
     variables = {f"q{name}": name for name, kind in kinds.items() if kind in HOME}
-    places = {row["j"]: spot for row, spot in rows}
+    by_name = {row["j"]: (row, spot) for row, spot in rows}
     found: dict[str, tuple[Expression, Place]] = {}
-    for row, spot in rows:
-        _take_cell(row, spot.at(f"column {HOME.get(kinds[row['j']], '')}"), kinds, found)
-    for key, cell in table_at(value, place, _RELATION_EXAMPLE).items():
-        here = place.at(shown(key))
+    for row, spot in rows:  # a cell that is a relation is taken out of its row
+        column, own = HOME.get(kinds[row["j"]]), f"q{row['j']}"
+        if column is None or not isinstance(row.get(column), str):
+            continue
+        here = spot.at(f"column {column}", row[column])
+        expression = here.expression()
+        others = {n for n in expression.names if n.startswith("q") and n[1:] in kinds and n != own}
+        if others and own not in expression.names:
+            found[row["j"]] = (expression, here)
+            row[column] = own
+    for key, here in place.holding({**driven, **stated}).items(_RELATION_EXAMPLE):
         if key not in variables:
             raise here.error(
                 f"is no joint variable{near(key, variables)}; expected one such as "
@@ -184,58 +196,24 @@ def read_relations(
             )
         if variables[key] in found:
             raise here.error(f"{key} stands as a relation in the table too; keep one of them")
-        found[variables[key]] = (expression_at(cell, here), here)
+        found[variables[key]] = (here.expression(), here)
     for name, (expression, here) in found.items():
-        _check(name, expression, variables, symbols, here)
-        _make_passive(next(row for row, _ in rows if row["j"] == name), places[name], here)
-    _check_circles({name: expression for name, (expression, _) in found.items()}, place)
-    return {name: expression for name, (expression, _) in found.items()}
-
-
-def _take_cell(
-    row: Row, place: Place, kinds: Mapping[str, Any], found: dict[str, tuple[Expression, Place]]
-) -> None:
-    """Take a cell that is a relation out of the row."""
-    column, own = HOME.get(kinds[row["j"]]), f"q{row['j']}"
-    if column is None or not isinstance(row.get(column), str):
-        return
-    expression = expression_at(row[column], place)
-    others = {n for n in expression.names if n.startswith("q") and n[1:] in kinds and n != own}
-    if others and own not in expression.names:
-        found[row["j"]] = (expression, place)
-        row[column] = own
-
-
-def _check(
-    name: str,
-    expression: Expression,
-    variables: Mapping[str, str],
-    symbols: Mapping[str, float],
-    place: Place,
-) -> None:
-    check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, place)
-    if f"q{name}" in expression.names:
-        raise place.error(
-            f"got {shown(expression.text)}, which holds q{name} itself; expected other joints"
-        )
-    form = form_at(expression, symbols, place, "-q2 - pi/2")
-    check_size(expression, form.coefficients.values(), LARGEST_RATIO, place)
-    if not form.coefficients:
-        raise place.error(
-            f"got {shown(expression.text)}, a constant; a joint that does not move has sigma 2"
-        )
-
-
-def _make_passive(row: Row, place: Place, relation: Place) -> None:
-    if row.get("mu", 0) == 1:
-        raise place.at("column mu").error(
-            f"got 1, and q{row['j']} follows other joints ({relation.spot}); write 0, or remove "
-            "the relation"
-        )
-    row["mu"] = 0
-
-
-def _check_circles(relations: Mapping[str, Expression], place: Place) -> None:
+        check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, here)
+        got = f"got {shown(expression.text)}"
+        if f"q{name}" in expression.names:
+            raise here.error(f"{got}, which holds q{name} itself; expected other joints")
+        form = form_at(expression, symbols, here, "-q2 - pi/2")
+        check_size(expression, form.coefficients.values(), LARGEST_RATIO, here)
+        if not form.coefficients:
+            raise here.error(f"{got}, a constant; a joint that does not move has sigma 2")
+        row, spot = by_name[name]
+        if row.get("mu", 0) == 1:
+            raise spot.at("column mu").error(
+                f"got 1, and q{name} follows other joints ({here.spot}); write 0, or remove the "
+                "relation"
+            )
+        row["mu"] = 0
+    relations = {name: expression for name, (expression, _) in found.items()}
     left = dict(relations)
     while left:
         names = {f"q{name}" for name in left}
@@ -247,6 +225,7 @@ def _check_circles(relations: Mapping[str, Expression], place: Place) -> None:
             )
         for name in ready:
             del left[name]
+    return relations
 
 
 # Legs that are alike: what holds {i} is written once and stands for every leg.
@@ -255,7 +234,6 @@ def _check_circles(relations: Mapping[str, Expression], place: Place) -> None:
 MARK = "{i}"
 MOST_LEGS = 50
 """Legs of three rows fill the longest table."""
-_NAME = re.compile(r"[A-Za-z0-9]+")
 _UNTOUCHED = ("legs", "shared", "notes", "title", "name", "log")
 
 
@@ -268,29 +246,29 @@ def expanded(document: dict[str, Any], place: Place) -> dict[str, Any]:
     Raises:
         RobotError: {i} without `legs`, wrong names of legs, another mark in braces.
     """
-    legs = leg_names(document.get("legs"), place.at("legs"))
+    legs = leg_names(place.at("legs", document.get("legs")))
     return {
         key: value if key in _UNTOUCHED else _expanded(value, legs, place.at(key))
         for key, value in document.items()
     }
 
 
-def leg_names(value: Any, place: Place) -> tuple[str, ...]:
+def leg_names(place: Place) -> tuple[str, ...]:
     """Names of the legs; empty if the file has no `legs`.
 
     Raises:
         RobotError: not a list of different letters and digits.
     """
-    if value is None:
+    if place.value is None:
         return ()
-    legs = [name_of(leg) for leg in list_at(value, place, '["1", "2", "3"]')]
+    legs = [name_of(leg) for leg in place.entries('["1", "2", "3"]')]
     if len(legs) > MOST_LEGS:
         raise place.error(
             f"got {len(legs)} legs; expected at most {MOST_LEGS}: model a few of them, or parts of "
             "the robot in files of their own"
         )
     for leg in legs:
-        if not isinstance(leg, str) or not _NAME.fullmatch(leg) or not leg.isascii():
+        if not isinstance(leg, str) or not ROW_NAME.fullmatch(leg):
             raise place.error(
                 f'got {shown(leg)}; expected names of letters and digits, as in ["1", "2", "3"]'
             )
@@ -374,7 +352,7 @@ _MOTIONS = {
 """Per motion, the rows: suffix of the name and sigma."""
 
 
-def read_platform(value: Any, place: Place) -> tuple[list[tuple[Row, Place]], tuple[str, ...]]:
+def read_platform(place: Place) -> tuple[list[tuple[Row, Place]], tuple[str, ...]]:
     """Rows that carry the platform, and their names; none without a platform.
 
     They stand before the table's, so that frames may be fixed on the platform. Each turns the axes
@@ -387,9 +365,19 @@ def read_platform(value: Any, place: Place) -> tuple[list[tuple[Row, Place]], tu
     Raises:
         RobotError: unknown keys or motion, no name.
     """
-    if value is None:
+    if place.value is None:
         return [], ()
-    name, motion = _stated(table_at(value, place, _PLATFORM_EXAMPLE), place)
+    advice = f"write {_PLATFORM_EXAMPLE}"
+    table = place.checked_table(("name", "motion"), _PLATFORM_EXAMPLE, missing=advice)
+    here = place.at("name", name_of(table["name"]))
+    name = here.text('"P"')
+    if not ROW_NAME.fullmatch(name):
+        raise here.mismatch('letters and digits such as "P"')
+    motion = table["motion"]
+    if motion not in list(_MOTIONS):
+        raise place.at("motion").error(
+            f"got {shown(motion)}{near(motion, _MOTIONS)}; expected {listed(_MOTIONS)}"
+        )
     names = [name if len(step) == 1 else f"{name}{step[0]}" for step in _MOTIONS[motion]]
     antecedents = ["0", *names]
     rows = []
@@ -401,22 +389,3 @@ def read_platform(value: Any, place: Place) -> tuple[list[tuple[Row, Place]], tu
         }  # fmt: skip
         rows.append((row, place))
     return rows, tuple(names)
-
-
-def _stated(table: dict[str, Any], place: Place) -> tuple[str, str]:
-    """Name and motion of the platform."""
-    keys = ("name", "motion")
-    for key in table:
-        if key not in keys:
-            raise place.error(f"unknown key {shown(key)}{near(key, keys)}; expected {listed(keys)}")
-    for key in ("name", "motion"):
-        if key not in table:
-            raise place.error(f"{key} is missing; write {_PLATFORM_EXAMPLE}")
-    name = text_at(name_of(table["name"]), place.at("name"), '"P"')
-    if not ROW_NAME.fullmatch(name):
-        raise place.at("name").error(f'got {shown(name)}; expected letters and digits such as "P"')
-    motion = table["motion"]
-    if motion not in _MOTIONS:
-        hint = near(motion, _MOTIONS) if isinstance(motion, str) else ""
-        raise place.at("motion").error(f"got {shown(motion)}{hint}; expected {listed(_MOTIONS)}")
-    return name, motion

@@ -8,33 +8,18 @@ q_a = G^-1 q_m, and by virtual work tau_m = G^-T tau_a (Hanssen, Hovland and Bro
 import fnmatch
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import Any
 
-from modeler.core.expression import Expression
+from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import (
     LARGEST_RATIO,
     check_declared,
     check_name_length,
     check_size,
-    expression_at,
     form_at,
-    list_at,
     name_of,
-    table_at,
-    text_at,
 )
 from modeler.robot.loops import MARK
-from modeler.robot.robot import (
-    INERTIAL,
-    Joint,
-    JointKind,
-    Place,
-    Robot,
-    SharedParameter,
-    listed,
-    near,
-    shown,
-)
+from modeler.robot.robot import INERTIAL, Joint, JointKind, Robot, SharedParameter
 from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
 
 _EXAMPLE = '[motors] m1 = "q1", m2 = "q2 - 0.4*q1"'
@@ -45,7 +30,7 @@ Ratios = Mapping[str, Mapping[str, Fraction]]
 """{motor: {joint: coefficient}}, the rows of G."""
 
 
-def motor_rows(value: Any, rows: Rows, place: Place) -> Rows:
+def motor_rows(place: Place, rows: Rows) -> Rows:
     """The rows of the motors, to stand below the table; the joints that they drive get mu 0.
 
     Raises:
@@ -53,9 +38,8 @@ def motor_rows(value: Any, rows: Rows, place: Place) -> Rows:
     """
     taken = {row["j"]: row for row, _ in rows}
     found = []
-    for name, cell in table_at(value, place, _EXAMPLE).items():
-        here = place.at(shown(name))
-        if not ROW_NAME.fullmatch(name) or not name.isascii() or name == "0":
+    for name, here in place.items(_EXAMPLE):
+        if not ROW_NAME.fullmatch(name) or name == "0":
             raise here.error('expected a name of letters and digits such as "m1"')
         check_name_length(name, here)
         if name in taken:
@@ -63,7 +47,17 @@ def motor_rows(value: Any, rows: Rows, place: Place) -> Rows:
                 f"row {shown(name)} of [mdh] has that name; call the motor m{name}: its columns "
                 f"are then qm{name} and taum{name}"
             )
-        joints = _joints(expression_at(cell, here), taken, here)
+        expression = here.expression()
+        joints = [
+            taken[variable[1:]]
+            for variable in sorted(expression.names)
+            if variable.startswith("q") and variable[1:] in taken
+        ]
+        if not joints:
+            raise here.error(
+                f"got {shown(expression.text)}, without a joint variable; expected the position of "
+                f"the motor as a sum of {listed(f'q{row}' for row in taken)}"
+            )
         sliding = all(row_kind(row, here) is JointKind.PRISMATIC for row in joints)
         kind = JointKind.PRISMATIC if sliding else JointKind.REVOLUTE
         motor: Row = {
@@ -76,52 +70,46 @@ def motor_rows(value: Any, rows: Rows, place: Place) -> Rows:
 
 
 def read_motors(
-    value: Any, rows: Rows, symbols: Mapping[str, float], place: Place
+    place: Place, rows: Rows, symbols: Mapping[str, float]
 ) -> tuple[Ratios, dict[str, str]]:
     """G, and the relations of the joints to the motors, as cells of `[relations]`.
 
     Args:
-        value: the table `[motors]`.
+        place: the table `[motors]`.
         rows: of the table, those of the motors included.
         symbols: values of the declared symbols.
-        place: of the table.
 
     Raises:
         RobotError: no sum of joint variables, not as many motors as joints, or a singular G.
     """
-    table = table_at(value, place, _EXAMPLE)
+    table = place.table(_EXAMPLE)
     if not table:
         return {}, {}
     names = [row["j"] for row, _ in rows if row["j"] not in table]
     variables = {f"q{name}": name for name in names}
-    ratios = {
-        motor: _ratios(expression_at(cell, place), variables, symbols, place.at(shown(motor)))
-        for motor, cell in table.items()
-    }
+    ratios: dict[str, dict[str, Fraction]] = {}
+    for motor, here in place.items(_EXAMPLE):
+        expression = here.expression()
+        check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, here)
+        form = form_at(expression, symbols, here, "q2 - 0.4*q1")
+        check_size(expression, form.coefficients.values(), LARGEST_RATIO, here)
+        if form.constant != 0.0:
+            raise here.error(
+                f"got {shown(expression.text)}, with the constant {form.constant:g}; expected a "
+                "sum of joint variables only: the motor reads 0 where the joints do"
+            )
+        ratios[motor] = {variables[name]: _fraction(c) for name, c in form.coefficients.items()}
     joints = [name for name in names if any(name in row for row in ratios.values())]
-    _check_count(ratios, joints, place)
+    if len(ratios) != len(joints):
+        raise place.error(
+            f"got {len(ratios)} motors ({listed(list(ratios))}) for the {len(joints)} joints "
+            f"{listed(joints)}; expected one motor for each joint"
+        )
     inverse = _checked_inverse(ratios, joints, place)
     return ratios, {
         f"q{joint}": _sum({f"q{motor}": c for motor, c in zip(ratios, row, strict=True)})
         for joint, row in zip(joints, inverse, strict=True)
     }
-
-
-def with_driven(
-    stated: Mapping[str, Any], driven: Mapping[str, str], place: Place
-) -> dict[str, Any]:
-    """The table `[relations]` with the joints that follow motors.
-
-    Raises:
-        RobotError: a joint that follows another joint and motors.
-    """
-    for name in stated:
-        if name in driven:
-            raise place.at(name).error(
-                f"follows motors of [motors] too; take {name} out of the sums there, or remove "
-                "the relation"
-            )
-    return {**driven, **stated}
 
 
 def check_driven(robot: Robot, place: Place) -> None:
@@ -154,51 +142,10 @@ def joint_directions(robot: Robot) -> dict[str, tuple[float, ...]]:
     }
 
 
-def _joints(expression: Expression, rows: Mapping[str, Row], place: Place) -> list[Row]:
-    """The rows whose variables the expression holds."""
-    names = [name[1:] for name in expression.names if name.startswith("q") and name[1:] in rows]
-    if not names:
-        raise place.error(
-            f"got {shown(expression.text)}, without a joint variable; expected the position of the "
-            f"motor as a sum of {listed([f'q{name}' for name in rows])}"
-        )
-    return [rows[name] for name in sorted(names)]
-
-
-def _ratios(
-    expression: Expression,
-    variables: Mapping[str, str],
-    symbols: Mapping[str, float],
-    place: Place,
-) -> dict[str, Fraction]:
-    """{joint: coefficient} of one motor.
-
-    Raises:
-        RobotError: not linear, a constant, a name that is not known.
-    """
-    check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, place)
-    form = form_at(expression, symbols, place, "q2 - 0.4*q1")
-    check_size(expression, form.coefficients.values(), LARGEST_RATIO, place)
-    if form.constant != 0.0:
-        raise place.error(
-            f"got {shown(expression.text)}, with the constant {form.constant:g}; expected a sum of "
-            "joint variables only: the motor reads 0 where the joints do"
-        )
-    return {variables[name]: _fraction(c) for name, c in form.coefficients.items() if c != 0.0}
-
-
 def _fraction(value: float) -> Fraction:
     """1/3 as it was meant, 0.4 as it was written."""
     simple = Fraction(value).limit_denominator(_SIMPLE)
     return simple if float(simple) == value else Fraction(repr(value))
-
-
-def _check_count(ratios: Ratios, joints: Sequence[str], place: Place) -> None:
-    if len(ratios) != len(joints):
-        raise place.error(
-            f"got {len(ratios)} motors ({listed(list(ratios))}) for the {len(joints)} joints "
-            f"{listed(joints)}; expected one motor for each joint"
-        )
 
 
 def _checked_inverse(ratios: Ratios, joints: Sequence[str], place: Place) -> list[list[Fraction]]:
@@ -259,21 +206,20 @@ def _written(ratios: Ratios) -> str:
 # Links that have not all ten parameters, and parameters that similar legs share.
 
 
-def read_links(value: Any, moving: Mapping[str, Joint], place: Place) -> dict[str, tuple[str, ...]]:
+def read_links(place: Place, moving: Mapping[str, Joint]) -> dict[str, tuple[str, ...]]:
     """Inertial parameters of the rows that have not all ten: `[links] 5 = []`, `P = ["M"]`.
 
     Raises:
         RobotError: unknown rows or parameters.
     """
     links = {}
-    for name, cell in table_at(value, place, '[links] 5 = [], P = ["M"]').items():
-        here = place.at(shown(name))
+    for name, here in place.items('[links] 5 = [], P = ["M"]'):
         if name not in moving:
             raise here.error(
                 f"there is no moving row {shown(name)}{near(name, moving)}; expected one of "
                 f"{listed(moving)}"
             )
-        entries = list_at(cell, here, '["M"]')
+        entries = here.entries('["M"]')
         for entry in entries:
             if entry not in INERTIAL:
                 raise here.error(f"got {shown(entry)}; expected some of {listed(INERTIAL)}")
@@ -282,7 +228,7 @@ def read_links(value: Any, moving: Mapping[str, Joint], place: Place) -> dict[st
 
 
 def read_shared(
-    value: Any, known: Sequence[str], legs: Sequence[str], place: Place
+    place: Place, known: Sequence[str], legs: Sequence[str]
 ) -> tuple[SharedParameter, ...]:
     """Parameters that the legs have in common: `shared = ["*2{i}"]` makes XX2 of XX21, XX22, XX23.
 
@@ -290,8 +236,8 @@ def read_shared(
         RobotError: patterns without {i} or without a parameter, a name that is taken.
     """
     found: dict[str, SharedParameter] = {}
-    for pattern in list_at(value, place, '["*2{i}", "*3{i}"]'):
-        pattern = text_at(name_of(pattern), place, '"*2{i}"')
+    for entry in place.entries('["*2{i}", "*3{i}"]'):
+        pattern = place.holding(name_of(entry)).text('"*2{i}"')
         if MARK not in pattern or not legs:
             raise place.error(
                 f'got {shown(pattern)}; expected {MARK} in it and legs = ["1", "2"] at the top'
@@ -308,21 +254,19 @@ def read_shared(
             head = name[: len(name) - len(first.rsplit("*", 1)[-1])]
             own = head + stem + pattern.split(MARK)[1]
             members = tuple(head + stem + leg + pattern.split(MARK)[1] for leg in legs)
-            _check_members(own, members, known, place)
+            for member in members:
+                if member not in known:
+                    raise place.error(
+                        f"{shown(members[0])} has no counterpart {shown(member)}; share what all "
+                        "legs have"
+                    )
+            if own in known:
+                raise place.error(
+                    f"{shown(own)} would be shared by the legs and is a parameter already; rename "
+                    "that row"
+                )
             found[own] = SharedParameter(own, members)
     return tuple(found.values())
-
-
-def _check_members(name: str, members: Sequence[str], known: Sequence[str], place: Place) -> None:
-    for member in members:
-        if member not in known:
-            raise place.error(
-                f"{shown(members[0])} has no counterpart {shown(member)}; share what all legs have"
-            )
-    if name in known:
-        raise place.error(
-            f"{shown(name)} would be shared by the legs and is a parameter already; rename that row"
-        )
 
 
 def shared_names(known: Sequence[str], shared: Sequence[SharedParameter]) -> tuple[str, ...]:

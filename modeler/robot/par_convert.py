@@ -5,11 +5,12 @@ import unicodedata
 from dataclasses import dataclass, field
 from pathlib import PurePath
 
-from modeler.robot.letters import Symbols
+from modeler.core.toml_cells import listed
 from modeler.robot.par_table import (
     GEOMETRY,
     Counts,
     ParFrame,
+    Symbols,
     counts,
     frames,
     gravity,
@@ -19,15 +20,12 @@ from modeler.robot.par_table import (
 from modeler.robot.par_text import (
     BASE,
     FORCES,
-    FRICTION,
     INERTIA,
     JOINTS,
     ParFormula,
     Statements,
-    formula,
     scan,
 )
-from modeler.robot.robot import listed
 
 # What a `.par` file says of the links: which parameters they have, values, friction, rotors.
 
@@ -45,12 +43,21 @@ class Bodies:
         parameters: nominal values.
         effects: effect id -> its joints.
         notes: what was not carried over.
+        others: parameters that the file has under another letter.
     """
 
     links: dict[str, list[str]] = field(default_factory=dict)
     parameters: dict[str, float] = field(default_factory=dict)
     effects: dict[str, list[str]] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    others: list[str] = field(default_factory=list)
+
+    def add(self, name: str, cell: ParFormula) -> None:
+        """Keep the value of a parameter, or its letter if that is another."""
+        if cell.literal is not None:
+            self.parameters[name] = float(cell.literal)
+        elif cell.text.lower() != name.lower():
+            self.others.append(f"{name} (there {cell.written})")
 
 
 def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodies:
@@ -63,9 +70,12 @@ def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodie
         RobotError: an entry is no formula.
     """
     result = Bodies()
-    others = []
+
+    def cell(key: str, k: int) -> ParFormula:
+        return statements.formula(key, k + found.floating, f"{key}{k + 1}")
+
     for k in range(found.links):
-        cells = {key: _cell(statements, key, k, found) for key in INERTIA}
+        cells = {key: cell(key, k) for key in INERTIA}
         if made[k].home is None:
             if any(key in statements.by_key and not cells[key].is_zero for key in INERTIA):
                 result.notes.append(
@@ -73,63 +83,39 @@ def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodie
                     f"to link {made[k].antecedent}"
                 )
             continue
-        has = [key for key, cell in cells.items() if not cell.is_zero]
-        if has and all(cell.literal is not None for cell in cells.values()):
+        has = [key for key, entry in cells.items() if not entry.is_zero]
+        if has and all(entry.literal is not None for entry in cells.values()):
             has = list(INERTIA)
         if len(has) < len(INERTIA):
             result.links[f"{k + 1}"] = has
         for key in has:
-            others += _parameter(f"{key}{k + 1}", cells[key], result)
+            result.add(f"{key}{k + 1}", cells[key])
     for j in range(found.links, found.joints):
         if made[j].home is not None:
             result.links[f"{j + 1}"] = []
-    others += _effects(statements, found, made, result)
-    if others:
-        result.notes.append(f"parameters that are not letters of their own: {listed(others)}")
-    _left_out(statements, found, result)
-    return result
-
-
-def _cell(statements: Statements, key: str, k: int, found: Counts) -> ParFormula:
-    statement = statements.by_key.get(key)
-    if statement is None:
-        return formula(f"{key}{k + 1}", statements.place)
-    k += found.floating
-    return formula(statement.entries[k], statement.entry_place(k + 1))
-
-
-def _parameter(name: str, cell: ParFormula, result: Bodies) -> list[str]:
-    """Keep the value; the name with what the file has for it, if that is another letter."""
-    if cell.literal is not None:
-        result.parameters[name] = float(cell.literal)
-        return []
-    same = cell.text.lower() == name.lower()
-    return [] if same else [f"{name} (there {cell.written})"]
-
-
-def _effects(
-    statements: Statements, found: Counts, made: list[ParFrame], result: Bodies
-) -> list[str]:
-    others: list[str] = []
     without = []
-    for key in FRICTION:
-        effect, prefix = _EFFECT[key]
+    for key, (effect, prefix) in _EFFECT.items():
         if key not in statements.by_key:
             continue
         for k in range(found.links):
-            cell = _cell(statements, key, k, found)
-            if cell.is_zero or made[k].home is None:
+            entry = cell(key, k)
+            if entry.is_zero or made[k].home is None:
                 continue
             if effect == "rotor_inertia" and not made[k].mu:
-                without.append(cell.written)
+                without.append(entry.written)
                 continue
             result.effects.setdefault(effect, []).append(f"{k + 1}")
-            others += _parameter(f"{prefix}{k + 1}", cell, result)
+            result.add(f"{prefix}{k + 1}", entry)
     if without:
         result.notes.append(
             f"{listed(without)}: left out, rotor inertias of joints without a motor (Mu 0)"
         )
-    return others
+    if result.others:
+        result.notes.append(
+            f"parameters that are not letters of their own: {listed(result.others)}"
+        )
+    _left_out(statements, found, result)
+    return result
 
 
 def _left_out(statements: Statements, found: Counts, result: Bodies) -> None:
@@ -139,21 +125,19 @@ def _left_out(statements: Statements, found: Counts, result: Bodies) -> None:
             "is_mobile, is_floating: the base stands still here, its own parameters are left out"
         )
     forces = [key for key in FORCES if any(e != "0" for e in statements.entries(key))]
-    if forces:
-        result.notes.append(
-            f"{listed(forces)} are left out: a robot file states no forces on links; see "
-            "modeler effects external_force"
-        )
     springs = [key for key in ("eta", "k") if any(e != "0" for e in statements.entries(key))]
-    if springs:
-        result.notes.append(f"{listed(springs)} are left out: joints are rigid here")
     states = [key for key in JOINTS[:3] if _has_numbers(statements.entries(key))]
-    if states:
-        result.notes.append(f"{listed(states)} are left out: they are a state, no robot")
     moves = [key for key in BASE[:4] if any(not _zero(e) for e in statements.entries(key))]
-    moves = [key for key in moves if key != "VP0" or _states_gravity(statements)]
-    if moves:
-        result.notes.append(f"{listed(moves)} are left out: the base stands still here")
+    if not _states_gravity(statements):  # VP0 is gravity then
+        moves = [key for key in moves if key != "VP0"]
+    for why, keys in (
+        ("a robot file states no forces on links; see modeler effects external_force", forces),
+        ("joints are rigid here", springs),
+        ("they are a state, no robot", states),
+        ("the base stands still here", moves),
+    ):
+        if keys:
+            result.notes.append(f"{listed(keys)} are left out: {why}")
     if statements.entries("Z") and list(statements.entries("Z")) != _IDENTITY:
         result.notes.append("Z is left out: frame 0 is where the robot starts")
 
@@ -227,7 +211,10 @@ def par_to_toml(data: bytes, where: str) -> Converted:
     found = counts(statements)
     made = frames(statements, found)
     symbols = Symbols()
-    _settle_motors(made, found, symbols.notes)
+    if not found.loops and not any(frame.mu for frame in made):  # it says nothing of motors
+        for frame in made:
+            frame.mu = int(frame.home is not None)
+        symbols.notes.append("Mu is 0 for every joint: all are taken as actuated")
     names = variables(made, statements)
     other = [theirs for theirs, ours in names.items() if theirs != ours]
     if other:
@@ -235,54 +222,25 @@ def par_to_toml(data: bytes, where: str) -> Converted:
     table_cells(made, found, names, symbols, statements.place)
     links = bodies(statements, found, made)
     pull = gravity(gravity_entries(statements, symbols.notes), symbols, statements.place)
-    notes = (*symbols.notes, *links.notes, *_structure_notes(statements, found))
-    parts = [
-        *_head(statements, where, notes, pull), "",
-        *_symbols(symbols), *_table(made), *_loops(found), *_tables(links, made),
-    ]  # fmt: skip
-    while not parts[-1]:
-        parts.pop()
-    return Converted("\n".join(parts) + "\n", notes)
-
-
-def _structure_notes(statements: Statements, found: Counts) -> list[str]:
-    """What is to be known of the loops.
-
-    Raises:
-        RobotError: Type is no type.
-    """
-    notes = [_NO_HOME] if found.loops else []
-    statement = statements.by_key.get("Type")
-    if statement is None:
-        return notes
-    kind = statement.entries[0]
-    if kind not in ("0", "1", "2"):
-        raise statement.place.error(
-            f'Type: got "{kind}"; expected 0 (simple), 1 (tree) or 2 (closed)'
-        )
-    if (kind == "2") != bool(found.loops):
+    notes = [*symbols.notes, *links.notes, *([_NO_HOME] if found.loops else [])]
+    kind = statements.scalar("Type", "[012]", "0 (simple), 1 (tree) or 2 (closed)")
+    if kind and (kind == "2") != bool(found.loops):
         notes.append(
             f"Type is {kind}, but NJ - NL says that {found.loops} joints are cut, which counts"
         )
-    return notes
-
-
-def _head(statements: Statements, where: str, notes: tuple[str, ...], pull: list[str]) -> list[str]:
     name = _name(statements, where)
-    return [
+    title = "".join(c for c in statements.name if c.isprintable() and c not in '"\\').strip()
+    parts = [
         f'name = "{name}"',
-        f'title = "{_title(statements, name)}"',
+        f'title = "{title or name}"',
         _notes(where, notes),
         f"gravity = [{', '.join(_quoted(cell) for cell in pull)}]",
+        "",
+        *_tables(symbols, found, links, made),
     ]
-
-
-def _settle_motors(made: list[ParFrame], found: Counts, notes: list[str]) -> None:
-    """A file in which no joint has a motor says nothing of motors, if there are no loops."""
-    if not found.loops and not any(frame.mu for frame in made):
-        for frame in made:
-            frame.mu = int(frame.home is not None)
-        notes.append("Mu is 0 for every joint: all are taken as actuated")
+    while not parts[-1]:
+        parts.pop()
+    return Converted("\n".join(parts) + "\n", tuple(notes))
 
 
 def _name(statements: Statements, where: str) -> str:
@@ -295,12 +253,7 @@ def _name(statements: Statements, where: str) -> str:
     return "robot"
 
 
-def _title(statements: Statements, name: str) -> str:
-    title = "".join(c for c in statements.name if c.isprintable() and c not in '"\\')
-    return title.strip() or name
-
-
-def _notes(where: str, notes: tuple[str, ...]) -> str:
+def _notes(where: str, notes: list[str]) -> str:
     lines = [f"Read from the SYMORO file {PurePath(where).name}.", *(f"* {n}." for n in notes)]
     text = "\n".join(lines).replace("\\", "/").replace('"""', "'''")
     text = "".join(c for c in text if c.isprintable() or c == "\n")
@@ -310,18 +263,6 @@ def _notes(where: str, notes: tuple[str, ...]) -> str:
 def _quoted(cell: str) -> str:
     """A TOML cell: whole numbers bare, all else as text."""
     return cell if re.fullmatch(r"-?\d+(\.\d+)?", cell) else f'"{cell}"'
-
-
-def _symbols(symbols: Symbols) -> list[str]:
-    if not symbols.values:
-        return []
-    lines = ["[symbols]"]
-    for name, worth in symbols.values.items():
-        value = f'"{worth}"' if isinstance(worth, str) else repr(worth)
-        comment = symbols.comments.get(name)
-        start = f"{name} = {value}"
-        lines.append(f"{start:<37} # {comment}" if comment else start)
-    return [*lines, ""]
 
 
 def _table(made: list[ParFrame]) -> list[str]:
@@ -352,38 +293,38 @@ def _table(made: list[ParFrame]) -> list[str]:
     ]
 
 
-def _loops(found: Counts) -> list[str]:
-    """Every cut joint meets its second frame."""
-    if not found.loops:
-        return []
-    rows = [
+def _section(head: str, lines: list[str]) -> list[str]:
+    """A table and a blank line; nothing for one without entries."""
+    return [head, *lines, ""] if lines else []
+
+
+def _tables(symbols: Symbols, found: Counts, links: Bodies, made: list[ParFrame]) -> list[str]:
+    """`[symbols]` and all below."""
+    declared = []
+    for name, worth in symbols.values.items():
+        start = f'{name} = "{worth}"' if isinstance(worth, str) else f"{name} = {worth!r}"
+        comment = symbols.comments.get(name)
+        declared.append(f"{start:<37} # {comment}" if comment else start)
+    loops = [  # every cut joint meets its second frame
         f'  ["cut{k + 1}", "{found.links + k + 1}", "{found.joints + k + 1}", "rigid"],'
         for k in range(found.loops)
     ]
-    columns = 'columns = ["loop", "frame", "meets", "joint"]'
-    return ["[loops]", columns, "rows = [", *rows, "]", ""]
-
-
-def _tables(links: Bodies, made: list[ParFrame]) -> list[str]:
-    lines = []
-    if links.links:
-        lines += ["[links]                               # parameters that these rows have"]
-        for name, has in links.links.items():
-            lines.append(f"{name} = [{', '.join(_quoted(key) for key in has)}]")
-        lines.append("")
+    columns = 'columns = ["loop", "frame", "meets", "joint"]\nrows = ['
+    has = [
+        f"{name} = [{', '.join(_quoted(key) for key in keys)}]"
+        for name, keys in links.links.items()
+    ]
     actuated = [str(frame.number) for frame in made if frame.mu]
-    if links.effects:
-        lines.append("[effects]")
-        for effect, joints in links.effects.items():
-            names = ", ".join(f'"{joint}"' for joint in joints)
-            where = '"all"' if joints == actuated else f"[{names}]"
-            lines.append(f"{effect} = {where}")
-        lines.append("")
-    if links.parameters:
-        lines.append("[parameters]                          # kg m^2, kg m, kg; N m s/rad, N m")
-        lines += [f"{name} = {worth!r}" for name, worth in links.parameters.items()]
-        lines.append("")
-    return lines
-
-
-# SYMORO's `.par` files as robot files: from their bytes to the text of ours, and what is lost.
+    effects = []
+    for effect, joints in links.effects.items():
+        names = ", ".join(f'"{joint}"' for joint in joints)
+        effects.append(f"{effect} = " + ('"all"' if joints == actuated else f"[{names}]"))
+    numbers = [f"{name} = {worth!r}" for name, worth in links.parameters.items()]
+    return [
+        *_section("[symbols]", declared),
+        *_table(made),
+        *_section(f"[loops]\n{columns}", [*loops, "]"] if loops else []),
+        *_section(f"{'[links]':<37} # parameters that these rows have", has),
+        *_section("[effects]", effects),
+        *_section(f"{'[parameters]':<37} # kg m^2, kg m, kg; N m s/rad, N m", numbers),
+    ]

@@ -1,23 +1,33 @@
 """The geometry of a `.par` file as the cells of `[mdh]`: exact angles, lengths with letters."""
 
 import ast
+import keyword
+import math
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, field
 
-from modeler.robot.letters import Symbols, declare, new_names, reserved, without_inverse
+from modeler.core.expression import FUNCTIONS, parse
+from modeler.core.toml_cells import Place, listed
+from modeler.effects.catalogue import CATALOGUE
+from modeler.robot.cells import C_WORDS
+from modeler.robot.effects import parameter_owners
 from modeler.robot.par_text import (
     BODIES,
     FRAMES,
+    INERTIA,
+    INVERSE,
     JOINTS,
     ParFormula,
     Statements,
+    called,
     exact_angle,
     formula,
+    parsed,
     renamed,
+    rewritten,
     written,
 )
-from modeler.robot.robot import Place, listed
 
 # The frames of a `.par` file: how many there are, what carries them, where their joints are.
 
@@ -89,7 +99,10 @@ def counts(statements: Statements) -> Counts:
     if joints is None:
         joints = links if links is not None else frames
     links = joints if links is None else links
-    floating = any(_is_true(key, statements) for key in ("is_mobile", "is_floating"))
+    floating = any(
+        statements.scalar(key, "0|1|true|false", "0 or 1") in ("1", "true")
+        for key in ("is_mobile", "is_floating")
+    )
     found = Counts(links, joints, floating)
     if not 1 <= links <= joints:
         place = statements.by_key["NL" if "NL" in statements.by_key else "NJ"].place
@@ -111,7 +124,7 @@ def frames(statements: Statements, found: Counts) -> list[ParFrame]:
     """
     made = []
     for k in range(found.frames):
-        cells = {key: _cell(statements, key, k) for key in GEOMETRY}
+        cells = {key: statements.formula(key, k, "0") for key in GEOMETRY}
         antecedent = _whole(statements, "Ant", k, range(k + 1), "the base, 0, or a frame before it")
         sigma = _whole(statements, "Sigma", k, range(3), "0 revolute, 1 prismatic or 2 fixed")
         mu = _whole(statements, "Mu", k, range(2), "1 actuated or 0 passive")
@@ -154,23 +167,8 @@ def variables(made: list[ParFrame], statements: Statements) -> dict[str, str]:
 
 
 def _count(key: str, statements: Statements) -> int | None:
-    statement = statements.by_key.get(key)
-    if statement is None:
-        return None
-    text = statement.entries[0]
-    if not re.fullmatch(r"\d{1,4}", text):
-        raise statement.place.error(f'{key}: got "{text}"; expected a count such as {key} = 6')
-    return int(text)
-
-
-def _is_true(key: str, statements: Statements) -> bool:
-    statement = statements.by_key.get(key)
-    if statement is None:
-        return False
-    text = statement.entries[0].lower()
-    if text not in ("0", "1", "true", "false"):
-        raise statement.place.error(f'{key}: got "{statement.entries[0]}"; expected 0 or 1')
-    return text in ("1", "true")
+    text = statements.scalar(key, r"\d{1,4}", f"a count such as {key} = 6")
+    return int(text) if text else None
 
 
 def _check_lengths(statements: Statements, found: Counts) -> None:
@@ -190,13 +188,6 @@ def _check_lengths(statements: Statements, found: Counts) -> None:
             )
 
 
-def _cell(statements: Statements, key: str, k: int) -> ParFormula:
-    statement = statements.by_key.get(key)
-    if statement is None:
-        return formula("0", statements.place)
-    return formula(statement.entries[k], statement.entry_place(k + 1))
-
-
 def _whole(statements: Statements, key: str, k: int, allowed: range, told: str) -> int:
     """An entry that is a whole number; a list that is missing is 0, or 1 for Mu."""
     statement = statements.by_key.get(key)
@@ -206,6 +197,152 @@ def _whole(statements: Statements, key: str, k: int, allowed: range, told: str) 
     if not re.fullmatch(r"\d{1,4}", text) or int(text) not in allowed:
         raise statement.entry_place(k + 1).error(f'got "{text}"; expected {told}')
     return int(text)
+
+
+# Letters as declared symbols: their names here, and values.
+
+
+_PRIMES = [n for n in range(29, 1000) if all(n % k for k in range(2, 32) if k < n)]
+_TAKEN = {"pi", *FUNCTIONS, *INVERSE, *C_WORDS.split()}
+
+
+@dataclass
+class Symbols:
+    """The symbols of the robot file that is written, in order.
+
+    Attributes:
+        values: name -> number, or expression of other symbols.
+        comments: name -> what is said beside it.
+        notes: what was made of the letters of the file, for people.
+    """
+
+    values: dict[str, float | str] = field(default_factory=dict)
+    comments: dict[str, str] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+
+    def add(self, wanted: str, number: float, comment: str) -> str:
+        """A symbol for a number, under that name or one like it; returns the name."""
+        name, count = wanted, 1
+        while name in self.values or name in _TAKEN:
+            count += 1
+            name = f"{wanted}_{count}"
+        self.values[name] = number
+        self.comments[name] = comment
+        return name
+
+    def number(self, name: str) -> float:
+        """What it is worth."""
+        worth = self.values[name]
+        if isinstance(worth, float):
+            return worth
+        return self.value(parsed(worth))
+
+    def value(self, tree: ast.expr) -> float:
+        """What a formula without `INVERSE` functions is worth."""
+        names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+        values = {name: self.number(name) for name in names & self.values.keys()}
+        return parse(ast.unparse(tree)).number(values)
+
+
+def reserved(rows: int) -> set[str]:
+    """Names that a symbol cannot have in a robot of rows 1, 2, ...: variables and parameters."""
+    owners = parameter_owners(CATALOGUE)
+    columns = (prefix for prefix in owners if prefix[0].isupper())  # the others are no columns
+    prefixes = ("q", "qc", "qd", "qdd", *INERTIA, *columns)
+    return _TAKEN | {f"{prefix}{j}" for prefix in prefixes for j in range(1, rows + 1)}
+
+
+def new_names(letters: Iterable[str], taken: Collection[str], symbols: Symbols) -> dict[str, str]:
+    """Letter of the file -> name of the symbol, where it cannot keep its own; told in the notes."""
+    letters = list(letters)
+    names: dict[str, str] = {}
+    for letter in letters:
+        base = letter if letter.isascii() else "s1"
+        if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", base):
+            base = f"s{re.sub(r'[^A-Za-z0-9_]', '', base)}"
+        name = base
+        while name in taken or (name != letter and name in {*letters, *names.values()}):
+            name += "_"
+        if name != letter:
+            names[letter] = name
+        was = letter[:-1] if keyword.iskeyword(letter[:-1]) else letter
+        if name != was:
+            symbols.notes.append(f"{was} is called {name} here: the name has a meaning of its own")
+    return names
+
+
+def without_inverse(cells: list[ParFormula], symbols: Symbols) -> list[ParFormula]:
+    """The formulas without atan2, atan, acos and asin, which robot files do not have.
+
+    `atan2(y, x)` of two letters becomes an angle A, with y = L*sin(A) and x = L*cos(A): exact,
+    and `sqrt(x**2 + y**2)` is L. Any other becomes a symbol with its number.
+    """
+    polar: dict[frozenset[str], tuple[str, str]] = {}
+
+    def angle(call: ast.expr) -> ast.expr:
+        name = called(call)
+        if not isinstance(call, ast.Call) or name not in INVERSE:
+            return call
+        signed = [_signed(argument) for argument in call.args]
+        if name == "atan2" and all(one and one[1] in symbols.values for one in signed):
+            (up, y), (along, x) = (one for one in signed if one is not None)
+            if y != x and _make_polar(y, x, polar, symbols):
+                # atan2(up*sin A, along*cos A)
+                forms = {(1, 1): "{}", (-1, 1): "-{}", (1, -1): "pi - {}", (-1, -1): "{} - pi"}
+                return parsed(forms[up, along].format(polar[frozenset((y, x))][1]))
+        worth = INVERSE[name](*(symbols.value(argument) for argument in call.args))
+        made = symbols.add("ang1", float(f"{worth:.12g}"), f"rad, {written(call)}")
+        symbols.notes.append(
+            f"{written(call)} is a symbol {made} with the value at the lengths above: change it "
+            "with them"
+        )
+        return ast.Name(made, ast.Load())
+
+    def length(call: ast.expr) -> ast.expr:
+        """L for sqrt(x**2 + y**2)."""
+        for pair, (name, _) in polar.items():
+            one, other = sorted(pair)
+            sums = (f"sqrt({one}**2 + {other}**2)", f"sqrt({other}**2 + {one}**2)")
+            if written(call) in sums:
+                return ast.Name(name, ast.Load())
+        return call
+
+    found = [one.replaced(rewritten(one.tree, angle)) for one in cells]
+    return [one.replaced(rewritten(one.tree, length)) for one in found]
+
+
+def _signed(tree: ast.expr) -> tuple[int, str] | None:
+    """1 and `b` of `b`, -1 and `b` of `-b`."""
+    if isinstance(tree, ast.Name):
+        return 1, tree.id
+    if isinstance(tree, ast.UnaryOp) and isinstance(tree.op, ast.USub):
+        return (-1, tree.operand.id) if isinstance(tree.operand, ast.Name) else None
+    return None
+
+
+def _make_polar(
+    y: str, x: str, polar: dict[frozenset[str], tuple[str, str]], symbols: Symbols
+) -> bool:
+    """Have y and x as L*sin(A) and L*cos(A); False if one of them is so with another letter."""
+    if frozenset((y, x)) in polar:
+        return symbols.values[y] == "{}*sin({})".format(*polar[frozenset((y, x))])
+    across, along = symbols.values[y], symbols.values[x]
+    if isinstance(across, str) or isinstance(along, str):
+        return False
+    length = symbols.add("L1", round(math.hypot(across, along), 4), "m")
+    angle = symbols.add("A1", round(math.atan2(across, along), 4), "rad")
+    polar[frozenset((y, x))] = (length, angle)
+    for name, function in ((y, "sin"), (x, "cos")):
+        symbols.values[name] = f"{length}*{function}({angle})"
+        symbols.comments.pop(name, None)
+    symbols.notes.append(
+        f"{y} = {length}*sin({angle}) and {x} = {length}*cos({angle}): {length} and {angle} take "
+        f"the place of these letters, so that atan2 is exact"
+    )
+    return True
+
+
+# The cells of the frames as those of a robot file.
 
 
 _LETTER = {"gamma": "gam", "alpha": "alp", "theta": "off", "b": "B", "d": "D", "r": "R"}
@@ -268,29 +405,34 @@ def _on_loops(made: list[ParFrame], found: Counts) -> set[int]:
 def _name_letters(
     made: list[ParFrame], found: Counts, variables: dict[str, str], symbols: Symbols
 ) -> None:
-    """Declare the letters of the geometry, and put our names for theirs."""
-    places = list(_letters(made, variables))
+    """Declare the letters of the geometry by distinct stand-ins; put our names for theirs."""
+    places = [
+        (letter, column)
+        for frame in made
+        for column in GEOMETRY
+        for letter in sorted(frame.cells[column].names - variables.keys())
+    ]
     letters = list(dict.fromkeys(letter for letter, _ in places))
     names = new_names(letters, reserved(found.frames), symbols)
-    lengths = dict.fromkeys(letter for letter, column in places if column not in ANGLES)
-    declare(
-        [names.get(letter, letter) for letter in letters if letter in lengths],
-        [names.get(letter, letter) for letter in letters if letter not in lengths],
-        symbols,
-    )
+    lengths = {letter for letter, column in places if column not in ANGLES}
+    stand_ins = {}
+    for k, letter in enumerate(letter for letter in letters if letter in lengths):
+        stand_ins[names.get(letter, letter)] = _PRIMES[k % len(_PRIMES)] / 100
+    for k, letter in enumerate(letter for letter in letters if letter not in lengths):
+        worth = round(_PRIMES[k % len(_PRIMES)] / 100 + 0.05, 2)
+        stand_ins[names.get(letter, letter)] = worth
+    symbols.values |= stand_ins
+    symbols.comments |= dict.fromkeys(stand_ins, "no value in the file")
+    if stand_ins:
+        symbols.notes.append(
+            f"no values in the file: {listed(stand_ins)}; [symbols] holds stand-ins, write the "
+            "true ones there (relations keep the letters)"
+        )
     for frame in made:
         for column in GEOMETRY:
             cell = frame.cells[column]
             if cell.names:
                 frame.cells[column] = cell.replaced(renamed(cell.tree, names | variables))
-
-
-def _letters(made: list[ParFrame], variables: dict[str, str]) -> Iterator[tuple[str, str]]:
-    """Every letter that is no joint variable, with its column."""
-    for frame in made:
-        for column in GEOMETRY:
-            for letter in sorted(frame.cells[column].names - variables.keys()):
-                yield letter, column
 
 
 def _exact_terms(cell: ParFormula, rounded: dict[str, str]) -> ParFormula:
@@ -300,7 +442,7 @@ def _exact_terms(cell: ParFormula, rounded: dict[str, str]) -> ParFormula:
         if angle is None:
             return cell
         rounded[cell.literal] = angle
-        return ParFormula(ast.parse(angle, mode="eval").body, angle)
+        return ParFormula(parsed(angle), angle)
 
     def exact(node: ast.expr) -> ast.expr:
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
@@ -311,7 +453,7 @@ def _exact_terms(cell: ParFormula, rounded: dict[str, str]) -> ParFormula:
             angle = exact_angle(repr(node.value))
             if angle is not None:
                 rounded[repr(node.value)] = angle
-                return ast.parse(angle, mode="eval").body
+                return parsed(angle)
         return node
 
     return cell.replaced(exact(cell.tree))
@@ -342,7 +484,7 @@ def _as_symbol(
         equal[abs(number)].append(f"{column} of frame {frame.number}")
     name = equal[abs(number)][0]
     text = f"-{name}" if number < 0 else name
-    return ParFormula(ast.parse(text, mode="eval").body, text)
+    return ParFormula(parsed(text), text)
 
 
 def _add_variables(made: list[ParFrame], symbols: Symbols) -> None:
@@ -355,8 +497,7 @@ def _add_variables(made: list[ParFrame], symbols: Symbols) -> None:
         if any(name.startswith("q") and name[1:].isdigit() for name in cell.names):
             continue
         rest = "" if cell.is_zero else f" + ({cell.text})"
-        text = f"q{frame.number}{rest}"
-        tree = ast.parse(text, mode="eval").body
+        tree = parsed(f"q{frame.number}{rest}")
         frame.cells[frame.home] = ParFormula(tree, written(tree))
         missing.append(f"q{frame.number}")
     if missing:

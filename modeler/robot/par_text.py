@@ -2,6 +2,7 @@
 
 import ast
 import codecs
+import functools
 import keyword
 import math
 import re
@@ -11,7 +12,8 @@ from decimal import Decimal
 from fractions import Fraction
 
 from modeler.core.expression import FUNCTIONS, ExpressionError, parse
-from modeler.robot.robot import Place, listed, near, shown
+from modeler.core.toml_cells import Place, listed, near, shown
+from modeler.robot.cells import pi_multiple
 
 SCALARS = ("NF", "NL", "NJ", "Type", "is_mobile", "is_floating")
 FRAMES = ("Ant", "Sigma", "b", "d", "r", "gamma", "alpha", "Mu", "theta")
@@ -69,6 +71,31 @@ class Statements:
         """The list of that key; empty if the file has none."""
         statement = self.by_key.get(key)
         return statement.entries if statement else ()
+
+    def scalar(self, key: str, pattern: str, expected: str) -> str:
+        """The one value of that key in small letters; empty if the file has none.
+
+        Raises:
+            RobotError: it does not match the pattern.
+        """
+        statement = self.by_key.get(key)
+        if statement is None:
+            return ""
+        text = statement.entries[0]
+        if not re.fullmatch(pattern, text.lower()):
+            raise statement.place.error(f'{key}: got "{text}"; expected {expected}')
+        return text.lower()
+
+    def formula(self, key: str, k: int, default: str) -> "ParFormula":
+        """Entry k, counted from 0, of the list of that key; the default if the file has none.
+
+        Raises:
+            RobotError: it is no formula.
+        """
+        statement = self.by_key.get(key)
+        if statement is None:
+            return formula(default, self.place)
+        return formula(statement.entries[k], statement.entry_place(k + 1))
 
 
 def scan(data: bytes, where: str) -> Statements:
@@ -240,9 +267,8 @@ def formula(entry: str, place: Place) -> ParFormula:
         RobotError: it is none.
     """
     try:
-        tree = ast.parse(_spelled(entry), mode="eval").body
-        plain = _with_stand_ins(tree)
-        parse(ast.unparse(plain))
+        tree = parsed(_spelled(entry))
+        parse(ast.unparse(_with_stand_ins(tree)))
     except (SyntaxError, ValueError, RecursionError, MemoryError, ExpressionError):
         raise place.error(
             f"got {shown(entry)}; expected a number, a letter, or arithmetic of these with "
@@ -256,27 +282,39 @@ def value(tree: ast.expr, values: Mapping[str, float]) -> float:
     return parse(ast.unparse(tree)).number(values)
 
 
-class Each(ast.NodeTransformer):
-    """Replaces the calls of functions, innermost first."""
+def rewritten(tree: ast.expr, replace: Callable[[ast.expr], ast.expr]) -> ast.expr:
+    """A copy of the formula with its names and calls replaced, innermost first."""
 
-    def __init__(self, replace: Callable[[ast.Call], ast.expr]) -> None:
-        self.replace = replace
+    class Rewrite(ast.NodeTransformer):
+        def visit_Name(self, node: ast.Name) -> ast.expr:
+            return replace(node)
 
-    def visit_Call(self, node: ast.Call) -> ast.expr:
-        """One call."""
-        self.generic_visit(node)
-        return self.replace(node)
+        def visit_Call(self, node: ast.Call) -> ast.expr:
+            self.generic_visit(node)
+            return replace(node)
+
+    result: ast.expr = Rewrite().visit(parsed(ast.unparse(tree)))
+    return result
+
+
+def parsed(text: str) -> ast.expr:
+    """The tree of a formula in Python's spelling."""
+    return ast.parse(text, mode="eval").body
+
+
+def called(node: ast.expr) -> str:
+    """Name of the function that is called; empty if none is."""
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+        return node.func.id
+    return ""
 
 
 def renamed(tree: ast.expr, names: Mapping[str, str]) -> ast.expr:
     """The formula with other names."""
-
-    class Rename(ast.NodeTransformer):
-        def visit_Name(self, node: ast.Name) -> ast.expr:
-            return ast.Name(names.get(node.id, node.id), ast.Load())
-
-    result: ast.expr = Rename().visit(ast.parse(ast.unparse(tree), mode="eval").body)
-    return result
+    return rewritten(
+        tree,
+        lambda n: ast.Name(names.get(n.id, n.id), ast.Load()) if isinstance(n, ast.Name) else n,
+    )
 
 
 def _spelled(entry: str) -> str:
@@ -300,32 +338,26 @@ def _spelled(entry: str) -> str:
 def _two_arguments(text: str) -> str:
     """Mathematica's ArcTan[x, y] is atan2(y, x)."""
 
-    def turned(call: ast.Call) -> ast.expr:
-        if isinstance(call.func, ast.Name) and call.func.id == "atan" and len(call.args) == 2:
-            return ast.Call(ast.Name("atan2", ast.Load()), call.args[::-1], [])
-        return call
+    def turned(node: ast.expr) -> ast.expr:
+        if isinstance(node, ast.Call) and called(node) == "atan" and len(node.args) == 2:
+            return ast.Call(ast.Name("atan2", ast.Load()), node.args[::-1], [])
+        return node
 
-    if "atan(" not in text:
-        return text
-    return ast.unparse(Each(turned).visit(ast.parse(text, mode="eval").body))
+    return ast.unparse(rewritten(parsed(text), turned)) if "atan(" in text else text
 
 
 def _with_stand_ins(tree: ast.expr) -> ast.expr:
     """The formula with functions that robot files have: to be checked by their grammar."""
 
-    def plain(call: ast.Call) -> ast.expr:
-        name = call.func.id if isinstance(call.func, ast.Name) else ""
-        if name in INVERSE and not call.keywords:
-            if len(call.args) != (2 if name == "atan2" else 1):
-                raise ValueError(name)
-            joined = call.args[0]
-            for other in call.args[1:]:
-                joined = ast.BinOp(joined, ast.Add(), other)
-            return joined
-        return call
+    def plain(node: ast.expr) -> ast.expr:
+        name = called(node)
+        if not isinstance(node, ast.Call) or name not in INVERSE or node.keywords:
+            return node
+        if len(node.args) != (2 if name == "atan2" else 1):
+            raise ValueError(name)
+        return functools.reduce(lambda one, other: ast.BinOp(one, ast.Add(), other), node.args)
 
-    result: ast.expr = Each(plain).visit(ast.parse(ast.unparse(tree), mode="eval").body)
-    return result
+    return rewritten(tree, plain)
 
 
 # Angles printed as rounded decimals, and the multiples of pi/12 that they mean.
@@ -359,19 +391,10 @@ def exact_angle(digits: str) -> str | None:
     unit = 10.0 ** -min(decimals, 15)
     if not -unit <= float(number) - twelfths * math.pi / 12 <= unit / 2:
         return None
-    return multiple(Fraction(-twelfths if digits.startswith("-") else twelfths, 12))
+    return pi_multiple(Fraction(-twelfths if digits.startswith("-") else twelfths, 12))
 
 
 def _decimals(number: Decimal) -> int:
     exponent = number.as_tuple().exponent
     assert isinstance(exponent, int)
     return -exponent
-
-
-def multiple(turns: Fraction) -> str:
-    """`turns` times pi as text: `pi/2`, `-pi`, `3*pi/4`, `0`."""
-    if turns == 0:
-        return "0"
-    head = "" if abs(turns.numerator) == 1 else f"{abs(turns.numerator)}*"
-    tail = "" if turns.denominator == 1 else f"/{turns.denominator}"
-    return f"{'-' if turns < 0 else ''}{head}pi{tail}"

@@ -15,16 +15,8 @@ from modeler.core.builtin import builtin_names, builtin_text
 from modeler.core.errors import RobotError
 from modeler.core.files import read_text
 from modeler.core.json import TomlError, parse_toml
-from modeler.robot.cells import (
-    check_name_length,
-    form_at,
-    list_at,
-    plain_number,
-    read_gravity,
-    read_symbols,
-    table_at,
-    text_at,
-)
+from modeler.core.toml_cells import Place, listed, near, shown
+from modeler.robot.cells import check_name_length, form_at, read_gravity, read_symbols
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.library import check_known_format, converted
 from modeler.robot.loops import (
@@ -42,15 +34,14 @@ from modeler.robot.motors import (
     read_motors,
     read_shared,
     shared_names,
-    with_driven,
 )
-from modeler.robot.robot import Joint, Loop, Place, Robot, listed, near, shown
+from modeler.robot.robot import Joint, Robot
 from modeler.robot.sections import (
     read_coupling,
     read_drive_gains,
     read_limits,
+    read_numbers,
     read_physical,
-    read_reference,
 )
 from modeler.robot.table import Row, table_joints, table_rows
 
@@ -97,18 +88,13 @@ def read_robot(robot: str | Path) -> Robot:
     if not found:
         raise RobotError(_not_found(path))
     check_known_format(path)
-    _check_no_model(path, text)
-    return robot_from_text(text, str(path))
-
-
-def _check_no_model(path: Path, text: str) -> None:
-    """A model file is JSON, a robot file never starts as JSON does."""
-    if text.lstrip().startswith("{"):
+    if text.lstrip().startswith("{"):  # as JSON does and a robot file never
         what = "a model file" if '"modeler model"' in text else "JSON"
         raise RobotError(
             f"{path}: is {what}; expected a robot: give its robot file (TOML) or the name of a "
             "built-in one; models are taken by `modeler compare`, `add` and others"
         )
+    return robot_from_text(text, str(path))
 
 
 def robot_from_text(text: str, where: str) -> Robot:
@@ -123,30 +109,37 @@ def robot_from_text(text: str, where: str) -> Robot:
     """
     place = Place(where)
     document = expanded(_document(text, place), place)
-    platform_rows, platform = read_platform(document.get("platform"), place.at("[platform]"))
-    rows = table_rows(document["mdh"], place.at("[mdh]"), platform_rows)
-    rows += motor_rows(document.get("motors", {}), rows, place.at("[motors]"))
+
+    def section(key: str, otherwise: Any = None) -> Place:
+        return place.at(f"[{key}]", document.get(key, otherwise))
+
+    platform_rows, platform = read_platform(section("platform"))
+    rows = table_rows(section("mdh"), platform_rows)
+    rows += motor_rows(section("motors", {}), rows)
     variables = _joint_columns(rows)
-    symbols = read_symbols(document.get("symbols", {}), variables, place.at("[symbols]"))
+    symbols = read_symbols(section("symbols", {}), variables)
     values: dict[str, float] = {}
     for symbol, expression in symbols.items():
         values[symbol] = form_at(expression, values, place).constant
-    motors, driven = read_motors(document.get("motors", {}), rows, values, place.at("[motors]"))
-    stated = table_at(document.get("relations", {}), place.at("[relations]"), "[relations]")
-    stated = with_driven(stated, driven, place.at("[relations]"))
-    relations = read_relations(stated, rows, values, place.at("[relations]"))
+    motors, driven = read_motors(section("motors", {}), rows, values)
+    relations = read_relations(section("relations", {}), driven, rows, values)
+    title = place.at("title", document.get("title", document["name"])).text('"my robot"')
+    if len(title.splitlines()) > 1:
+        raise place.at("title", title).mismatch("one line; put the rest into notes")
     robot = Robot(
         name=document["name"],
-        title=_title(document, place),
-        gravity=read_gravity(document["gravity"], variables, values, place.at("gravity")),
+        title=title,
+        gravity=read_gravity(place.at("gravity", document["gravity"]), variables, values),
         symbols=symbols,
         joints=table_joints(rows, values),
         relations=relations,
         motors={m: {j: float(c) for j, c in row.items()} for m, row in motors.items()},
         platform=platform,
-        notes=_text(document, "notes", "", place),
         text=text,
     )
+    if "notes" in document:
+        notes = place.at("notes", document["notes"]).text('"my robot"')
+        robot = dataclasses.replace(robot, notes=notes)
     check_driven(robot, place.at("[motors]"))
     return _with_tables(robot, document, values, place)
 
@@ -155,46 +148,55 @@ def _with_tables(
     robot: Robot, document: Mapping[str, Any], values: Mapping[str, float], place: Place
 ) -> Robot:
     """The robot with what the tables say that name its joints."""
+
+    def section(key: str) -> Place:
+        return place.at(f"[{key}]", document.get(key, {}))
+
     moving = {joint.name: joint for joint in robot.moving}
-    coupling = read_coupling(document.get("coupling", {}), moving, values, place.at("[coupling]"))
+    coupling = read_coupling(section("coupling"), moving, values)
     own = read_own_effects(document.get("own_effects", {}), place)
     robot = dataclasses.replace(robot, own_effects=own)
-    effects = read_effects(
-        document.get("effects", {}), moving, coupling, robot.catalogue, place.at("[effects]"),
-        robot.platform,
-    )  # fmt: skip
+    effects = read_effects(section("effects"), moving, coupling, robot.catalogue, robot.platform)
     links: dict[str, tuple[str, ...]] = dict.fromkeys(robot.platform[:-1], ())
     links |= dict.fromkeys(robot.motors, ())
-    links |= read_links(document.get("links", {}), moving, place.at("[links]"))
+    links |= read_links(section("links"), moving)
     robot = dataclasses.replace(robot, links=links, effects=effects)
     every = _parameter_names(robot, moving, place)
-    legs = leg_names(document.get("legs"), place.at("legs"))
-    shared = read_shared(document.get("shared", []), every, legs, place.at("shared"))
+    legs = leg_names(place.at("legs", document.get("legs")))
+    shared = read_shared(place.at("shared", document.get("shared", [])), every, legs)
     known = shared_names(every, shared)
+    loops = read_loops(place.at("[loops]", document.get("loops")), robot.joints)
+    if loops and not any(joint.actuated for joint in robot.free):
+        raise place.at("[loops]").error(
+            "no joint is actuated; write mu 1 in the rows that have a motor"
+        )
+    home = read_home(section("home"), moving, values)
+    for joint in robot.moving:
+        for effect, _, instance in robot.effects_on(joint.name):
+            if needs_reference(effect, instance) and "reference" not in document:
+                raise section("reference").error(
+                    f"is missing; {effect.id} depends on the torques of the links: state their "
+                    "parameters there, as `modeler add` does"
+                )
+    standard = "names of standard parameters, such as ZZ1"
+    names = (
+        f"names such as {listed(known[:12])} (friction and rotors only where [effects] has them)"
+    )
     return dataclasses.replace(
         robot,
-        loops=_loops(document.get("loops"), robot, place.at("[loops]")),
-        home=read_home(document.get("home", {}), moving, values, place.at("[home]")),
+        loops=loops,
+        home=home,
         shared=shared,
-        reference=_reference(document, robot, known, place.at("[reference]")),
+        reference=read_numbers(section("reference"), known, "[reference]", standard),
         coupling=coupling,
-        priority=_priority(document.get("priority", []), known, robot, place.at("priority")),
-        parameters=_parameters(document.get("parameters", {}), known, place.at("[parameters]")),
-        drive_gains=read_drive_gains(
-            document.get("drive_gains", {}), moving, place.at("[drive_gains]")
-        ),
-        limits=read_limits(document.get("limits", {}), moving, values, place.at("[limits]")),
-        physical=read_physical(document.get("physical", {}), moving, place.at("[physical]")),
-        terms=table_at(document.get("terms", {}), place.at("[terms]"), "[terms]"),
-        log=table_at(document.get("log", {}), place.at("[log]"), '"q<j>" = "position_{j} [deg]"'),
+        priority=_priority(place.at("priority", document.get("priority", [])), known, robot),
+        parameters=read_numbers(section("parameters"), known, "[parameters]", names),
+        drive_gains=read_drive_gains(section("drive_gains"), moving),
+        limits=read_limits(section("limits"), moving, values),
+        physical=read_physical(section("physical"), moving),
+        terms=section("terms").table("[terms]"),
+        log=section("log").table('"q<j>" = "position_{j} [deg]"'),
     )
-
-
-def _loops(value: Any, robot: Robot, place: Place) -> tuple[Loop, ...]:
-    loops = read_loops(value, robot.joints, place)
-    if loops and not any(joint.actuated for joint in robot.free):
-        raise place.error("no joint is actuated; write mu 1 in the rows that have a motor")
-    return loops
 
 
 def _not_found(path: Path) -> str:
@@ -230,40 +232,17 @@ def _document(text: str, place: Place) -> dict[str, Any]:
             f"not TOML ({match[1]}); correct that line (texts stand in quotes, entries are "
             "separated by commas)"
         ) from None
-    for key in document:
-        if key not in _KEYS:
-            raise place.error(
-                f"unknown key {shown(key)}{near(key, _KEYS)}; expected {listed(_KEYS)}"
-            )
+    place.holding(document).checked_table(_KEYS, "")
     for key, advice in _NEEDED.items():
         if key not in document:
             raise place.at(key).error(f"is missing; {advice}")
-    _check_name(document["name"], place)
+    name = place.at("name", document["name"])
+    if not isinstance(name.value, str) or not _ROBOT_NAME.fullmatch(name.value):
+        raise name.mismatch(
+            'letters, digits, - and _ such as "arm-2" (it becomes part of names in the C code)'
+        )
+    check_name_length(name.value, name)
     return document
-
-
-def _check_name(name: Any, place: Place) -> None:
-    if not isinstance(name, str) or not name.isascii() or not _ROBOT_NAME.fullmatch(name):
-        raise place.at("name").error(
-            f"got {shown(name)}; expected letters, digits, - and _ such as "
-            '"arm-2" (it becomes part of names in the C code)'
-        )
-    check_name_length(name, place.at("name"))
-
-
-def _text(document: Mapping[str, Any], key: str, default: str, place: Place) -> str:
-    if key not in document:
-        return default
-    return text_at(document[key], place.at(key), '"my robot"')
-
-
-def _title(document: Mapping[str, Any], place: Place) -> str:
-    title = _text(document, "title", document["name"], place)
-    if len(title.splitlines()) > 1:
-        raise place.at("title").error(
-            f"got {shown(title)}; expected one line; put the rest into notes"
-        )
-    return title
 
 
 def _joint_columns(rows: tuple[tuple[Row, Place], ...]) -> dict[str, str]:
@@ -317,46 +296,16 @@ def _parameter_names(robot: Robot, moving: Mapping[str, Joint], place: Place) ->
     return tuple(names)
 
 
-def _reference(
-    document: Mapping[str, Any], robot: Robot, known: tuple[str, ...], place: Place
-) -> dict[str, float]:
-    """The table, which effects need that depend on what the links ask of the joints."""
-    needed = [
-        effect.id
-        for joint in robot.moving
-        for effect, _, instance in robot.effects_on(joint.name)
-        if needs_reference(effect, instance)
-    ]
-    if needed and "reference" not in document:
-        raise place.error(
-            f"is missing; {needed[0]} depends on the torques of the links: state their parameters "
-            "there, as `modeler add` does"
-        )
-    return read_reference(document.get("reference", {}), known, place)
-
-
-def _priority(value: Any, known: tuple[str, ...], robot: Robot, place: Place) -> tuple[str, ...]:
+def _priority(place: Place, known: tuple[str, ...], robot: Robot) -> tuple[str, ...]:
     """The patterns that match a parameter; those of effects that the robot lacks are left out."""
-    patterns = list_at(value, place, '["ZZ*", "Ia?"]')
+    patterns = place.entries('["ZZ*", "Ia?"]')
     prefixes = [c.prefix for e in robot.catalogue for form in e.forms for c in form.columns]
     possible = [*known, *(prefix + joint.name for prefix in prefixes for joint in robot.moving)]
-    for pattern in patterns:
-        pattern = text_at(pattern, place, '"ZZ*"')
+    for entry in patterns:
+        pattern = place.holding(entry).text('"ZZ*"')
         if not any(fnmatch.fnmatchcase(name, pattern) for name in possible):
             raise place.error(
                 f"{shown(pattern)} matches no parameter{near(pattern, known)}; expected names or "
                 f"patterns of {listed(known[:12])} ..."
             )
     return tuple(p for p in patterns if any(fnmatch.fnmatchcase(name, p) for name in known))
-
-
-def _parameters(value: Any, known: tuple[str, ...], place: Place) -> dict[str, float]:
-    parameters = {}
-    for name, cell in table_at(value, place, "[parameters] ZZ1 = 0.5").items():
-        if name not in known:
-            raise place.error(
-                f"there is no parameter {shown(name)}{near(name, known)}; expected names such as "
-                f"{listed(known[:12])} (friction and rotors only where [effects] has them)"
-            )
-        parameters[name] = plain_number(cell, place.at(name), "0.5")
-    return parameters

@@ -1,27 +1,19 @@
 """The tables of a robot file that name joints: effects, coupling, drives, limits, links."""
 
-import itertools
-import math
-import random
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 from modeler.core.expression import Expression
-from modeler.effects.effect import VARIABLES, EffectColumn, Form, Shape
+from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import (
-    LARGEST,
     LARGEST_RATIO,
     check_declared,
     check_size,
-    expression_at,
     form_at,
-    list_at,
     name_of,
     number_at,
-    plain_number,
-    table_at,
 )
-from modeler.robot.robot import Joint, Limits, PhysicalLink, Place, listed, near, shown
+from modeler.robot.robot import Joint, Limits, PhysicalLink
 
 Coupling = dict[str, dict[str, float]]
 
@@ -34,15 +26,27 @@ def joint_at(name: Any, moving: Mapping[str, Joint], place: Place) -> Joint:
     """
     key = name_of(name)
     if not isinstance(key, str) or key not in moving:
-        hint = near(key, moving) if isinstance(key, str) else ""
         raise place.error(
-            f"there is no moving joint {shown(name)}{hint}; expected one of {listed(moving)}"
+            f"there is no moving joint {shown(name)}{near(key, moving)}; expected one of "
+            f"{listed(moving)}"
         )
     return moving[key]
 
 
+def _by_joint(
+    place: Place, moving: Mapping[str, Joint], example: str
+) -> Iterator[tuple[Joint, Place]]:
+    """The joints that a table names, each with its cell.
+
+    Raises:
+        RobotError: no table, or a name of no moving joint.
+    """
+    for name, here in place.items(example):
+        yield joint_at(name, moving, here), here
+
+
 def read_coupling(
-    value: Any, moving: Mapping[str, Joint], symbols: Mapping[str, float], place: Place
+    place: Place, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> Coupling:
     """Motors that turn with several joints: {joint of the motor: {joint: coefficient}}.
 
@@ -50,10 +54,8 @@ def read_coupling(
         RobotError: unknown joints, or a speed that is not a sum of joint variables.
     """
     coupling: Coupling = {}
-    for name, cell in table_at(value, place, '[coupling] "6" = "q5 + q6"').items():
-        here = place.at(shown(name))
-        motor = joint_at(name, moving, here)
-        expression = expression_at(cell, here)
+    for motor, here in _by_joint(place, moving, '[coupling] "6" = "q5 + q6"'):
+        expression = here.expression()
         variables = {joint.variable: joint for joint in moving.values()}
         known = {**symbols, **dict.fromkeys(variables, 0.0)}
         check_declared(expression, known, here)
@@ -77,34 +79,39 @@ def read_coupling(
     return coupling
 
 
-def read_reference(value: Any, known: Collection[str], place: Place) -> dict[str, float]:
-    """Standard parameters about which effects that depend on the load are linearised.
+def read_numbers(
+    place: Place, known: Collection[str], table: str, expected: str
+) -> dict[str, float]:
+    """Values of standard parameters: `[parameters]` or `[reference]`.
+
+    Args:
+        place: the table.
+        known: names of the parameters that the robot has.
+        table: its head.
+        expected: what to write for a name that is unknown.
 
     Raises:
         RobotError: an unknown parameter, or no number.
     """
     found = {}
-    for name, cell in table_at(value, place, "[reference] ZZ1 = 0.5").items():
+    for name, cell in place.table(f"{table} ZZ1 = 0.5").items():
         if name not in known:
             raise place.error(
-                f"there is no parameter {shown(name)}{near(name, known)}; expected names of "
-                "standard parameters, such as ZZ1"
+                f"there is no parameter {shown(name)}{near(name, known)}; expected {expected}"
             )
-        found[name] = plain_number(cell, place.at(name), "0.5")
+        found[name] = place.at(name, cell).number("0.5")
     return found
 
 
-def read_drive_gains(value: Any, moving: Mapping[str, Joint], place: Place) -> dict[str, float]:
+def read_drive_gains(place: Place, moving: Mapping[str, Joint]) -> dict[str, float]:
     """Joint torque per unit of the logged current, by joint.
 
     Raises:
         RobotError: unknown joint, or a gain that is no number or zero.
     """
     gains = {}
-    for name, cell in table_at(value, place, '[drive_gains] "1" = 12.5').items():
-        here = place.at(shown(name))
-        joint = joint_at(name, moving, here)
-        gains[joint.name] = plain_number(cell, here, "12.5")
+    for joint, here in _by_joint(place, moving, '[drive_gains] "1" = 12.5'):
+        gains[joint.name] = here.number("12.5")
         if gains[joint.name] == 0.0:
             raise here.error(
                 "got 0; expected joint torque per unit of logged current, not zero; leave the "
@@ -114,7 +121,7 @@ def read_drive_gains(value: Any, moving: Mapping[str, Joint], place: Place) -> d
 
 
 def read_limits(
-    value: Any, moving: Mapping[str, Joint], symbols: Mapping[str, float], place: Place
+    place: Place, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> dict[str, Limits]:
     """Range of motion by joint.
 
@@ -122,12 +129,10 @@ def read_limits(
         RobotError: unknown joint, wrong entries, an empty range.
     """
     limits = {}
-    for name, cell in table_at(value, place, '[limits] "1" = [-2, 2, 3, 10]').items():
-        here = place.at(shown(name))
-        joint = joint_at(name, moving, here)
-        cells = list_at(cell, here, "[lower, upper, speed, acceleration]", length=4)
+    for joint, here in _by_joint(place, moving, '[limits] "1" = [-2, 2, 3, 10]'):
+        cells = here.entries("[lower, upper, speed, acceleration]", length=4)
         lower, upper, speed, acceleration = (
-            number_at(entry, symbols, here.at(f"entry {k}")) for k, entry in enumerate(cells, 1)
+            number_at(here.at(f"entry {k}", entry), symbols) for k, entry in enumerate(cells, 1)
         )
         if lower >= upper:
             raise here.error(
@@ -141,7 +146,7 @@ def read_limits(
     return limits
 
 
-def read_physical(value: Any, moving: Mapping[str, Joint], place: Place) -> dict[str, PhysicalLink]:
+def read_physical(place: Place, moving: Mapping[str, Joint]) -> dict[str, PhysicalLink]:
     """The letters of a paper for the links, by joint; letters need not be declared.
 
     Raises:
@@ -149,157 +154,26 @@ def read_physical(value: Any, moving: Mapping[str, Joint], place: Place) -> dict
     """
     links = {}
     variables = {joint.variable for joint in moving.values()}
-    for name, cell in table_at(value, place, "[physical.1]").items():
-        here = place.at(shown(name))
-        joint = joint_at(name, moving, here)
-        links[joint.name] = _physical_link(cell, variables, here)
+    keys = ("mass", "centre", "inertia")
+    example = 'mass = "m1", centre = [x, y, z], inertia = [XX, ..., ZZ]'
+    for joint, here in _by_joint(place, moving, "[physical.1]"):
+        table = here.checked_table(keys, example, missing=f"expected {listed(keys)}")
+        mass, centre, inertia = (here.at(key, table[key]) for key in keys)
+        (m,) = _letters([mass.value], variables, mass)
+        x, y, z = _letters(centre.entries("[x, y, z]", 3), variables, centre)
+        six = _letters(inertia.entries("[XX, XY, XZ, YY, YZ, ZZ]", 6), variables, inertia)
+        links[joint.name] = PhysicalLink(m, (x, y, z), tuple(six))
     return links
 
 
-def _physical_link(value: Any, variables: Collection[str], place: Place) -> PhysicalLink:
-    table = table_at(value, place, 'mass = "m1", centre = [x, y, z], inertia = [XX, ..., ZZ]')
-    keys = ("mass", "centre", "inertia")
-    for key in table:
-        if key not in keys:
-            raise place.error(f"unknown key {shown(key)}{near(key, keys)}; expected {listed(keys)}")
-    for key in keys:
-        if key not in table:
-            raise place.error(f"{key} is missing; expected {listed(keys)}")
-
-    def letters(key: str, entries: list[Any]) -> list[Expression]:
-        here = place.at(key)
-        expressions = [expression_at(entry, here) for entry in entries]
-        for expression in expressions:
-            if expression.names & set(variables):
-                raise here.error(
-                    f"got {shown(expression.text)}, which uses the joint variable "
-                    f"{min(expression.names & set(variables))}; links are rigid: expected letters "
-                    "and numbers"
-                )
-        return expressions
-
-    example = "[XX, XY, XZ, YY, YZ, ZZ]"
-    (mass,) = letters("mass", [table["mass"]])
-    x, y, z = letters("centre", list_at(table["centre"], place.at("centre"), "[x, y, z]", 3))
-    inertia = letters("inertia", list_at(table["inertia"], place.at("inertia"), example, 6))
-    return PhysicalLink(mass, (x, y, z), tuple(inertia))
-
-
-# Joints that close no loop under their name, and what to write in their place.
-
-
-_OTHER_NAME = {
-    "revolute": ("pin", "hinge", "pivot", "bearing", "rotary", "rotational", "turning"),
-    "spherical": ("ball", "socket", "ball joint", "point"),
-    "rigid": ("fixed", "weld", "welded", "clamped", "same"),
-    "prismatic": ("slider", "sliding", "slide", "linear", "guide"),
-    "universal": ("cardan", "hooke", "cross", "u", "gimbal"),
-    "planar": ("plane", "plane contact", "face"),
-    "cylindrical": ("sleeve", "bushing"),
-}
-
-_INSTEAD = {
-    "it ties directions alone; give the frame three passive prismatic rows along x, y, z without "
-    "a body ([links]) and close by rigid": ("orientation", "parallel", "parallel axes", "rotation"),
-    "it ties angles by a number, which no frame shows; write a relation such as [relations] "
-    'q4 = "-2*q3"': ("gear", "gears", "belt", "chain", "rack", "pulley", "timing belt"),
-    "it ties a turn to a travel; write a prismatic row after a revolute one and a relation such as "
-    '[relations] q4 = "0.005*q3/(2*pi)"': ("screw", "helical", "spindle", "nut"),
-    "rolling ties speeds, not positions, and is not supported; where a wheel rolls along a "
-    'straight line it is a relation such as [relations] q2 = "-q1/0.3"': (
-        "rolling", "wheel", "roll", "no slip", "nonholonomic",
-    ),
-    "a straight slot or rod is a passive prismatic row on the link that has it, with a fixed row "
-    "whose z points along the pin; close that by revolute (in space by spherical)": (
-        "slot", "pin in slot", "line", "point on line", "track",
-    ),
-    "contacts that slide along a shape are not supported; only the joints of this column close a "
-    "loop": ("cam", "contact", "curve", "surface"),
-    "a rod of constant length is a link: give it rows that turn (two; one in a plane), and close "
-    "its far end by spherical (in a plane by revolute)": (
-        "rod", "bar", "distance", "rope", "cable",
-    ),
-    "a point on a plane is two passive prismatic rows along the plane, without a body ([links]), "
-    "and spherical": ("point on plane",),
-    "several links on one pin are several loops: one revolute row for each link but one, all with "
-    "the frame of that one": ("triple", "triple pin", "double pin", "multiple", "common pin"),
-}  # fmt: skip
-
-
-def other_joint(kind: str) -> str | None:
-    """What to write instead of a joint of that name; None if the name says nothing."""
-    name = kind.strip().lower().replace("_", " ").replace("-", " ").removesuffix(" joint")
-    for known, names in _OTHER_NAME.items():
-        if name in names or name == known:
-            return f"write {known}"
-    for told, names in _INSTEAD.items():
-        if name in names:
-            return told
-    return None
-
-
-# Equations of effects have a finite real value wherever a joint may be.
-
-
-MOST = 100
-"""Combinations of the first values of shapes: a diagnosis tries each on each joint."""
-
-_STATES = 12
-
-
-def check_combinations(shapes: Sequence[Shape], place: Place) -> None:
-    """Refuse more combinations of shapes than a diagnosis should try.
-
-    Raises:
-        RobotError: more than `MOST`.
-    """
-    count = math.prod(len(shape.grid) for shape in shapes)
-    if count > MOST:
-        raise place.error(
-            f"got {count} combinations of {listed(shape.name for shape in shapes)}; expected at "
-            f"most {MOST}: give fewer values, they are refined"
-        )
-
-
-def check_finite(form: Form, place: Place, given: Mapping[str, float] | None = None) -> None:
-    """Refuse equations that have no real value up to `LARGEST` at rest or in a random state.
-
-    Args:
-        form: of an effect.
-        place: of its equations.
-        given: values of its shapes; None for all combinations of their first values.
-
-    Raises:
-        RobotError: says the equation and where it has no value.
-    """
-    states = list(_states())
-    for shapes in [given] if given is not None else _grid(form.shapes):
-        for column, state in itertools.product(form.columns, states):
-            if not _is_finite(column, {**state, **shapes}):
-                used = column.equation.names
-                values = {**{n: v for n, v in state.items() if n in used}, **shapes}
-                raise place.error(
-                    f"{column.prefix} = {shown(column.equation.text)} has no finite value at "
-                    f"{listed(f'{name} = {value:.3g}' for name, value in values.items())}; "
-                    f"expected one of at most {LARGEST:g} in every state of the joint, at rest too"
-                )
-
-
-def _grid(shapes: Sequence[Shape]) -> Iterator[Mapping[str, float]]:
-    for values in itertools.product(*(shape.grid for shape in shapes)):
-        yield {shape.name: value for shape, value in zip(shapes, values, strict=True)}
-
-
-def _states() -> Iterator[Mapping[str, float]]:
-    """Rest, and states with both signs of everything."""
-    yield dict.fromkeys(VARIABLES, 0.0)
-    draw = random.Random(0)
-    for _ in range(_STATES):
-        yield {name: draw.uniform(-3.0, 3.0) for name in VARIABLES}
-
-
-def _is_finite(column: EffectColumn, values: Mapping[str, float]) -> bool:
-    try:
-        return abs(column.equation.number(values)) <= LARGEST
-    except (ArithmeticError, ValueError, TypeError):  # a root of a negative number is complex
-        return False
+def _letters(entries: list[Any], variables: set[str], place: Place) -> list[Expression]:
+    """The entries, which hold no joint variable."""
+    expressions = [place.holding(entry).expression() for entry in entries]
+    for expression in expressions:
+        if expression.names & variables:
+            raise place.error(
+                f"got {shown(expression.text)}, which uses the joint variable "
+                f"{min(expression.names & variables)}; links are rigid: expected letters and "
+                "numbers"
+            )
+    return expressions

@@ -5,20 +5,18 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeler.core.expression import Expression, parse
+from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import (
     LARGEST_LENGTH,
     check_declared,
     check_name_length,
     check_size,
     exact_angle,
-    expression_at,
     form_at,
     length_at,
-    list_at,
     name_of,
-    table_at,
 )
-from modeler.robot.robot import Joint, JointKind, Place, listed, near, shown
+from modeler.robot.robot import Joint, JointKind
 
 COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
 _GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
@@ -35,7 +33,7 @@ HOME = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}
 
 
 def table_rows(
-    value: Any, place: Place, platform: Sequence[tuple[Row, Place]] = ()
+    place: Place, platform: Sequence[tuple[Row, Place]] = ()
 ) -> tuple[tuple[Row, Place], ...]:
     """The rows of `[mdh]` as {column: cell}, each with its place; names and antecedents filled in.
 
@@ -45,54 +43,40 @@ def table_rows(
     Raises:
         RobotError: columns, row lengths, row names or antecedents are wrong.
     """
-    table = table_at(value, place, f"[mdh] {_EXAMPLE}")
-    for key in table:
-        if key not in ("columns", "rows"):
-            raise place.error(
-                f"unknown key {shown(key)}{near(key, ('columns', 'rows'))}; expected columns "
-                "and rows only"
-            )
-    for key in ("columns", "rows"):
-        if key not in table:
-            raise place.error(f"{key} is missing; write {_EXAMPLE}")
-    columns = _columns(table["columns"], place.at("columns"))
+    table = place.checked_table(
+        ("columns", "rows"), f"[mdh] {_EXAMPLE}", "expected columns and rows only",
+        missing=f"write {_EXAMPLE}",
+    )  # fmt: skip
+    columns = _columns(place.at("columns", table["columns"]))
+    listed_rows = place.at("rows", table["rows"]).entries(_EXAMPLE)
+    count = len(listed_rows) + len(platform)
+    if count > MOST_ROWS:  # before any work that nobody could wait for
+        raise place.at("rows").error(
+            f"got {count} rows, those of all legs and of the platform counted; "
+            f"expected at most {MOST_ROWS}: model parts of the robot in files of their own"
+        )
+    if not listed_rows:
+        raise place.at("rows").error(
+            f"the table is empty; write one row per joint, as in {_EXAMPLE}"
+        )
     rows: list[tuple[Row, Place]] = list(platform)
-    listed_rows = _listed_rows(table["rows"], len(platform), place.at("rows"))
     for number, cells in enumerate(listed_rows, start=1):
         row = _row(number, cells, columns, place)
-        name = _row_name(row["j"], place.at(f"row {number}, column j"))
+        name = _row_name(place.at(f"row {number}, column j", row["j"]))
         here = place.at(f'row "{name}"')
         names = [earlier["j"] for earlier, _ in rows]
-        _check_new(name, names, number, len(platform), here)
+        if name in names:
+            first = names.index(name) + 1 - len(platform)
+            where = f"in rows {first} and" if first > 0 else "in [platform] and in row"
+            raise here.error(
+                f"the name {shown(name)} stands {where} {number}; give each row its own name"
+            )
         row["j"] = name
         above = names[-1] if len(names) > len(platform) else "0"
         row["a"] = name_of(row.get("a", above))
         rows.append((row, here))
     _check_antecedents(rows)
     return tuple(rows)
-
-
-def _listed_rows(value: Any, platform: int, place: Place) -> list[Any]:
-    """The rows as written; tables that nobody could wait for are refused before any work."""
-    rows = list_at(value, place, _EXAMPLE)
-    if len(rows) + platform > MOST_ROWS:
-        raise place.error(
-            f"got {len(rows) + platform} rows, those of all legs and of the platform counted; "
-            f"expected at most {MOST_ROWS}: model parts of the robot in files of their own"
-        )
-    if not rows:
-        raise place.error(f"the table is empty; write one row per joint, as in {_EXAMPLE}")
-    return rows
-
-
-def _check_new(name: str, names: list[str], number: int, platform: int, place: Place) -> None:
-    """Refuse a name that an earlier row has; `platform` rows stand before those of the table."""
-    if name in names:
-        first = names.index(name) + 1 - platform
-        where = f"in rows {first} and" if first > 0 else "in [platform] and in row"
-        raise place.error(
-            f"the name {shown(name)} stands {where} {number}; give each row its own name"
-        )
 
 
 def table_joints(
@@ -116,13 +100,13 @@ def table_joints(
     return tuple(_joint(row, place, kinds, symbols) for row, place in rows)
 
 
-def _columns(value: Any, place: Place) -> list[str]:
-    columns = list_at(value, place, '["j", "alpha", "d", "theta", "r"]')
+def _columns(place: Place) -> list[str]:
+    columns = place.entries('["j", "alpha", "d", "theta", "r"]')
     for number, column in enumerate(columns, start=1):
         if column not in COLUMNS:
-            hint = near(column, COLUMNS) if isinstance(column, str) else ""
             raise place.error(
-                f"entry {number} is {shown(column)}{hint}; expected names among {listed(COLUMNS)}"
+                f"entry {number} is {shown(column)}{near(column, COLUMNS)}; expected names among "
+                f"{listed(COLUMNS)}"
             )
         if column in columns[: number - 1]:
             raise place.error(f"{shown(column)} stands twice; remove one and its cells")
@@ -135,8 +119,8 @@ def _row(number: int, cells: Any, columns: list[str], place: Place) -> Row:
     # The name is told if it can be read: it is what the user looks for.
     named = isinstance(cells, list) and cells and columns[0] == "j"
     name = f" ({shown(cells[0])})" if named else ""
-    here = place.at(f"row {number}{name}")
-    cells = list_at(cells, here, '["1", "0", 0, 0, "q1", 0]')
+    here = place.at(f"row {number}{name}", cells)
+    cells = here.entries('["1", "0", 0, 0, "q1", 0]')
     if len(cells) != len(columns):
         raise here.error(
             f"got {len(cells)} cells, expected {len(columns)}, one for each of "
@@ -146,12 +130,12 @@ def _row(number: int, cells: Any, columns: list[str], place: Place) -> Row:
     return dict(zip(columns, cells, strict=True))
 
 
-def _row_name(cell: Any, place: Place) -> str:
-    name = name_of(cell)
-    if not isinstance(name, str) or not ROW_NAME.fullmatch(name) or not name.isascii():
-        raise place.error(
-            f"got {shown(cell)}; expected a name of letters and digits such as "
-            '"1" or "12" (it becomes part of names in the C code)'
+def _row_name(place: Place) -> str:
+    name = name_of(place.value)
+    if not isinstance(name, str) or not ROW_NAME.fullmatch(name):
+        raise place.mismatch(
+            'a name of letters and digits such as "1" or "12" (it becomes part of names in the C '
+            "code)"
         )
     check_name_length(name, place)
     if name == "0":
@@ -164,24 +148,18 @@ def _check_antecedents(rows: list[tuple[Row, Place]]) -> None:
     seen = ["0"]
     for row, place in rows:
         name, antecedent = row["j"], row["a"]
-        here = place.at("column a")
+        here = place.at("column a", antecedent)
         if not isinstance(antecedent, str) or antecedent not in {"0", *antecedents}:
-            hint = near(antecedent, antecedents) if isinstance(antecedent, str) else ""
-            raise here.error(
-                f'got {shown(antecedent)}; expected "0" (the base) or the name of an earlier row '
-                f"({listed(seen[1:])}){hint}"
+            raise here.mismatch(
+                f'"0" (the base) or the name of an earlier row ({listed(seen[1:])})'
+                f"{near(antecedent, antecedents)}"
             )
         if antecedent not in seen:
-            cycle = _cycle(name, antecedents)
-            if cycle:
-                raise here.error(
-                    f"got {shown(antecedent)}, which closes the circle {' -> '.join(cycle)}; "
-                    'every chain of antecedents must end at "0"'
-                )
-            raise here.error(
-                f"got {shown(antecedent)}, which is a later row; move row {shown(antecedent)} "
-                f"above row {shown(name)}"
-            )
+            told = f"is a later row; move row {shown(antecedent)} above row {shown(name)}"
+            if cycle := _cycle(name, antecedents):
+                told = f"closes the circle {' -> '.join(cycle)}; every chain of antecedents must "
+                told += 'end at "0"'
+            raise here.error(f"got {shown(antecedent)}, which {told}")
         seen.append(name)
 
 
@@ -203,9 +181,7 @@ def row_kind(row: Row, place: Place) -> JointKind:
     """
     cell = row.get("sigma", 0)
     if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1, 2):
-        raise place.at("column sigma").error(
-            f"got {shown(cell)}; expected 0 (revolute), 1 (prismatic) or 2 (fixed)"
-        )
+        raise place.at("column sigma", cell).mismatch("0 (revolute), 1 (prismatic) or 2 (fixed)")
     return JointKind(cell)
 
 
@@ -214,9 +190,7 @@ def _actuated(row: Row, kind: JointKind, place: Place) -> bool:
         return kind is not JointKind.FIXED
     cell = row["mu"]
     if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1):
-        raise place.at("column mu").error(
-            f"got {shown(cell)}; expected 1 (actuated) or 0 (passive)"
-        )
+        raise place.at("column mu", cell).mismatch("1 (actuated) or 0 (passive)")
     if cell == 1 and kind is JointKind.FIXED:
         raise place.at("column mu").error(
             "got 1 on a fixed row (sigma 2), which has no motor; write 0, or correct sigma"
@@ -231,7 +205,8 @@ def _joint(
     # The place of the variable last: a variable in the wrong column is told there, not as missing.
     order = sorted(_GEOMETRY, key=lambda column: column == HOME.get(kind))
     cells = {
-        column: _cell(row, column, place.at(f"column {column}"), kinds, symbols) for column in order
+        column: _cell(row, column, place.at(f"column {column}", row.get(column, 0)), kinds, symbols)
+        for column in order
     }
     return Joint(row["j"], row["a"], _actuated(row, kind, place), kind, **cells)
 
@@ -243,34 +218,10 @@ def _cell(
     kinds: Mapping[str, JointKind],
     symbols: Mapping[str, float],
 ) -> Expression:
-    expression = expression_at(row.get(column, 0), place)
-    kind, own = kinds[row["j"]], f"q{row['j']}"
-    home = HOME.get(kind)
-    _check_variables(expression, own, home, column, kinds, place)
-    check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
-    if column == home:
-        _check_motion(expression, own, column, symbols, place)
-    elif column in _ANGLES:
-        form_at(expression, symbols, place)
-    else:
-        length_at(expression, symbols, place)
-    if column in _ANGLES:
-        return exact_angle(expression, own if column == home else None, place)
-    # -0.0 and the like: one zero, so that everyone may drop it.
-    return parse(0) if expression.is_zero else expression
-
-
-def _check_variables(
-    expression: Expression,
-    own: str,
-    home: str | None,
-    column: str,
-    kinds: Mapping[str, JointKind],
-    place: Place,
-) -> None:
-    """Refuse joint variables anywhere but in the place of this row's own."""
+    expression = place.expression()
     got = f"got {shown(expression.text)}"
-    for name in sorted(expression.names):
+    own, home = f"q{row['j']}", HOME.get(kinds[row["j"]])
+    for name in sorted(expression.names):  # joint variables stand in the place of their own only
         if name == own and home is None:
             raise place.error(f"{got}, but the row is fixed (sigma 2); remove {name} or set sigma")
         if name == own and column != home:
@@ -279,30 +230,33 @@ def _check_variables(
                 f"belongs into column {home}; move it there, or correct sigma"
             )
         if name != own and name.startswith("q") and name[1:] in kinds:
-            column = home or "theta or r"
             raise place.error(
                 f"{got}, which uses the variable {name} of another row; expected {own} and "
                 "constants, or, where the joint follows others, a sum of their variables in "
-                f"column {column} without {own}"
+                f"column {home or 'theta or r'} without {own}"
             )
-
-
-def _check_motion(
-    expression: Expression, own: str, column: str, symbols: Mapping[str, float], place: Place
-) -> None:
-    # A prismatic joint's offset is a length.
-    example = f"{own} + {'pi/2' if column == 'theta' else '0.1'}"
-    if own not in expression.names:
-        raise place.error(
-            f"got {shown(expression.text)}, without the joint variable; expected {own}, as in "
-            f"{shown(example)}; a row that does not move has sigma 2"
-        )
-    form = form_at(expression, symbols, place, example)
-    if form.coefficients.get(own) not in (1.0, -1.0):
-        raise place.error(
-            f"got {shown(expression.text)}: {own} has the coefficient "
-            f"{form.coefficients.get(own, 0.0):g}; expected 1 or -1, as in "
-            f'{shown(example)} or "-{own}" (a gear ratio belongs into the drive gain)'
-        )
-    if column not in _ANGLES:
-        check_size(expression, (form.constant,), LARGEST_LENGTH, place)
+    check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
+    if column == home:
+        example = f"{own} + {'pi/2' if column == 'theta' else '0.1'}"
+        if own not in expression.names:
+            raise place.error(
+                f"{got}, without the joint variable; expected {own}, as in {shown(example)}; a row "
+                "that does not move has sigma 2"
+            )
+        form = form_at(expression, symbols, place, example)
+        factor = form.coefficients.get(own, 0.0)
+        if factor not in (1.0, -1.0):
+            raise place.error(
+                f"{got}: {own} has the coefficient {factor:g}; expected 1 or -1, as in "
+                f'{shown(example)} or "-{own}" (a gear ratio belongs into the drive gain)'
+            )
+        if column not in _ANGLES:  # a prismatic joint's offset is a length
+            check_size(expression, (form.constant,), LARGEST_LENGTH, place)
+    elif column in _ANGLES:
+        form_at(expression, symbols, place)
+    else:
+        length_at(expression, symbols, place)
+    if column in _ANGLES:
+        return exact_angle(expression, own if column == home else None, place)
+    # -0.0 and the like: one zero, so that everyone may drop it.
+    return parse(0) if expression.is_zero else expression

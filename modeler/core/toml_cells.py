@@ -1,0 +1,150 @@
+"""Cells of a TOML file that people write: where they stand, what they hold, what is wrong there."""
+
+import difflib
+import math
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from modeler.core.errors import RobotError
+from modeler.core.expression import Expression, ExpressionError, parse
+
+LARGEST = 1e12
+"""Size of any number, in SI units: squares and products of larger ones leave double precision."""
+
+_LONGEST = 60  # letters of the user's text that are quoted
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place in a robot file, `arm.toml: [mdh] row "3", column theta`, and what stands there.
+
+    Its methods give that value as what it has to be; each raises a `RobotError` if it is not.
+    """
+
+    file: str
+    spot: str = ""
+    value: Any = None
+
+    def at(self, spot: str, value: Any = None) -> "Place":
+        """The place inside this one."""
+        return Place(self.file, f"{self.spot}, {spot}" if self.spot else spot, value)
+
+    def holding(self, value: Any) -> "Place":
+        """The same place with another value: one of the entries that stand there."""
+        return Place(self.file, self.spot, value)
+
+    def error(self, what: str) -> RobotError:
+        """The error to raise: the place and `what`, as one line."""
+        where = f"{self.file}: {self.spot}" if self.spot else self.file
+        words = (w if len(w) <= _LONGEST else f"{w[:_LONGEST]}..." for w in what.split())
+        return RobotError(" ".join([*f"{where}:".split(), *words]))
+
+    def mismatch(self, expected: str) -> RobotError:
+        """The error to raise where something else stands than is expected."""
+        return self.error(f"got {shown(self.value)}; expected {expected}")
+
+    def expression(self) -> Expression:
+        """An `Expression` or a number; names are not checked."""
+        try:
+            return parse(self.value)
+        except ExpressionError as error:
+            told = str(error)
+            if isinstance(self.value, str):
+                told = told.replace(f'"{self.value.strip()}"', shown(self.value.strip()))
+            raise self.error(told) from None
+
+    def number(self, example: str) -> float:
+        """A finite number, not an expression."""
+        if isinstance(self.value, bool) or not isinstance(self.value, int | float):
+            raise self.mismatch(f"a number such as {example}")
+        try:
+            number = float(self.value)
+        except OverflowError:
+            number = math.inf
+        if not math.isfinite(number):
+            raise self.mismatch(f"a finite number such as {example}")
+        if abs(number) > LARGEST:
+            raise self.mismatch(f"at most {LARGEST:g} in SI units, such as {example}")
+        return number
+
+    def text(self, example: str) -> str:
+        """A TOML string that is not empty."""
+        if not isinstance(self.value, str) or not self.value.strip():
+            raise self.mismatch(f"text such as {example}")
+        return self.value
+
+    def entries(self, example: str, length: int | None = None) -> list[Any]:
+        """A TOML array, of `length` entries if that is given."""
+        if not isinstance(self.value, list):
+            raise self.mismatch(f"a list such as {example}")
+        count = len(self.value)
+        if length is not None and count != length:
+            raise self.error(
+                f"got {count} entries, expected {length}, as in {example}; "
+                f"{'add' if count < length else 'remove'} {abs(count - length)}"
+            )
+        return self.value
+
+    def table(self, example: str) -> dict[str, Any]:
+        """A TOML table."""
+        if not isinstance(self.value, dict):
+            raise self.mismatch(f"a table, as in {example}")
+        return self.value
+
+    def items(self, example: str) -> "Iterator[tuple[str, Place]]":
+        """The keys of a TOML table, each with what stands there."""
+        for key, value in self.table(example).items():
+            yield key, self.at(shown(key), value)
+
+    def checked_table(
+        self, keys: Collection[str], example: str, unknown: str = "", missing: str = ""
+    ) -> dict[str, Any]:
+        """A TOML table with the keys that it may have and those that it needs.
+
+        Args:
+            keys: that it may have.
+            example: of a table.
+            unknown: what to do about another one; by default `keys` are listed.
+            missing: what to do about one that is missing; empty if all may be.
+        """
+        table = self.table(example)
+        for key in table:
+            if key not in keys:
+                told = unknown or f"expected {listed(keys)}"
+                raise self.error(f"unknown key {shown(key)}{near(key, keys)}; {told}")
+        for key in keys:
+            if missing and key not in table:
+                raise self.error(f"{key} is missing; {missing}")
+        return table
+
+
+def shown(value: Any) -> str:
+    """The user's value as he wrote it, shortened: `"q1"`, `1.57`, `[1, 2]`."""
+    if isinstance(value, bool):
+        text = str(value).lower()
+    elif isinstance(value, str):
+        text = f'"{value}"'
+    else:
+        try:
+            text = f"{value!r}"
+        except ValueError:  # Python prints no integer of more than 4300 digits
+            text = "a number of thousands of digits"
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 4]} ..."
+
+
+def listed(names: Iterable[str]) -> str:
+    """`a, b, c`; `none` if there is nothing to list."""
+    return ", ".join(names) or "none"
+
+
+def near(name: Any, names: Iterable[str]) -> str:
+    """` (did you mean "viscous"?)` for a misspelt name, else nothing."""
+    if not isinstance(name, str):
+        return ""
+    # Letter case is the commonest slip: d3 for D3.
+    known = {known.lower(): known for known in names}
+    found = difflib.get_close_matches(name.lower(), known, n=2, cutoff=0.6)
+    if not found:
+        return ""
+    return f" (did you mean {' or '.join(shown(known[key]) for key in found)}?)"

@@ -1,0 +1,50 @@
+"""The catalogue's data holds what the reader takes on trust; users' effects take the same road."""
+
+from collections import Counter
+from typing import get_args
+
+import pytest
+
+from modeler.core.toml_cells import Place
+from modeler.effects.catalogue import CATALOGUE, effect_named
+from modeler.effects.definition import check_finite, read_definition
+from modeler.effects.effect import SCALES, Effect, Shows
+from modeler.robot.robot import INERTIAL
+
+
+@pytest.mark.parametrize("effect", CATALOGUE, ids=lambda effect: effect.id)
+def test_an_effect_of_the_catalogue_is_whole(effect: Effect) -> None:
+    assert effect.shows in get_args(Shows)
+    assert effect.source != "the robot file"
+    assert all(effect_named(other) for other in (*effect.same_as, *filter(None, [effect.twin])))
+    for form in effect.forms:
+        assert {shape.scale for shape in form.shapes} <= SCALES.keys() - {"own"}
+        assert all(low <= high for low, high in (shape.limits for shape in form.shapes))
+        if all(shape.grid for shape in form.shapes):
+            check_finite(form, Place(effect.id))
+        else:  # its waves are found in the spectrum
+            check_finite(form, Place(effect.id), {shape.name: 7.0 for shape in form.shapes})
+
+
+def test_no_two_effects_share_a_name() -> None:
+    names = [name for effect in CATALOGUE for name in (effect.id, *effect.aliases)]
+    prefixes = [c.prefix for e in CATALOGUE for form in e.forms for c in form.columns]
+    for name, count in Counter([*names, *prefixes, *INERTIAL]).items():
+        assert count == 1, name
+
+
+def test_a_users_effect_takes_the_same_road() -> None:
+    ours = effect_named("stribeck")
+    assert ours is not None
+    (column,), shapes = ours.columns, ours.forms[0].shapes
+    table = {
+        "title": ours.title,
+        "columns": {column.prefix: column.equation.text},
+        "shapes": {shape.name: list(shape.grid) for shape in shapes},
+        "unit": column.unit_revolute,
+    }
+    theirs = read_definition("dip", Place("arm.toml", "", table), {})
+    assert theirs.columns[0].equation == column.equation
+    assert (theirs.acts, theirs.shows, theirs.title) == (ours.acts, ours.shows, ours.title)
+    assert [shape.grid for shape in theirs.forms[0].shapes] == [shape.grid for shape in shapes]
+    assert {shape.scale for shape in theirs.forms[0].shapes} == {"own"}
