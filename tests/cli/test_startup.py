@@ -13,7 +13,7 @@ import pytest
 from modeler.cli import main, parser
 from modeler.cli.derive import _FORMS
 from modeler.cli.formula_output import _CLOSED_FORMS, _COMMENT, _SHEETS, _TABLES
-from modeler.cli.model_arguments import Form
+from modeler.cli.options import Form
 from modeler.effects.catalogue import CATALOGUE
 from modeler.simulation import HIDDEN
 
