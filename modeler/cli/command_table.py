@@ -7,6 +7,7 @@ usage, come at once.
 import argparse
 from typing import get_args
 
+from modeler.cli import places
 from modeler.cli.options import (
     FEW_JOINTS,
     Argument,
@@ -19,35 +20,8 @@ from modeler.cli.options import (
     several,
     value,
 )
-from modeler.cli.places import (
-    DemoFolder,
-    ListFile,
-    LogFile,
-    LogPictures,
-    MapWord,
-    ModelFile,
-    ModuleFolder,
-    MotionFile,
-    MotionOrKind,
-    NewLog,
-    Output,
-    PageOrFolder,
-    PictureFolder,
-    RobotFile,
-    RobotOrModel,
-    Word,
-    model_or_log,
-)
+from modeler.core import errors
 from modeler.core.builtin import EFFECTS, MOTIONS, SIMULATED, paper_names
-from modeler.core.errors import (
-    GAIN_METHOD,
-    LOW_SPEED,
-    TWO_STEPS,
-    Derivatives,
-    Method,
-    ModelKind,
-    Precision,
-)
 from modeler.core.estimators import ABOUT, APART
 
 NOMINAL = ""
@@ -63,16 +37,16 @@ _EFFECTS = 'effects instead of those of the file, for all joints: "viscous,coulo
 _PARALLEL = "the one low-pass of torques and all columns"
 _REQUIRED = {"required": True}
 
-_ROBOT = value("robot", "ROBOT", RobotFile, _ROBOT_FILE)
-_CHANGED = value("--effects", "LIST", Word, f'{_EFFECTS}; "" for none')
-_MODEL = value("model", "MODEL", ModelFile, "a model file of `modeler fit`")
+_ROBOT = value("robot", "ROBOT", places.RobotFile, _ROBOT_FILE)
+_CHANGED = value("--effects", "LIST", places.Word, f'{_EFFECTS}; "" for none')
+_MODEL = value("model", "MODEL", places.ModelFile, "a model file of `modeler fit`")
 _MAP = repeated(
-    "--map", "NAME=COLUMN[:UNIT]", MapWord,
+    "--map", "NAME=COLUMN[:UNIT]", places.MapWord,
     "which column of the logs is ours, as 'q<j>=position_{j}:deg', or FILE.toml with such lines; "
     "may be given several times; over [log] of the robot file",
 )  # fmt: skip
 _DASK = value(
-    "--dask", "ADDRESS", Word,
+    "--dask", "ADDRESS", places.Word,
     "a Dask scheduler whose workers read the logs, as tcp://host:8786; local: a cluster of this "
     "machine's processors",
 )  # fmt: skip
@@ -84,10 +58,10 @@ _PICTURES = "write every picture as PNG, SVG and CSV"
 
 
 def _logs(text: str, nargs: str = "+") -> Argument:
-    return value("logs", "LOG", LogFile, text, nargs=nargs)
+    return value("logs", "LOG", places.LogFile, text, nargs=nargs)
 
 
-def _report(kind: type[Output] = Output) -> Argument:
+def _report(kind: type[places.Output] = places.Output) -> Argument:
     """It may be called `--page`, as `derive` and `log` call it."""
     page = value("--report", "PAGE.html", kind, _PAGE)
     return Argument(("--report", "--page"), page.settings)
@@ -118,8 +92,8 @@ _DERIVE = Command(
         flag("--nonzero",
              "with --closed-form and --regressor: leave out base parameters that are 0 at the "
              "values of [parameters]"),
-        value("--report", "FILE.md", Output, "write the page of the coefficients"),
-        value("--page", "FILE.html", Output, "write a page: table, relations, proof"),
+        value("--report", "FILE.md", places.Output, "write the page of the coefficients"),
+        value("--page", "FILE.html", places.Output, "write a page: table, relations, proof"),
         flag("--open", "cut the loops: the tree, as counted leg by leg"),
     ),
 )  # fmt: skip
@@ -133,9 +107,10 @@ _SHOW = Command(
     "modeler show orthoglide-2003 --png orthoglide.pdf",
     (
         _ROBOT,
-        value("--out", "PAGE", Output,
+        value("--out", "PAGE", places.Output,
               "page to write (default NAME.html, if no picture is asked for)"),
-        value("--png", "FILE", Output, "write a picture one column wide: .png, .svg or .pdf"),
+        value("--png", "FILE", places.Output,
+              "write a picture one column wide: .png, .svg or .pdf"),
     ),
     "write poses at home and gaps of loops for machines",
 )  # fmt: skip
@@ -150,12 +125,12 @@ _HOME = Command(
     "modeler home crank.toml --pictures modes.html --mode B --write",
     (
         _ROBOT,
-        value("--near", "q1=0.3,...", Word,
+        value("--near", "q1=0.3,...", places.Word,
               "values to stay near, rad and m, in place of the passive joints' in [home]"),
         flag("--anew", "as if the file had no [home]"),
-        value("--mode", "LETTER", Word, "the mode that is meant (default A)"),
+        value("--mode", "LETTER", places.Word, "the mode that is meant (default A)"),
         flag("--write", "write it into the robot file as [home]"),
-        value("--pictures", "FILE", Output,
+        value("--pictures", "FILE", places.Output,
               "a small picture of every mode: .png, .svg or .pdf, or a page (.html)"),
     ),
     "write the modes for machines",
@@ -171,10 +146,10 @@ _GENERATE = Command(
     "modeler generate panda --out panda_c; of a fitted model: "
     "modeler generate arm.model.json --out arm_c",
     (
-        value("robot", "ROBOT|MODEL", RobotOrModel, _ROBOT_OR_MODEL),
+        value("robot", "ROBOT|MODEL", places.RobotOrModel, _ROBOT_OR_MODEL),
         _CHANGED,
-        value("--out", "DIR", ModuleFolder, "folder to write", **_REQUIRED),
-        choice("--precision", get_args(Precision),
+        value("--out", "DIR", places.ModuleFolder, "folder to write", **_REQUIRED),
+        choice("--precision", get_args(errors.Precision),
                "of all numbers of the C: double, or float for a microcontroller", "double"),
         flag("--cuda", "also the base regressor for graphics processors"),
         _FORCE,
@@ -191,19 +166,19 @@ _PHYSICAL = Command(
     "set that suffices.",
     "modeler physical wrist --known am,bm,bl1,bt2,ct1,bJ33,cJ33,cm",
     (
-        value("source", "ROBOT|MODEL", RobotOrModel, _ROBOT_OR_MODEL),
-        value("--known", "LIST", Word,
+        value("source", "ROBOT|MODEL", places.RobotOrModel, _ROBOT_OR_MODEL),
+        value("--known", "LIST", places.Word,
               'parameters that are known, "am,bm"; with a MODEL their values in SI units, and '
               'standard deviations where they have one: "am=12+-0.1,bm=6"'),
-        value("--near", "LIST", Word,
+        value("--near", "LIST", places.Word,
               'about what a parameter is, "cm=4": chooses between roots where several fit'),
         value("--sets", "N", int,
               "count and rank the sets of N known parameters that suffice; the smallest without N",
               nargs="?", const=True),
-        value("--cad", "FILE.toml", Word,
+        value("--cad", "FILE.toml", places.Word,
               "with a MODEL: the fit against these values, am = 12.0 or am = [12.0, 0.1]; without "
               "FILE against those of the robot file. With --sets: where errors are compared",
-              nargs="?", const=Word(NOMINAL)),
+              nargs="?", const=places.Word(NOMINAL)),
         choice("--format", ("text", "latex", "python"), "of the formulas", "text"),
         Argument(("--from",), {"dest": "of", "choices": ("base", "coefficients"), "help":
                  "formulas from base parameters, or from the coefficients PG, PJ of the closed "
@@ -218,8 +193,8 @@ _CONVERT = Command(
     "has no place there. Every command reads a .par as well; converted, it can be edited.",
     "modeler convert rx90.par --out rx90.toml",
     (
-        value("file", "FILE", RobotFile, "a SYMORO file (.par)"),
-        value("--out", "ROBOT.toml", Output, "robot file to write", **_REQUIRED),
+        value("file", "FILE", places.RobotFile, "a SYMORO file (.par)"),
+        value("--out", "ROBOT.toml", places.Output, "robot file to write", **_REQUIRED),
         flag("--force", "write over a file that is there"),
     ),
     "write what was converted for machines",
@@ -235,13 +210,13 @@ _LOG = Command(
     "ranges. With a robot: fits it, and says what contradicts it.",
     "modeler log run1.mat --robot arm.toml --page run1.html",
     (
-        value("log", "FILE", LogFile,
+        value("log", "FILE", places.LogFile,
               f"Parquet, CSV, MAT, HDF5, numpy or MCAP file, or ROS bag; {_WINDOW}"),
-        value("--robot", "ROBOT", RobotFile,
+        value("--robot", "ROBOT", places.RobotFile,
               f"{_ROBOT_FILE}: its [log], its joints, and doubts that a fit shows"),
         _MAP,
-        value("--page", "PAGE.html", Output, "write one page"),
-        value("--pictures", "DIR", LogPictures, _PICTURES),
+        value("--page", "PAGE.html", places.Output, "write one page"),
+        value("--pictures", "DIR", places.LogPictures, _PICTURES),
     ),
     "write what is in it for machines",
 )  # fmt: skip
@@ -253,11 +228,11 @@ _PROCESSING = Group(
               "low-pass of the positions (zero phase, Butterworth order 4)"),
         value("--parallel-cutoff", "HZ", float, _PARALLEL),
         value("--decimate", "N", int, "keep every N-th row after it"),
-        choice("--derivatives", get_args(Derivatives),
+        choice("--derivatives", get_args(errors.Derivatives),
                "logged velocities, or positions differentiated; auto: the quieter", "auto"),
         value("--low-speed", "SHARE", float,
               "leave out rows below this share of the joint's top speed, where the sign of the "
-              "speed is doubtful", default=LOW_SPEED),
+              "speed is doubtful", default=errors.LOW_SPEED),
         flag("--keep-saturated", "use rows whose torque is stuck at its limit"),
         flag("--keep-contradicted",
              "use rows whose logged derivatives contradict the signals below them"),
@@ -269,13 +244,13 @@ _PROCESSING = Group(
 _LOAD = Group(
     "load", "some of the logs carry a load on a link",
     (
-        repeated("--payload-log", "LOG", LogFile,
+        repeated("--payload-log", "LOG", places.LogFile,
                  "a further log, with the load; may be given several times"),
         value("--payload-mass", "KG", float, "its mass, if it is known"),
         flag("--payload-moved",
              "it was taken off between the loaded logs: the same mass, but its own centre and "
              "inertia in each"),
-        value("--payload-link", "J", Word, "the link that carries it; default: the last"),
+        value("--payload-link", "J", places.Word, "the link that carries it; default: the last"),
     ),
 )  # fmt: skip
 
@@ -287,15 +262,15 @@ _FIT = Command(
     "modeler fit ur10e run1.parquet run2.parquet --out ur10e.model.json",
     (
         _ROBOT, _CHANGED, _logs(_LOGS), _MAP,
-        value("--out", "MODEL", Output, "model file to write", **_REQUIRED),
-        choice("--method", (*get_args(Method), GAIN_METHOD, TWO_STEPS),
+        value("--out", "MODEL", places.Output, "model file to write", **_REQUIRED),
+        choice("--method", (*get_args(errors.Method), errors.GAIN_METHOD, errors.TWO_STEPS),
                "; ".join(f"{about.id}: {about.title}" for about in (*ABOUT.values(), *APART))
                + "; `modeler estimators` says when each is the wrong one (default %(default)s)",
                "weighted"),
-        value("--robot-out", "FILE.toml", Output,
+        value("--robot-out", "FILE.toml", places.Output,
               "write the robot file with the values found, for simulators (--method consistent), "
               "or with the drive gains found (--method tls)"),
-        choice("--model", get_args(ModelKind),
+        choice("--model", get_args(errors.ModelKind),
                "one equation a joint and sample, or the energy balance of windows (default "
                "%(default)s)", "torque"),
         value("--window", "S", float,
@@ -318,11 +293,11 @@ _COMPARE = Command(
     "modeler compare ur10e.model.json better.model.json held_out.parquet",
     (
         _MODEL,
-        value("logs", "LOG", model_or_log,
+        value("logs", "LOG", places.model_or_log,
               f"{_LOGS}; before them perhaps further models, which are set beside the first",
               nargs="+"),
-        _MAP, _report(PageOrFolder),
-        value("--pictures", "DIR", PictureFolder, _PICTURES),
+        _MAP, _report(places.PageOrFolder),
+        value("--pictures", "DIR", places.PictureFolder, _PICTURES),
         flag("--essential",
              "predict with the reduced model of the fit: its essential parameters, all others 0"),
         flag("--run-embedded-c",
@@ -331,7 +306,7 @@ _COMPARE = Command(
 )  # fmt: skip
 
 _FREE_RUN = Command(
-    "free-run", "free_run:run_free_run",
+    "free-run", "compare:run_free_run",
     "positions that the fitted robot takes under the logged torques",
     "Simulates the robot of MODEL under the torques of the logs, window after window from the "
     "measured state, and compares positions: fit per joint, how long the error stays within a "
@@ -343,27 +318,28 @@ _FREE_RUN = Command(
         value("--window", "S", float, "seconds from one measured state to the next", default=1.0),
         value("--bound", "SHARE", float,
               "of a joint's range of motion: an error above it ends the horizon", default=0.05),
-        value("--controller", "HZ,RATIO[,INTEGRAL[,FORWARD]]", Word,
+        value("--controller", "HZ,RATIO[,INTEGRAL[,FORWARD]]", places.Word,
               "the controller that follows the commands: speed loop, ratio of the position loop to "
               "it, integral action and feedforward (1 or 0); default: the one that comes nearest"),
-        value("--pictures", "DIR", PictureFolder, _PICTURES),
+        value("--pictures", "DIR", places.PictureFolder, _PICTURES),
         _MAP,
     ),
 )  # fmt: skip
 
 _ESTIMATORS = Command(
-    "estimators", "estimators:run_estimators",
+    "estimators", "fit:run_estimators",
     "the ways to estimate, and all of them on the same logs",
     "Lists the estimators of `modeler fit --method`: law, source, and when not to use each. With "
     "ROBOT and logs, fits all of them to the same rows and shows values, errors, seconds and "
     "warnings side by side; no model is written.",
     "modeler estimators emps train.parquet --holdout pulses.parquet",
     (
-        value("robot", "ROBOT", RobotFile, _ROBOT_FILE, nargs="?"),
+        value("robot", "ROBOT", places.RobotFile, _ROBOT_FILE, nargs="?"),
         _logs(f"logs to fit; {_WINDOW}", "*"),
-        value("--effects", "LIST", Word, _EFFECTS),
-        several("--holdout", "LOG", LogFile, "logs of other motion, not fitted: their error"),
-        value("--methods", "LIST", Word, "some of them, with commas between; default: all"),
+        value("--effects", "LIST", places.Word, _EFFECTS),
+        several("--holdout", "LOG", places.LogFile,
+                "logs of other motion, not fitted: their error"),
+        value("--methods", "LIST", places.Word, "some of them, with commas between; default: all"),
         _MAP, _report(),
     ),
 )  # fmt: skip
@@ -378,10 +354,10 @@ _FLEET = Command(
     (
         _ROBOT, _CHANGED, _logs(f"logs, or folders of logs; {_WINDOW}", "*"),
         Group("names", "which machine and period a log is of", (
-            value("--name", "PATTERN", Word,
+            value("--name", "PATTERN", places.Word,
                   "how paths end, as '{machine}-{period}.csv'; left out: the folder is the "
                   "machine, the file the period"),
-            value("--list", "FILE", ListFile,
+            value("--list", "FILE", places.ListFile,
                   "logs by name, in place of LOG: .csv with machine, period, log in its first "
                   "line, or .toml with [[log]] tables"),
         )),
@@ -402,7 +378,7 @@ _FLEET = Command(
 # What a model lacks; motions and measurements that show it.
 
 _DIAGNOSE = Command(
-    "diagnose", "diagnose:run_diagnose",
+    "diagnose", "improve:run_diagnose",
     "which physical effect is missing",
     "Looks for the physical effects that MODEL lacks on the logs: which, on which joint, how "
     "large, what adding them would gain on motion not used for the fit, what they could be "
@@ -410,16 +386,16 @@ _DIAGNOSE = Command(
     "modeler diagnose arm.model.json train.parquet --holdout other.parquet",
     (
         _MODEL, _logs(f"logs to explain; {_WINDOW}"),
-        several("--holdout", "LOG", LogFile,
+        several("--holdout", "LOG", places.LogFile,
                 "logs of other motion: errors come from them, nothing is fitted to them"),
-        repeated("--without", "EFFECT[@J]", Word,
+        repeated("--without", "EFFECT[@J]", places.Word,
                  "an effect that this robot does not have, on one joint or at all"),
         _MAP, _report(),
     ),
 )  # fmt: skip
 
 _ADD = Command(
-    "add", "add:run_add",
+    "add", "improve:run_add",
     "put a physical effect into a model and watch the error fall",
     "Adds EFFECT to the robot of MODEL, derives and emits it anew, fits it to the logs and shows "
     "the error before and after. EFFECT may also be `auto`: all that `modeler diagnose` names, or "
@@ -428,18 +404,18 @@ _ADD = Command(
     "--holdout other.parquet --out arm2.model.json",
     (
         _MODEL,
-        value("effect", "EFFECT", Word, "see `modeler effects`; auto; undo"),
+        value("effect", "EFFECT", places.Word, "see `modeler effects`; auto; undo"),
         _logs("logs to fit to"),
-        value("--joint", "J", Word, "default: where it explains most"),
-        value("--out", "MODEL2", Output, "model file to write", **_REQUIRED),
-        several("--holdout", "LOG", LogFile, "logs of other motion to judge on"),
-        value("--robot", "FILE", Output, "write the new robot file too"),
+        value("--joint", "J", places.Word, "default: where it explains most"),
+        value("--out", "MODEL2", places.Output, "model file to write", **_REQUIRED),
+        several("--holdout", "LOG", places.LogFile, "logs of other motion to judge on"),
+        value("--robot", "FILE", places.Output, "write the new robot file too"),
         _MAP, _report(),
     ),
 )  # fmt: skip
 
 _EXCITE = Command(
-    "excite", "excite:run_excite",
+    "excite", "motion:run_excite",
     "a motion within limits that tells the parameters apart",
     "Finds a motion of ROBOT within its [limits] along which the parameters are well told apart, "
     "and writes it as a table for a controller or `modeler simulate --motion`. Of a MODEL: its "
@@ -447,11 +423,11 @@ _EXCITE = Command(
     "apart. With --choose: the best of motions that there are.",
     "modeler excite panda --duration 10 --out motion.csv --picture motion.png",
     (
-        value("robot", "ROBOT", RobotOrModel, _ROBOT_OR_MODEL),
+        value("robot", "ROBOT", places.RobotOrModel, _ROBOT_OR_MODEL),
         _CHANGED,
-        value("--out", "MOTION", NewLog,
+        value("--out", "MOTION", places.NewLog,
               "motion to write, .csv or .parquet: time, q, qd and qdd of every joint"),
-        value("--picture", "FILE", Output, "draw it against its limits, .png, .svg or .pdf"),
+        value("--picture", "FILE", places.Output, "draw it against its limits, .png, .svg or .pdf"),
         value("--duration", "S", float, "seconds, from rest to rest", default=10.0),
         value("--laps", "N", int, "times that this motion is driven in MOTION", default=1),
         value("--rate", "HZ", float, "samples per second of MOTION", default=200.0),
@@ -463,21 +439,22 @@ _EXCITE = Command(
         value("--starts", "N", int, "searches, from the best of 50 random motions", default=6),
         value("--seed", "N", int, "of the random motions", default=0),
         value("--time-limit", "S", float, "take the best after so many seconds"),
-        repeated("--limit", "J=LOWER,UPPER,SPEED,ACCELERATION[,TORQUE]", Word,
+        repeated("--limit", "J=LOWER,UPPER,SPEED,ACCELERATION[,TORQUE]", places.Word,
                  "of a joint, instead of those of the file, SI units; may be repeated; torques "
                  "need values of the parameters"),
-        repeated("--box", "FRAME=X0,X1,Y0,Y1,Z0,Z1", Word,
+        repeated("--box", "FRAME=X0,X1,Y0,Y1,Z0,Z1", places.Word,
                  "where the origin of a frame must stay, m, in frame 0; may be repeated"),
-        value("--between", "EFFECT@J,EFFECT@J", Word,
+        value("--between", "EFFECT@J,EFFECT@J", places.Word,
               "make what the first effect alone explains large, and the second: of a MODEL"),
         value("--choose", "N", int, "take N of the motions of --from; takes no --out"),
-        several("--from", "LOG", MotionFile, "logs or motions to choose from", dest="candidates"),
+        several("--from", "LOG", places.MotionFile,
+                "logs or motions to choose from", dest="candidates"),
     ),
     "write what was found for machines",
 )  # fmt: skip
 
 _SIMULATE = Command(
-    "simulate", "simulate:run_simulate",
+    "simulate", "motion:run_simulate",
     "measurements by forward simulation in closed loop",
     "Simulates ROBOT under a controller that sees quantised encoders, and writes the log that its "
     "logger would have written; a robot with loops carries out the commanded motion exactly, "
@@ -486,9 +463,9 @@ _SIMULATE = Command(
     "modeler simulate demo-arm --duration 30 --seed 1 --out run1.parquet",
     (
         _ROBOT, _CHANGED,
-        value("--out", "LOG", NewLog, "log to write, .parquet or .csv", **_REQUIRED),
-        value("--truth", "FILE", Output, "write the true parameters as JSON"),
-        value("--motion", "MOTION", MotionOrKind,
+        value("--out", "LOG", places.NewLog, "log to write, .parquet or .csv", **_REQUIRED),
+        value("--truth", "FILE", places.Output, "write the true parameters as JSON"),
+        value("--motion", "MOTION", places.MotionOrKind,
               "exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
               "[limits] allow; one-joint: one after the other alone; or a file of `modeler excite` "
               "or a log, whose (commanded) positions are then the motion, as long as it is "
@@ -509,10 +486,10 @@ _SIMULATE = Command(
              "a robot with loops is moved by a controller too, as others always are"),
         value("--encoder-counts", "N", int,
               "per turn, 0 for an ideal encoder", default=SIMULATED["encoder_counts"]),
-        repeated("--hide", "EFFECT[@JOINT][:NAME=VALUE,...]", Word,
+        repeated("--hide", "EFFECT[@JOINT][:NAME=VALUE,...]", places.Word,
                  "physics that the machine has and the robot file lacks; may be repeated; joint "
                  f"and values left out are drawn from --parameter-seed: {', '.join(EFFECTS)}"),
-        repeated("--drive-gain", "JOINT=VALUE", Word,
+        repeated("--drive-gain", "JOINT=VALUE", places.Word,
                  "true torque per drive unit of a joint; its current is logged in place of its "
                  "torque; may be repeated"),
     ),
@@ -526,7 +503,7 @@ _ROBOTS = Command(
     "the built-in robots",
     "Lists the built-in robots: names to use wherever a command asks for ROBOT.",
     "modeler robots --json robots.json",
-    (value("--show", "NAME", RobotFile, "print that robot's file, to start your own"),),
+    (value("--show", "NAME", places.RobotFile, "print that robot's file, to start your own"),),
     "write the list for machines",
 )  # fmt: skip
 
@@ -536,8 +513,9 @@ _CATALOGUE = Command(
     "Lists the physical effects that a robot file may name under [effects].",
     "modeler effects coulomb",
     (
-        value("effect", "EFFECT", Word, "one effect, in full", nargs="?"),
-        value("--robot", "ROBOT", RobotFile, "with the effects that this robot file defines"),
+        value("effect", "EFFECT", places.Word, "one effect, in full", nargs="?"),
+        value("--robot", "ROBOT", places.RobotFile,
+              "with the effects that this robot file defines"),
     ),
     "write the catalogue for machines",
 )  # fmt: skip
@@ -551,7 +529,7 @@ _REPRODUCE = Command(
     "beside ours. Exit status 1 if a line differs unexpectedly.",
     "modeler reproduce guegan-2003 --section methods",
     (
-        value("paper", "PAPER", Word, f"one of {', '.join(paper_names())}"),
+        value("paper", "PAPER", places.Word, f"one of {', '.join(paper_names())}"),
         choice("--section", ("print", "methods"),
                "what is printed, or the methods; both by default"),
     ),
@@ -566,7 +544,7 @@ _DEMO = Command(
     "shows the error falling on motion that was never fitted.",
     "modeler demo --out demo",
     (
-        value("--out", "DIR", DemoFolder, "folder (default %(default)s)", default="demo"),
+        value("--out", "DIR", places.DemoFolder, "folder (default %(default)s)", default="demo"),
         _FORCE,
         value("--duration", "S", float, "seconds of each simulated run", default=20.0),
     ),
@@ -583,7 +561,7 @@ _COMPLETION = Command(
         Argument(("shell",), {"metavar": "SHELL", "choices": ("bash", "zsh", "fish"),
                               "help": "bash, zsh, fish"}),
         # what the scripts call: the line so far, its last word unfinished
-        Argument(("--words",), {"nargs": argparse.REMAINDER, "type": Word,
+        Argument(("--words",), {"nargs": argparse.REMAINDER, "type": places.Word,
                                 "help": argparse.SUPPRESS}),
     ),
     "write the script for machines",
