@@ -2,7 +2,7 @@
 
 import argparse
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from modeler.cli import places
@@ -125,7 +125,7 @@ def _values(parser: argparse.ArgumentParser, action: argparse.Action, last: str)
     listed = _LISTED.get(action.dest)
     if listed is not None:
         earlier, comma, current = last.rpartition(",")
-        return [earlier + comma + each for each in _beginning(current, listed())]
+        return [earlier + comma + each for each in _beginning(current, listed)]
     return _places(action.type, last)
 
 
@@ -179,17 +179,10 @@ def _beginning(start: str, names: Iterable[str]) -> list[str]:
     return [name for name in names if name.startswith(start)]
 
 
-def _effects() -> list[str]:
-    return [effect.id for effect in EFFECTS]
-
-
-_LISTED: dict[str, Callable[[], Iterable[str]]] = {
-    "effect": _effects,
-    "effects": _effects,
-    "without": _effects,
-    "between": _effects,
-    "hide": _effects,
-    "methods": lambda: ABOUT,
-    "paper": paper_names,
+_EFFECT_IDS = tuple(effect.id for effect in EFFECTS)
+_LISTED: dict[str, Iterable[str]] = {
+    **dict.fromkeys(("effect", "effects", "without", "between", "hide"), _EFFECT_IDS),
+    "methods": ABOUT,
+    "paper": paper_names(),
 }
 """Words that are names, by what the argument is called in the code."""

@@ -13,16 +13,12 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from modeler import __version__
 from modeler.core.errors import ModelerError
 from modeler.core.files import Kind, destination, write_atomically
 from modeler.core.json import nulled
-
-if TYPE_CHECKING:
-    from rich.console import Console
-
 
 # How much is told beside the results: `--quiet` and `--verbose`.
 
@@ -265,26 +261,17 @@ def working(title: str) -> Iterator[None]:
 def _bar(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
     """A bar on a terminal; it moves to and fro where nobody knows the share."""
     hidden = loudness() is Loudness.QUIET or _SHOWN.get()
-    console = None if hidden else _terminal()
-    if console is None:
+    if hidden or sys.stderr is None or not sys.stderr.isatty():
         yield lambda share: None
         return
+    from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
     before = _SHOWN.set(True)
     try:
-        with Progress(*columns, console=console, transient=True) as bar:
+        with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
             task = bar.add_task(title, total=total)
             yield lambda share: bar.update(task, completed=share)
     finally:
         _SHOWN.reset(before)
-
-
-def _terminal() -> "Console | None":
-    """Stderr, if somebody looks at it."""
-    if sys.stderr is None or not sys.stderr.isatty():
-        return None
-    from rich.console import Console
-
-    return Console(stderr=True)

@@ -286,7 +286,8 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Wo
         added |= {key: told for key, wanted in asked.items() if wanted}
     few = len(model.robot.coordinates) <= FEW_JOINTS and model.closure is None
     unasked = few and args.format == "text" and not (args.closed_form or args.regressor)
-    if unasked if args.terms is None else args.terms:
+    wanted = unasked if args.terms is None else args.terms
+    if wanted:
         _say_coefficients(args, derivation, words)
     if args.report is not None:
         write_atomically(Path(args.report), terms_report(model, derivation.base))
