@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import differential_evolution, minimize
 
 from modeler.api import compile_model, derive, generate
-from modeler.cli.excite import bounds_of
+from modeler.cli.motion import bounds_of
 from modeler.excitation.criterion import condition
 from modeler.excitation.search import Wish, excite, random_motion, task_of, usual_harmonics
 from modeler.excitation.task import Task

@@ -16,18 +16,18 @@ figure (`plot(name)`), and HTML for a notebook; docs/python.md lists them. The f
 that a stage has too are that stage's, with the usual choices; use the stages for others.
 """
 
+from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import modeler.report.notebook as notebook
 
-_FIRST = frozenset(
-    {
-        "load", "own_effect", "derive", "generate", "compile_model", "read_logs", "observe", "fit",
-        "recompile",
-    }
-)  # fmt: skip
-"""What a script begins with; the rest takes longer to load."""
+_FIRST = {
+    **dict.fromkeys(("load", "own_effect", "derive", "generate", "compile_model"), "workflow"),
+    **dict.fromkeys(("read_logs", "observe", "recompile"), "workflow"),
+    "fit": "fitting",
+}
+"""What a script begins with; the rest takes longer to load. By module."""
 
 if TYPE_CHECKING:
     from modeler.api.entries import *  # noqa: F403
@@ -37,9 +37,8 @@ else:
         """One of `entries`, kept once it was asked for."""
         if name in _FIRST:
             import modeler.api.arguments as door
-            import modeler.api.workflow as chain
 
-            found = door.checked(getattr(chain, name))
+            found = door.checked(getattr(import_module(f"modeler.api.{_FIRST[name]}"), name))
         elif name == "__all__":
             found = _offered()
         elif name.startswith("__"):

@@ -19,7 +19,7 @@ from modeler.estimation.model_file import IdentifiedModel
 from modeler.logs.blocks import blocks_of, windows_of
 from modeler.logs.inspect import Look, look
 from modeler.logs.log_table import LogTable, Part
-from modeler.observation.log import FINGER, LONG, check_apart
+from modeler.observation.log import FINGER, LONG, Log, check_apart
 from modeler.observation.observation import Observation
 from modeler.observation.survey import WINDOW, WINDOWS, WholeNeeded
 from modeler.runtime.model import CompiledModel
@@ -89,22 +89,39 @@ def contest(
     """
     if len(models) < 2:
         raise DataError(f"contest: got {len(models)} models; expected two at least")
-    named = models if isinstance(models, Mapping) else _lettered(models)
-    compiled = [recompile(model) for model in named.values()]
-    read = [read_logs(own, logs, mapping) for own in compiled]
-    check_apart(read[0])
-    names = list(named)
-    predictions, _ = predict_together(list(named.values()), compiled, read, names)
-    return judged(names, predictions)
-
-
-def _lettered(models: Sequence[IdentifiedModel]) -> dict[str, IdentifiedModel]:
-    if len(models) > len(ascii_uppercase):
+    if isinstance(models, Mapping):
+        named = models
+    elif len(models) <= len(ascii_uppercase):
+        named = dict(zip(ascii_uppercase, models, strict=False))
+    else:
         raise DataError(
             f"contest: got a list of {len(models)} models, more than there are letters; expected a "
             "mapping of names, each to a model"
         )
-    return dict(zip(ascii_uppercase, models, strict=False))
+    return contested(named, [recompile(model) for model in named.values()], logs, mapping)[0]
+
+
+def contested(
+    models: Mapping[str, IdentifiedModel],
+    compiled: Sequence[CompiledModel],
+    logs: Sequence[AnyLog],
+    mapping: Mapped = (),
+    places: Sequence[str] = (),
+) -> tuple[Contest, list[Log]]:
+    """The same of compiled models, and the logs.
+
+    Args:
+        models: by name.
+        compiled: they.
+        logs: of motion that none was fitted on.
+        mapping: as of `read_logs`.
+        places: what messages call the logs.
+    """
+    read = [read_logs(own, logs, mapping) for own in compiled]
+    check_apart(read[0], places=places)
+    names = list(models)
+    predictions, _ = predict_together(list(models.values()), compiled, read, names)
+    return judged(names, predictions), read[0]
 
 
 def free_run(

@@ -6,7 +6,9 @@ from modeler.api.checks import contest as contest
 from modeler.api.checks import free_run as free_run
 from modeler.api.checks import look_at as look_at
 from modeler.api.fitting import Load as Load
+from modeler.api.fitting import fit as fit
 from modeler.api.fitting import fit_gains as fit_gains
+from modeler.api.fitting import identified as identified
 from modeler.api.fitting import side_by_side as side_by_side
 from modeler.api.fleets import fleet as fleet
 from modeler.api.improve import add as add
@@ -27,9 +29,7 @@ from modeler.api.workflow import derive as derive
 from modeler.api.workflow import effects as effects
 from modeler.api.workflow import estimators as estimators
 from modeler.api.workflow import file_and_span as file_and_span
-from modeler.api.workflow import fit as fit
 from modeler.api.workflow import generate as generate
-from modeler.api.workflow import identified as identified
 from modeler.api.workflow import load as load
 from modeler.api.workflow import log_map as log_map
 from modeler.api.workflow import observe as observe
@@ -57,5 +57,9 @@ from modeler.robot.robot import Robot as Robot
 from modeler.runtime.gpu import GpuModel as GpuModel
 from modeler.runtime.model import CompiledModel as CompiledModel
 from modeler.validation.comparison import Comparison as Comparison
+from modeler.validation.free_run import FreeRunSettings as FreeRunSettings
+
+Asked = FreeRunSettings
+"""As scripts and docs/free-run.md call it."""
 
 door.guard(globals())

@@ -1,41 +1,237 @@
-"""Fits besides the usual one: drive gains from a weighed load, all estimators on one log."""
+"""Fits: of either model, with loads or without, in one step or two; all estimators at once."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
 
 from modeler.api.arguments import Steps, fitting, silent
-from modeler.api.ways import Way, judged
 from modeler.api.workflow import (
     AnyLog,
     Mapped,
     compile_model,
     derive,
     generate,
-    identified,
     read_currents,
     read_logs,
 )
 from modeler.codegen.derivation import Derivation
-from modeler.core.errors import DataError, Method
+from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
-from modeler.core.manifest import ModuleSpec
-from modeler.estimation.doubts import Doubt, not_together, remounted
-from modeler.estimation.drive_gains import GainFit, identify_gains
-from modeler.estimation.known import deviations
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.estimation.payload import Payload, loaded_equations
+from modeler.core.manifest import Emitted
+from modeler.estimation import two_step_result as two_step
+from modeler.estimation.doubts import Doubt, Told, not_together, remounted
+from modeler.estimation.drive_gains import are_currents, identify_gains
+from modeler.estimation.energy_fit import identify_energy
+from modeler.estimation.identify import Equations, identify
+from modeler.estimation.known import deviations, known_doubts
+from modeler.estimation.model_file import IdentifiedModel, provenance
+from modeler.estimation.payload import Payload, identify_with_payloads, loaded_equations
+from modeler.estimation.result import FitResult
 from modeler.estimation.side_by_side import SideBySide
 from modeler.estimation.side_by_side import side_by_side as tried_on
+from modeler.estimation.two_step import Directions
+from modeler.estimation.verdict import with_verdict
+from modeler.numerics.least_squares import Compressed
+from modeler.observation.findings import findings_of_fit
 from modeler.observation.log import Log, check_apart
 from modeler.observation.observation import Observation, observe
 from modeler.observation.processing import Processing
 from modeler.robot.edit import with_drive_gains
+from modeler.robot.motors import joint_directions
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot, near
 from modeler.runtime.model import CompiledModel
 
-Checked = Callable[[Sequence[Log], Sequence[Log]], None]
-"""Refuses logs, bare and loaded, that do not belong together."""
+WITHOUT_LOADS = ("iv", "iv-direct", "didim", "consistent", TWO_STEPS)
+"""Methods that know no loads."""
+
+OF_WINDOWS = ("weighted", "ordinary")
+"""Methods of the energy model."""
+
+
+@dataclasses.dataclass(frozen=True)
+class FitRequest:
+    """How a fit is to be made.
+
+    Attributes:
+        method: an id of `core.estimators`, or "two-step".
+        energy: True for the energy model, whose rows are windows.
+        window: its length, s; None: the spacing of the torque model's rows.
+        payloads: loads that some logs carry.
+        below: percent of sigma that essential parameters are below; None: an F-test finds them.
+    """
+
+    method: str = "weighted"
+    energy: bool = False
+    window: float | None = None
+    payloads: tuple[Payload, ...] = ()
+    below: float | None = None
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Way:
+    """What a way to fit ends in.
+
+    Attributes:
+        result: not judged yet.
+        told: doubts that it raises itself.
+        refit: how to fit again without some rows; None: least squares.
+        lines: printed above the result.
+        further: fields of the JSON.
+        equations: that were fitted; None: those of the bare robot.
+    """
+
+    result: FitResult
+    told: Sequence[Told] = ()
+    refit: Callable[[np.ndarray], np.ndarray] | None = None
+    lines: Sequence[str] = ()
+    further: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    equations: Equations | None = None
+
+
+def estimated(
+    asked: FitRequest, robot: Robot, compiled: CompiledModel, observation: Observation
+) -> Way:
+    """The fit that is asked for.
+
+    Raises:
+        DataError: choices that do not go together, or what the estimator refuses.
+    """
+    _check(asked)
+    method: Any = asked.method
+    if asked.energy:
+        energy = identify_energy(compiled, observation, asked.window, method, asked.below)
+        return Way(energy.result, refit=energy.without)
+    if asked.method == TWO_STEPS:
+        ways = Directions(joint_directions(robot))
+        steps = two_step.identify_in_two_steps(compiled, observation, ways, asked.below)
+        further = {"two_step": steps.to_json()}
+        return Way(steps.result, steps.doubts(), lines=steps.lines(), further=further)
+    if asked.payloads:
+        result = identify_with_payloads(compiled, observation, asked.payloads, method, asked.below)
+        current = are_currents(observation.report.logs)
+        told = known_doubts(compiled, observation, asked.payloads, current)
+        equations = loaded_equations(compiled, observation, asked.payloads).equations
+        return Way(result, told, equations=equations)
+    return Way(identify(observation, method, compiled, asked.below))
+
+
+def judged(
+    compiled: CompiledModel, observation: Observation, way: Way, data: Compressed | None = None
+) -> FitResult:
+    """Its result with the verdict, to which all that is found in the logs counts.
+
+    Args:
+        compiled: the robot.
+        observation: that was fitted.
+        way: how.
+        data: all rows that were fitted, where the observation has a part of them only.
+    """
+    told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
+    return with_verdict(compiled, observation, way.result, told, way.equations, way.refit, data)
+
+
+def _check(asked: FitRequest) -> None:
+    """Refuse choices that do not go together."""
+    if asked.method == GAIN_METHOD:
+        raise DataError(
+            f"fit: got method {GAIN_METHOD}, which reads the logs itself; call fit_gains with "
+            "them and the mass of the load"
+        )
+    known = [*ABOUT, TWO_STEPS]
+    if asked.method not in known:
+        raise DataError(
+            f"fit: got method {asked.method}{near(str(asked.method), known)}; expected one of "
+            f"{', '.join(known)}"
+        )
+    if asked.payloads and (asked.energy or asked.method in WITHOUT_LOADS):
+        what = "the energy model" if asked.energy else f"method {asked.method}"
+        raise DataError(f"fit: got payloads with {what}, which knows no loads; leave them out")
+    if asked.energy and asked.method not in OF_WINDOWS:
+        raise DataError(
+            f"fit: got method {asked.method} for the energy model, whose rows are windows; "
+            f"expected {' or '.join(OF_WINDOWS)}"
+        )
+    if asked.window is not None and not asked.energy:
+        raise DataError("fit: got a window; only those of the energy model have a length")
+
+
+def fit(
+    derivation: Derivation,
+    emitted: Emitted,
+    observation: Observation,
+    method: Method | Literal["two-step"] = "weighted",
+    *,
+    energy: bool = False,
+    window: float | None = None,
+    payloads: Sequence[Payload] = (),
+    essential_below: float | None = None,
+) -> IdentifiedModel:
+    """The base parameters from an observation, with all that a model file holds.
+
+    Args:
+        derivation: of the robot.
+        emitted: its C.
+        observation: of its logs.
+        method: one of `estimators()`, or "two-step"; for "tls" see `fit_gains`.
+        energy: True for the energy model, whose rows are windows (docs/energy-model.md).
+        window: their length, s; None: the spacing of the torque model's rows.
+        payloads: loads, each with the names of the logs that carry it.
+        essential_below: percent; parameters whose sigma, in percent of the value, cannot be kept
+            below are left out of the reduced model; None: those that an F-test does not miss.
+
+    Raises:
+        DataError: the derivation, the C and the observation are not of one robot; or see
+            `identify`.
+    """
+    names = tuple(base.name for base in emitted.spec.base)
+    for what, other in (("derivation", derivation.robot.name), ("observation", observation.robot)):
+        if other != emitted.spec.robot:
+            raise DataError(
+                f"fit: the {what} is of {other} and the C of {emitted.spec.robot}; expected one "
+                "robot; derive, generate and observe it again"
+            )
+    if observation.names != names:
+        raise DataError(
+            f"fit: the observation has the base parameters {', '.join(observation.names)}, the C "
+            f"{', '.join(names)}; expected the same; observe with this C"
+        )
+    asked = FitRequest(method, energy, window, tuple(payloads), essential_below)
+    return fitted(asked, derivation, emitted, compile_model(emitted), observation)[0]
+
+
+def fitted(
+    asked: FitRequest,
+    derivation: Derivation,
+    emitted: Emitted,
+    compiled: CompiledModel,
+    observation: Observation,
+    working: Steps = silent,
+) -> tuple[IdentifiedModel, Way]:
+    """The same, and the way that was taken."""
+    with working("estimating"):
+        way = estimated(asked, derivation.robot, compiled, observation)
+    with working("judging the fit"):
+        result = judged(compiled, observation, way)
+    return identified(derivation, emitted, observation, result), way
+
+
+def identified(
+    derivation: Derivation, emitted: Emitted, observation: Observation, result: FitResult
+) -> IdentifiedModel:
+    """A fit with all that a model file holds."""
+    return IdentifiedModel(
+        robot_text=derivation.robot.text,
+        spec=emitted.spec,
+        sources=emitted.code,
+        fit=result,
+        logs=provenance(observation.report),
+    )
+
+
+# Drive gains from a weighed load.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -62,10 +258,6 @@ class Load:
         """It, as the fit knows it; one for each log if it was taken off in between."""
         payload = Payload(tuple(log.name for log in loaded), self.link, self.mass)
         return remounted(payload) if self.moved else [payload]
-
-
-def _apart(logs: Sequence[Log], loaded: Sequence[Log]) -> None:
-    check_apart([*logs, *loaded])
 
 
 def fit_gains(
@@ -95,64 +287,50 @@ def found_with_gains(
     logs: Sequence[AnyLog],
     load: Load,
     processing: Processing,
-    check: Checked = _apart,
+    check: Callable[[Sequence[Log], Sequence[Log]], None] | None = None,
     working: Steps = silent,
     mapping: Mapped = (),
 ) -> tuple[IdentifiedModel, Observation]:
     """The same, and the observation that the model was fitted to.
 
     The gains are found first. Then the logs are read once more with them, as whoever uses the model
-    will: all that is told of the fit is told of those torques.
+    will: all that is told of the fit is told of those torques. `check` refuses logs, bare and
+    loaded, that do not belong together; None: those that share rows.
     """
+
+    def observed(model: CompiledModel, processing: Processing) -> tuple[Observation, list[Payload]]:
+        bare, loaded = (read_currents(model, some, mapping) for some in (logs, load.logs))
+        if check is None:
+            check_apart([*bare, *loaded])
+        else:
+            check(bare, loaded)
+        return observe(model, [*bare, *loaded], processing), load.payloads(loaded)
+
     with working("finding the drive gains"):
-        observation, payloads = _observed(compiled, logs, load, processing, check, mapping)
+        observation, payloads = observed(compiled, processing)
         found = identify_gains(compiled, observation, payloads)
     choices = observation.report.choices
     with working("reading the currents with these gains"):
-        derivation = _with_gains(derivation, found)
+        gains = {joint: float(f"{gain:.7g}") for joint, gain in found.gains.items()}
+        text = with_drive_gains(derivation.robot.text, gains)
+        robot = robot_from_text(text, derivation.robot.name)
+        symbolic = dataclasses.replace(derivation.model, robot=robot)
+        derivation = dataclasses.replace(derivation, robot=robot, model=symbolic)
         emitted = generate(derivation)
         again = compile_model(emitted)
-        observation, payloads = _observed(
-            again, logs, load, observation.report.processing, check, mapping
-        )
+        observation, payloads = observed(again, observation.report.processing)
         result = identify_gains(again, observation, payloads).result
     with working("judging the fit"):
         apart = not_together(again, observation, payloads)
         told = [Doubt(line, values=True) for line in apart]
         equations = loaded_equations(again, observation, payloads).equations
         result = judged(again, observation, Way(result, told, equations=equations))
-    said = _deviations(compiled.spec, found)
-    result = dataclasses.replace(result, sentences=(*result.sentences, *said))
+    if lines := deviations(compiled.spec, found):
+        against = f"against the robot file: {'; '.join(lines)}"
+        result = dataclasses.replace(result, sentences=(*result.sentences, against))
     report = dataclasses.replace(observation.report, choices=choices)
     observation = dataclasses.replace(observation, report=report)
     return identified(derivation, emitted, observation, result), observation
-
-
-def _with_gains(derivation: Derivation, found: GainFit) -> Derivation:
-    """The same robot, its file with these gains."""
-    gains = {joint: float(f"{gain:.7g}") for joint, gain in found.gains.items()}
-    text = with_drive_gains(derivation.robot.text, gains)
-    robot = robot_from_text(text, derivation.robot.name)
-    model = dataclasses.replace(derivation.model, robot=robot)
-    return dataclasses.replace(derivation, robot=robot, model=model)
-
-
-def _observed(
-    compiled: CompiledModel,
-    logs: Sequence[AnyLog],
-    load: Load,
-    processing: Processing,
-    check: Checked,
-    mapping: Mapped,
-) -> tuple[Observation, list[Payload]]:
-    bare, loaded = (read_currents(compiled, some, mapping) for some in (logs, load.logs))
-    check(bare, loaded)
-    return observe(compiled, [*bare, *loaded], processing), load.payloads(loaded)
-
-
-def _deviations(spec: ModuleSpec, found: GainFit) -> list[str]:
-    lines = deviations(spec, found)
-    return [f"against the robot file: {'; '.join(lines)}"] if lines else []
 
 
 # All estimators on the same logs, side by side.

@@ -25,12 +25,8 @@ def diagnose(
     mapping: Mapped = (),
 ) -> Diagnosis:
     """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
-    compiled = recompile(model)
-    robot = robot_from_text(model.robot_text, "robot of the model")
-    known = Known(robot.catalogue, robot.coupling)
-    given, kept = (read_logs(compiled, places, mapping) for places in (logs, holdout))
-    check_apart(given, kept)
-    return find_missing(model, compiled, given, kept, without, progress=progress, known=known)
+    compiled, given = logs_of(model, logs, holdout, mapping)
+    return missing(model, compiled, given, without, progress)
 
 
 def add(
@@ -55,7 +51,7 @@ def add(
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    compiled, given = _given(model, logs, holdout, mapping)
+    compiled, given = logs_of(model, logs, holdout, mapping)
     return add_effect(model, compiled, effect, joint, given)
 
 
@@ -71,7 +67,7 @@ def auto(
     Raises:
         DataError: nothing that can be added is missing.
     """
-    compiled, given = _given(model, logs, holdout, mapping)
+    compiled, given = logs_of(model, logs, holdout, mapping)
     return auto_added(model, compiled, given, progress)[0]
 
 
@@ -81,7 +77,7 @@ def undo(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -
     Raises:
         DataError: none was added.
     """
-    return undone(model, _given(model, logs, (), mapping)[1])
+    return undone(model, logs_of(model, logs, (), mapping)[1])
 
 
 def auto_added(
@@ -96,11 +92,7 @@ def auto_added(
     Raises:
         DataError: nothing that can be added is missing.
     """
-    robot = robot_from_text(model.robot_text, f"model of {model.spec.robot}, robot")
-    known = Known(robot.catalogue, robot.coupling)
-    found = find_missing(
-        model, compiled, logs.fitted, logs.held_out, progress=progress, known=known
-    )
+    found = missing(model, compiled, logs, (), progress)
     findings = [*found.effects, *found.refinements]
     with working("adding what is missing"):
         better, left_out = add_findings(model, compiled, findings, logs)
@@ -112,9 +104,29 @@ def auto_added(
     return better, left_out, found
 
 
-def _given(
-    model: IdentifiedModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog], mapping: Mapped
+def missing(
+    model: IdentifiedModel,
+    compiled: CompiledModel,
+    logs: Logs,
+    without: Sequence[str] = (),
+    progress: Callable[[float], None] | None = None,
+) -> Diagnosis:
+    """What a diagnosis finds, which tries the effects that the robot file defines too."""
+    robot = robot_from_text(model.robot_text, f"model of {model.spec.robot}, robot")
+    known = Known(robot.catalogue, robot.coupling)
+    return find_missing(
+        model, compiled, logs.fitted, logs.held_out, without, progress=progress, known=known
+    )
+
+
+def logs_of(
+    model: IdentifiedModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog], mapping: Mapped = ()
 ) -> tuple[CompiledModel, Logs]:
+    """The robot of a model, compiled, and the logs that it is held against.
+
+    Raises:
+        DataError: a log cannot be read, or rows are given twice.
+    """
     compiled = recompile(model)
     given = Logs(*(read_logs(compiled, some, mapping) for some in (logs, holdout)))
     check_apart(given.fitted, given.held_out)

@@ -5,23 +5,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeGuard
 
-from modeler.api.ways import Way, judged
-from modeler.api.workflow import AnyLog, Mapped, file_and_span, identified, log_map, read_logs
+from modeler.api.fitting import Way, identified, judged
+from modeler.api.workflow import AnyLog, Mapped, file_and_span, log_map, read_logs
 from modeler.codegen.derivation import Derivation
 from modeler.core.errors import DataError, Method
 from modeler.core.jobs import Workers
 from modeler.core.manifest import Emitted
-from modeler.estimation.long_logs import (
-    OF_TRIANGLES,
-    Partial,
-    Reducer,
-    Streamed,
-    by_threads,
-    identify_long,
-    merge_all,
-    reduce_chunk,
-    stream,
-)
+from modeler.estimation import long_logs as chunked
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.result import FitResult
 from modeler.logs.blocks import blocks_of
@@ -40,17 +30,15 @@ def rows_of(places: Sequence[AnyLog]) -> int:
     Raises:
         DataError: a file is damaged.
     """
-    return sum(_rows_of(place) for place in places)
-
-
-def _rows_of(place: AnyLog) -> int:
-    if isinstance(place, Log):
-        return place.rows
-    if not isinstance(place, str | Path):
-        return 0
-    path, span = file_and_span(place)
-    blocks = blocks_of(Path(path)) if span is None else None
-    return 0 if blocks is None else blocks.rows
+    rows = 0
+    for place in places:
+        if isinstance(place, Log):
+            rows += place.rows
+        elif isinstance(place, str | Path):
+            path, span = file_and_span(place)
+            blocks = blocks_of(Path(path)) if span is None else None
+            rows += 0 if blocks is None else blocks.rows
+    return rows
 
 
 def are_long(places: Sequence[AnyLog]) -> bool:
@@ -73,7 +61,7 @@ def check_whole(places: Sequence[AnyLog], what: str) -> None:
         raise DataError(
             f"fit: {what} keeps all rows in memory; got {rows_of(places)} rows, expected "
             f"at most {MOST_WHOLE}; give a part of the log, FILE@START:END, or take --method "
-            f"{' or '.join(OF_TRIANGLES)}, which read logs of any length"
+            f"{' or '.join(chunked.OF_TRIANGLES)}, which read logs of any length"
         )
 
 
@@ -103,8 +91,8 @@ def fit_long(
     method: Method = "weighted",
     processing: Processing | None = None,
     progress: Callable[[float], None] = lambda share: None,
-    reducer: Reducer | None = None,
-) -> tuple[IdentifiedModel, Streamed]:
+    reducer: chunked.Reducer | None = None,
+) -> tuple[IdentifiedModel, chunked.Streamed]:
     """The fitted model of logs of any length, in flat memory; see `fit.streamed.stream`.
 
     Args:
@@ -120,15 +108,15 @@ def fit_long(
     Raises:
         DataError: see `stream` and `identify_long`.
     """
-    streamed = stream(compiled, sources, processing, progress, reducer=reducer)
+    streamed = chunked.stream(compiled, sources, processing, progress, reducer=reducer)
     check_apart(streamed.observation.report.logs)
     result = judged_long(compiled, streamed, method)
     return identified(derivation, emitted, streamed.observation, result), streamed
 
 
-def judged_long(compiled: CompiledModel, streamed: Streamed, method: Method) -> FitResult:
+def judged_long(compiled: CompiledModel, streamed: chunked.Streamed, method: Method) -> FitResult:
     """The fit of long logs with its verdict."""
-    way = Way(identify_long(streamed, method, compiled))
+    way = Way(chunked.identify_long(streamed, method, compiled))
     return judged(compiled, streamed.observation, way, streamed.data)
 
 
@@ -150,7 +138,7 @@ class Shared:
     rows: int
 
 
-def by_workers(workers: Workers, emitted: Emitted) -> Reducer:
+def by_workers(workers: Workers, emitted: Emitted) -> chunked.Reducer:
     """A reducer of logs by workers, who read their rows of a Parquet file themselves.
 
     Logs of other formats are read from the beginning to the end: by this process. All logs are
@@ -162,9 +150,9 @@ def by_workers(workers: Workers, emitted: Emitted) -> Reducer:
         emitted: the C of the robot, which they compile, or take from their caches.
     """
 
-    def reducer(model: CompiledModel, source: Source, chosen: Chosen) -> Iterator[Partial]:
+    def reducer(model: CompiledModel, source: Source, chosen: Chosen) -> Iterator[chunked.Partial]:
         if not from_anywhere(source):
-            return by_threads(model, source, chosen)
+            return chunked.by_threads(model, source, chosen)
         path, mapping = source.place
         code = replace(emitted, files=emitted.code)
         shared = Shared(code, path.absolute(), mapping, chosen, source.rows)
@@ -184,7 +172,7 @@ def from_anywhere(source: Source) -> TypeGuard[FileSource]:
     return isinstance(source, FileSource) and source.exact
 
 
-def reduce_rows(shared: Shared, numbers: range) -> Partial:
+def reduce_rows(shared: Shared, numbers: range) -> chunked.Partial:
     """Some chunks of a log, read and reduced by a worker.
 
     Raises:
@@ -199,10 +187,10 @@ def reduce_rows(shared: Shared, numbers: range) -> Partial:
             "must see the logs by the same paths"
         )
     parts = chunks_between(source, numbers, chosen.own, chosen.beside)
-    return merge_all(reduce_chunk(model, part, chosen) for part in parts)
+    return chunked.merge_all(chunked.reduce_chunk(model, part, chosen) for part in parts)
 
 
-def merged_in_time(first: Partial, later: Partial) -> Partial:
+def merged_in_time(first: chunked.Partial, later: chunked.Partial) -> chunked.Partial:
     """Of rows of a log, and of those that follow them.
 
     Raises:
@@ -217,9 +205,9 @@ def merged_in_time(first: Partial, later: Partial) -> Partial:
     return first.over(later)
 
 
-def _in_order(begun: Sequence[Callable[[], Partial]]) -> Iterator[Partial]:
+def _in_order(begun: Sequence[Callable[[], chunked.Partial]]) -> Iterator[chunked.Partial]:
     """The results, one after the other, checked as those within each."""
-    last: Partial | None = None
+    last: chunked.Partial | None = None
     for wait in begun:
         found = wait()
         if last is not None:

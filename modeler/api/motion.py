@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler import simulation
 from modeler.api.workflow import compile_model, derive, generate, recompile
 from modeler.core.errors import DataError
 from modeler.effects.catalogue import effect_named
@@ -22,18 +23,7 @@ from modeler.excitation.separate import tell_apart as told_apart
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Limits, Robot, near
 from modeler.runtime.model import CompiledModel
-from modeler.simulation import (
-    HiddenEffect,
-    SimulatedLog,
-    SimulationSettings,
-    at_rate,
-    check_suffix,
-    hidden_from_text,
-    motion_limits,
-    read_motion,
-    write_log,
-)
-from modeler.simulation import simulate as simulated
+from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
 
 Progress = Callable[[float], None]
 
@@ -68,20 +58,14 @@ def subject_of(thing: Robot | IdentifiedModel) -> Subject:
     """A robot with the values that its file states, or a model with those that were fitted."""
     if isinstance(thing, Robot):
         compiled = compile_model(generate(derive(thing)))
-        return Subject(thing, compiled, beta=_nominal(compiled))
+        values = [parameter.nominal for parameter in compiled.spec.standard]
+        known = None not in values  # the robot file may leave some open
+        return Subject(thing, compiled, beta=compiled.base_parameters(values) if known else None)
     robot = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot")
     sigma = np.array([joint.sigma for joint in thing.fit.joints])
     known = bool(np.all(np.isfinite(sigma)) and np.all(sigma > 0.0))
     kept = np.flatnonzero([parameter.essential for parameter in thing.fit.parameters])
     return Subject(robot, recompile(thing), sigma if known else None, kept, thing.beta)
-
-
-def _nominal(compiled: CompiledModel) -> np.ndarray | None:
-    """The base parameters that the robot file states; None where it leaves some open."""
-    values = [parameter.nominal for parameter in compiled.spec.standard]
-    if any(value is None for value in values):
-        return None
-    return compiled.base_parameters(values)
 
 
 def excite(
@@ -217,40 +201,33 @@ def bounds_of(
         changes[name] = Limits(*values[:4])
         if len(values) == 5:
             torques[name] = values[4]
-    every = motion_limits(robot, changes)
+    every = simulation.motion_limits(robot, changes)
     of = {name: every[moving.index(name)] for name in moving}
     lower, upper, speed, acceleration = np.array(
         [dataclasses.astuple(of[name])[:4] for name in coordinates]
     ).T
-    closure = compiled.spec.closure
-    home = None if closure is None else np.array(closure.home)[list(closure.given)]
+    closure, home = compiled.spec.closure, None
+    passive: list[tuple[int, float, float]] = []
+    if closure is not None:
+        home = np.array(closure.home)[list(closure.given)]
+        stated = {**robot.limits, **changes}
+        passive = [
+            (place, stated[name].lower, stated[name].upper)
+            for place, name in enumerate(closure.variables)
+            if place not in closure.given and name in stated
+        ]
+    corners = {
+        name: _checked("boxes", name, given, moving, (6,), "x0, x1, y0, y1, z0, z1")
+        for name, given in boxes.items()
+    }
     return Bounds(
         tuple(coordinates), lower, upper, speed, acceleration,
         torque=np.array([torques.get(name, np.inf) for name in coordinates]),
-        boxes=tuple(_box(name, given, moving) for name, given in boxes.items()),
-        passive=_following(compiled, {**robot.limits, **changes}), home=home,
-    )  # fmt: skip
-
-
-def _following(
-    compiled: CompiledModel, stated: Mapping[str, Limits]
-) -> tuple[tuple[int, float, float], ...]:
-    """Ranges of the joints that follow, as stated."""
-    closure = compiled.spec.closure
-    if closure is None:
-        return ()
-    return tuple(
-        (place, stated[name].lower, stated[name].upper)
-        for place, name in enumerate(closure.variables)
-        if place not in closure.given and name in stated
-    )
-
-
-def _box(name: str, given: Sequence[float], moving: list[str]) -> Box:
-    values = _checked("boxes", name, given, moving, (6,), "x0, x1, y0, y1, z0, z1")
-    return Box(
-        name, moving.index(name),
-        (values[0], values[2], values[4]), (values[1], values[3], values[5]),
+        boxes=tuple(
+            Box(name, moving.index(name), (x[0], x[2], x[4]), (x[1], x[3], x[5]))
+            for name, x in corners.items()
+        ),
+        passive=tuple(passive), home=home,
     )  # fmt: skip
 
 
@@ -298,25 +275,31 @@ def simulate(
         DataError: a setting that is none, or that cannot be; what the simulation refuses.
     """
     if path is not None:
-        check_suffix(Path(path))
-    asked = _settings(robot, hide, motion, settings)
-    log = simulated(robot, asked, progress)
+        simulation.check_suffix(Path(path))
+    log = simulation.simulate(robot, settings_of(robot, hide, motion, settings), progress)
     if path is not None:
-        write_log(Path(path), log)
+        simulation.write_log(Path(path), log)
     return log
 
 
-def _settings(
-    robot: Robot, hide: Sequence[str | HiddenEffect], motion: str | Path, given: dict[str, Any]
+def settings_of(
+    robot: Robot, hide: Sequence[str | HiddenEffect], motion: str | Path, given: Mapping[str, Any]
 ) -> SimulationSettings:
+    """Settings of a simulation; see `simulate`.
+
+    Raises:
+        DataError: one that is none, or that cannot be.
+    """
     known = {field.name for field in dataclasses.fields(SimulationSettings)}
     for name in given:
         if name not in known:
             raise DataError(f"simulate: got {name}; expected some of {', '.join(sorted(known))}")
-    hidden = tuple(hidden_from_text(each) if isinstance(each, str) else each for each in hide)
+    hidden = tuple(
+        simulation.hidden_from_text(each) if isinstance(each, str) else each for each in hide
+    )
     if not str(motion).endswith((".csv", ".parquet")):
         return SimulationSettings(hidden=hidden, motion=str(motion), **given)
     rate = given.get("rate", SimulationSettings().rate)
     joints = [joint.name for joint in robot.coordinates]
-    commanded = at_rate(read_motion(motion, joints), rate)
+    commanded = simulation.at_rate(simulation.read_motion(motion, joints), rate)
     return SimulationSettings(hidden=hidden, commanded=commanded, **given)

@@ -12,22 +12,13 @@ from modeler.core.errors import DataError, ModelerError
 from modeler.core.result import Presentation, Presented, present
 from modeler.core.table import Table
 from modeler.estimation.model_file import IdentifiedModel
+from modeler.formulas import values as rules
 from modeler.formulas.cad import CadComparison, KnownAgainstFit, compare_cad, test_known
 from modeler.formulas.physical_system import PhysicalSystem, physical_system
 from modeler.formulas.set_sensitivity import Rated, rated
 from modeler.formulas.solve import ClosedSolution, solve
 from modeler.formulas.sufficient_sets import KnownSets, easiest_set, known_sets, smallest_number
-from modeler.formulas.values import (
-    VERIFIED,
-    DerivedValue,
-    Given,
-    cad_from_file,
-    cad_from_robot,
-    derive_values,
-    given_from_text,
-    impossible,
-    verify,
-)
+from modeler.formulas.values import VERIFIED, DerivedValue, Given, given_from_text
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 
@@ -110,7 +101,7 @@ class Physical(Presented):
         """
         given = given_from_text(known, self.system, "known") if isinstance(known, str) else known
         solution = solve(self.system, given.names)
-        good = verify(solution)
+        good = rules.verify(solution)
         if good != VERIFIED:
             raise ModelerError(
                 f"{self.system.robot}: the formulas failed {VERIFIED - good} of {VERIFIED} exact "
@@ -142,13 +133,15 @@ class Physical(Presented):
         """The values of formulas."""
         fitted = self._with_values()
         data = fitted.data.tolist()
-        derived = derive_values(solution, data, fitted.covariance, given.values, given.sigmas, near)
+        derived = rules.derive_values(
+            solution, data, fitted.covariance, given.values, given.sigmas, near
+        )
         doubts = dict(derived.doubtful)
         for k, letter in enumerate(derived.letters):
             for name, why in fitted.aside.items():
                 if derived.slopes[k, derived.inputs.index(name)] != 0.0:
                     doubts[letter] = f"{letter} needs {name}, and {why}"
-        doubts |= impossible(derived, self.system)
+        doubts |= rules.impossible(derived, self.system)
         tested = test_known(solution, data, fitted.covariance, given.values, given.sigmas)
         return PhysicalValues(self.system, derived, doubts, tuple(tested))
 
@@ -172,9 +165,9 @@ class Physical(Presented):
     def cad(self, file: str | Path = NOMINAL) -> Given:
         """CAD values from a file, or, without one, those that the robot file states."""
         if str(file) != NOMINAL:
-            return cad_from_file(Path(file), self.system)
+            return rules.cad_from_file(Path(file), self.system)
         robot = self.derivation.robot
-        return cad_from_robot(robot, self.system, f"--cad, robot {self.system.robot}")
+        return rules.cad_from_robot(robot, self.system, f"--cad, robot {self.system.robot}")
 
     def against(self, cad: Given | str | Path = NOMINAL) -> CadComparison:
         """The identified quantities against CAD.

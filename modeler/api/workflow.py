@@ -4,15 +4,14 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, Literal
+from typing import Any
 
-from modeler.api.ways import FitRequest, estimated, judged
 from modeler.codegen.derivation import Derivation as Derivation
 from modeler.codegen.derivation import derive as derive
 from modeler.codegen.derivation import generate as generate_robot
 from modeler.codegen.derivation import load as load
 from modeler.core.builtin import builtin_names
-from modeler.core.errors import DataError, ManifestError, Method, Precision, file_and_window
+from modeler.core.errors import DataError, ManifestError, Precision, file_and_window
 from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
@@ -23,12 +22,9 @@ from modeler.estimation.model_file import (
     IdentifiedModel,
     fitted_spec,
     load_model,
-    provenance,
     save_model,
     with_essential_only,
 )
-from modeler.estimation.payload import Payload
-from modeler.estimation.result import FitResult
 from modeler.logs.mapping import LogMap, map_from_table, map_from_words
 from modeler.observation.log import LONG, Log, check_apart
 from modeler.observation.observation import Observation
@@ -199,69 +195,6 @@ def observe(
     given = read_logs(compiled, logs, mapping)
     check_apart(given)
     return observe_logs(compiled, given, processing)
-
-
-def fit(
-    derivation: Derivation,
-    emitted: Emitted,
-    observation: Observation,
-    method: Method | Literal["two-step"] = "weighted",
-    *,
-    energy: bool = False,
-    window: float | None = None,
-    payloads: Sequence[Payload] = (),
-    essential_below: float | None = None,
-) -> IdentifiedModel:
-    """The base parameters from an observation, with all that a model file holds.
-
-    Args:
-        derivation: of the robot.
-        emitted: its C.
-        observation: of its logs.
-        method: one of `estimators()`, or "two-step"; for "tls" see `fit_gains`.
-        energy: True for the energy model, whose rows are windows (docs/energy-model.md).
-        window: their length, s; None: the spacing of the torque model's rows.
-        payloads: loads, each with the names of the logs that carry it.
-        essential_below: percent; parameters whose sigma, in percent of the value, cannot be kept
-            below are left out of the reduced model; None: those that an F-test does not miss.
-
-    Raises:
-        DataError: the derivation, the C and the observation are not of one robot; or see
-            `identify`.
-    """
-    _check_of_one_robot(derivation, emitted, observation)
-    compiled = compile_model(emitted)
-    asked = FitRequest(method, energy, window, tuple(payloads), essential_below)
-    way = estimated(asked, derivation.robot, compiled, observation)
-    return identified(derivation, emitted, observation, judged(compiled, observation, way))
-
-
-def _check_of_one_robot(derivation: Derivation, emitted: Emitted, observation: Observation) -> None:
-    names = tuple(base.name for base in emitted.spec.base)
-    for what, other in (("derivation", derivation.robot.name), ("observation", observation.robot)):
-        if other != emitted.spec.robot:
-            raise DataError(
-                f"fit: the {what} is of {other} and the C of {emitted.spec.robot}; expected one "
-                "robot; derive, generate and observe it again"
-            )
-    if observation.names != names:
-        raise DataError(
-            f"fit: the observation has the base parameters {', '.join(observation.names)}, the C "
-            f"{', '.join(names)}; expected the same; observe with this C"
-        )
-
-
-def identified(
-    derivation: Derivation, emitted: Emitted, observation: Observation, result: FitResult
-) -> IdentifiedModel:
-    """A fit with all that a model file holds."""
-    return IdentifiedModel(
-        robot_text=derivation.robot.text,
-        spec=emitted.spec,
-        sources=emitted.code,
-        fit=result,
-        logs=provenance(observation.report),
-    )
 
 
 def recompile(model: IdentifiedModel) -> CompiledModel:

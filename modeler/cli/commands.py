@@ -1,8 +1,4 @@
-"""What can be typed: one parser for each command, without what the command runs.
-
-Nothing that takes long to load is imported here: `modeler --help`, and the answer to a wrong
-usage, come at once.
-"""
+"""The parser: one for each command of the table, and what it says of a wrong usage."""
 
 import argparse
 from collections.abc import Sequence
@@ -10,42 +6,9 @@ from difflib import get_close_matches
 from typing import NoReturn
 
 from modeler import __version__
+from modeler.cli.command_table import COMMANDS
 from modeler.cli.console import Loudness, write_stdout
-from modeler.cli.identify_arguments import (
-    add_compare,
-    add_estimators,
-    add_fit,
-    add_fleet,
-    add_free_run,
-    add_log,
-)
-from modeler.cli.improve_arguments import (
-    add_add,
-    add_completion,
-    add_diagnose,
-    add_excite,
-    add_simulate,
-)
-from modeler.cli.model_arguments import (
-    add_convert,
-    add_demo,
-    add_derive,
-    add_effects_command,
-    add_generate,
-    add_home,
-    add_physical,
-    add_reproduce,
-    add_robots,
-    add_show,
-)
 from modeler.cli.options import arguments_of, sorted_words, usage_of
-
-_COMMANDS = (
-    add_derive, add_show, add_home, add_generate, add_log, add_fit, add_compare, add_free_run,
-    add_diagnose, add_add, add_fleet, add_physical, add_simulate, add_excite, add_convert,
-    add_robots, add_effects_command, add_estimators, add_reproduce, add_demo, add_completion,
-)  # fmt: skip
-
 
 _EPILOG = """\
 example: modeler derive wrist
@@ -129,8 +92,8 @@ def parser() -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action=_Version, nargs=0, help="print it and stop")
     commands = top.add_subparsers(metavar="COMMAND", required=True, dest="command")
-    for add in _COMMANDS:
-        add(commands)
+    for command in COMMANDS:
+        command.add_to(commands)
     commands.choices["completion"].set_defaults(top=top)
     for each in (top, *commands.choices.values()):
         _add_loudness(each)

@@ -1,10 +1,11 @@
-"""`modeler compare MODEL LOG...`, and several models on the same rows."""
+"""`modeler compare MODEL LOG...`, several models on the same rows, and `modeler free-run`."""
 
 import argparse
+import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from modeler.api.checks import compared
+import modeler.api.checks as checks
 from modeler.api.workflow import Mapped, read_logs, recompile
 from modeler.cli.console import Json, note, progress, say, say_next, working
 from modeler.cli.places import ModelFile
@@ -13,13 +14,17 @@ from modeler.core.estimators import titled
 from modeler.estimation.model_file import IdentifiedModel, load_model, with_essential_only
 from modeler.observation.channels import Fault
 from modeler.observation.findings import findings_of_prediction
-from modeler.observation.log import Log, check_apart
+from modeler.observation.log import check_apart
 from modeler.observation.observation import Observation
-from modeler.report.comparison import write_contest, write_overlays, write_pictures, write_report
+from modeler.report import comparison as pages
+from modeler.report.figure_page import write_files
 from modeler.report.page import Origin, after_compare
 from modeler.runtime.model import CompiledModel
 from modeler.validation.comparison import Comparison, compare
-from modeler.validation.models import check_joints, contest, contest_lines, predict_together
+from modeler.validation.controlled import Gains
+from modeler.validation.free_run import FreeRunSettings, free_run
+from modeler.validation.free_run_result import free_run_pictures
+from modeler.validation.models import check_joints, contest_lines
 from modeler.validation.verdict import looks_like_noise, verdict
 
 _TRAINING = "training only: "
@@ -27,13 +32,12 @@ _TRAINING = "training only: "
 
 def run_compare(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes page and pictures."""
-    if len(models_of(args)) > 1:
-        return run_contest(args)
-    model = load_model(args.model)
-    if args.essential:
-        model = with_essential_only(model, args.model)
+    others = [place for place in args.logs if isinstance(place, ModelFile)]
+    if others:
+        return _run_contest(args, [args.model, *others])
+    model = _loaded(args, args.model)
     with working("predicting"):
-        compiled = model.compile() if args.run_embedded_c else recompile(model)
+        compiled = _compiled(args, model)
     with progress("predicting") as bar:
         comparison, lines, found = judged(model, args.logs, compiled, args.map, bar)
     say(comparison.summary())
@@ -52,11 +56,11 @@ def run_compare(args: argparse.Namespace) -> Json:
     if args.report is not None:
         with working("drawing the page"):
             origin = Origin(args.model, comparison.prediction.logs, held)
-            place = write_report(Path(args.report), comparison, lines, origin, [following])
+            place = pages.write_report(Path(args.report), comparison, lines, origin, [following])
         say(f"written: {place}")
     if args.pictures is not None:
         with progress("drawing pictures") as bar:
-            written = write_pictures(Path(args.pictures), comparison, bar)
+            written = pages.write_pictures(Path(args.pictures), comparison, bar)
         say(f"written: {len(written)} files in {args.pictures}")
     say_next([following])
     return comparison.as_dict() | {"doubts": [fault.line for fault in found]}
@@ -67,7 +71,7 @@ def judged(
     share: Callable[[float], None] = lambda share: None,
 ) -> tuple[Comparison, list[str], tuple[Fault, ...]]:  # fmt: skip
     """The comparison on logs, where everything came from, in lines, and what is wrong with it."""
-    comparison, observation = compared(model, logs, compiled, mapping, share, note)
+    comparison, observation = checks.compared(model, logs, compiled, mapping, share, note)
     fitted = ", ".join(log.name for log in model.logs)
     what = "" if model.fit.energy is None else "energy model, "
     lines = [
@@ -93,16 +97,10 @@ def _training(model: IdentifiedModel, observation: Observation) -> list[str]:
     return [f"{_TRAINING}the model was fitted on {'; '.join(seen)}"] if seen else []
 
 
-def models_of(args: argparse.Namespace) -> list[str]:
-    """All models that were typed: the first, and those among the logs."""
-    return [args.model, *(place for place in args.logs if isinstance(place, ModelFile))]
-
-
-def run_contest(args: argparse.Namespace) -> Json:
+def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
     """Prints the errors by joint and model, and who is better; writes page and pictures."""
-    places = models_of(args)
     logs = [place for place in args.logs if not isinstance(place, ModelFile)]
-    models = [_loaded(place, args.essential) for place in places]
+    models = [_loaded(args, place) for place in places]
     if not logs:
         raise DataError(
             f"{', '.join(places)}: got models only; expected a log too, as in run.csv or "
@@ -113,29 +111,46 @@ def run_contest(args: argparse.Namespace) -> Json:
     with progress("predicting") as bar:
         compiled = []
         for k, model in enumerate(models):
-            compiled.append(model.compile() if args.run_embedded_c else recompile(model))
+            compiled.append(_compiled(args, model))
             bar((k + 1) / (len(models) + 1))
-        read = [read_logs(own, logs, args.map) for own in compiled]
-        check_apart(read[0], places=logs)
-        predictions, _ = predict_together(models, compiled, read, names)
-        found = contest(names, predictions)
-    lines = _provenance(names, models, read[0])
+        found, read = checks.contested(
+            dict(zip(names, models, strict=True)), compiled, logs, args.map, logs
+        )
+    trained = [
+        (name, log.name)
+        for name, model in zip(names, models, strict=True)
+        for log in read
+        if any(used.shares_rows(log) for used in model.logs)
+    ]
+    lines = [
+        f"{name}: {model.spec.robot}, {len(model.beta)} base parameters, fitted on "
+        f"{', '.join(log.name for log in model.logs)}"
+        for name, model in zip(names, models, strict=True)
+    ]
+    lines.append(f"logs: {', '.join(log.name for log in read)}, processed as those of {names[0]}")
+    lines += [
+        f"{_TRAINING}{name} was fitted on rows of {log}, which flatters it" for name, log in trained
+    ]
     for line in (*contest_lines(found), *lines, *(w for model in models for w in model.warning)):
         say(line)
     if args.report is not None:
         with working("drawing the page"):
-            place = write_contest(Path(args.report), found, lines, not _trained(models, read[0]))
+            place = pages.write_contest(Path(args.report), found, lines, not trained)
         say(f"written: {place}")
     if args.pictures is not None:
         with progress("drawing pictures") as bar:
-            written = write_overlays(Path(args.pictures), found, bar)
+            written = pages.write_overlays(Path(args.pictures), found, bar)
         say(f"written: {len(written)} files in {args.pictures}")
-    return compare(predictions[0]).as_dict() | {"models": found.as_dicts(), "doubts": []}
+    return compare(found.predictions[0]).as_dict() | {"models": found.as_dicts(), "doubts": []}
 
 
-def _loaded(place: str, essential: bool) -> IdentifiedModel:
+def _loaded(args: argparse.Namespace, place: str) -> IdentifiedModel:
     model = load_model(place)
-    return with_essential_only(model, place) if essential else model
+    return with_essential_only(model, place) if args.essential else model
+
+
+def _compiled(args: argparse.Namespace, model: IdentifiedModel) -> CompiledModel:
+    return model.compile() if args.run_embedded_c else recompile(model)
 
 
 def _names(places: Sequence[str]) -> list[str]:
@@ -151,26 +166,46 @@ def _names(places: Sequence[str]) -> list[str]:
     return short if len(set(short)) == len(short) else [str(place) for place in places]
 
 
-def _trained(models: Sequence[IdentifiedModel], logs: Sequence[Log]) -> list[tuple[int, str]]:
-    """Models and logs whose rows they were fitted on."""
-    return [
-        (k, log.name)
-        for k, model in enumerate(models)
-        for log in logs
-        if any(used.shares_rows(log) for used in model.logs)
-    ]
+# `modeler free-run MODEL LOG...`.
 
 
-def _provenance(
-    names: Sequence[str], models: Sequence[IdentifiedModel], logs: Sequence[Log]
-) -> list[str]:
-    lines = [
-        f"{name}: {model.spec.robot}, {len(model.beta)} base parameters, fitted on "
-        f"{', '.join(log.name for log in model.logs)}"
-        for name, model in zip(names, models, strict=True)
-    ]
-    lines.append(f"logs: {', '.join(log.name for log in logs)}, processed as those of {names[0]}")
-    return lines + [
-        f"training only: {names[k]} was fitted on rows of {log}, which flatters it"
-        for k, log in _trained(models, logs)
-    ]
+def run_free_run(args: argparse.Namespace) -> Json:
+    """Prints the table and the verdict; writes the pictures."""
+    asked = FreeRunSettings(args.window, args.bound, _gains(args.controller))
+    model = load_model(args.model)
+    with working("deriving the robot of the model"):
+        compiled = recompile(model)
+        logs = read_logs(compiled, args.logs, args.map)
+    check_apart(logs, places=args.logs)
+    with progress("simulating") as bar:
+        found = free_run(model, logs, compiled, asked, bar)
+    for line in (*found.summary().splitlines(), *model.warning):
+        say(line)
+    if args.pictures is not None:
+        with progress("drawing pictures") as bar:
+            written = write_files(Path(args.pictures), free_run_pictures(found), bar)
+        say(f"written: {len(written)} files in {args.pictures}")
+    return found.to_json()
+
+
+def _gains(text: str | None) -> Gains | None:
+    """Of `--controller`."""
+    if text is None:
+        return None
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        values = []
+    if not 2 <= len(values) <= 4 or not all(math.isfinite(v) and v >= 0.0 for v in values):
+        raise DataError(
+            f"--controller {text}: expected two to four numbers that are not negative, as in "
+            "20,0.25 or 20,0.25,1,1: speed loop in Hz, ratio of the position loop, integral, "
+            "feedforward"
+        )
+    if values[0] == 0.0 or values[1] == 0.0:
+        raise DataError(
+            f"--controller {text}: a loop of 0 holds nothing; expected a speed loop and a ratio "
+            "above 0"
+        )
+    speed, ratio, integral, forward = [*values, 0.0, 0.0][:4]
+    return speed, ratio, integral, forward

@@ -2,24 +2,12 @@
 
 import argparse
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from modeler.cli import places
 from modeler.cli.console import Json, say
 from modeler.cli.options import arguments_of, options_of, sorted_words
-from modeler.cli.places import (
-    Input,
-    LogFile,
-    ModelFile,
-    MotionFile,
-    MotionOrKind,
-    Output,
-    OutputFolder,
-    RobotFile,
-    RobotOrModel,
-    log_endings,
-    model_or_log,
-)
 from modeler.core.builtin import MOTIONS, OTHER_PROGRAMS, builtin_names, paper_names
 from modeler.core.estimators import ABOUT
 from modeler.effects.catalogue import CATALOGUE as EFFECTS
@@ -137,31 +125,33 @@ def _values(parser: argparse.ArgumentParser, action: argparse.Action, last: str)
     listed = _LISTED.get(action.dest)
     if listed is not None:
         earlier, comma, current = last.rpartition(",")
-        return [earlier + comma + each for each in _beginning(current, listed())]
+        return [earlier + comma + each for each in _beginning(current, listed)]
     return _places(action.type, last)
 
 
 def _places(kind: object, last: str) -> list[str]:
     """Names and files that an argument of that type takes."""
-    if kind is model_or_log:
-        return _files(last, (".json", *log_endings()))
-    if not isinstance(kind, type) or not issubclass(kind, Input | Output | OutputFolder):
+    if kind is places.model_or_log:
+        return _files(last, (".json", *places.LOG_ENDINGS))
+    if not isinstance(kind, type) or not issubclass(
+        kind, places.Input | places.Output | places.OutputFolder
+    ):
         return []
-    if issubclass(kind, OutputFolder):
+    if issubclass(kind, places.OutputFolder):
         return _files(last, ())
-    if issubclass(kind, Output):
+    if issubclass(kind, places.Output):
         return _files(last, ("",))
     names: Sequence[str] = ()
-    endings: tuple[str, ...] = log_endings()
-    if issubclass(kind, RobotFile):
+    endings: tuple[str, ...] = places.LOG_ENDINGS
+    if issubclass(kind, places.RobotFile):
         names, endings = builtin_names(), (".toml", *OTHER_PROGRAMS)
-        if issubclass(kind, RobotOrModel):
+        if issubclass(kind, places.RobotOrModel):
             endings = (*endings, ".json")
-    elif issubclass(kind, ModelFile):
+    elif issubclass(kind, places.ModelFile):
         endings = (".json",)
-    elif issubclass(kind, MotionOrKind):
+    elif issubclass(kind, places.MotionOrKind):
         names = MOTIONS
-    elif not issubclass(kind, LogFile | MotionFile):
+    elif not issubclass(kind, places.LogFile | places.MotionFile):
         endings = ("",)
     return [*_beginning(last, names), *_files(last, endings)]
 
@@ -189,17 +179,10 @@ def _beginning(start: str, names: Iterable[str]) -> list[str]:
     return [name for name in names if name.startswith(start)]
 
 
-def _effects() -> list[str]:
-    return [effect.id for effect in EFFECTS]
-
-
-_LISTED: dict[str, Callable[[], Iterable[str]]] = {
-    "effect": _effects,
-    "effects": _effects,
-    "without": _effects,
-    "between": _effects,
-    "hide": _effects,
-    "methods": lambda: ABOUT,
-    "paper": paper_names,
+_EFFECT_IDS = tuple(effect.id for effect in EFFECTS)
+_LISTED: dict[str, Iterable[str]] = {
+    **dict.fromkeys(("effect", "effects", "without", "between", "hide"), _EFFECT_IDS),
+    "methods": ABOUT,
+    "paper": paper_names(),
 }
 """Words that are names, by what the argument is called in the code."""

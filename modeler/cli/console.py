@@ -9,20 +9,16 @@ import platform
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, nullcontext, redirect_stdout
+from contextlib import contextmanager
 from contextvars import ContextVar
 from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from modeler import __version__
 from modeler.core.errors import ModelerError
 from modeler.core.files import Kind, destination, write_atomically
 from modeler.core.json import nulled
-
-if TYPE_CHECKING:
-    from rich.console import Console
-
 
 # How much is told beside the results: `--quiet` and `--verbose`.
 
@@ -49,7 +45,7 @@ def loudness() -> Loudness:
     return _LOUDNESS.get()
 
 
-@contextlib.contextmanager
+@contextmanager
 def told(wanted: Loudness) -> Iterator[None]:
     """While this lasts, so much is told; warnings of libraries too."""
     import warnings
@@ -66,23 +62,23 @@ def told(wanted: Loudness) -> Iterator[None]:
         _LOUDNESS.reset(before)
 
 
-@contextlib.contextmanager
+@contextmanager
 def step(title: str) -> Iterator[None]:
     """Told with its seconds, if every step is."""
     if loudness() is not Loudness.VERBOSE:
         yield
         return
     begun = time.perf_counter()
-    _line(f"{title} ...")
+    complain(f"{title} ...")
     how = "stopped"
     try:
         yield
         how = "done"
     finally:
-        _line(f"{title}: {how} after {time.perf_counter() - begun:.2f} s")
+        complain(f"{title}: {how} after {time.perf_counter() - begun:.2f} s")
 
 
-@contextlib.contextmanager
+@contextmanager
 def clock(title: str) -> Iterator[None]:
     """Title and seconds on a terminal, while what could draw a bar is itself being loaded."""
     stream = sys.stderr
@@ -108,22 +104,18 @@ def clock(title: str) -> Iterator[None]:
         ticking.join()
 
 
-def versions() -> list[str]:
-    """What runs here: of this program, of Python, and of what it counts with."""
+def tell_start(words: Sequence[str]) -> None:
+    """The command as it was read, and the versions of what it runs with."""
+    if loudness() is not Loudness.VERBOSE:
+        return
     from importlib.metadata import PackageNotFoundError, version
 
     found = [f"modeler {__version__}", f"Python {platform.python_version()}", platform.platform()]
     for name in _PACKAGES:
         with contextlib.suppress(PackageNotFoundError):
             found.append(f"{name} {version(name)}")
-    return found
-
-
-def tell_start(words: Sequence[str]) -> None:
-    """The command as it was read, and the versions."""
-    if loudness() is Loudness.VERBOSE:
-        _line(f"words: {' '.join(words)}")
-        _line(", ".join(versions()))
+    complain(f"words: {' '.join(words)}")
+    complain(", ".join(found))
 
 
 def tell_error() -> None:
@@ -132,10 +124,6 @@ def tell_error() -> None:
         import traceback
 
         _raw(traceback.format_exc())
-
-
-def _line(text: str) -> None:
-    _raw(f"modeler: {text}\n")
 
 
 def _raw(text: str) -> None:
@@ -196,10 +184,7 @@ def flush_stdout() -> None:
 
 def complain(text: str) -> None:
     """One line on stderr; if that cannot be written, the exit status has to do."""
-    with contextlib.suppress(OSError, ValueError):
-        if sys.stderr is not None:
-            sys.stderr.write(f"modeler: {text}\n")
-            sys.stderr.flush()
+    _raw(f"modeler: {text}\n")
 
 
 def note(text: str) -> None:
@@ -235,7 +220,7 @@ def run_command(args: argparse.Namespace, run: Callable[[argparse.Namespace], Js
     "-" is stdout, and so is /dev/stdout; it then carries the JSON alone.
     """
     alone = args.json is not None and _is_stdout(args.json)
-    with redirect_stdout(io.StringIO()) if alone else nullcontext():
+    with contextlib.redirect_stdout(io.StringIO()) if alone else contextlib.nullcontext():
         content = run(args)
     if args.json is not None:
         text = json.dumps(nulled(content), indent=1, allow_nan=False) + "\n"
@@ -276,26 +261,17 @@ def working(title: str) -> Iterator[None]:
 def _bar(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
     """A bar on a terminal; it moves to and fro where nobody knows the share."""
     hidden = loudness() is Loudness.QUIET or _SHOWN.get()
-    console = None if hidden else _terminal()
-    if console is None:
+    if hidden or sys.stderr is None or not sys.stderr.isatty():
         yield lambda share: None
         return
+    from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
     before = _SHOWN.set(True)
     try:
-        with Progress(*columns, console=console, transient=True) as bar:
+        with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
             task = bar.add_task(title, total=total)
             yield lambda share: bar.update(task, completed=share)
     finally:
         _SHOWN.reset(before)
-
-
-def _terminal() -> "Console | None":
-    """Stderr, if somebody looks at it."""
-    if sys.stderr is None or not sys.stderr.isatty():
-        return None
-    from rich.console import Console
-
-    return Console(stderr=True)

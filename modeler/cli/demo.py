@@ -4,10 +4,11 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeler.api.workflow import compile_model, derive, fit, generate, load, observe, read_logs
-from modeler.cli.add import waterfall
+from modeler.api.fitting import fit
+from modeler.api.workflow import compile_model, derive, generate, load, observe, read_logs
 from modeler.cli.compare import judged
 from modeler.cli.console import Json, progress, say, working
+from modeler.cli.improve import waterfall
 from modeler.diagnosis.add import add_findings
 from modeler.diagnosis.added_model import Logs
 from modeler.diagnosis.diagnosis import diagnose
@@ -61,7 +62,13 @@ def _told(story: Story, out: Path, args: argparse.Namespace) -> Json:
     kinds = ", ".join(f"{count} {kind}" for kind, count in derivation.base.counts().items())
     say(f"   {derivation.base.rank} base parameters ({kinds}), proof: {derivation.base.proof.kind}")
     say(f"2. simulate two runs of {args.duration:g} s; the machine has something the file lacks")
-    train, held_out = (_simulated(story, out, name, seed, args.duration) for name, seed in _RUNS)
+    for name, seed in _RUNS:
+        settings = SimulationSettings(
+            duration=args.duration, seed=seed, torque_noise=story.noise, hidden=(story.hidden,)
+        )
+        with progress(f"simulating {name}") as report:
+            write_log(out / f"{name}.parquet", simulate(load(story.robot), settings, report))
+    train, held_out = (out / f"{name}.parquet" for name, _ in _RUNS)
     say(f"3. fit to {train.name}, compare with {held_out.name}")
     with working("fitting"):
         model = fit(derivation, emitted, observe(compiled, [train]))
@@ -73,21 +80,14 @@ def _told(story: Story, out: Path, args: argparse.Namespace) -> Json:
         found = diagnose(model, compiled, logs.fitted, logs.held_out, progress=bar)
     for line in lines(found):
         say(f"   {line}")
-    _diagnosed(out, found, (train, held_out))
+    place = str(out / "model.json")
+    origin = Origin(place, [train.name, held_out.name], held_out=True)
+    following = after_diagnosis(place, [str(train)], [str(held_out)], found)
+    write_diagnosis(out / "diagnosis.html", found, (), origin, following)
     better = _improved(model, compiled, found, logs, out)
     say(f"   the truth: {story.hidden.effect} on joint {story.hidden.joint}\n")
     say(f"open {out / 'diagnosis.html'} and {out / 'improved.html'} in a browser\n")
     return found.to_json() | {"waterfall": [step.to_json() for step in better.history]}
-
-
-def _simulated(story: Story, out: Path, name: str, seed: int, duration: float) -> Path:
-    settings = SimulationSettings(
-        duration=duration, seed=seed, torque_noise=story.noise, hidden=(story.hidden,)
-    )
-    with progress(f"simulating {name}") as report:
-        log = simulate(load(story.robot), settings, report)
-    write_log(out / f"{name}.parquet", log)
-    return out / f"{name}.parquet"
 
 
 def _compared(model: IdentifiedModel, compiled: CompiledModel, out: Path, log: Path) -> None:
@@ -104,13 +104,6 @@ def _compared(model: IdentifiedModel, compiled: CompiledModel, out: Path, log: P
         )  # fmt: skip
     with progress("drawing pictures") as bar:
         write_pictures(out / "pictures", comparison, bar)
-
-
-def _diagnosed(out: Path, found: Diagnosis, logs: tuple[Path, Path]) -> None:
-    place, (train, held) = str(out / "model.json"), map(str, logs)
-    origin = Origin(place, [log.name for log in logs], held_out=True)
-    following = after_diagnosis(place, [train], [held], found)
-    write_diagnosis(out / "diagnosis.html", found, (), origin, following)
 
 
 def _improved(

@@ -2,56 +2,181 @@
 
 import argparse
 import dataclasses
+import re
 import textwrap
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from modeler.cli.console import Json, complain, say, working
-from modeler.cli.formula_output import Words, check_loops, check_request, forms_wanted
 from modeler.cli.lists import robot_of, robot_with_effects
-from modeler.cli.options import Form
+from modeler.cli.options import FEW_JOINTS, Form
 from modeler.codegen.derivation import Derivation, derive, generate
-from modeler.core.errors import DataError, RobotError
-from modeler.core.manifest import Emitted, FittedSpec, FunctionSpec
+from modeler.core.errors import DataError, ModelerError, RobotError
+from modeler.core.files import write_atomically
+from modeler.core.formula import latex_text
+from modeler.core.manifest import FunctionSpec
+from modeler.derivation import relations
 from modeler.derivation.columns import LinkColumn
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.numeric_rank import random_states, regressor_values
-from modeler.derivation.relations import (
-    as_json,
-    as_latex,
-    as_markdown,
-    as_text,
-    proof_paragraphs,
-    proof_text,
-    relation_formula,
-)
 from modeler.derivation.result import BaseParameters
-from modeler.robot.robot import Robot
+from modeler.formulas import coefficients, function_sheet, render
+from modeler.formulas.closed_form import ClosedForm, closed_form
+from modeler.formulas.print_report import terms_report
+from modeler.formulas.regressor_form import equation_of, nonzero_base
 
 if TYPE_CHECKING:
     from modeler.estimation.model_file import IdentifiedModel
 
+# Words around printed formulas: as they are, as comments of LaTeX, or as a whole document.
+
+
+_BEGIN = r"""\documentclass{article}
+\usepackage{amsmath}
+\setlength{\parindent}{0pt}
+\begin{document}
+\raggedright"""
+_END = r"\end{document}"
+
+
+class Words:
+    """Prints what is said and the formulas between, so that LaTeX takes all of it.
+
+    A fragment has its words as comments, a document as text. In both, displays may go on over the
+    end of a page.
+    """
+
+    def __init__(self, form: Form, document: bool = False) -> None:
+        """Begins to print.
+
+        Args:
+            form: of the formulas.
+            document: with LaTeX: a whole document instead of a fragment.
+        """
+        self.form, self.document = form, document
+        self._paragraph = False
+        if document:
+            say(_BEGIN)
+        if form == "latex":
+            say(r"\begingroup\allowdisplaybreaks")
+
+    def title(self, text: str) -> None:
+        """What all of it is about."""
+        say(rf"\section*{{{latex_text(text)}}}") if self.document else self.say(text)
+
+    def heading(self, text: str) -> str:
+        """The title of a group of formulas in LaTeX."""
+        return rf"\paragraph{{{_breakable(text)}}}" if self.document else f"% {text}"
+
+    def say(self, text: str = "") -> None:
+        """Lines that are no formulas; in a document one paragraph."""
+        if self.document:
+            if text:
+                say(("\n" if self._paragraph else "") + _breakable(" ".join(text.split())))
+            self._paragraph = self._paragraph or bool(text)
+        elif self.form == "latex":
+            for line in text.splitlines() or [""]:
+                say(f"% {line}".rstrip())
+        else:
+            say(text)
+
+    def formulas(self, text: str) -> None:
+        """What is already written in the form."""
+        self._paragraph = False
+        say(text.rstrip("\n") if self.form == "latex" else text)
+
+    def end(self) -> None:
+        """Nothing more follows."""
+        if self.form == "latex":
+            say(r"\endgroup")
+        if self.document:
+            say(_END)
+
+
+def _breakable(text: str) -> str:
+    """Formulas in words have no spaces; a line may end behind their signs."""
+    return re.sub(r"(\*+|\\_|/)", r"\1\\allowbreak{}", latex_text(text))
+
+
+# What `modeler derive` was asked for besides relations and proof, and what it refuses.
+
+
+def check_request(args: argparse.Namespace) -> None:
+    """Refuses options that would do nothing.
+
+    Raises:
+        ModelerError: they stand without what they change.
+    """
+    if args.nonzero and not (args.closed_form or args.regressor):
+        raise ModelerError("--nonzero changes nothing by itself; add --closed-form or --regressor")
+    if args.expanded and not (args.closed_form or args.terms):
+        raise ModelerError("--expanded changes nothing by itself; add --closed-form or --terms")
+    if args.document and args.format != "latex":
+        raise ModelerError("--document is a whole page of LaTeX; add --format latex")
+
+
+def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
+    """Refuses what has no meaning for loops.
+
+    Raises:
+        ModelerError: coefficients or expanded forms are asked for.
+    """
+    looped = derivation.model.closure is not None
+    if looped and (args.terms or args.report is not None or args.expanded):
+        raise ModelerError(
+            f"{derivation.robot.name}: coefficients and expanded forms are written for robots "
+            "whose loops, if any, follow linear relations; leave out --terms, --report and "
+            "--expanded, or ask for --closed-form, which has J_t and J_p"
+        )
+
+
+MANY = 200
+"""Coefficients up to which all are listed; of more, those from which the others follow."""
 
 _FORMS: dict[Form, Callable[[BaseParameters], str]] = {
-    "text": as_text,
-    "latex": as_latex,
-    "markdown": as_markdown,
+    "text": relations.as_text,
+    "latex": relations.as_latex,
+    "markdown": relations.as_markdown,
 }
+_CLOSED_FORMS: dict[Form, Callable[[ClosedForm], str]] = {
+    "text": render.closed_form_text,
+    "latex": render.closed_form_latex,
+    "markdown": render.closed_form_markdown,
+}
+_SHEETS: dict[Form, Callable[[function_sheet.Sheet, Words], str]] = {
+    "text": lambda sheet, _: "\n".join(function_sheet.sheet_lines(sheet)),
+    "latex": lambda sheet, words: function_sheet.sheet_latex(sheet, words.heading),
+    "markdown": lambda sheet, _: function_sheet.sheet_markdown(sheet),
+}
+_TABLES: dict[Form, Callable[[coefficients.CoefficientTable], str]] = {
+    "text": render.coefficients_text,
+    "latex": render.coefficients_latex,
+    "markdown": render.coefficients_markdown,
+}
+_WIDTH = 96
+_COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
 
 
 def run_derive(args: argparse.Namespace) -> Json:
     """Prints relations, proof, and for small robots the coefficients."""
     check_request(args)
-    robot = _opened(args) if args.open else robot_of(args)
+    if args.open:  # the tree of loops that are not closed: every joint has a torque
+        robot = robot_with_effects(args)
+        if not robot.loops:
+            raise RobotError(f"--open: {robot.name} has no loops to cut; leave --open out")
+        title = f"{robot.title}, its loops cut open"
+        robot = dataclasses.replace(robot.opened(), title=title)
+    else:
+        robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
         check_loops(args, derivation)
         opinion = second_opinion(derivation)
     base = derivation.base
-    result = as_json(robot.name, base) | {"newton_euler_against_lagrange": opinion}
+    result = relations.as_json(robot.name, base) | {"newton_euler_against_lagrange": opinion}
     counts = ", ".join(f"{n} {kind}" for kind, n in base.counts().items() if n)
     words = Words(args.format, args.document)
     words.title(f"{robot.name}: {robot.title}")
@@ -61,12 +186,9 @@ def run_derive(args: argparse.Namespace) -> Json:
     words.say()
     words.formulas(_FORMS[args.format](base))
     words.say()
-    words.say(proof_text(base.proof))
+    words.say(relations.proof_text(base.proof))
     words.say(_agreement(opinion))
-    if forms_wanted(args, derivation):
-        from modeler.cli.formula_output import say_closed_forms  # it takes long to load
-
-        result |= say_closed_forms(args, derivation, words)
+    result |= say_closed_forms(args, derivation, words)
     if args.page is not None:
         words.say(f"written: {_page(args, derivation, opinion)}")
     words.end()
@@ -78,29 +200,20 @@ def _page(args: argparse.Namespace, derivation: Derivation, opinion: float) -> P
 
     base = derivation.base
     units = (base.columns[parameter.column].unit for parameter in base.parameters)
-    relations = [relation_formula(parameter) for parameter in base.parameters]
+    formulas = [relations.relation_formula(parameter) for parameter in base.parameters]
     derived = Derived(
-        relations=list(zip(relations, units, strict=True)),
+        relations=list(zip(formulas, units, strict=True)),
         standard=len(base.columns),
         counts=base.counts(),
         unidentifiable=base.unidentifiable,
         tied=_tied_lines(derivation.model),
-        proof=(base.proof.kind, [*proof_paragraphs(base.proof), _agreement(opinion)]),
+        proof=(base.proof.kind, [*relations.proof_paragraphs(base.proof), _agreement(opinion)]),
     )
     return write_derivation(Path(args.page), derivation.robot, derived, args.robot)
 
 
 def _agreement(opinion: float) -> str:
     return f"Newton-Euler against Lagrange: {opinion:.1e} of the largest torque"
-
-
-def _opened(args: argparse.Namespace) -> Robot:
-    """The tree of a robot whose loops are not closed: every joint of its table has a torque."""
-    robot = robot_with_effects(args)
-    if not robot.loops:
-        raise RobotError(f"--open: {robot.name} has no loops to cut; leave --open out")
-    title = f"{robot.title}, its loops cut open"
-    return dataclasses.replace(robot.opened(), title=title)
 
 
 def _tied_lines(model: SymbolicModel) -> list[str]:
@@ -111,11 +224,10 @@ def _tied_lines(model: SymbolicModel) -> list[str]:
     names = ", ".join(f"q{joint.name}" for joint in robot.coordinates)
     lines = [f"coordinates: {names}"]
     if robot.relations:
-        relations = [f"q{name} = {relation.text}" for name, relation in robot.relations.items()]
+        tied = "; ".join(f"q{name} = {tie.text}" for name, tie in robot.relations.items())
         lines += textwrap.wrap(
-            "relations: " + "; ".join(relations), 96, subsequent_indent=" " * 11,
-            break_long_words=False,
-        )  # fmt: skip
+            f"relations: {tied}", _WIDTH, subsequent_indent=" " * 11, break_long_words=False
+        )
     closure = model.closure
     if closure is not None:
         lines.append(
@@ -143,22 +255,117 @@ def second_opinion(derivation: Derivation, samples: int = 50) -> float:
     return float(np.max(np.abs(tau - other))) / largest if largest else 0.0
 
 
+def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Words) -> Json:
+    """Prints what was asked for; for few joints the coefficients unasked.
+
+    Returns:
+        What is added to the JSON: "closed_form" and "regressor" as asked for.
+    """
+    model, base = derivation.model, derivation.base
+    if args.nonzero:
+        base = nonzero_base(model, base)
+    added: Json = {}
+    if args.closed_form and args.expanded:
+        words.say()
+        closed = closed_form(model, base)
+        if args.format == "latex":
+            words.say(render.equation(closed))
+        words.formulas(_CLOSED_FORMS[args.format](closed))
+    motion = args.closed_form and not args.expanded
+    asked = {"closed_form": motion, "regressor": args.regressor}
+    if any(asked.values()):
+        found = equation_of(model, base, motion=motion, columns=args.regressor)
+        mark = _COMMENT[args.format]
+        words.say()
+        for line in found.words:
+            indent = mark + "  " if mark != "* " else "  "
+            words.say(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))
+        words.say()
+        words.formulas(_SHEETS[args.format](found.sheet, words))
+        told = {"equation": list(found.words), **function_sheet.sheet_json(found.sheet)}
+        added |= {key: told for key, wanted in asked.items() if wanted}
+    few = len(model.robot.coordinates) <= FEW_JOINTS and model.closure is None
+    unasked = few and args.format == "text" and not (args.closed_form or args.regressor)
+    wanted = unasked if args.terms is None else args.terms
+    if wanted:
+        _say_coefficients(args, derivation, words)
+    if args.report is not None:
+        write_atomically(Path(args.report), terms_report(model, derivation.base))
+        words.say(f"written: {args.report}")
+    return added
+
+
+def _say_coefficients(args: argparse.Namespace, derivation: Derivation, words: Words) -> None:
+    # What was not asked for must not take away what was.
+    unasked = args.terms is None and args.report is None
+    try:
+        table = coefficients.coefficient_table(derivation.model, derivation.base)
+        few = args.expanded or len(table.coefficients) <= MANY
+        shown, lines = table if few else coefficients.independent_coefficients(table), _facts(table)
+    except ModelerError as error:
+        if not unasked:
+            raise
+        words.say()
+        words.say(f"no coefficients: {error}")
+        return
+    if not few:
+        lines.insert(
+            0,
+            f"listed: {len(shown.coefficients)} of {len(table.coefficients)} coefficients, from "
+            "which the others follow; --expanded lists all",
+        )
+    words.say()
+    words.formulas(_TABLES[args.format](shown))
+    words.say()
+    for line in lines:
+        words.say(line)
+
+
+def _facts(table: coefficients.CoefficientTable) -> list[str]:
+    """How many coefficients, what they tell, and what follows from what."""
+    first = [coefficient.function[0] for coefficient in table.coefficients]
+    counts = {"PG": first.count("g"), "PJ": first.count("J"), "PS": first.count("S")}
+    found = table.identifiability
+    lines = [
+        f"{len(first)} coefficients ("
+        + ", ".join(f"{n} {letter}" for letter, n in counts.items())
+        + f"), rank {table.relations.rank}: {' '.join(table.relations.independent)}",
+        f"{len(found.appearing)} of {len(found.letters)} physical parameters appear; without "
+        f"effect: {' '.join(found.vanishing) or 'none'}",
+    ]
+    lines += [f"only together: {' '.join(group)}" for group in found.sums]
+    size, determinant = len(table.map.rows), render.determinant_text(table)
+    if determinant is not None:
+        lines += [f"map to the base parameters, {size} x {size}, determinant {determinant}:"]
+        lines += [f"  {line}" for line in render.backward_lines(table)]
+    return lines
+
+
 # `modeler generate ROBOT|MODEL --out DIR`.
 
 
 def run_generate(args: argparse.Namespace) -> Json:
     """Writes the folder and says what is in it."""
+    kinds = {"precision": args.precision, "cuda": args.cuda}
     model = _model(args)
-    emitted = _written(args, model)
+    if model is not None:
+        from modeler.api.workflow import generate as generate_of_model
+
+        with working(f"deriving {model.spec.robot}"):
+            emitted = generate_of_model(model, args.out, args.force, **kinds)
+        for line in model.warning:
+            complain(line)
+    else:
+        robot = robot_of(args)
+        with working(f"deriving {robot.name}"):
+            emitted = generate(derive(robot), args.out, args.force, **kinds)
     spec, fitted = emitted.spec, emitted.spec.fitted
-    for line in () if model is None else model.warning:
-        complain(line)
     single = ", single precision" if spec.precision == "single" else ""
     say(f"{spec.robot}: {len(spec.base)} base parameters{single}, written to {args.out}:")
     for name in sorted(emitted.files):
         say(f"  {name}")
     for function in spec.functions:
-        say(_told(function))
+        say(_function_line(function))
     from modeler.codegen.package import leftovers  # jinja2, which `derive` has no use for
 
     for name in leftovers(emitted, args.out):
@@ -167,7 +374,18 @@ def run_generate(args: argparse.Namespace) -> Json:
             "was edited since, so it stays: remove it, or keep it elsewhere"
         )
     result = {"robot": spec.robot, "folder": args.out, "files": sorted(emitted.files)}
-    return result if fitted is None else result | _say_fitted(fitted)
+    if fitted is None:
+        return result
+    say(f"with the fitted values, signature {fitted.signature}:")
+    for function in fitted.functions:
+        say(_function_line(function))
+    if fitted.widths:
+        say(f"  widths of the Coulomb friction: {', '.join(fitted.widths)}")
+    return result | {
+        "fitted_signature": fitted.signature,
+        "usable": fitted.usable,
+        "doubts": list(fitted.doubts),
+    }
 
 
 def _model(args: argparse.Namespace) -> "IdentifiedModel | None":
@@ -184,36 +402,7 @@ def _model(args: argparse.Namespace) -> "IdentifiedModel | None":
     return load_model(args.robot)
 
 
-def _written(args: argparse.Namespace, model: "IdentifiedModel | None") -> Emitted:
-    if model is not None:
-        from modeler.api.workflow import generate as generate_of_model
-
-        with working(f"deriving {model.spec.robot}"):
-            return generate_of_model(model, args.out, args.force, **_kinds(args))
-    robot = robot_of(args)
-    with working(f"deriving {robot.name}"):
-        return generate(derive(robot), args.out, args.force, **_kinds(args))
-
-
-def _kinds(args: argparse.Namespace) -> dict[str, Any]:
-    return {"precision": args.precision, "cuda": args.cuda}
-
-
-def _say_fitted(fitted: FittedSpec) -> dict[str, Json]:
-    """What has the values."""
-    say(f"with the fitted values, signature {fitted.signature}:")
-    for function in fitted.functions:
-        say(_told(function))
-    if fitted.widths:
-        say(f"  widths of the Coulomb friction: {', '.join(fitted.widths)}")
-    return {
-        "fitted_signature": fitted.signature,
-        "usable": fitted.usable,
-        "doubts": list(fitted.doubts),
-    }
-
-
-def _told(function: FunctionSpec) -> str:
+def _function_line(function: FunctionSpec) -> str:
     return (
         f"  {function.name}: {function.equation} ({function.additions} additions, "
         f"{function.multiplications} multiplications)"

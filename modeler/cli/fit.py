@@ -1,119 +1,41 @@
-"""`modeler fit ROBOT LOG... --out MODEL`."""
+"""`modeler fit ROBOT LOG... --out MODEL`, and `modeler estimators`: all on the same logs."""
 
 import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 
-from modeler.api.fitting import Load, found_with_gains
-from modeler.api.ways import OF_WINDOWS, WITHOUT_LOADS, FitRequest, estimated, judged
-from modeler.api.workflow import compile_model, derive, generate, identified, read_logs
-from modeler.cli.console import Json, say, say_next, working
+import modeler.api.fitting as fitting
+import modeler.api.long_logs as long_logs
+from modeler.api.workflow import compile_model, derive, generate, read_logs
+from modeler.cli.console import Json, note, progress, say, say_next, working
 from modeler.cli.lists import robot_of
-from modeler.cli.long_logs import fit_if_long
 from modeler.codegen.derivation import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError
+from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
+from modeler.core.jobs import open_workers
+from modeler.core.manifest import Emitted
+from modeler.core.table import aligned
+from modeler.estimation.long_logs import OF_TRIANGLES
 from modeler.estimation.model_file import IdentifiedModel, save_model
-from modeler.estimation.payload import Payload
-from modeler.estimation.result import FitResult
+from modeler.estimation.side_by_side import side_by_side
 from modeler.observation.log import Log, check_apart
 from modeler.observation.observation import Observation, observe
 from modeler.observation.processing import Processing
+from modeler.observation.survey import WholeNeeded
+from modeler.report.estimators import table_of, values_of, write_estimators
 from modeler.report.page import after_fit
 from modeler.robot.edit import with_parameters
 from modeler.robot.read import robot_from_text
-from modeler.robot.robot import INERTIAL, Robot
+from modeler.robot.robot import INERTIAL
 from modeler.runtime.model import CompiledModel
 
-# `modeler fit ROBOT LOG... --payload-log LOG --payload-mass KG --method tls`.
 
-
-Checked = Callable[[argparse.Namespace, Sequence[Log], Sequence[Log]], None]
-"""Refuses logs that do not belong together."""
-
-
-def fit_with_gains(
-    args: argparse.Namespace,
-    derivation: Derivation,
-    compiled: CompiledModel,
-    processing: Processing,
-    check: Checked,
-) -> tuple[IdentifiedModel, Observation]:
-    """The model whose robot file has the drive gains that the logs tell."""
-    check_load(args)
-    return found_with_gains(
-        derivation, compiled, args.logs, _load(args), processing,
-        lambda logs, loaded: check(args, logs, loaded), working, args.map,
-    )  # fmt: skip
-
-
-def check_load(args: argparse.Namespace) -> None:
-    """Nothing, if a loaded log and the mass of its load are given.
-
-    Raises:
-        DataError: says which is missing.
-    """
-    if not args.payload_log:
-        raise DataError(
-            "--method tls: no loaded log; the gains of drives show in what a load of known mass "
-            "adds to their currents; add --payload-log LOG --payload-mass KG"
-        )
-    if args.payload_mass is None:
-        raise DataError(
-            "--method tls: no --payload-mass; without a known mass all gains and all parameters "
-            "may be larger by one factor; weigh the load and give its mass in kg"
-        )
-
-
-def carried(args: argparse.Namespace, loaded: Sequence[Log]) -> list[Payload]:
-    """The load of the loaded logs; one for each if it was taken off in between."""
-    return _load(args).payloads(loaded)
-
-
-def _load(args: argparse.Namespace) -> Load:
-    return Load(args.payload_log, args.payload_mass, args.payload_link, args.payload_moved)
-
-
-# The options of `modeler fit` that choose a way to fit.
-
-
-def asked(args: argparse.Namespace, loaded: Sequence[Log]) -> FitRequest:
-    """What the options ask for."""
-    payloads = tuple(carried(args, loaded)) if loaded else ()
-    return FitRequest(
-        args.method, args.model == "energy", args.window, payloads, args.essential_below
-    )
-
-
-def check_way(args: argparse.Namespace) -> None:
-    """Refuse options that do not go together."""
-    for option in ("payload_mass", "payload_link", "payload_moved"):
-        value = getattr(args, option)
-        if value is not None and value is not False and not args.payload_log:  # 0 is given too
-            flag = "--" + option.replace("_", "-")
-            raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
-    if args.payload_log and args.method in WITHOUT_LOADS:
-        raise DataError(
-            f"--payload-log: got it with --method {args.method}, which knows no loads; expected "
-            "--method weighted, ordinary, robust, ridge or tls"
-        )
-    if args.method == GAIN_METHOD and args.essential_below is not None:
-        raise DataError(f"--essential-below: got it with --method {GAIN_METHOD}; leave it out")
-    if args.model != "energy" and args.window is not None:
-        raise DataError("--window: only windows of --model energy have a length; add that option")
-    if args.model == "energy" and args.method not in OF_WINDOWS:
-        raise DataError(
-            f"--method {args.method}: got it with --model energy, whose rows are windows; expected "
-            "--method weighted or ordinary"
-        )
-    if args.model == "energy" and args.payload_log:
-        raise DataError(
-            "--payload-log: the energy model takes logs without load; leave out --model energy"
-        )
-
-
-def _processing(args: argparse.Namespace) -> Processing:
-    return Processing(
+def run_fit(args: argparse.Namespace) -> Json:
+    """Fits, prints the table, saves the model."""
+    _check_options(args)
+    processing = Processing(
         position_cutoff=args.cutoff,
         parallel_cutoff=args.parallel_cutoff,
         decimation=args.decimate,
@@ -123,36 +45,127 @@ def _processing(args: argparse.Namespace) -> Processing:
         keep_contradicted=args.keep_contradicted,
         keep_damaged=args.keep_damaged,
     )
-
-
-def run_fit(args: argparse.Namespace) -> Json:
-    """Fits, prints the table, saves the model."""
-    check_way(args)
-    _check_robot_out(args)
-    if args.method == GAIN_METHOD:
-        check_load(args)
-    processing = _processing(args)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
         emitted = generate(derivation)
         compiled = compile_model(emitted)
+    load = fitting.Load(args.payload_log, args.payload_mass, args.payload_link, args.payload_moved)
     if args.method == GAIN_METHOD:
-        found = fit_with_gains(args, derivation, compiled, processing, _check_given)
+        found = fitting.found_with_gains(
+            derivation, compiled, args.logs, load, processing,
+            lambda logs, loaded: _check_given(args, logs, loaded), working, args.map,
+        )  # fmt: skip
         return _written(args, *found)
-    if (long := fit_if_long(args, derivation, emitted, compiled, processing)) is not None:
+    if (long := _fit_if_long(args, derivation, emitted, compiled, processing)) is not None:
         return _written(args, *long)
     with working("building the observation matrix"):
         logs = read_logs(compiled, args.logs, args.map)
         loaded = read_logs(compiled, args.payload_log, args.map)
         _check_given(args, logs, loaded)
         observation = observe(compiled, [*logs, *loaded], processing)
-    with working("estimating"):
-        way = estimated(asked(args, loaded), robot, compiled, observation)
-    with working("judging the fit"):
-        result = judged(compiled, observation, way)
-    model = identified(derivation, emitted, observation, result)
+    payloads = tuple(load.payloads(loaded)) if loaded else ()
+    asked = fitting.FitRequest(
+        args.method, args.model == "energy", args.window, payloads, args.essential_below
+    )
+    model, way = fitting.fitted(asked, derivation, emitted, compiled, observation, working)
     return _written(args, model, observation, way.lines) | way.further
+
+
+def _check_options(args: argparse.Namespace) -> None:
+    """Refuses options that do not go together."""
+    for option in ("payload_mass", "payload_link", "payload_moved"):
+        value = getattr(args, option)
+        if value is not None and value is not False and not args.payload_log:  # 0 is given too
+            flag = "--" + option.replace("_", "-")
+            raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
+    method, energy, gains = args.method, args.model == "energy", args.method == GAIN_METHOD
+    refusals = (
+        (args.payload_log and method in fitting.WITHOUT_LOADS,
+         f"--payload-log: got it with --method {method}, which knows no loads; expected --method "
+         "weighted, ordinary, robust, ridge or tls"),
+        (gains and args.essential_below is not None,
+         f"--essential-below: got it with --method {GAIN_METHOD}; leave it out"),
+        (not energy and args.window is not None,
+         "--window: only windows of --model energy have a length; add that option"),
+        (energy and method not in fitting.OF_WINDOWS,
+         f"--method {method}: got it with --model energy, whose rows are windows; expected "
+         "--method weighted or ordinary"),
+        (energy and args.payload_log,
+         "--payload-log: the energy model takes logs without load; leave out --model energy"),
+        (args.robot_out is not None and method not in ("consistent", GAIN_METHOD),
+         f"--robot-out: --method {method} ends in base parameters, of which many machines have "
+         "the same; use --method consistent, which ends in all standard parameters, or "
+         f"{GAIN_METHOD}, which finds drive gains"),
+        (gains and not args.payload_log,
+         "--method tls: no loaded log; the gains of drives show in what a load of known mass adds "
+         "to their currents; add --payload-log LOG --payload-mass KG"),
+        (gains and args.payload_mass is None,
+         "--method tls: no --payload-mass; without a known mass all gains and all parameters may "
+         "be larger by one factor; weigh the load and give its mass in kg"),
+    )  # fmt: skip
+    for refused, why in refusals:
+        if refused:
+            raise DataError(why)
+
+
+def _check_given(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence[Log]) -> None:
+    check_apart([*logs, *loaded], places=[*args.logs, *args.payload_log])
+    places = {log.name: place for place, log in zip(args.logs, logs, strict=True)}
+    for place, log in zip(args.payload_log, loaded, strict=True):
+        if log.name in places:
+            raise DataError(
+                f"{place}: carries the load, and {places[log.name]} has the same file name; "
+                "rename one, loads are assigned by name"
+            )
+
+
+def _fit_if_long(
+    args: argparse.Namespace,
+    derivation: Derivation,
+    emitted: Emitted,
+    compiled: CompiledModel,
+    processing: Processing,
+) -> tuple[IdentifiedModel, Observation] | None:
+    """The model of long logs, read in chunks; None where all rows are to be in memory.
+
+    Raises:
+        DataError: they are more rows than a way to fit that needs all of them may have.
+    """
+    places = [*args.logs, *args.payload_log]
+    if args.dask is None and not long_logs.are_long(places):
+        return None
+    whole = "--essential-below" if args.essential_below is not None else ""
+    if whole or args.method not in OF_TRIANGLES or args.model == "energy" or args.payload_log:
+        if args.dask is not None:
+            way = "--model energy" if args.model == "energy" else f"--method {args.method}"
+            raise DataError(
+                f"--dask {args.dask}: got {'--payload-log' if args.payload_log else whole or way}, "
+                f"which needs all rows in one memory; expected --method "
+                f"{' or '.join(OF_TRIANGLES)} of the torque model; leave --dask out"
+            )
+        long_logs.check_whole(places, whole or f"method {args.method}")
+        return None
+    cluster = nullcontext() if args.dask is None else open_workers(args.dask)
+    try:
+        with progress("reading and reducing") as bar, cluster as workers:
+            sources = long_logs.sources_of(compiled, args.logs, args.map)
+            reducer = None if workers is None else long_logs.by_workers(workers, emitted)
+            here = [each.name for each in sources if not long_logs.from_anywhere(each)]
+            if workers is not None and here:
+                note(
+                    f"--dask: {', '.join(here)}: read and reduced by this process; workers can "
+                    "begin in the middle of Parquet files only"
+                )
+            model, streamed = long_logs.fit_long(
+                derivation, emitted, compiled, sources, args.method, processing, bar, reducer
+            )
+    except WholeNeeded as error:
+        if long_logs.too_long(places):
+            raise
+        note(f"{error}; read as a whole instead")
+        return None
+    return model, streamed.observation
 
 
 def _written(
@@ -174,7 +187,14 @@ def _written(
         place = write_fit(Path(args.report), model, observation.report.lines(), args.out, following)
         say(f"written: {place}")
     if args.robot_out is not None:
-        stated = _own(robot_from_text(model.robot_text, "robot of the model"), model.fit)
+        robot = robot_from_text(model.robot_text, "robot of the model")
+        # Of inertial parameters only those that the robot file may state.
+        stateable = {
+            f"{prefix}{joint.name}": prefix in robot.inertial(joint.name)
+            for joint in robot.moving
+            for prefix in INERTIAL
+        }
+        stated = {name: x for name, x in model.fit.standard.items() if stateable.get(name, True)}
         text = with_parameters(model.robot_text, stated) if stated else model.robot_text
         write_atomically(Path(args.robot_out), text)
         say(f"written: {args.robot_out}")
@@ -183,31 +203,49 @@ def _written(
     return model.fit.to_json()
 
 
-def _check_given(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence[Log]) -> None:
-    check_apart([*logs, *loaded], places=[*args.logs, *args.payload_log])
-    places = {log.name: place for place, log in zip(args.logs, logs, strict=True)}
-    for place, log in zip(args.payload_log, loaded, strict=True):
-        if log.name in places:
-            raise DataError(
-                f"{place}: carries the load, and {places[log.name]} has the same file name; "
-                "rename one, loads are assigned by name"
-            )
+# `modeler estimators`.
 
 
-def _check_robot_out(args: argparse.Namespace) -> None:
-    if args.robot_out is not None and args.method not in ("consistent", GAIN_METHOD):
+def run_estimators(args: argparse.Namespace) -> Json:
+    """Prints the list, or the comparison."""
+    names = args.methods and [name.strip() for name in args.methods.split(",") if name.strip()]
+    methods = fitting.chosen_methods(names, "--methods")
+    if args.robot is None:
+        fields = ("title", "law", "source", "avoid")
+        for about in (ABOUT[method] for method in methods):
+            say(f"{about.id:<10} {about.title}")
+            say(f"  law        {about.law}")
+            say(f"  source     {about.source}")
+            say(f"  not        {about.avoid}")
+        return [
+            {"method": method} | {name: getattr(ABOUT[method], name) for name in fields}
+            for method in methods
+        ]
+    if not args.logs:
         raise DataError(
-            f"--robot-out: --method {args.method} ends in base parameters, of which many machines "
-            "have the same; use --method consistent, which ends in all standard parameters, or "
-            f"{GAIN_METHOD}, which finds drive gains"
+            f"estimators: got robot {args.robot} and no log; expected logs to fit, as in "
+            f"`modeler estimators {args.robot} run.parquet`"
         )
-
-
-def _own(robot: Robot, result: FitResult) -> dict[str, float]:
-    """The standard parameters that the robot file may state."""
-    unfelt = {
-        f"{prefix}{joint.name}": prefix in robot.inertial(joint.name)
-        for joint in robot.moving
-        for prefix in INERTIAL
+    robot = robot_of(args)
+    with working(f"deriving {robot.name}"):
+        compiled = compile_model(generate(derive(robot)))
+    with working("building the observation matrix"):
+        observation, held = fitting.observed_apart(compiled, args.logs, args.holdout, args.map)
+    with progress("fitting") as bar:
+        tried = side_by_side(observation, compiled, held, methods, bar)
+    lines = tuple(observation.report.lines())
+    tables = (aligned(table, (0,)) for table in (table_of(tried), values_of(tried)))
+    for line in (*lines, *(row.rstrip() for table in tables for row in ("", *table)), ""):
+        say(line)
+    for own in tried:
+        for remark in (own.refusal,) if own.refusal else own.remarks:
+            say(f"{own.method}: {remark}")
+    if args.report is not None:
+        with working("drawing the page"):
+            place = write_estimators(Path(args.report), args.robot, tried, lines)
+        say(f"written: {place}")
+    return {
+        "training": list(args.logs),
+        "holdout": list(args.holdout),
+        "methods": [own.to_json() for own in tried],
     }
-    return {name: value for name, value in result.standard.items() if unfelt.get(name, True)}

@@ -9,7 +9,7 @@ from modeler.api import compile_model, derive, generate
 from modeler.api.fleets import file_and_at, reduce_logs
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.lists import robot_of
-from modeler.cli.places import log_endings
+from modeler.cli.places import LOG_ENDINGS
 from modeler.core.errors import DataError
 from modeler.core.jobs import open_workers
 from modeler.fleet.fleet import fleet_of
@@ -23,16 +23,15 @@ _MANY = 32  # logs from which several processes are worth their start
 
 def run_fleet(args: argparse.Namespace) -> Json:
     """Prints what drifts; writes the page."""
-    processes = _processes(args.workers)
+    if args.workers is not None and args.workers < 1:
+        raise DataError(f"--workers: got {args.workers}; expected 1 or more")
     named = _named(args)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         emitted = generate(derive(robot))
         compiled = compile_model(emitted)
-    processing = Processing(
-        position_cutoff=args.cutoff, parallel_cutoff=args.parallel_cutoff
-    )  # fmt: skip
-    count = processes or (1 if len(named) < _MANY else os.cpu_count() or 1)
+    processing = Processing(position_cutoff=args.cutoff, parallel_cutoff=args.parallel_cutoff)
+    count = args.workers or (1 if len(named) < _MANY else os.cpu_count() or 1)
     with (
         progress(f"reading {len(named)} logs") as bar,
         open_workers(args.dask, min(count, len(named))) as workers,
@@ -47,12 +46,6 @@ def run_fleet(args: argparse.Namespace) -> Json:
             place = write_fleet(Path(args.report), found)
         say(f"written: {place}")
     return found.as_dict()
-
-
-def _processes(given: int | None) -> int | None:
-    if given is not None and given < 1:
-        raise DataError(f"--workers: got {given}; expected 1 or more")
-    return given
 
 
 def _named(args: argparse.Namespace) -> tuple[Named, ...]:
@@ -79,8 +72,8 @@ def _files(places: Sequence[str]) -> list[str]:
         if not folder.is_dir() or (folder / "metadata.yaml").is_file():  # a ROS 2 bag is a log
             found.append(place)
             continue
-        inside = [str(p) for p in sorted(folder.rglob("*")) if p.suffix.lower() in log_endings()]
+        inside = [str(p) for p in sorted(folder.rglob("*")) if p.suffix.lower() in LOG_ENDINGS]
         if not inside:
-            raise DataError(f"{place}: a folder without logs; expected {', '.join(log_endings())}")
+            raise DataError(f"{place}: a folder without logs; expected {', '.join(LOG_ENDINGS)}")
         found += inside
     return found

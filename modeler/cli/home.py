@@ -12,7 +12,6 @@ from modeler.cli.lists import read_told
 from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
 from modeler.core.errors import DataError
 from modeler.core.files import check_writable, write_atomically
-from modeler.derivation.assembly_modes import AssemblyMode
 from modeler.derivation.home import HomeModes, written
 from modeler.derivation.walks import Linkage
 from modeler.report.robot import modes_html
@@ -22,44 +21,19 @@ from modeler.robot.edit import home_lines, with_home_text
 from modeler.robot.loops import read_home
 from modeler.robot.robot import Place, Robot
 
-# A small picture of every assembly mode, beside each other.
-
-
 MODE_PICTURES = (*PICTURE_KINDS, ".html")
-
-
-def modes_file(found: HomeModes, kind: str) -> bytes:
-    """The modes as a file that needs no other.
-
-    Args:
-        found: the modes.
-        kind: one of `MODE_PICTURES`.
-    """
-    if kind in PICTURE_KINDS:
-        return _drawn(found, kind)
-    robot, svg = found.linkage.robot, _drawn(found, ".svg").decode()
-    return modes_html(robot.name, robot.title, len(found.modes), svg).encode()
-
-
-def _drawn(found: HomeModes, kind: str) -> bytes:
-    from modeler.report.robot_drawing import modes_bytes
-
-    skeleton = skeleton_of(found.linkage.robot)
-    size = size_of(skeleton, found.modes[0].posture)
-    postures = [Posture(mode.posture, size, closed=True, held=True) for mode in found.modes]
-    titles = [
-        mode.letter + (" (as in the file)" if k == found.own else "")
-        for k, mode in enumerate(found.modes)
-    ]
-    return modes_bytes(skeleton, postures, titles, kind)
-
 
 _MOST_VALUES = 6
 
 
 def run_home(args: argparse.Namespace) -> Json:
     """Prints the assembly modes, draws them, writes one into the robot file."""
-    kind = _kind_of(args.pictures)
+    kind = "" if args.pictures is None else Path(args.pictures).suffix.lower()
+    if args.pictures is not None and kind not in MODE_PICTURES:
+        raise DataError(
+            f"--pictures {args.pictures}: got {kind or 'no ending'}; expected a name that ends in "
+            f"{', '.join(MODE_PICTURES)}"
+        )
     if args.write:
         _check_ours(args.robot)
     robot = read_told(args.robot)
@@ -71,17 +45,53 @@ def run_home(args: argparse.Namespace) -> Json:
         say(line)
     if args.pictures is not None:
         with working("drawing"):
-            write_atomically(Path(args.pictures), modes_file(found, kind))
+            write_atomically(Path(args.pictures), _pictures(found, kind))
         say(f"written: {args.pictures}")
     home = written(found.linkage, found.modes[chosen].posture)
     if args.write:
-        _write(Path(args.robot), robot, home)
+        path, text = Path(args.robot), with_home_text(robot.text, robot.home, home)
+        if b"\r\n" in path.read_bytes():  # its line ends stay as they were
+            text = text.replace("\n", "\r\n")
+        write_atomically(path, text)
         say(f"mode {found.modes[chosen].letter} written into {args.robot} as [home]")
     else:
         say(f"[home] of mode {found.modes[chosen].letter} (--write puts it into the file):")
         for line in home_lines(home):
             say(f"  {line}")
-    return _as_json(robot, found, chosen)
+    return {
+        "robot": robot.name,
+        "chosen": found.modes[chosen].letter,
+        "of_the_file": None if found.own is None else found.modes[found.own].letter,
+        "modes": [
+            {
+                "letter": mode.letter,
+                "home": written(found.linkage, mode.posture),
+                "singular_value": mode.sigma,
+                "within_limits": mode.kept,
+                "copies": mode.copies,
+                "away": mode.away,
+            }
+            for mode in found.modes
+        ],
+    }
+
+
+def _pictures(found: HomeModes, kind: str) -> bytes:
+    """A small picture of every assembly mode, beside each other: a file that needs no other."""
+    from modeler.report.robot_drawing import modes_bytes
+
+    robot = found.linkage.robot
+    skeleton = skeleton_of(robot)
+    size = size_of(skeleton, found.modes[0].posture)
+    postures = [Posture(mode.posture, size, closed=True, held=True) for mode in found.modes]
+    titles = [
+        mode.letter + (" (as in the file)" if k == found.own else "")
+        for k, mode in enumerate(found.modes)
+    ]
+    drawn = modes_bytes(skeleton, postures, titles, ".svg" if kind == ".html" else kind)
+    if kind != ".html":
+        return drawn
+    return modes_html(robot.name, robot.title, len(found.modes), drawn.decode()).encode()
 
 
 def _check_ours(robot: str) -> None:
@@ -99,16 +109,6 @@ def _check_ours(robot: str) -> None:
         )
     if path.is_file():
         check_writable(path)
-
-
-def _kind_of(pictures: str | None) -> str:
-    kind = "" if pictures is None else Path(pictures).suffix.lower()
-    if pictures is not None and kind not in MODE_PICTURES:
-        raise DataError(
-            f"--pictures {pictures}: got {kind or 'no ending'}; expected a name that ends in "
-            f"{', '.join(MODE_PICTURES)}"
-        )
-    return kind
 
 
 def _near(args: argparse.Namespace, robot: Robot) -> dict[str, float] | None:
@@ -135,7 +135,10 @@ def _table(found: HomeModes) -> list[str]:
         f"{linkage.robot.name}: {count} with {_values(linkage, modes[0].posture, given)}",
         "",
     ]
-    shown = _shown(linkage)
+    # The joints by which people tell modes apart: the platform's, else the first that follow.
+    names = [joint.name for joint in linkage.free]
+    shown = [names.index(name) for name in linkage.robot.platform if name in names]
+    shown = shown or list(linkage.closing.solved)[:_MOST_VALUES]
     for k, mode in enumerate(modes):
         facts = [f"singular value {mode.sigma:.2g}"]
         if linkage.robot.limits:
@@ -149,13 +152,6 @@ def _table(found: HomeModes) -> list[str]:
     return [*lines, ""]
 
 
-def _shown(linkage: Linkage) -> list[int]:
-    """The joints by which people tell modes apart: the platform's, else the first that follow."""
-    names = [joint.name for joint in linkage.free]
-    platform = [names.index(name) for name in linkage.robot.platform if name in names]
-    return platform or list(linkage.closing.solved)[:_MOST_VALUES]
-
-
 def _values(linkage: Linkage, u: np.ndarray, places: list[int]) -> str:
     """`q1 = 1.571 rad (90.00 deg), q3 = 0.33 m`."""
     told = []
@@ -164,31 +160,3 @@ def _values(linkage: Linkage, u: np.ndarray, places: list[int]) -> str:
         degrees = f" ({np.degrees(value):.1f} deg)" if linkage.free[k].angular else ""
         told.append(f"q{linkage.free[k].name} = {value:g} {linkage.free[k].unit}{degrees}")
     return ", ".join(told)
-
-
-def _write(path: Path, robot: Robot, home: dict[str, float]) -> None:
-    """The file with that home; its line ends as they were."""
-    text = with_home_text(robot.text, robot.home, home)
-    if b"\r\n" in path.read_bytes():
-        text = text.replace("\n", "\r\n")
-    write_atomically(path, text)
-
-
-def _as_json(robot: Robot, found: HomeModes, chosen: int) -> Json:
-    return {
-        "robot": robot.name,
-        "chosen": found.modes[chosen].letter,
-        "of_the_file": None if found.own is None else found.modes[found.own].letter,
-        "modes": [_mode_json(found.linkage, mode) for mode in found.modes],
-    }
-
-
-def _mode_json(linkage: Linkage, mode: AssemblyMode) -> Json:
-    return {
-        "letter": mode.letter,
-        "home": written(linkage, mode.posture),
-        "singular_value": mode.sigma,
-        "within_limits": mode.kept,
-        "copies": mode.copies,
-        "away": mode.away,
-    }

@@ -2,7 +2,7 @@
 
 import argparse
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from modeler.cli.console import Json, note, say, working
 from modeler.core.builtin import builtin_names
@@ -148,7 +148,16 @@ def run_robots(args: argparse.Namespace) -> Json:
 def run_effects(args: argparse.Namespace) -> Json:
     """Prints the catalogue, or one page of it."""
     known = CATALOGUE if args.robot is None else read_robot(args.robot).catalogue
-    chosen = known if args.effect is None else (_effect(args.effect, known),)
+    chosen = known
+    if args.effect is not None:
+        effect = effect_named(args.effect, known)
+        if effect is None:
+            names = [each.id for each in known]
+            raise RobotError(
+                f"effects: got {args.effect}{near(args.effect, names)}; expected one of "
+                f"{', '.join(names)}, or one that the file of --robot defines"
+            )
+        chosen = (effect,)
     facts = [_facts(effect) for effect in chosen]
     for fact in facts:
         say(f"{fact['id']:<22} {fact['equation']}")
@@ -160,17 +169,6 @@ def run_effects(args: argparse.Namespace) -> Json:
             for line in signature_lines(chosen[0]):
                 say(line)
     return facts
-
-
-def _effect(name: str, known: Sequence[Effect]) -> Effect:
-    effect = effect_named(name, known)
-    if effect is None:
-        names = [each.id for each in known]
-        raise RobotError(
-            f"effects: got {name}{near(name, names)}; expected one of {', '.join(names)}, or one "
-            "that the file of --robot defines"
-        )
-    return effect
 
 
 def _facts(effect: Effect) -> dict[str, str | list[str]]:

@@ -7,21 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import modeler.api.workflow as workflow
 from modeler.api.checks import look_at
+from modeler.api.fitting import Way, judged
 from modeler.api.long_logs import are_long, judged_long, too_long
-from modeler.api.ways import Way, judged
-from modeler.api.workflow import (
-    compile_model,
-    derive,
-    file_and_span,
-    generate,
-    log_map,
-    observe,
-    read_mapped,
-)
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.lists import read_told
 from modeler.core.errors import ModelerError
+from modeler.core.table import aligned
 from modeler.estimation.identify import identify
 from modeler.estimation.long_logs import stream
 from modeler.estimation.result import FitResult
@@ -43,8 +36,12 @@ _BETTER = 0.5  # of the error, that a guess must reach to be believed
 
 def run_log(args: argparse.Namespace) -> Json:
     """Prints what the log holds, its doubts, and a [log] to start from."""
-    compiled = _compiled(args.robot)
-    mapping = map_from_words(args.map) if compiled is None else log_map(compiled, args.map)
+    compiled = None
+    if args.robot is not None:
+        robot = read_told(args.robot)
+        with working(f"deriving {robot.name}"):
+            compiled = workflow.compile_model(workflow.generate(workflow.derive(robot)))
+    mapping = map_from_words(args.map) if compiled is None else workflow.log_map(compiled, args.map)
     seen = look_at(args.log, compiled, args.map)
     doubts = [*seen.doubts]
     if compiled is not None:
@@ -55,18 +52,17 @@ def run_log(args: argparse.Namespace) -> Json:
         doubts += [line for line in heard if line not in doubts]
     for line in _lines(seen, doubts):
         say(line)
-    written = _written(args, seen, doubts)
-    if written:
-        say(f"written: {written}")
+    places = []
+    if args.page is not None:
+        with working("drawing the page"):
+            places.append(str(write_log_page(Path(args.page), seen, doubts, [])))
+    if args.pictures is not None:
+        with progress("drawing pictures") as bar:
+            written = write_files(Path(args.pictures), log_pictures(seen), bar)
+        places.append(f"{len(written)} files in {args.pictures}")
+    if places:
+        say(f"written: {', '.join(places)}")
     return seen.to_json() | {"doubts": doubts}
-
-
-def _compiled(robot: str | None) -> CompiledModel | None:
-    if robot is None:
-        return None
-    read = read_told(robot)
-    with working(f"deriving {read.name}"):
-        return compile_model(generate(derive(read)))
 
 
 def _lines(seen: Look, doubts: Sequence[str]) -> list[str]:
@@ -76,39 +72,17 @@ def _lines(seen: Look, doubts: Sequence[str]) -> list[str]:
         for stream in seen.streams
     ]
     lines.append("clock: none found" if seen.clock is None else f"clock {clock_line(seen.clock)}")
-    lines += ["", *_aligned(channel_rows(seen)), ""]
+    rows = [
+        [*(c if len(c) <= _WIDEST else f"...{c[3 - _WIDEST :]}" for c in cells), remarks]
+        for *cells, remarks in channel_rows(seen)
+    ]
+    lines += ["", *(line.rstrip() for line in aligned(rows, (0, 1, 6))), ""]
     lines += [f"note: {note}" for note in seen.notes]
     lines += [f"doubt: {doubt}" for doubt in doubts] or ["no doubts"]
     if seen.suggested:
         told = "a mapping to start from, a guess: paste it into the robot file, or --map FILE.toml"
         lines += ["", told, "", seen.suggested.rstrip()]
     return lines
-
-
-def _aligned(rows: Sequence[Sequence[str]]) -> list[str]:
-    cut = [[c if len(c) <= _WIDEST else f"...{c[3 - _WIDEST :]}" for c in row[:-1]] for row in rows]
-    widths = [max(map(len, column)) for column in zip(*cut, strict=True)]
-    lines = []
-    for cells, row in zip(cut, rows, strict=True):
-        texts = [
-            cell.ljust(width) if k < 2 else cell.rjust(width)
-            for k, (cell, width) in enumerate(zip(cells, widths, strict=True))
-        ]
-        lines.append("  ".join([*texts, row[-1]]).rstrip())
-    return lines
-
-
-def _written(args: argparse.Namespace, seen: Look, doubts: Sequence[str]) -> str:
-    """Writes page and pictures if they are asked for; says which."""
-    places = []
-    if args.page is not None:
-        with working("drawing the page"):
-            places.append(str(write_log_page(Path(args.page), seen, doubts, [])))
-    if args.pictures is not None:
-        with progress("drawing pictures") as bar:
-            written = write_files(Path(args.pictures), log_pictures(seen), bar)
-        places.append(f"{len(written)} files in {args.pictures}")
-    return ", ".join(places)
 
 
 @dataclass(frozen=True)
@@ -167,13 +141,13 @@ def _fitted(compiled: CompiledModel, place: str, mapping: LogMap) -> tuple[Obser
     """A weighted fit with its verdict, of a long log in chunks."""
     if are_long([place]):
         try:
-            source = source_of(Path(file_and_span(place)[0]), compiled.spec, mapping)
+            source = source_of(Path(workflow.file_and_span(place)[0]), compiled.spec, mapping)
             assert source is not None  # others are not known to be long
             streamed = stream(compiled, [source])
             return streamed.observation, judged_long(compiled, streamed, "weighted")
         except WholeNeeded:
             if too_long([place]):
                 raise
-    observation = observe(compiled, [read_mapped(place, compiled.spec, mapping)])
+    observation = workflow.observe(compiled, [workflow.read_mapped(place, compiled.spec, mapping)])
     way = Way(identify(observation, "weighted", compiled))
     return observation, judged(compiled, observation, way)

@@ -1,12 +1,14 @@
-"""What the parsers of several commands share: arguments, their order, the usage line."""
+"""How arguments of commands are declared; the order of words; the usage line."""
 
 import argparse
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from functools import partial
+from importlib import import_module
+from typing import Any, Literal
 
-from modeler.cli.places import JsonFile, MapWord, Output, RobotFile, Word
+from modeler.cli.places import JsonFile
 
 Form = Literal["text", "latex", "markdown"]
 """How relations are printed."""
@@ -14,100 +16,107 @@ Form = Literal["text", "latex", "markdown"]
 FEW_JOINTS = 3
 """Robots of as many joints get their coefficients printed unasked."""
 
-
-if TYPE_CHECKING:
-    Commands = argparse._SubParsersAction[argparse.ArgumentParser]
-else:
-    Commands = Any
-
 Run = Callable[[argparse.Namespace], Any]
 """A command: from its arguments to what `--json` writes."""
 
 
-def add_number(
-    parser: argparse._ActionsContainer,
-    option: str,
-    metavar: str,
-    kind: type[float] | type[int],
-    text: str,
-    default: float | None = None,
-) -> None:
-    """An option that takes a number; its help tells the default if there is one."""
-    told = text if default is None else f"{text} (default %(default)s)"
-    parser.add_argument(option, metavar=metavar, type=kind, default=default, help=told)
+@dataclass(frozen=True)
+class Argument:
+    """An argument or an option, as argparse takes it."""
+
+    names: tuple[str, ...]
+    settings: Mapping[str, Any]
+
+    def add_to(self, parser: argparse._ActionsContainer) -> None:
+        """To the parser of a command, or a group in it."""
+        parser.add_argument(*self.names, **self.settings)
 
 
-def add_several(
-    parser: argparse._ActionsContainer,
-    option: str,
-    metavar: str,
-    kind: type[str],
-    text: str,
-    dest: str | None = None,
-) -> None:
-    """An option that takes several words, and may be repeated; see `words` on where it ends."""
-    parser.add_argument(
-        option, metavar=metavar, nargs="+", action="extend", default=[], type=kind,
-        dest=dest or option.lstrip("-").replace("-", "_"),
-        help=f"{text}; all words up to the next option or --; may be repeated",
-    )  # fmt: skip
+@dataclass(frozen=True)
+class Group:
+    """Options under a title of their own."""
+
+    title: str
+    text: str | None
+    options: tuple[Argument, ...]
+
+    def add_to(self, parser: argparse.ArgumentParser) -> None:
+        """To the parser of a command."""
+        group = parser.add_argument_group(self.title, self.text)
+        for option in self.options:
+            option.add_to(group)
 
 
-def add_robot(parser: argparse.ArgumentParser) -> None:
-    """The ROBOT argument and what changes it."""
-    parser.add_argument(
-        "robot", metavar="ROBOT", type=RobotFile,
-        help="a robot file, or the name of a built-in robot",
-    )  # fmt: skip
-    add_effects(parser)
+@dataclass(frozen=True)
+class Command:
+    """What is typed, what `--help` says of it, and what carries it out.
+
+    Attributes:
+        name: of the command.
+        run: "module:function" in this package; imported when the command runs.
+        help: its line in `modeler --help`.
+        description: begins its own help.
+        example: ends it.
+        arguments: in the order of the help; `--json` follows them.
+        json: what that writes.
+    """
+
+    name: str
+    run: str
+    help: str
+    description: str
+    example: str
+    arguments: tuple[Argument | Group, ...]
+    json: str = "write the result for machines"
+
+    def add_to(self, commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+        """Its parser, among those of all commands."""
+        parser = commands.add_parser(
+            self.name,
+            help=self.help,
+            description=self.description,
+            epilog=f"example: {self.example}",
+        )
+        json = value("--json", "FILE", JsonFile, f"{self.json}; - for stdout")
+        for each in (*self.arguments, json):
+            each.add_to(parser)
+        parser.set_defaults(load=partial(_imported, self.run))
 
 
-def add_effects(parser: argparse.ArgumentParser) -> None:
-    """`--effects LIST`, which changes ROBOT."""
-    parser.add_argument(
-        "--effects",
-        metavar="LIST",
-        type=Word,
-        help='effects instead of those of the file, for all joints: "viscous,coulomb"; "" for none',
-    )
+def _imported(place: str) -> Run:
+    module, _, function = place.partition(":")
+    run: Run = getattr(import_module(f"modeler.cli.{module}"), function)
+    return run
 
 
-def add_json(parser: argparse.ArgumentParser, text: str) -> None:
-    """`--json FILE`, which every command has."""
-    parser.add_argument("--json", metavar="FILE", type=JsonFile, help=f"{text}; - for stdout")
+def value(
+    name: str, metavar: str, kind: Callable[[str], Any], text: str, **further: Any
+) -> Argument:
+    """An argument, or an option with a value; the help of a number tells its default, if any."""
+    if kind in (int, float) and further.get("default") is not None:
+        text += " (default %(default)s)"
+    return Argument((name,), {"metavar": metavar, "type": kind, "help": text, **further})
 
 
-def add_map(parser: argparse._ActionsContainer) -> None:
-    """`--map`, which every command has that takes logs."""
-    parser.add_argument(
-        "--map", metavar="NAME=COLUMN[:UNIT]", action="append", default=[], type=MapWord,
-        help="which column of the logs is ours, as 'q<j>=position_{j}:deg', or FILE.toml with such "
-        "lines; may be given several times; over [log] of the robot file",
-    )  # fmt: skip
+def repeated(name: str, metavar: str, kind: type[str], text: str) -> Argument:
+    """An option with one value, which may be given several times."""
+    return value(name, metavar, kind, text, action="append", default=[])
 
 
-def add_page(parser: argparse.ArgumentParser, kind: type[Output] = Output) -> None:
-    """`--report PAGE.html`, which may be called `--page` as `derive` and `log` call it."""
-    parser.add_argument(
-        "--report", "--page", metavar="PAGE.html", type=kind, help="write one self-contained page"
-    )
+def several(name: str, metavar: str, kind: type[str], text: str, **further: Any) -> Argument:
+    """An option that takes several words, and may be repeated; see below on where it ends."""
+    text = f"{text}; all words up to the next option or --; may be repeated"
+    return value(name, metavar, kind, text, nargs="+", action="extend", default=[], **further)
 
 
-def add_dask(parser: argparse._ActionsContainer) -> None:
-    """`--dask`, of commands that read much."""
-    parser.add_argument(
-        "--dask", metavar="ADDRESS", type=Word,
-        help="a Dask scheduler whose workers read the logs, as tcp://host:8786; local: a cluster "
-        "of this machine's processors",
-    )  # fmt: skip
+def choice(name: str, choices: Sequence[str], text: str, default: str | None = None) -> Argument:
+    """An option that takes one of some words."""
+    return Argument((name,), {"choices": choices, "default": default, "help": text})
 
 
-def add_force(parser: argparse.ArgumentParser) -> None:
-    """`--force`, for commands that write folders of code."""
-    parser.add_argument(
-        "--force", action="store_true",
-        help="write also over files of DIR that no earlier run wrote, or that were edited since",
-    )  # fmt: skip
+def flag(name: str, text: str) -> Argument:
+    """An option without a value."""
+    return Argument((name,), {"action": "store_true", "help": text})
 
 
 # Words in any order: options before or after what they stand beside.

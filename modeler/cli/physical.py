@@ -6,14 +6,13 @@ from pathlib import Path
 from modeler.api.physical_parameters import UNITS, Physical, PhysicalValues, physical
 from modeler.cli.console import Json, note, progress, say, working
 from modeler.cli.lists import read_told
-from modeler.codegen.derivation import Derivation, derive
+from modeler.codegen.derivation import derive
 from modeler.core.errors import DataError
-from modeler.estimation.model_file import IdentifiedModel, load_model
+from modeler.estimation.model_file import load_model
 from modeler.formulas.cad import CadComparison, KnownAgainstFit
 from modeler.formulas.physical_system import PhysicalSystem
-from modeler.formulas.set_sensitivity import Rated
 from modeler.formulas.solve import definition_lines, missing_lines, solution_json, solution_lines
-from modeler.formulas.sufficient_sets import KnownSets, easiest_set, smallest_number
+from modeler.formulas.sufficient_sets import easiest_set, smallest_number
 from modeler.formulas.values import VERIFIED, Given, given_from_text
 
 _SHOWN = 10
@@ -23,9 +22,14 @@ _KINDS = {"mass": "masses", "length": "lengths", "centre": "mass centres", "iner
 
 def run_physical(args: argparse.Namespace) -> Json:
     """Prints what was asked for; what there is to know if nothing was."""
-    _check_usage(args)
-    thing = _read(args.source)
-    model = thing if isinstance(thing, IdentifiedModel) else None
+    if args.near is not None and args.known is None:
+        raise DataError("--near: chooses between roots that --known leaves; add --known LIST")
+    if args.sets is not None and args.sets is not True and args.sets < 1:
+        raise DataError(
+            f"--sets: got {args.sets}; expected 1 or more, or --sets alone for the smallest"
+        )
+    model = load_model(args.source) if Path(args.source).suffix.lower() == ".json" else None
+    thing = derive(read_told(args.source)) if model is None else model
     with working(f"physical parameters of {args.source}"):
         subject = physical(thing, args.of)
     system = subject.system
@@ -47,22 +51,6 @@ def run_physical(args: argparse.Namespace) -> Json:
     if args.known is None and args.sets is None and args.cad is None:
         result |= _overview(system, args.source, model is not None)
     return result
-
-
-def _check_usage(args: argparse.Namespace) -> None:
-    """Before any long work."""
-    if args.near is not None and args.known is None:
-        raise DataError("--near: chooses between roots that --known leaves; add --known LIST")
-    if args.sets is not None and args.sets is not True and args.sets < 1:
-        raise DataError(
-            f"--sets: got {args.sets}; expected 1 or more, or --sets alone for the smallest"
-        )
-
-
-def _read(source: str) -> Derivation | IdentifiedModel:
-    if Path(source).suffix.lower() != ".json":
-        return derive(read_told(source))
-    return load_model(source)
 
 
 def _overview(system: PhysicalSystem, source: str, fitted: bool) -> dict[str, Json]:
@@ -147,24 +135,37 @@ def _check_given(args: argparse.Namespace, given: Given, fitted: bool) -> None:
 
 
 def _values(found: PhysicalValues) -> Json:
+    derived, doubts, rows = found.derived, found.doubts, []
     say()
     say(f"{'parameter':<10} {'value':>13} {'sigma':>10} {'%sigma':>8}  {'unit':<7} mostly from")
-    for k in range(len(found.derived.letters)):
-        say(_row(found, k))
-    for text in found.doubts.values():
+    for k, letter in enumerate(derived.letters):
+        value, sigma = float(derived.values[k]), float(derived.sigmas[k])
+        unit, told = UNITS[found.system.kinds[letter]], letter not in doubts
+        if told:
+            percent = f"{100 * sigma / abs(value):.3g}" if value else "-"
+            say(f"{letter:<10} {value:>13.6g} {sigma:>10.3g} {percent:>8}  {unit:<7} "
+                f"{found.sources(k)}")  # fmt: skip
+        else:
+            say(f"{letter:<10} {'not told':>13}")
+        slopes, shares = (
+            {name: float(x) for name, x in zip(derived.inputs, row, strict=True) if x}
+            for row in (derived.slopes[k], derived.shares[k])
+        )
+        rows.append(
+            {
+                "parameter": letter,
+                "value": value if told else None,
+                "sigma": sigma if told else None,
+                "unit": unit,
+                "doubt": doubts.get(letter),
+                "sensitivity": slopes,
+                "variance_shares": shares,
+            }
+        )
+    for text in doubts.values():
         say(f"not told: {text}")
     _tell_tested(found.tested)
-    return _values_json(found)
-
-
-def _row(found: PhysicalValues, k: int) -> str:
-    derived, letter = found.derived, found.derived.letters[k]
-    unit = UNITS[found.system.kinds[letter]]
-    if letter in found.doubts:
-        return f"{letter:<10} {'not told':>13}"
-    value, sigma = derived.values[k], derived.sigmas[k]
-    percent = f"{100 * sigma / abs(value):.3g}" if value else "-"
-    return f"{letter:<10} {value:>13.6g} {sigma:>10.3g} {percent:>8}  {unit:<7} {found.sources(k)}"
+    return {"parameters": rows, "known_against_fit": [vars(row) for row in found.tested]}
 
 
 def _tell_tested(tested: tuple[KnownAgainstFit, ...]) -> None:
@@ -193,32 +194,6 @@ def _tell_tested(tested: tuple[KnownAgainstFit, ...]) -> None:
         )
 
 
-def _values_json(found: PhysicalValues) -> Json:
-    derived, doubts, system, rows = found.derived, found.doubts, found.system, []
-    for k, letter in enumerate(derived.letters):
-        told = letter not in doubts
-        rows.append(
-            {
-                "parameter": letter,
-                "value": float(derived.values[k]) if told else None,
-                "sigma": float(derived.sigmas[k]) if told else None,
-                "unit": UNITS[system.kinds[letter]],
-                "doubt": doubts.get(letter),
-                "sensitivity": {
-                    name: float(slope)
-                    for name, slope in zip(derived.inputs, derived.slopes[k], strict=True)
-                    if slope
-                },
-                "variance_shares": {
-                    name: float(share)
-                    for name, share in zip(derived.inputs, derived.shares[k], strict=True)
-                    if share
-                },
-            }
-        )
-    return {"parameters": rows, "known_against_fit": [vars(row) for row in found.tested]}
-
-
 def _sets(subject: Physical, size: int | None, cad: Given | None) -> Json:
     system = subject.system
     with progress("counting") as tell:
@@ -227,10 +202,19 @@ def _sets(subject: Physical, size: int | None, cad: Given | None) -> Json:
         f"suffice; the smallest sets have {found.smallest}")  # fmt: skip
     for key, count in found.classes.items():
         say(f"  {key[0]} masses and lengths, {key[1]} mass centres, {key[2]} inertias: {count}")
-    ratings: tuple[Rated, ...] = ()
-    if found.count and cad is not None:
-        ratings = subject.rated(found, cad)
-    _tell_easiest(found, ratings)
+    ratings = subject.rated(found, cad) if found.count and cad is not None else ()
+    if found.easiest:
+        say(f"the {len(found.easiest)} with the fewest inertias, then the fewest mass centres"
+            + (", the least error first (1 % in all that is measured gives, median and worst):"
+               if ratings else ":"))  # fmt: skip
+        lines = [
+            f"  {','.join(r.known)}  {r.middle:.2g} %, {r.letter} {r.worst:.2g} %" for r in ratings
+        ]
+        lines = lines or [f"  {','.join(members)}" for members in found.easiest]
+        for line in lines[:_SHOWN]:
+            say(line)
+        if len(found.easiest) > _SHOWN:
+            say(f"  and {len(found.easiest) - _SHOWN} more (all with --json)")
     return {
         "size": found.size,
         "smallest": found.smallest,
@@ -244,22 +228,6 @@ def _sets(subject: Physical, size: int | None, cad: Given | None) -> Json:
         "easiest": [list(members) for members in found.easiest],
         "rated": [vars(r) | {"known": list(r.known)} for r in ratings],
     }
-
-
-def _tell_easiest(found: KnownSets, ratings: tuple[Rated, ...]) -> None:
-    if not found.easiest:
-        return
-    say(f"the {len(found.easiest)} with the fewest inertias, then the fewest mass centres"
-        + (", the least error first (1 % in all that is measured gives, median and worst):"
-           if ratings else ":"))  # fmt: skip
-    if ratings:
-        for r in ratings[:_SHOWN]:
-            say(f"  {','.join(r.known)}  {r.middle:.2g} %, {r.letter} {r.worst:.2g} %")
-    else:
-        for members in found.easiest[:_SHOWN]:
-            say(f"  {','.join(members)}")
-    if len(found.easiest) > _SHOWN:
-        say(f"  and {len(found.easiest) - _SHOWN} more (all with --json)")
 
 
 def _against_cad(subject: Physical, cad: Given) -> Json:

@@ -13,24 +13,13 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from modeler.core import files
 from modeler.core.builtin import MOTIONS, OTHER_PROGRAMS, builtin_file, builtin_names
 from modeler.core.errors import DataError, ModelerError, file_and_window
-from modeler.core.files import (
-    Destination,
-    Kind,
-    check_folder_writable,
-    check_writable,
-    destination,
-    page_place,
-)
 
 _MOTIONS = (".csv", ".parquet")
-_LOGS = (*_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy")
-
-
-def log_endings() -> tuple[str, ...]:
-    """How the name of a log ends."""
-    return _LOGS
+LOG_ENDINGS = (*_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy")
+"""How the name of a log ends."""
 
 
 class Word(str):
@@ -95,7 +84,7 @@ class ListFile(Input):
 def model_or_log(text: str) -> Input:
     """A model, by its ending or because it begins as JSON does; else a log."""
     path = Path(text)
-    if path.suffix.lower() in _LOGS:
+    if path.suffix.lower() in LOG_ENDINGS:
         return LogFile(text)
     if path.suffix.lower() == ".json":
         return ModelFile(text)
@@ -144,7 +133,7 @@ class PageOrFolder(Output):
     @property
     def file(self) -> Path:
         """The page."""
-        return page_place(Path(self), "compare.html")
+        return files.page_place(Path(self), "compare.html")
 
 
 class JsonFile(Output):
@@ -206,10 +195,10 @@ def check_places(args: argparse.Namespace) -> None:
             if (found := _found(place.file)) is not None]  # fmt: skip
     folders = [(option, place) for option, place in given if isinstance(place, OutputFolder)]
     for option, folder in folders:
-        check_folder_writable(Path(folder))
+        files.check_folder_writable(Path(folder))
         for what, found in read:
             _check_inside(option, folder, found, what)
-    taken: list[tuple[str, Destination]] = []
+    taken: list[tuple[str, files.Destination]] = []
     for option, place in given:
         if isinstance(place, Output) and not (place == "-" and isinstance(place, JsonFile)):
             found = _checked(option, place, read, taken)
@@ -225,21 +214,21 @@ def _given(args: argparse.Namespace) -> Iterator[tuple[str, object]]:
             yield "--" + name.replace("_", "-"), each
 
 
-def _found(path: Path) -> Destination | None:
+def _found(path: Path) -> files.Destination | None:
     """An input; None if it is not there, or no file: nothing of it can be lost."""
     try:
-        found = destination(path)
+        found = files.destination(path)
     except (OSError, ModelerError):
         return None
-    return found if found.kind is Kind.FILE else None
+    return found if found.kind is files.Kind.FILE else None
 
 
 def _checked(
     option: str,
     place: Output,
-    read: list[tuple[str, Destination]],
-    taken: list[tuple[str, Destination]],
-) -> Destination:
+    read: list[tuple[str, files.Destination]],
+    taken: list[tuple[str, files.Destination]],
+) -> files.Destination:
     """Where an output goes, if it may go there."""
     given = f"{option} {place}"
     if place == "-":
@@ -247,14 +236,18 @@ def _checked(
     for path in {Path(place), place.file}:
         there = _found(path)
         what = next((what for what, other in read if there and _same(there, other)), None)
-        if what is None and path.suffix.lower() in _LOGS and not isinstance(place, NewLog):
+        if what is None and path.suffix.lower() in LOG_ENDINGS and not isinstance(place, NewLog):
             what = LogFile.what
         if what is not None:
             raise DataError(f"{given}: this is {what}; expected a name of its own")
-        _check_ours(given, path)
-    check_writable(place.file)
-    found = destination(place.file)
-    if found.kind is Kind.FILE:
+        if (ending := path.suffix.lower()) in OTHER_PROGRAMS:
+            raise DataError(
+                f"{given}: got {ending}, which is another program's robot file; expected another "
+                "ending, .toml for a robot file"
+            )
+    files.check_writable(place.file)
+    found = files.destination(place.file)
+    if found.kind is files.Kind.FILE:
         taken = _stdout() + taken
     for other_option, other in taken:
         if _same(found, other):
@@ -264,21 +257,11 @@ def _checked(
     return found
 
 
-def _check_ours(given: str, path: Path) -> None:
-    """Refuse a name that another program takes for a robot file of its own."""
-    ending = path.suffix.lower()
-    if ending in OTHER_PROGRAMS:
-        raise DataError(
-            f"{given}: got {ending}, which is another program's robot file; expected another "
-            "ending, .toml for a robot file"
-        )
-
-
-def _same(one: Destination, other: Destination) -> bool:
+def _same(one: files.Destination, other: files.Destination) -> bool:
     return one.identity is not None and one.identity == other.identity
 
 
-def _stdout() -> list[tuple[str, Destination]]:
+def _stdout() -> list[tuple[str, files.Destination]]:
     """The file that stdout goes to, if it is one."""
     try:
         status = os.fstat(sys.stdout.fileno())
@@ -286,10 +269,10 @@ def _stdout() -> list[tuple[str, Destination]]:
         return []
     if not stat.S_ISREG(status.st_mode):
         return []
-    return [("stdout", Destination(Path("stdout"), Kind.FILE, status))]
+    return [("stdout", files.Destination(Path("stdout"), files.Kind.FILE, status))]
 
 
-def _check_inside(option: str, folder: OutputFolder, found: Destination, what: str) -> None:
+def _check_inside(option: str, folder: OutputFolder, found: files.Destination, what: str) -> None:
     """Refuse a file that stands where the folder gets one of its own."""
     top = Path(os.path.realpath(folder))
     if found.place.is_relative_to(top):

@@ -1,14 +1,25 @@
-"""One run of the command line: what is typed, what is loaded, what is done, how it ends."""
+"""One run of the command line: what is typed, what is loaded, what is done, how it ends.
 
+Ctrl-C ends the program with one line and status 130, whatever it was doing. While modules load, an
+exception is not enough: some of what is loaded swallows it, or turns it into another. Nothing is
+written then, so the program just ends. While a command runs, it is an exception, so that what is
+half done can be cleaned up.
+"""
+
+import contextlib
 import gc
-from collections.abc import Callable, Sequence
+import os
+import signal
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from types import FrameType
 from typing import TYPE_CHECKING
-
-from modeler.cli.interrupt import INTERRUPTED, ending, loading
 
 if TYPE_CHECKING:
     import argparse
+
+INTERRUPTED = 130
+"""Exit status, as of a shell: 128 + SIGINT."""
 
 Phase = Callable[[], AbstractContextManager[None]]
 
@@ -22,8 +33,9 @@ def started(words: Sequence[str]) -> int:
     gc.set_threshold(20_000)
     try:
         return _run(words, loading)
-    finally:
-        ending()
+    finally:  # all is done or given up; another interrupt can only spoil how it is told
+        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def called(words: Sequence[str]) -> int:
@@ -92,3 +104,23 @@ def _carried_out(args: "argparse.Namespace", phase: Phase, every_line: bool) -> 
         run = args.load()
     with step(args.command):
         run_command(args, run)
+
+
+@contextlib.contextmanager
+def loading() -> Iterator[None]:
+    """While this lasts, an interrupt ends the program at once; nothing may be half done."""
+    before = signal.getsignal(signal.SIGINT)
+    if before is not signal.default_int_handler:  # ignored, or somebody else's
+        yield
+        return
+    signal.signal(signal.SIGINT, _end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    with contextlib.suppress(OSError):
+        os.write(2, b"modeler: interrupted\n")
+    os._exit(INTERRUPTED)

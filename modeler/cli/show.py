@@ -19,7 +19,8 @@ def run_convert(args: argparse.Namespace) -> Json:
     found = converted(Path(args.file))
     out = Path(args.out)
     robot = robot_from_text(found.text, f"{args.file}, as a robot file")
-    if not args.force and _is_other(out, found.text):
+    there = destination(out).kind is Kind.FILE
+    if not args.force and there and out.read_bytes() != found.text.encode():
         raise ModelerError(
             f"--out {out}: there is such a file with another content; choose another name, or "
             "write over it with --force"
@@ -37,13 +38,6 @@ def run_convert(args: argparse.Namespace) -> Json:
         "loops": [loop.name for loop in robot.loops],
         "notes": list(found.notes),
     }
-
-
-def _is_other(out: Path, text: str) -> bool:
-    """True of a file that would be lost."""
-    if destination(out).kind is not Kind.FILE:
-        return False
-    return out.read_bytes() != text.encode()
 
 
 # `modeler show`.

@@ -11,9 +11,8 @@ from typing import get_args
 import pytest
 
 from modeler.cli import main, parser
-from modeler.cli.derive import _FORMS
-from modeler.cli.formula_output import _CLOSED_FORMS, _COMMENT, _SHEETS, _TABLES
-from modeler.cli.model_arguments import Form
+from modeler.cli.derive import _CLOSED_FORMS, _COMMENT, _FORMS, _SHEETS, _TABLES
+from modeler.cli.options import Form
 from modeler.effects.catalogue import CATALOGUE
 from modeler.simulation import HIDDEN
 

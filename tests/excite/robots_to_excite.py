@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 from modeler.api import compile_model, derive, generate
-from modeler.cli.excite import bounds_of
+from modeler.cli.motion import bounds_of
 from modeler.derivation.derive import with_home
 from modeler.excitation.motion import Bounds
 from modeler.excitation.search import Wish, task_of

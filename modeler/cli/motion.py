@@ -1,25 +1,25 @@
-"""`modeler excite ROBOT --out MOTION`."""
+"""`modeler excite ROBOT --out MOTION` and `modeler simulate ROBOT --out LOG`."""
 
 import argparse
 import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.api.motion import Subject, question_of, subject_of
-from modeler.api.motion import bounds_of as bounds_within
+import modeler.api.motion as motions
+from modeler import simulation
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.lists import robot_of
+from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.estimation.model_file import load_model
 from modeler.excitation.criterion import signals
 from modeler.excitation.motion import Bounds
-from modeler.excitation.result import Exciting, check_kind, csv_text, motion_table, picture
+from modeler.excitation.result import check_kind, csv_text, motion_table, picture
 from modeler.excitation.search import Wish, usual_harmonics
 from modeler.excitation.separate import choose, tell_apart
 from modeler.robot.robot import Robot, near
 from modeler.runtime.model import CompiledModel
-from modeler.simulation import check_suffix, read_motion
 
 
 def run_excite(args: argparse.Namespace) -> Json:
@@ -34,17 +34,26 @@ def run_excite(args: argparse.Namespace) -> Json:
         usual_harmonics(bounds, args.duration) if args.harmonics is None else args.harmonics,
         args.objective, args.starts, args.seed, args.time_limit, args.laps,
     )  # fmt: skip
+    extra = {}
     with progress(f"looking for a motion of {subject.robot.name}") as bar:
         if args.between is not None:
-            question = question_of(subject, args.between)
+            question = motions.question_of(subject, args.between)
             motion, apart = tell_apart(subject.compiled, bounds, wish, question, bar)
+            lines, extra = [*apart.lines(), *motion.lines()[2:]], {"between": apart.to_json()}
         else:
             motion = subject.search(bounds, wish, bar)
-    lines = motion.lines() if args.between is None else [*apart.lines(), *motion.lines()[2:]]
+            lines = motion.lines()
     for line in lines:
         say(line)
-    _write(args, motion, subject.compiled)
-    extra = {} if args.between is None else {"between": apart.to_json()}
+    columns = motion.sampled(args.rate)
+    table = csv_text(columns) if args.out.endswith(".csv") else motion_table(columns)
+    write_atomically(Path(args.out), table)
+    say(f"written: {args.out}, {len(columns['time'])} samples, {motion.seconds:.1f} s of search")
+    if args.picture is not None:
+        with working("drawing"):
+            drawn = picture(motion, subject.compiled, check_kind(args.picture))
+        write_atomically(Path(args.picture), drawn)
+        say(f"written: {args.picture}")
     return motion.to_json() | {"effects": [u.effect for u in subject.robot.effects]} | extra
 
 
@@ -61,14 +70,14 @@ def _check_usage(args: argparse.Namespace) -> None:
                 f"leave --{option} out"
             )
     if args.out is not None:
-        check_suffix(Path(args.out))
+        simulation.check_suffix(Path(args.out))
     if args.picture is not None:
         check_kind(args.picture)
     if not (math.isfinite(args.rate) and 0.0 < args.rate <= 1e5):
         raise DataError(f"--rate: got {args.rate:g}; expected more than 0, at most 1e5")
 
 
-def _subject(args: argparse.Namespace) -> Subject:
+def _subject(args: argparse.Namespace) -> motions.Subject:
     if not args.robot.endswith(".json"):
         if args.between is not None:
             raise DataError(
@@ -76,14 +85,14 @@ def _subject(args: argparse.Namespace) -> Subject:
             )
         robot = robot_of(args)
         with working(f"deriving {robot.name}"):
-            return subject_of(robot)
+            return motions.subject_of(robot)
     if args.effects is not None:
         raise DataError(
             "--effects: of a robot file only; a model has the effects it was fitted with"
         )
     model = load_model(args.robot)
     with working("deriving the robot of the model"):
-        return subject_of(model)
+        return motions.subject_of(model)
 
 
 def bounds_of(
@@ -97,7 +106,7 @@ def bounds_of(
     """
     moving = [joint.name for joint in robot.moving]
     form = "LOWER,UPPER,SPEED,ACCELERATION"
-    return bounds_within(
+    return motions.bounds_of(
         robot, compiled,
         dict(_assigned("--limit", text, moving, (4, 5), form) for text in limits),
         dict(_assigned("--box", text, moving, (6,), "X0,X1,Y0,Y1,Z0,Z1") for text in boxes),
@@ -124,16 +133,17 @@ def _assigned(
     return name, values
 
 
-def _choose(args: argparse.Namespace, subject: Subject) -> Json:
-    names = [joint.name for joint in subject.compiled.spec.joints]
+def _choose(args: argparse.Namespace, subject: motions.Subject) -> Json:
+    compiled = subject.compiled
+    names = [joint.name for joint in compiled.spec.joints]
     kept = slice(None) if subject.kept is None else subject.kept
     weights = 1.0 if subject.sigma is None else 1.0 / subject.sigma[:, None]
     rows = []
     with working("building the rows of the motions"):
         for place in args.candidates:
-            motion = read_motion(place, names)
-            s = signals(subject.compiled.spec, motion.q, motion.time)
-            phi = subject.compiled.base_regressor(motion.q, motion.qd, motion.qdd, s)[:, :, kept]
+            motion = simulation.read_motion(place, names)
+            s = signals(compiled.spec, motion.q, motion.time)
+            phi = compiled.base_regressor(motion.q, motion.qd, motion.qdd, s)[:, :, kept]
             rows.append((phi * weights).reshape(-1, phi.shape[2]))
         choice = choose(rows, args.choose)
     for k, place in enumerate(args.candidates):
@@ -153,15 +163,54 @@ def _choose(args: argparse.Namespace, subject: Subject) -> Json:
     }
 
 
-def _write(args: argparse.Namespace, motion: Exciting, compiled: CompiledModel) -> None:
-    columns = motion.sampled(args.rate)
-    if args.out.endswith(".csv"):
-        write_atomically(Path(args.out), csv_text(columns))
-    else:
-        write_atomically(Path(args.out), motion_table(columns))
-    say(f"written: {args.out}, {len(columns['time'])} samples, {motion.seconds:.1f} s of search")
-    if args.picture is not None:
-        with working("drawing"):
-            drawn = picture(motion, compiled, check_kind(args.picture))
-        write_atomically(Path(args.picture), drawn)
-        say(f"written: {args.picture}")
+_SETTINGS = ("rate", "seed", "parameter_seed", "encoder_counts", "process_noise", "controller")
+"""Options of `modeler simulate` that are settings of the simulation by the same name."""
+
+
+def run_simulate(args: argparse.Namespace) -> Json:
+    """Simulates and writes the log."""
+    simulation.check_suffix(Path(args.out))
+    robot = robot_of(args)
+    given = {name: getattr(args, name) for name in _SETTINGS} | {"torque_noise": args.noise}
+    made = args.motion in MOTIONS
+    if args.duration is not None:
+        if not made:
+            raise DataError(
+                f"--duration: got {args.duration:g} s with --motion {args.motion}, which is as "
+                "long as it is; leave --duration out"
+            )
+        given["duration"] = args.duration
+    given["drive_gains"] = simulation.drive_gains(args.drive_gain, robot)
+    if not made and not (math.isfinite(args.rate) and args.rate > 0.0):
+        raise DataError(f"--rate: got {args.rate:g}; expected a number above 0")
+    settings = motions.settings_of(robot, args.hide, args.motion, given)
+    try:
+        with progress(f"simulating {robot.name}") as report:
+            log = simulation.simulate(robot, settings, report)
+    except DataError as error:
+        raise error if made else DataError(f"{args.motion}: {error}") from None
+    simulation.write_log(Path(args.out), log)
+    if args.truth is not None:
+        simulation.write_truth(Path(args.truth), log)
+    drawn = f", {len(log.truth.drawn)} parameters drawn" if log.truth.drawn else ""
+    say(f"{robot.name}: {len(log.time)} samples of {len(log.joints)} joints{drawn}")
+    for effect in log.truth.hidden:
+        where = f" on {effect.joint}" if effect.joint else ""
+        values = ", ".join(f"{name} = {value:.4g}" for name, value in effect.values.items())
+        say(f"hidden: {effect.effect}{where}: {values}")
+    if log.range_share < 1.0:
+        say(
+            f"motion: within {log.range_share:.0%} of the way from [home] to the limits: farther, "
+            f"the loops come nearer than {simulation.KEPT:.0%} of home's distance to a singular "
+            "posture, or do not close"
+        )
+    say(f"written: {args.out}")
+    return {
+        "robot": robot.name,
+        "samples": len(log.time),
+        "joints": list(log.joints),
+        "parameters": dict(log.truth.parameters),
+        "drawn": list(log.truth.drawn),
+        "hidden": simulation.told_hidden(log),
+        "range_share": log.range_share,
+    }

@@ -1,0 +1,575 @@
+"""All that can be typed: each command with its arguments, without what it runs.
+
+Nothing that takes long to load is imported here: `modeler --help`, and the answer to a wrong
+usage, come at once.
+"""
+
+import argparse
+from typing import get_args
+
+from modeler.cli import places
+from modeler.cli.options import (
+    FEW_JOINTS,
+    Argument,
+    Command,
+    Form,
+    Group,
+    choice,
+    flag,
+    repeated,
+    several,
+    value,
+)
+from modeler.core import errors
+from modeler.core.builtin import EFFECTS, MOTIONS, SIMULATED, paper_names
+from modeler.core.estimators import ABOUT, APART
+
+NOMINAL = ""
+"""`--cad` without a file: the values of the robot file."""
+
+# What several commands share.
+
+_ROBOT_FILE = "a robot file, or the name of a built-in robot"
+_ROBOT_OR_MODEL = "a robot file, the name of a built-in robot, or a model file of `modeler fit`"
+_WINDOW = "FILE@START:END takes the rows between these seconds"
+_LOGS = f"Parquet, CSV, MAT, HDF5 or MCAP logs, ROS bags; {_WINDOW}"
+_EFFECTS = 'effects instead of those of the file, for all joints: "viscous,coulomb"'
+_PARALLEL = "the one low-pass of torques and all columns"
+_REQUIRED = {"required": True}
+
+_ROBOT = value("robot", "ROBOT", places.RobotFile, _ROBOT_FILE)
+_CHANGED = value("--effects", "LIST", places.Word, f'{_EFFECTS}; "" for none')
+_MODEL = value("model", "MODEL", places.ModelFile, "a model file of `modeler fit`")
+_MAP = repeated(
+    "--map", "NAME=COLUMN[:UNIT]", places.MapWord,
+    "which column of the logs is ours, as 'q<j>=position_{j}:deg', or FILE.toml with such lines; "
+    "may be given several times; over [log] of the robot file",
+)  # fmt: skip
+_DASK = value(
+    "--dask", "ADDRESS", places.Word,
+    "a Dask scheduler whose workers read the logs, as tcp://host:8786; local: a cluster of this "
+    "machine's processors",
+)  # fmt: skip
+_FORCE = flag(
+    "--force", "write also over files of DIR that no earlier run wrote, or that were edited since"
+)
+_PAGE = "write one self-contained page"
+_PICTURES = "write every picture as PNG, SVG and CSV"
+
+
+def _logs(text: str, nargs: str = "+") -> Argument:
+    return value("logs", "LOG", places.LogFile, text, nargs=nargs)
+
+
+def _report(kind: type[places.Output] = places.Output) -> Argument:
+    """It may be called `--page`, as `derive` and `log` call it."""
+    page = value("--report", "PAGE.html", kind, _PAGE)
+    return Argument(("--report", "--page"), page.settings)
+
+
+# Of a robot: its model, its C, its pictures, its postures.
+
+_DERIVE = Command(
+    "derive", "derive:run_derive",
+    "base parameters and grouping relations, with their proof",
+    "Derives the model of ROBOT, linear in the dynamic parameters: which base parameters it has, "
+    "how the standard parameters group, and the proof. Robots of up to "
+    f"{FEW_JOINTS} joints also get their PG/PJ/PS coefficients.",
+    "modeler derive puma560 --format latex --document > puma560.tex",
+    (
+        _ROBOT, _CHANGED,
+        choice("--format", sorted(get_args(Form)), "of what is printed", "text"),
+        flag("--document",
+             "with --format latex: a whole document; without, what \\input takes beside amsmath"),
+        Argument(("--terms",), {"action": argparse.BooleanOptionalAction,
+                                "help": "PG/PJ/PS coefficients or not"}),
+        flag("--closed-form",
+             "M(q), Christoffel coefficients and gravity; of loops J_t and J_p too"),
+        flag("--regressor", "every base column, that of friction too"),
+        flag("--expanded",
+             "with --closed-form: sums of monomials instead of named quantities; with --terms: all "
+             "coefficients, those that follow from others too"),
+        flag("--nonzero",
+             "with --closed-form and --regressor: leave out base parameters that are 0 at the "
+             "values of [parameters]"),
+        value("--report", "FILE.md", places.Output, "write the page of the coefficients"),
+        value("--page", "FILE.html", places.Output, "write a page: table, relations, proof"),
+        flag("--open", "cut the loops: the tree, as counted leg by leg"),
+    ),
+)  # fmt: skip
+
+_SHOW = Command(
+    "show", "show:run_show",
+    "the robot in 3-D: a page with sliders, a picture for papers",
+    "Draws the skeleton of ROBOT at home: frames, joint axes, links, loops, platform, gravity. The "
+    "page stands alone, its sliders move the actuated joints and the loops follow. Loops that do "
+    "not close are drawn open, with the gap.",
+    "modeler show orthoglide-2003 --png orthoglide.pdf",
+    (
+        _ROBOT,
+        value("--out", "PAGE", places.Output,
+              "page to write (default NAME.html, if no picture is asked for)"),
+        value("--png", "FILE", places.Output,
+              "write a picture one column wide: .png, .svg or .pdf"),
+    ),
+    "write poses at home and gaps of loops for machines",
+)  # fmt: skip
+
+_HOME = Command(
+    "home", "home:run_home",
+    "closed postures of a robot with loops, and its assembly modes",
+    "Finds the ways in which the loops of ROBOT can be put together with its actuated joints where "
+    "[home] says, else in the middle of their [limits], else far from singularities; each gets a "
+    "letter, A the best to start from. What [home] or --near say of passive joints ranks them: one "
+    "near to it comes first.",
+    "modeler home crank.toml --pictures modes.html --mode B --write",
+    (
+        _ROBOT,
+        value("--near", "q1=0.3,...", places.Word,
+              "values to stay near, rad and m, in place of the passive joints' in [home]"),
+        flag("--anew", "as if the file had no [home]"),
+        value("--mode", "LETTER", places.Word, "the mode that is meant (default A)"),
+        flag("--write", "write it into the robot file as [home]"),
+        value("--pictures", "FILE", places.Output,
+              "a small picture of every mode: .png, .svg or .pdf, or a page (.html)"),
+    ),
+    "write the modes for machines",
+)  # fmt: skip
+
+_GENERATE = Command(
+    "generate", "derive:run_generate",
+    "C source, header, manifest and build files",
+    "Writes dependency-free C99 for ROBOT: regressors, inverse dynamics, inertia matrix, gravity, "
+    "Coriolis, and the batch observation matrix, in a folder that builds by itself with make or "
+    "cmake. Of a MODEL also functions that have its fitted values: they take no parameters, and "
+    "their Coulomb friction can be smoothed.",
+    "modeler generate panda --out panda_c; of a fitted model: "
+    "modeler generate arm.model.json --out arm_c",
+    (
+        value("robot", "ROBOT|MODEL", places.RobotOrModel, _ROBOT_OR_MODEL),
+        _CHANGED,
+        value("--out", "DIR", places.ModuleFolder, "folder to write", **_REQUIRED),
+        choice("--precision", get_args(errors.Precision),
+               "of all numbers of the C: double, or float for a microcontroller", "double"),
+        flag("--cuda", "also the base regressor for graphics processors"),
+        _FORCE,
+    ),
+    "write the manifest for machines",
+)  # fmt: skip
+
+_PHYSICAL = Command(
+    "physical", "physical:run_physical",
+    "masses, mass centres and inertias that follow from a fit and from known ones",
+    "Which physical parameters follow from the base parameters if some are known: formulas in an "
+    "order that can be checked, with a MODEL values and sigma; which sets of known parameters "
+    "suffice; a fit against CAD values. Without options: what there is to know, and the easiest "
+    "set that suffices.",
+    "modeler physical wrist --known am,bm,bl1,bt2,ct1,bJ33,cJ33,cm",
+    (
+        value("source", "ROBOT|MODEL", places.RobotOrModel, _ROBOT_OR_MODEL),
+        value("--known", "LIST", places.Word,
+              'parameters that are known, "am,bm"; with a MODEL their values in SI units, and '
+              'standard deviations where they have one: "am=12+-0.1,bm=6"'),
+        value("--near", "LIST", places.Word,
+              'about what a parameter is, "cm=4": chooses between roots where several fit'),
+        value("--sets", "N", int,
+              "count and rank the sets of N known parameters that suffice; the smallest without N",
+              nargs="?", const=True),
+        value("--cad", "FILE.toml", places.Word,
+              "with a MODEL: the fit against these values, am = 12.0 or am = [12.0, 0.1]; without "
+              "FILE against those of the robot file. With --sets: where errors are compared",
+              nargs="?", const=places.Word(NOMINAL)),
+        choice("--format", ("text", "latex", "python"), "of the formulas", "text"),
+        Argument(("--from",), {"dest": "of", "choices": ("base", "coefficients"), "help":
+                 "formulas from base parameters, or from the coefficients PG, PJ of the closed "
+                 "form; default: coefficients where a fit leaves a length free"}),
+    ),
+)  # fmt: skip
+
+_CONVERT = Command(
+    "convert", "show:run_convert",
+    "another program's robot file as ours",
+    "Writes the robot of a SYMORO file (.par) as a robot file, and says what was decided and what "
+    "has no place there. Every command reads a .par as well; converted, it can be edited.",
+    "modeler convert rx90.par --out rx90.toml",
+    (
+        value("file", "FILE", places.RobotFile, "a SYMORO file (.par)"),
+        value("--out", "ROBOT.toml", places.Output, "robot file to write", **_REQUIRED),
+        flag("--force", "write over a file that is there"),
+    ),
+    "write what was converted for machines",
+)  # fmt: skip
+
+# From logs: what is in them, a fit, whether it is true, what drifts.
+
+_LOG = Command(
+    "log", "log:run_log",
+    "what is in a log: channels, rates, gaps, doubts, pictures",
+    "Lists what FILE holds: topics and columns, rate, jitter, gaps, ranges, resolution, missing "
+    "values, limits. Names doubts, and suggests a [log] to start from, guessed from names and "
+    "ranges. With a robot: fits it, and says what contradicts it.",
+    "modeler log run1.mat --robot arm.toml --page run1.html",
+    (
+        value("log", "FILE", places.LogFile,
+              f"Parquet, CSV, MAT, HDF5, numpy or MCAP file, or ROS bag; {_WINDOW}"),
+        value("--robot", "ROBOT", places.RobotFile,
+              f"{_ROBOT_FILE}: its [log], its joints, and doubts that a fit shows"),
+        _MAP,
+        value("--page", "PAGE.html", places.Output, "write one page"),
+        value("--pictures", "DIR", places.LogPictures, _PICTURES),
+    ),
+    "write what is in it for machines",
+)  # fmt: skip
+
+_PROCESSING = Group(
+    "processing", "chosen from the logs and told where left out",
+    (
+        value("--cutoff", "HZ", float,
+              "low-pass of the positions (zero phase, Butterworth order 4)"),
+        value("--parallel-cutoff", "HZ", float, _PARALLEL),
+        value("--decimate", "N", int, "keep every N-th row after it"),
+        choice("--derivatives", get_args(errors.Derivatives),
+               "logged velocities, or positions differentiated; auto: the quieter", "auto"),
+        value("--low-speed", "SHARE", float,
+              "leave out rows below this share of the joint's top speed, where the sign of the "
+              "speed is doubtful", default=errors.LOW_SPEED),
+        flag("--keep-saturated", "use rows whose torque is stuck at its limit"),
+        flag("--keep-contradicted",
+             "use rows whose logged derivatives contradict the signals below them"),
+        flag("--keep-damaged",
+             "use leaps, spikes and repeated values, which no robot can have made, as logged"),
+    ),
+)  # fmt: skip
+
+_LOAD = Group(
+    "load", "some of the logs carry a load on a link",
+    (
+        repeated("--payload-log", "LOG", places.LogFile,
+                 "a further log, with the load; may be given several times"),
+        value("--payload-mass", "KG", float, "its mass, if it is known"),
+        flag("--payload-moved",
+             "it was taken off between the loaded logs: the same mass, but its own centre and "
+             "inertia in each"),
+        value("--payload-link", "J", places.Word, "the link that carries it; default: the last"),
+    ),
+)  # fmt: skip
+
+_FIT = Command(
+    "fit", "fit:run_fit",
+    "estimate the base parameters from logs",
+    "Filters the logs, builds the observation matrix and estimates the base parameters of ROBOT: "
+    "value, sigma, %sigma, errors per joint; saves a model file.",
+    "modeler fit ur10e run1.parquet run2.parquet --out ur10e.model.json",
+    (
+        _ROBOT, _CHANGED, _logs(_LOGS), _MAP,
+        value("--out", "MODEL", places.Output, "model file to write", **_REQUIRED),
+        choice("--method", (*get_args(errors.Method), errors.GAIN_METHOD, errors.TWO_STEPS),
+               "; ".join(f"{about.id}: {about.title}" for about in (*ABOUT.values(), *APART))
+               + "; `modeler estimators` says when each is the wrong one (default %(default)s)",
+               "weighted"),
+        value("--robot-out", "FILE.toml", places.Output,
+              "write the robot file with the values found, for simulators (--method consistent), "
+              "or with the drive gains found (--method tls)"),
+        choice("--model", get_args(errors.ModelKind),
+               "one equation a joint and sample, or the energy balance of windows (default "
+               "%(default)s)", "torque"),
+        value("--window", "S", float,
+              "length of a window of --model energy; left out: the spacing of the torque model's "
+              "rows"),
+        value("--essential-below", "PERCENT", float,
+              "keep in the reduced model what has a sigma below this share of its value (papers: "
+              "15); left out: what an F-test misses"),
+        _PROCESSING, _LOAD, _DASK, _report(),
+    ),
+)  # fmt: skip
+
+_COMPARE = Command(
+    "compare", "compare:run_compare",
+    "measured against predicted torque: how good, where it fails",
+    "Predicts the torques of the logs with MODEL and shows per joint how good it is, where it "
+    "fails, and whether the rest still has structure. Of several models: whose error is smaller on "
+    "which joint, and where that is beyond doubt.",
+    "modeler compare ur10e.model.json held_out.parquet --report page.html; "
+    "modeler compare ur10e.model.json better.model.json held_out.parquet",
+    (
+        _MODEL,
+        value("logs", "LOG", places.model_or_log,
+              f"{_LOGS}; before them perhaps further models, which are set beside the first",
+              nargs="+"),
+        _MAP, _report(places.PageOrFolder),
+        value("--pictures", "DIR", places.PictureFolder, _PICTURES),
+        flag("--essential",
+             "predict with the reduced model of the fit: its essential parameters, all others 0"),
+        flag("--run-embedded-c",
+             "compile the C in MODEL instead of emitting it anew: only for files that you trust"),
+    ),
+)  # fmt: skip
+
+_FREE_RUN = Command(
+    "free-run", "compare:run_free_run",
+    "positions that the fitted robot takes under the logged torques",
+    "Simulates the robot of MODEL under the torques of the logs, window after window from the "
+    "measured state, and compares positions: fit per joint, how long the error stays within a "
+    "bound, and whether errors grow by the robot's nature whatever the model. Where commanded "
+    "positions were logged, also under a controller that follows them.",
+    "modeler free-run ur10e.model.json held_out.parquet --pictures free_run",
+    (
+        _MODEL, _logs(f"logs; {_WINDOW}"),
+        value("--window", "S", float, "seconds from one measured state to the next", default=1.0),
+        value("--bound", "SHARE", float,
+              "of a joint's range of motion: an error above it ends the horizon", default=0.05),
+        value("--controller", "HZ,RATIO[,INTEGRAL[,FORWARD]]", places.Word,
+              "the controller that follows the commands: speed loop, ratio of the position loop to "
+              "it, integral action and feedforward (1 or 0); default: the one that comes nearest"),
+        value("--pictures", "DIR", places.PictureFolder, _PICTURES),
+        _MAP,
+    ),
+)  # fmt: skip
+
+_ESTIMATORS = Command(
+    "estimators", "fit:run_estimators",
+    "the ways to estimate, and all of them on the same logs",
+    "Lists the estimators of `modeler fit --method`: law, source, and when not to use each. With "
+    "ROBOT and logs, fits all of them to the same rows and shows values, errors, seconds and "
+    "warnings side by side; no model is written.",
+    "modeler estimators emps train.parquet --holdout pulses.parquet",
+    (
+        value("robot", "ROBOT", places.RobotFile, _ROBOT_FILE, nargs="?"),
+        _logs(f"logs to fit; {_WINDOW}", "*"),
+        value("--effects", "LIST", places.Word, _EFFECTS),
+        several("--holdout", "LOG", places.LogFile,
+                "logs of other motion, not fitted: their error"),
+        value("--methods", "LIST", places.Word, "some of them, with commas between; default: all"),
+        _MAP, _report(),
+    ),
+)  # fmt: skip
+
+_FLEET = Command(
+    "fleet", "fleet:run_fleet",
+    "one robot kind, many machines and days: what drifts where",
+    "Fits all logs of machines of one kind together: inertial parameters in common, friction, "
+    "offset and drive gain of every joint log by log. Says which of them drifts, leaps, or is "
+    "apart from those of the other machines, beyond doubt.",
+    "modeler fleet ur10e plant/*/*.parquet --page fleet.html",
+    (
+        _ROBOT, _CHANGED, _logs(f"logs, or folders of logs; {_WINDOW}", "*"),
+        Group("names", "which machine and period a log is of", (
+            value("--name", "PATTERN", places.Word,
+                  "how paths end, as '{machine}-{period}.csv'; left out: the folder is the "
+                  "machine, the file the period"),
+            value("--list", "FILE", places.ListFile,
+                  "logs by name, in place of LOG: .csv with machine, period, log in its first "
+                  "line, or .toml with [[log]] tables"),
+        )),
+        _MAP,
+        Group("processing", "chosen from the first log, for all alike", (
+            value("--cutoff", "HZ", float, "low-pass of the positions"),
+            value("--parallel-cutoff", "HZ", float, _PARALLEL),
+        )),
+        Group("workers", None, (
+            value("--workers", "N", int,
+                  "processes that read logs; left out: one for few logs, all processors for many"),
+            _DASK,
+        )),
+        _report(),
+    ),
+)  # fmt: skip
+
+# What a model lacks; motions and measurements that show it.
+
+_DIAGNOSE = Command(
+    "diagnose", "improve:run_diagnose",
+    "which physical effect is missing",
+    "Looks for the physical effects that MODEL lacks on the logs: which, on which joint, how "
+    "large, what adding them would gain on motion not used for the fit, what they could be "
+    "mistaken for, and what these logs cannot show.",
+    "modeler diagnose arm.model.json train.parquet --holdout other.parquet",
+    (
+        _MODEL, _logs(f"logs to explain; {_WINDOW}"),
+        several("--holdout", "LOG", places.LogFile,
+                "logs of other motion: errors come from them, nothing is fitted to them"),
+        repeated("--without", "EFFECT[@J]", places.Word,
+                 "an effect that this robot does not have, on one joint or at all"),
+        _MAP, _report(),
+    ),
+)  # fmt: skip
+
+_ADD = Command(
+    "add", "improve:run_add",
+    "put a physical effect into a model and watch the error fall",
+    "Adds EFFECT to the robot of MODEL, derives and emits it anew, fits it to the logs and shows "
+    "the error before and after. EFFECT may also be `auto`: all that `modeler diagnose` names, or "
+    "`undo`: without the last one.",
+    "modeler add arm.model.json load_friction --joint 2 train.parquet "
+    "--holdout other.parquet --out arm2.model.json",
+    (
+        _MODEL,
+        value("effect", "EFFECT", places.Word, "see `modeler effects`; auto; undo"),
+        _logs("logs to fit to"),
+        value("--joint", "J", places.Word, "default: where it explains most"),
+        value("--out", "MODEL2", places.Output, "model file to write", **_REQUIRED),
+        several("--holdout", "LOG", places.LogFile, "logs of other motion to judge on"),
+        value("--robot", "FILE", places.Output, "write the new robot file too"),
+        _MAP, _report(),
+    ),
+)  # fmt: skip
+
+_EXCITE = Command(
+    "excite", "motion:run_excite",
+    "a motion within limits that tells the parameters apart",
+    "Finds a motion of ROBOT within its [limits] along which the parameters are well told apart, "
+    "and writes it as a table for a controller or `modeler simulate --motion`. Of a MODEL: its "
+    "essential parameters, its torque noise. With --between: the motion that tells two effects "
+    "apart. With --choose: the best of motions that there are.",
+    "modeler excite panda --duration 10 --out motion.csv --picture motion.png",
+    (
+        value("robot", "ROBOT", places.RobotOrModel, _ROBOT_OR_MODEL),
+        _CHANGED,
+        value("--out", "MOTION", places.NewLog,
+              "motion to write, .csv or .parquet: time, q, qd and qdd of every joint"),
+        value("--picture", "FILE", places.Output, "draw it against its limits, .png, .svg or .pdf"),
+        value("--duration", "S", float, "seconds, from rest to rest", default=10.0),
+        value("--laps", "N", int, "times that this motion is driven in MOTION", default=1),
+        value("--rate", "HZ", float, "samples per second of MOTION", default=200.0),
+        value("--harmonics", "N", int, "of the Fourier series; default: 5 to 10, by the limits"),
+        choice("--objective", ("both", "condition", "information"),
+               "condition: the condition number, columns of length one; information: log det of "
+               "the information matrix; both: the sum of their logarithms (default %(default)s)",
+               "both"),
+        value("--starts", "N", int, "searches, from the best of 50 random motions", default=6),
+        value("--seed", "N", int, "of the random motions", default=0),
+        value("--time-limit", "S", float, "take the best after so many seconds"),
+        repeated("--limit", "J=LOWER,UPPER,SPEED,ACCELERATION[,TORQUE]", places.Word,
+                 "of a joint, instead of those of the file, SI units; may be repeated; torques "
+                 "need values of the parameters"),
+        repeated("--box", "FRAME=X0,X1,Y0,Y1,Z0,Z1", places.Word,
+                 "where the origin of a frame must stay, m, in frame 0; may be repeated"),
+        value("--between", "EFFECT@J,EFFECT@J", places.Word,
+              "make what the first effect alone explains large, and the second: of a MODEL"),
+        value("--choose", "N", int, "take N of the motions of --from; takes no --out"),
+        several("--from", "LOG", places.MotionFile,
+                "logs or motions to choose from", dest="candidates"),
+    ),
+    "write what was found for machines",
+)  # fmt: skip
+
+_SIMULATE = Command(
+    "simulate", "motion:run_simulate",
+    "measurements by forward simulation in closed loop",
+    "Simulates ROBOT under a controller that sees quantised encoders, and writes the log that its "
+    "logger would have written; a robot with loops carries out the commanded motion exactly, "
+    "unless --controller is given. Parameters that the robot file leaves open are drawn from the "
+    "seed.",
+    "modeler simulate demo-arm --duration 30 --seed 1 --out run1.parquet",
+    (
+        _ROBOT, _CHANGED,
+        value("--out", "LOG", places.NewLog, "log to write, .parquet or .csv", **_REQUIRED),
+        value("--truth", "FILE", places.Output, "write the true parameters as JSON"),
+        value("--motion", "MOTION", places.MotionOrKind,
+              "exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
+              "[limits] allow; one-joint: one after the other alone; or a file of `modeler excite` "
+              "or a log, whose (commanded) positions are then the motion, as long as it is "
+              "(default %(default)s)", default=MOTIONS[0]),
+        value("--duration", "S", float,
+              f"seconds (default {SIMULATED['duration']:g}); not of a file, which is as long as it "
+              "is"),
+        value("--rate", "HZ", float, "samples per second", default=SIMULATED["rate"]),
+        value("--seed", "N", int, "of motion and noise", default=SIMULATED["seed"]),
+        value("--parameter-seed", "N", int,
+              "of parameters the file leaves open", default=SIMULATED["parameter_seed"]),
+        value("--noise", "SHARE", float,
+              "torque noise, share of the rms torque", default=SIMULATED["torque_noise"]),
+        value("--process-noise", "SHARE", float,
+              "random torque on the machine, share of the rms torque",
+              default=SIMULATED["process_noise"]),
+        flag("--controller",
+             "a robot with loops is moved by a controller too, as others always are"),
+        value("--encoder-counts", "N", int,
+              "per turn, 0 for an ideal encoder", default=SIMULATED["encoder_counts"]),
+        repeated("--hide", "EFFECT[@JOINT][:NAME=VALUE,...]", places.Word,
+                 "physics that the machine has and the robot file lacks; may be repeated; joint "
+                 f"and values left out are drawn from --parameter-seed: {', '.join(EFFECTS)}"),
+        repeated("--drive-gain", "JOINT=VALUE", places.Word,
+                 "true torque per drive unit of a joint; its current is logged in place of its "
+                 "torque; may be repeated"),
+    ),
+    "write what was simulated for machines",
+)  # fmt: skip
+
+# What is built in, what papers print, a demonstration, completion.
+
+_ROBOTS = Command(
+    "robots", "lists:run_robots",
+    "the built-in robots",
+    "Lists the built-in robots: names to use wherever a command asks for ROBOT.",
+    "modeler robots --json robots.json",
+    (value("--show", "NAME", places.RobotFile, "print that robot's file, to start your own"),),
+    "write the list for machines",
+)  # fmt: skip
+
+_CATALOGUE = Command(
+    "effects", "lists:run_effects",
+    "the catalogue of physical effects",
+    "Lists the physical effects that a robot file may name under [effects].",
+    "modeler effects coulomb",
+    (
+        value("effect", "EFFECT", places.Word, "one effect, in full", nargs="?"),
+        value("--robot", "ROBOT", places.RobotFile,
+              "with the effects that this robot file defines"),
+    ),
+    "write the catalogue for machines",
+)  # fmt: skip
+
+_REPRODUCE = Command(
+    "reproduce", "reproduce:run_reproduce",
+    "what a paper prints beside what is derived, its identification run again",
+    "Quotes what a paper prints, derives it, and says of every line: printed and equal, printed "
+    "and different (a misprint, an omission, an error, or perhaps the scan), or our consequence, "
+    "not printed. Then runs the paper's identification again in simulation and sets its tables "
+    "beside ours. Exit status 1 if a line differs unexpectedly.",
+    "modeler reproduce guegan-2003 --section methods",
+    (
+        value("paper", "PAPER", places.Word, f"one of {', '.join(paper_names())}"),
+        choice("--section", ("print", "methods"),
+               "what is printed, or the methods; both by default"),
+    ),
+    "write the lines for machines",
+)  # fmt: skip
+
+_DEMO = Command(
+    "demo", "demo:run_demo",
+    "the whole story on built-in robots with a hidden effect",
+    "Simulates an arm, then a robot with closed loops, each with a physical effect that its robot "
+    "file lacks: derives, emits C, fits, compares, finds out which effect is missing, adds it, and "
+    "shows the error falling on motion that was never fitted.",
+    "modeler demo --out demo",
+    (
+        value("--out", "DIR", places.DemoFolder, "folder (default %(default)s)", default="demo"),
+        _FORCE,
+        value("--duration", "S", float, "seconds of each simulated run", default=20.0),
+    ),
+    "write the diagnoses for machines",
+)  # fmt: skip
+
+_COMPLETION = Command(
+    "completion", "completion:run_completion",
+    "a script that lets a shell complete what you type",
+    "Prints a script for bash, zsh or fish: with it, the Tab key completes commands, options, "
+    "built-in robots, effects, and files of the right kind.",
+    'eval "$(modeler completion bash)"',
+    (
+        Argument(("shell",), {"metavar": "SHELL", "choices": ("bash", "zsh", "fish"),
+                              "help": "bash, zsh, fish"}),
+        # what the scripts call: the line so far, its last word unfinished
+        Argument(("--words",), {"nargs": argparse.REMAINDER, "type": places.Word,
+                                "help": argparse.SUPPRESS}),
+    ),
+    "write the script for machines",
+)  # fmt: skip
+
+COMMANDS = (
+    _DERIVE, _SHOW, _HOME, _GENERATE, _LOG, _FIT, _COMPARE, _FREE_RUN, _DIAGNOSE, _ADD, _FLEET,
+    _PHYSICAL, _SIMULATE, _EXCITE, _CONVERT, _ROBOTS, _CATALOGUE, _ESTIMATORS, _REPRODUCE, _DEMO,
+    _COMPLETION,
+)  # fmt: skip
+"""In the order of `modeler --help`."""

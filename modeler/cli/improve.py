@@ -1,0 +1,137 @@
+"""`modeler diagnose MODEL LOG...` and `modeler add MODEL EFFECT LOG... --out MODEL2`."""
+
+import argparse
+from pathlib import Path
+
+import modeler.api.improve as improve
+from modeler.cli.console import Json, progress, say, say_next, working
+from modeler.core.errors import DataError
+from modeler.core.files import write_atomically
+from modeler.core.table import DIGITS, percent
+from modeler.diagnosis.add import add_effect, undone
+from modeler.diagnosis.added_model import added, notes
+from modeler.diagnosis.sentences import lines
+from modeler.effects.catalogue import effect_named
+from modeler.estimation.model_file import IdentifiedModel, load_model, save_model
+from modeler.report.diagnosis import write_diagnosis
+from modeler.report.history import write_additions
+from modeler.report.page import Origin, after_add, after_diagnosis
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import near
+
+_WIDTH = 40  # characters of the longest bar
+
+
+def run_diagnose(args: argparse.Namespace) -> Json:
+    """Prints the verdict, the effects and what cannot be told."""
+    model = load_model(args.model)
+    _check_without(args, model)
+    with working("deriving the robot of the model"):
+        compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map)
+    with progress("looking for missing effects") as bar:
+        diagnosis = improve.missing(model, compiled, logs, args.without, bar)
+    following = after_diagnosis(args.model, args.logs, args.holdout, diagnosis)
+    wrote = []
+    if args.report is not None:
+        shown = [Path(place).name for place in (*args.logs, *args.holdout)]
+        provenance = [
+            f"model: {model.spec.robot}, {len(model.beta)} base parameters, fitted on "
+            f"{', '.join(log.name for log in model.logs)}",
+            f"logs explained: {', '.join(shown[: len(args.logs)])}",
+            *model.warning,
+        ]
+        origin = Origin(args.model, shown, bool(diagnosis.held_out))
+        with working("drawing"):
+            place = write_diagnosis(Path(args.report), diagnosis, provenance, origin, following)
+        wrote = [f"written: {place}"]
+    for line in (*lines(diagnosis), *model.warning, *wrote):
+        say(line)
+    say_next(following)
+    return diagnosis.to_json()
+
+
+def _check_without(args: argparse.Namespace, model: IdentifiedModel) -> None:
+    """Refuses effects that there are not, then joints."""
+    catalogue = robot_from_text(model.robot_text, f"{args.model}, robot").catalogue
+    known = [effect.id for effect in catalogue]
+    names = [joint.name for joint in model.spec.joints]
+    closure = model.spec.closure
+    passive = closure.variables if closure is not None else ()
+    for text in args.without:
+        name = text.partition("@")[0]
+        if effect_named(name, catalogue) is None:
+            raise DataError(
+                f"--without {text}: no such effect{near(name, known)}; expected one of "
+                f"{', '.join(known)}"
+            )
+    for text in args.without:
+        joint = text.partition("@")[2]
+        if "@" in text and joint not in {*names, *passive}:
+            raise DataError(
+                f"--without {text}: no joint {joint}; expected one of {', '.join(names)}"
+            )
+
+
+def run_add(args: argparse.Namespace) -> Json:
+    """Adds, saves, draws the waterfall."""
+    if args.joint is not None and args.effect in ("auto", "undo"):
+        raise DataError(
+            f"--joint {args.joint}: `{args.effect}` takes no joint; expected one effect with "
+            "--joint, or leave it out"
+        )
+    model = load_model(args.model)
+    with working("deriving the robot of the model"):
+        compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map)
+    left_out: tuple[str, ...] = ()
+    if args.effect == "auto":
+        with progress("looking for missing effects") as bar:
+            better, left_out, _ = improve.auto_added(model, compiled, logs, bar, working)
+    elif args.effect == "undo":
+        with working("fitting without the last effect"):
+            better = undone(model, logs)
+    else:
+        with working(f"adding {args.effect}"):
+            better = add_effect(model, compiled, args.effect, args.joint, logs)
+    save_model(args.out, better)
+    places, following = [args.out], after_add(args.out, args.holdout)
+    if args.robot is not None:
+        write_atomically(Path(args.robot), better.robot_text)
+        places.append(args.robot)
+    if args.report is not None and better.history:
+        held = better.history[-1].held_out
+        origin = Origin(args.out, held or args.logs, bool(held))
+        write_additions(Path(args.report), better, left_out, origin, following)
+        places.append(args.report)
+    for line in (
+        *waterfall(better),
+        *added(better),
+        *left_out,
+        *notes(better, max(1, len(model.history))),
+        *model.warning,
+        *([] if better.fit.verdict is None else [f"now: {better.fit.verdict.line}"]),
+        *(f"written: {place}" for place in places),
+    ):
+        say(line)
+    say_next(following)
+    steps = [step.to_json() for step in better.history]
+    return better.fit.to_json() | {"waterfall": steps, "left_out": list(left_out)}
+
+
+def waterfall(model: IdentifiedModel) -> list[str]:
+    """The error after every effect that was added, as bars."""
+    if not model.history:
+        return ["nothing is added: the model stays as it was fitted"]
+    last = model.history[-1]
+    held_out = bool(last.held_out)
+    title = "held-out error" if held_out else "error on parts of the fitted logs, left out in turn"
+    if len(last.joints) > 1:
+        title += ", rms over the joints"
+    lines = [f"{'':<30} {title}"]
+    largest = max(step.error for step in model.history) or 1.0
+    for step in model.history:
+        name = f"+ {step.effect}" if step.effect else "model as fitted"
+        name += f" @{step.joint}" if step.joint else ""
+        bar = "#" * round(_WIDTH * step.error / largest)
+        fitted = percent(step.training_error, DIGITS)
+        lines.append(f"{name:<30} {percent(step.error, DIGITS):>8} {bar}  (fitted {fitted})")
+    return lines
