@@ -8,6 +8,7 @@ from modeler.cli.console import Json, note, progress, say, working
 from modeler.cli.lists import read_told
 from modeler.codegen.derivation import Derivation, derive
 from modeler.core.errors import DataError
+from modeler.core.table import percent
 from modeler.estimation.model_file import IdentifiedModel, load_model
 from modeler.formulas.cad import CadComparison, KnownAgainstFit
 from modeler.formulas.physical_system import PhysicalSystem
@@ -254,7 +255,8 @@ def _tell_easiest(found: KnownSets, ratings: tuple[Rated, ...]) -> None:
            if ratings else ":"))  # fmt: skip
     if ratings:
         for r in ratings[:_SHOWN]:
-            say(f"  {','.join(r.known)}  {r.middle:.2g} %, {r.letter} {r.worst:.2g} %")
+            middle, worst = percent(0.01 * r.middle), percent(0.01 * r.worst)
+            say(f"  {','.join(r.known)}  {middle}, {r.letter} {worst}")
     else:
         for members in found.easiest[:_SHOWN]:
             say(f"  {','.join(members)}")

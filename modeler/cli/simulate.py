@@ -8,6 +8,7 @@ from modeler.cli.console import Json, progress, say
 from modeler.cli.lists import robot_of
 from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
+from modeler.core.table import percent
 from modeler.robot.robot import Robot
 from modeler.simulation import (
     KEPT,
@@ -93,6 +94,7 @@ def _say_narrowed(share: float) -> None:
     """How much of its range a motion was given, if not all."""
     if share < 1.0:
         say(
-            f"motion: within {share:.0%} of the way from [home] to the limits: farther, the loops "
-            f"come nearer than {KEPT:.0%} of home's distance to a singular posture, or do not close"
+            f"motion: within {percent(share)} of the way from [home] to the limits: farther, "
+            f"the loops come nearer than {percent(KEPT)} of home's distance to a singular posture, or "
+            "do not close"
         )

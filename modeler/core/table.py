@@ -212,20 +212,11 @@ def effort(errors: Mapping[str, float]) -> str:
     return " and ".join(WORDS[unit] for unit in errors) or "torque"
 
 
-def told_by_unit(errors: Mapping[str, float], form: str = "{:.3f} %") -> str:
-    """Errors as text: "2.1 % of the torques (N m), 3 % of the forces (N)"; of one unit: "2.1 %".
-
-    Args:
-        errors: from `errors_by_unit`.
-        form: of a percentage.
-    """
-    told = {
-        unit: form.format(100.0 * error) if math.isfinite(error) else "-"
-        for unit, error in errors.items()
-    }
-    if len(told) == 1:
-        return next(iter(told.values()))
-    return ", ".join(f"{text} of the {WORDS[unit]}s ({unit})" for unit, text in told.items())
+def told_by_unit(errors: Mapping[str, float]) -> str:
+    """Errors as text: "2.1 % of the torques (N m), 3 % of the forces (N)"; of one unit: "2.1 %"."""
+    if len(errors) == 1:
+        return percent(next(iter(errors.values())))
+    return ", ".join(f"{percent(e)} of the {WORDS[unit]}s ({unit})" for unit, e in errors.items())
 
 
 POOLED = (
@@ -239,9 +230,15 @@ DIGITS = 4
 """Most significant digits of an error that is printed: what does not differ in them is the same."""
 
 
-def percent(share: float, digits: int = 3) -> str:
-    """A share in percent, as in "3.41 %"; "-" where it is not known."""
-    return f"{100.0 * share:.{digits}g} %" if math.isfinite(share) else "-"
+def percent(share: float | None, digits: int = 3) -> str:
+    """A share in percent, as in "3.41 %"; "-" where it is not known.
+
+    What is less than a part in a million is 0: no measurement tells it.
+    """
+    if share is None or not math.isfinite(share):
+        return "-"
+    value = 100.0 * share if abs(share) >= 1e-6 else 0.0
+    return f"{value:.{digits}g} %" if abs(value) < 10**digits else f"{value:.0f} %"
 
 
 def printed(before: float, after: float) -> tuple[str, str]:

@@ -21,6 +21,7 @@ from modeler.core.files import read_file, read_text, write_atomically
 from modeler.core.json import JsonError, PlainError, check_fields, parse_json, plain, shown
 from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, module_from_plain
 from modeler.core.result import Presented
+from modeler.core.table import percent
 from modeler.estimation.essential import Reduced
 from modeler.estimation.result import FitResult, fit_from_json
 from modeler.observation.log import LogRows, shared_rows
@@ -448,7 +449,7 @@ def _remarks(model: IdentifiedModel) -> list[str]:
     energy = "" if fit.energy is None else ", of the energies instead of the torques"
     told = [
         f"Values by the method {fit.method}{energy}, {fit.samples} samples, relative error "
-        f"{100.0 * fit.relative_error:.3g} %."
+        f"{percent(fit.relative_error)}."
     ]
     added = [
         step.effect if step.joint is None else f"{step.effect} (joint {step.joint})"

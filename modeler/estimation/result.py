@@ -11,7 +11,7 @@ from modeler.core.errors import DataError, ManifestError
 from modeler.core.json import nulled
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Presented
-from modeler.core.table import POOLED, errors_by_unit, told_by_unit
+from modeler.core.table import POOLED, errors_by_unit, percent, told_by_unit
 from modeler.estimation.essential import Reduced, reduced_from_json
 from modeler.estimation.parameter import ParameterEstimate, parameter_lines, read_parameter
 from modeler.observation.processing import Processing, processing_from_json
@@ -62,8 +62,8 @@ class ModelFigures(Brief):
             f"{self.rows}",
             f"{self.condition_scaled:.4g}",
             f"{self.known}",
-            f"{100.0 * self.torque_error:.3g} %",
-            f"{100.0 * self.torque_sigma:.2g} %",
+            percent(self.torque_error),
+            percent(self.torque_sigma),
             "-" if self.imbalance is None else f"{self.imbalance:.1e}",
             "-" if self.bias is None else f"{self.bias:.2g} sigma",
         )
@@ -112,7 +112,7 @@ class EnergyReport(Brief):
         head = ("rows", "cond", "known", "error", "sigma", "missed", "bias")
         lines = [
             f"energy model: windows of {self.window:.4g} s, energies met to "
-            f"{100.0 * self.relative_error:.3g} %; beside the torque model on the same data:",
+            f"{percent(self.relative_error)}; beside the torque model on the same data:",
             _line("model", head),
             *(_line(item.model, item.cells()) for item in self.figures),
         ]
@@ -409,19 +409,14 @@ class FitResult(Presented):
             for left in [joint.rows * joint.rms**2]
         )
 
-    def error_told(self, form: str = "{:.3f} %") -> str:
+    def error_told(self) -> str:
         """The relative error as text; of torques and forces apart where the robot has both."""
         if self.energy is None and len(self.by_unit) > 1:
-            return told_by_unit(self.by_unit, form)
-        return form.format(100.0 * self.relative_error)
+            return told_by_unit(self.by_unit)
+        return percent(self.relative_error)
 
     def lines(self) -> list[str]:
         """Lines of text: parameters, joints, remarks, the verdict last."""
-
-        def share(joint: JointFit) -> str:
-            error = joint.relative_error
-            return "-" if error is None else f"{100.0 * error:.2f} %"
-
         alone = self.essential.parameters if self.essential and self.essential.dropped else ()
         lines = parameter_lines((*self.gains, *self.parameters, *self.loads), alone)
         lines += direction_lines(self.directions)
@@ -431,9 +426,12 @@ class FitResult(Presented):
             f"relative error {self.error_told()}",
         ]
         for k, joint in enumerate(self.joints):
-            apart = "".join(f", {name} {share(own[k])}" for name, own in self.by_load.items())
+            apart = "".join(
+                f", {name} {percent(own[k].relative_error)}" for name, own in self.by_load.items()
+            )
             lines.append(
-                f"  joint {joint.name}: {share(joint)}{apart}, rms {joint.rms:.4g} {joint.unit}"
+                f"  joint {joint.name}: {percent(joint.relative_error)}{apart}, rms "
+                f"{joint.rms:.4g} {joint.unit}"
             )
         lines += [*bodies_told(self.standard), *self.sentences]
         lines += self.essential.lines() if self.essential is not None else []

@@ -9,6 +9,7 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.json import nulled
 from modeler.core.result import Presented
+from modeler.core.table import percent
 from modeler.effects.catalogue import CATALOGUE, effect_named
 from modeler.fleet.drift import Unit
 from modeler.fleet.joint_fit import GAIN, LOAD, Quantity
@@ -281,7 +282,7 @@ def _stays(found: FleetFinding) -> str:
 def _size(found: FleetFinding) -> str:
     if found.percent is None:
         return f"{abs(found.change):.3g} {found.quantity.unit}"
-    return f"{abs(found.percent):.3g} %"
+    return percent(0.01 * abs(found.percent))
 
 
 def headline_of(found: Fleet) -> tuple[str, str]:
@@ -304,7 +305,7 @@ def fleet_lines(found: Fleet) -> list[str]:
     lines += ["", *aligned(rows_of(found), (0, 1)), ""]
     lines.append(
         "told: the smallest straight drift over all periods that would be a finding; chance of any "
-        f"finding where nothing drifts: {100 * found.false_alarm:.2g} %"
+        f"finding where nothing drifts: {percent(found.false_alarm)}"
     )
     lines += [*found.notes, *_gain_note(found)]
     lines += left_lines(found)

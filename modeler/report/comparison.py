@@ -28,7 +28,6 @@ from modeler.validation.comparison import (
     by_log,
     method_lines,
     or_dash,
-    share_text,
 )
 from modeler.validation.models import DOUBT, Contest, JointContest, contest_sentences, headline_of
 from modeler.validation.pictures import overlay_picture, overview_picture, residual_picture
@@ -40,7 +39,6 @@ from modeler.validation.verdict import (
     joint_verdict,
     kind_of_residual,
     looks_like_noise,
-    rounded_percent,
     wrong_scale,
 )
 
@@ -148,7 +146,7 @@ def _errors(found: Contest) -> PageTable:
         "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
         "measured, each joint by itself, on the rows that count for every model. Chance: that the "
         "best and its nearest rival are equally good, from the spread of the difference between "
-        f"blocks of time; beyond doubt is less than {100 * DOUBT:.2g} %, shared among the rivals.",
+        f"blocks of time; beyond doubt is less than {percent(DOUBT)}, shared among the rivals.",
     )  # fmt: skip
 
 
@@ -282,7 +280,7 @@ def _facts(comparison: Comparison) -> list[tuple[str, str]]:
 
 def _how_good(joints: tuple[JointComparison, ...]) -> str:
     below = sum(item.relative_error < 0.1 for item in joints)
-    middle = rounded_percent(statistics.median(item.relative_error for item in joints))
+    middle = percent(statistics.median(item.relative_error for item in joints))
     text = f"{below} of {len(joints)} joints are within 10 %; the middle one is at {middle}."
     defined = [item for item in joints if not math.isnan(item.r2)]
     if defined:
@@ -296,9 +294,9 @@ def _where(joints: tuple[JointComparison, ...]) -> str:
     window = worst.worst
     region = max(worst.regions, key=lambda part: part.energy_share - part.time_share)
     return (
-        f"Most on joint {worst.joint.name} ({rounded_percent(worst.relative_error)}): "
-        f"{rounded_percent(region.energy_share)} of its squared residual while "
-        f"{_REGION_PHRASES[region.name]} ({rounded_percent(region.time_share)} of the samples); "
+        f"Most on joint {worst.joint.name} ({percent(worst.relative_error)}): "
+        f"{percent(region.energy_share)} of its squared residual while "
+        f"{_REGION_PHRASES[region.name]} ({percent(region.time_share)} of the samples); "
         f"worst at {window.start:.2f}-{window.end:.2f} s of {window.log}."
     )
 
@@ -315,7 +313,7 @@ def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
             named.append((pattern[1], f"joint {item.joint.name} follows {pattern[0].phrase}"))
     if named:
         named.sort(reverse=True)
-        listed = "; ".join(f"{text} ({rounded_percent(share)})" for share, text in named[:3])
+        listed = "; ".join(f"{text} ({percent(share)})" for share, text in named[:3])
         return f"Yes, on {len(named)} of {len(joints)} joints: {listed}."
     if all(looks_like_noise(item) for item in joints):
         return "No: the residual of every joint looks like noise."
@@ -350,15 +348,15 @@ def _table_row(item: JointComparison, comparison: Comparison) -> list[str | Page
     share = item.relative_error / top if top else 0.0
     return [
         PageCell(item.joint.name, "text", link=f"joint-{item.joint.name}"),
-        PageCell(rounded_percent(item.relative_error), "bar", share),
+        PageCell(percent(item.relative_error), "bar", share),
         f"{item.rms:.3g} {unit}",
         "-" if item.predicted_sigma is None else f"{item.predicted_sigma:.2g} {unit}",
         f"{item.measured_rms:.3g} {unit}",
         f"{item.largest.value:.3g} {unit}",
         PageCell(f"{item.largest.time:.2f} s of {item.largest.log}", "text"),
         or_dash(item.r2, ".4f"),
-        "-" if item.shares is None else share_text(item.shares.systematic),
-        "-" if item.shares is None else share_text(item.shares.floor),
+        percent(None if item.shares is None else item.shares.systematic),
+        percent(None if item.shares is None else item.shares.floor),
         f"{item.bias:+.2g} {unit}",
         str(item.samples),
     ]

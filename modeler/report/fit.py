@@ -7,7 +7,7 @@ import numpy as np
 
 from modeler.core.estimators import titled
 from modeler.core.result import Figures, Presentation, Tables, present
-from modeler.core.table import Cell, Table
+from modeler.core.table import Cell, Table, percent
 from modeler.estimation.model_file import Addition, IdentifiedModel
 from modeler.estimation.result import FitResult, ParameterEstimate
 from modeler.estimation.side_by_side import SideBySide
@@ -41,7 +41,7 @@ def present_models() -> None:
 
 def _fit_summary(fit: FitResult) -> str:
     first = (f"{fit.robot}: {len(fit.parameters)} base parameters by {fit.method}, relative error "
-             f"{100.0 * fit.relative_error:.3f} %")  # fmt: skip
+             f"{percent(fit.relative_error)}")  # fmt: skip
     return "\n".join([first, *fit.lines()])
 
 
@@ -79,7 +79,7 @@ def _errors(fit: FitResult) -> Table:
         for j in fit.joints
     ]  # fmt: skip
     columns = (("joint", ""), ("relative error", "%"), ("rms", ""), ("unit", ""), ("rows", ""))
-    note = f"all rows together: {100.0 * fit.relative_error:.3f} %, on the logs of the fit"
+    note = f"all rows together: {percent(fit.relative_error)}, on the logs of the fit"
     return Table(f"{fit.robot}: what the fit leaves", columns, tuple(rows), note)
 
 
@@ -133,7 +133,8 @@ def _addition_summary(step: Addition) -> str:
 def _step_line(step: Addition) -> str:
     name = f"+ {step.effect}" if step.effect else "as fitted"
     name += f" @{step.joint}" if step.joint else ""
-    return f"{name}: error {step.error:.2%} ({step.training_error:.2%} on the fitted logs)"
+    fitted = percent(step.training_error)
+    return f"{name}: error {percent(step.error)} ({fitted} on the fitted logs)"
 
 
 def _trials_summary(trials: SideBySide) -> str:
@@ -188,7 +189,7 @@ def write_fit(
     fit = model.fit
     sheet = Page(
         title=f"{fit.robot}: fitted values",
-        headline=(fit.error_told("{:.2f} %"), f"left on the fitted logs: {_verdict(fit)}"),
+        headline=(fit.error_told(), f"left on the fitted logs: {_verdict(fit)}"),
         sections=_sections(model),
         origin=Origin(place, [log.name for log in model.logs], False),
         facts=_facts(fit),

@@ -9,7 +9,7 @@ import numpy as np
 
 from modeler.core.figure import BLUE, COLORS, GREY, Curve, Heat, Means, Panel, Picture, Style
 from modeler.core.result import Figures, Presentation, Tables, present
-from modeler.core.table import Cell, Table
+from modeler.core.table import Cell, Table, percent
 from modeler.fleet.result import (
     Fleet,
     FleetFinding,
@@ -64,7 +64,7 @@ def write_fleet(path: Path, found: Fleet, provenance: Sequence[str] = ()) -> Pat
         facts=[
             ("machines", str(len(found.machines))),
             ("logs", str(found.logs)),
-            ("chance of any finding where nothing drifts", f"{100 * found.false_alarm:.2g} %"),
+            ("chance of any finding where nothing drifts", percent(found.false_alarm)),
         ],
         provenance=[*found.notes, *left_lines(found), *provenance],
         command="fleet",

@@ -18,7 +18,7 @@ from modeler.core.figure import (
     thin_points,
 )
 from modeler.core.result import Figures, Presentation, Tables, present
-from modeler.core.table import Cell, Table
+from modeler.core.table import Cell, Table, percent
 from modeler.excitation.result import Exciting
 from modeler.logs.guess import template_of
 from modeler.logs.inspect import Channel, Clock, Look
@@ -98,7 +98,7 @@ def clock_line(clock: Clock) -> str:
     """The clock in words."""
     rate = f"{clock.rate:.6g} Hz" if clock.rate > 0.0 else "unknown rate"
     parts = [f"{clock.column}: {rate} over {clock.duration:.4g} s"]
-    uneven = f"jitter {100 * clock.jitter:.2g} % of a step"
+    uneven = f"jitter {percent(clock.jitter)} of a step"
     parts += [uneven if clock.jitter > 1e-6 else "even"] * (clock.rate > 0.0)
     if clock.gaps:
         parts.append(
@@ -120,7 +120,9 @@ def channel_rows(seen: Look) -> list[list[str]]:
 
 def _row(channel: Channel) -> list[str]:
     remarks = ["never changes"] if channel.constant else []
-    remarks += [f"stays at {end:.4g} in {share:.1%} of the rows" for end, share in channel.limits]
+    remarks += [
+        f"stays at {end:.4g} in {percent(share)} of the rows" for end, share in channel.limits
+    ]
     return [
         channel.name,
         f"{channel.unit}?" if channel.guessed else channel.unit or "-",

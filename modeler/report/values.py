@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping, Sequence
 
 from modeler.core.manifest import BaseSpec, TermSpec
+from modeler.core.table import percent
 from modeler.estimation.model_file import Addition, IdentifiedModel
 from modeler.estimation.parameter import ParameterEstimate, told_spread
 from modeler.estimation.result import FitResult
@@ -79,10 +80,7 @@ def joints_table(fit: FitResult) -> PageTable:
     rows: list[list[str | PageCell]] = [
         [
             joint.name,
-            PageCell("-", "bar") if joint.relative_error is None
-            else PageCell(
-                f"{100.0 * joint.relative_error:.3g} %", "bar", joint.relative_error / top
-            ),
+            PageCell(percent(joint.relative_error), "bar", (joint.relative_error or 0.0) / top),
             f"{joint.rms:.3g} {joint.unit}",
             f"{joint.rows}",
         ]

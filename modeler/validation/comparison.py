@@ -12,7 +12,7 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.json import nulled
 from modeler.core.result import Presented
-from modeler.core.table import POOLED, WORDS, aligned
+from modeler.core.table import POOLED, WORDS, aligned, percent
 from modeler.numerics.spectra import OrderSpectrum, ResidualSpectrum, residual_spectrum, spans
 from modeler.validation.prediction import (
     JointInfo,
@@ -53,12 +53,11 @@ def summary(comparison: "Comparison") -> str:
     lines += [f"{name:<{width}}not judged: {reason}" for name, reason in comparison.unjudged]
     if len(comparison.by_unit) == 1:
         lines.append(
-            f"{'all':<{width}}{or_dash(comparison.relative_error, '.1%')}  of "
-            f"{comparison.samples} samples"
+            f"{'all':<{width}}{percent(comparison.relative_error)}  of {comparison.samples} samples"
         )
     else:  # N m and N add up to nothing
         lines += [
-            f"{'all':<{width}}{or_dash(error, '.1%')}  of the {WORDS[unit]}s ({unit})"
+            f"{'all':<{width}}{percent(error)}  of the {WORDS[unit]}s ({unit})"
             for unit, error in comparison.by_unit.items()
         ]
         lines.append(f"{comparison.samples} samples")
@@ -66,14 +65,6 @@ def summary(comparison: "Comparison") -> str:
     if len(comparison.logs) > 1:
         lines += ["", *aligned(by_log(comparison), (0,))]
     return "\n".join(line.rstrip() for line in lines)
-
-
-def share_text(share: float) -> str:
-    """A share of the variance in percent, two digits and more: small ones matter here."""
-    value = 100.0 * share
-    if abs(value) >= 10.0:
-        return f"{value:.1f}%"
-    return f"{value:.2g}%" if abs(value) >= 1e-4 else "0%"
 
 
 def method_lines(comparison: "Comparison") -> list[str]:
@@ -92,13 +83,13 @@ def _row(item: "JointComparison") -> tuple[str, ...]:
     unit, found = item.joint.effort_unit, item.shares
     return (
         item.joint.name,
-        f"{item.relative_error:.1%}",
+        percent(item.relative_error),
         f"{item.rms:.3g} {unit:<3}",
         f"{item.largest.value:.3g} {unit:<3}",
         f"{item.largest.time:.2f} s of {item.largest.log}",
         or_dash(item.r2, ".3f"),
-        "-" if found is None else share_text(found.systematic),
-        "-" if found is None else share_text(found.floor),
+        percent(None if found is None else found.systematic),
+        percent(None if found is None else found.floor),
         f"{item.bias:.2g} {unit:<3}",
     )
 
@@ -112,8 +103,8 @@ def by_log(comparison: "Comparison", error: str = "error") -> list[list[str]]:
         [
             item.log,
             str(item.samples),
-            *(or_dash(error, ".1%") for error in item.by_unit.values()),
-            *(or_dash(error, ".1%") for _, error in item.joints),
+            *(percent(error) for error in item.by_unit.values()),
+            *(percent(error) for _, error in item.joints),
         ]
         for item in comparison.logs
     ]

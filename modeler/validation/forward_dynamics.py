@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.core.table import percent
 from modeler.observation.low_speed import shafts
 from modeler.runtime.model import CompiledModel
 
@@ -88,7 +89,7 @@ class FittedPlant:
             light = int(np.argmax(np.abs(vectors[np.argmin(values[:, 0]), :, 0])))
             raise DataError(
                 f"{self.model.spec.robot}: with the fitted values the inertia matrix is not "
-                f"positive definite in {100 * float(np.mean(bad)):.3g} % of the postures, most at "
+                f"positive definite in {percent(float(np.mean(bad)))} of the postures, most at "
                 f"joint {self.model.spec.joints[light].name}, so no motion follows from a torque; "
                 "expected the inertia of a body; fit with `--method consistent`, or record more "
                 "motion of that joint"

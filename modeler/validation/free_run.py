@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.core.table import percent
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.low_speed import signals_of
@@ -545,7 +546,7 @@ def _doubts(
     if numerical > _DOUBTFUL:
         found.append(
             "the integration is not exact: halving its step moves a joint by "
-            f"{100 * numerical:.2g} % of its range within a window"
+            f"{percent(numerical)} of its range within a window"
         )
     if nature.unstable and nature.rate * asked.window > np.log(10.0):
         found.append(

@@ -20,6 +20,7 @@ from modeler.core.figure import (
 )
 from modeler.core.json import nulled
 from modeler.core.result import Presented
+from modeler.core.table import percent
 from modeler.validation.stability import Stability
 
 
@@ -200,7 +201,7 @@ def _joint_json(joint: JointFreeRun) -> dict[str, Any]:
 def _percent(value: float | None) -> str:
     if value is None:
         return "still"
-    return f"{value:.4g} %" if value > -1000.0 else "below -999 %"
+    return percent(0.01 * value) if value > -1000.0 else "below -999 %"
 
 
 # Pictures of a free run: one a joint.

@@ -339,7 +339,7 @@ def headline_of(found: Contest) -> tuple[str, str]:
 def _open(item: JointContest) -> str:
     if item.chance >= 1.0 or item.chance < 1e-3:  # too short, or too small a difference
         return "as good as alike" if item.chance < 1e-3 else "cannot be told"
-    return f"chance alone makes such a difference in {100.0 * item.chance:.2g} % of cases"
+    return f"chance alone makes such a difference in {percent(item.chance)} of cases"
 
 
 def _joints(names: list[str]) -> str:

@@ -22,6 +22,7 @@ from modeler.core.figure import (
     thin_curves,
     thin_points,
 )
+from modeler.core.table import percent
 from modeler.validation.comparison import METHODS, REGIONS, Comparison, JointComparison
 from modeler.validation.prediction import Prediction, residual
 from modeler.validation.residual_structure import (
@@ -137,7 +138,7 @@ def _against(prediction: Prediction, item: JointComparison, coordinate: str, lab
     kept = thin_points(x, e, _DOTS)
     title = label[0].upper() + label[1:]
     if item.structure is not None:
-        title = f"{title}: {item.structure.share(coordinate):.0%}"
+        title = f"{title}: {percent(item.structure.share(coordinate))}"
     if coordinate == "temperature":
         means = _by_direction(x, e, prediction.qd[rows, item.index])
     else:
@@ -167,7 +168,7 @@ def _spectrum_panel(item: JointComparison) -> Panel:
     nothing = np.array([np.nan])
     title = "Spectrum"
     if colour is not None:
-        title += f": {colour.peak_share:.0%} of the power near {colour.peak:.3g} Hz"
+        title += f": {percent(colour.peak_share)} of the power near {colour.peak:.3g} Hz"
     return Panel(
         title=title,
         x_label="frequency [Hz]",
@@ -261,7 +262,7 @@ def _overview_caption(comparison: Comparison) -> str:
 def _regions(comparison: Comparison) -> Heat:
     energy = np.array([[r.energy_share for r in item.regions] for item in comparison.joints])
     texts = tuple(
-        tuple(f"{r.energy_share:.0%} ({r.time_share:.0%})" for r in item.regions)
+        tuple(f"{percent(r.energy_share)} ({percent(r.time_share)})" for r in item.regions)
         for item in comparison.joints
     )
     return _heat(comparison, "share of squared residual", REGIONS, energy, texts)
