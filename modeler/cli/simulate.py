@@ -93,8 +93,6 @@ def _commanded(args: argparse.Namespace, robot: Robot) -> Reference:
 def _say_narrowed(share: float) -> None:
     """How much of its range a motion was given, if not all."""
     if share < 1.0:
-        say(
-            f"motion: within {percent(share)} of the way from [home] to the limits: farther, "
-            f"the loops come nearer than {percent(KEPT)} of home's distance to a singular posture, or "
-            "do not close"
-        )
+        say(f"motion: within {percent(share)} of the way from [home] to the limits: farther, the "
+            f"loops come nearer than {percent(KEPT)} of home's distance to a singular posture, or "
+            "do not close")  # fmt: skip

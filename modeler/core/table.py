@@ -51,6 +51,17 @@ class Table(Brief):
     rows: tuple[tuple[Cell, ...], ...]
     note: str = ""
 
+    @classmethod
+    def of(
+        cls, title: str, head: str | Iterable[str], rows: Iterable[Iterable[Cell]], note: str = ""
+    ) -> "Table":
+        """A table whose head is written as "name, mass [kg]", or as such names one by one."""
+        columns = []
+        for text in head.split(", ") if isinstance(head, str) else head:
+            name, _, unit = text.removesuffix("]").rpartition(" [")
+            columns.append((name, unit) if name and text.endswith("]") else (text, ""))
+        return cls(title, tuple(columns), tuple(map(tuple, rows)), note)
+
     def __len__(self) -> int:
         return len(self.rows)
 

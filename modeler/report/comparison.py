@@ -7,21 +7,17 @@ from pathlib import Path
 
 from modeler.core.figure import Picture
 from modeler.core.table import percent
-from modeler.report.figure_page import write_files
-from modeler.report.page import (
+from modeler.report.blocks import (
     Figure,
     Items,
     JudgedLine,
-    Origin,
-    Page,
     PageCell,
     PageTable,
     Paragraph,
-    Section,
     Verdicts,
-    page,
-    write_page,
 )
+from modeler.report.figure_page import write_files
+from modeler.report.page import Origin, Page, Section, page, write_page
 from modeler.validation.comparison import (
     Comparison,
     JointComparison,
@@ -130,28 +126,28 @@ def _picture(found: Contest, item: JointContest) -> Picture:
 
 def _errors(found: Contest) -> PageTable:
     top = max((e for item in found.joints for e in item.errors), default=0.0) or 1.0
-    rows: list[list[str | PageCell]] = [
+    rows = [
         [
-            PageCell(item.joint.name, "text", link=f"joint-{item.joint.name}"),
-            *(PageCell(percent(e), "bar", e / top) for e in item.errors),
-            PageCell("-" if item.best is None else found.names[item.best], "text"),
+            PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
+            *(PageCell(percent(e), e / top) for e in item.errors),
+            "-" if item.best is None else found.names[item.best],
             f"{item.chance:.2g}" if item.chance >= 1e-6 else "under 1e-6",
         ]
         for item in found.joints
     ]
     return PageTable(
-        ["joint", *(PageCell(name, "bar") for name in found.names),
-         PageCell("best beyond doubt", "text"), "chance"],
+        ["joint", *found.names, "best beyond doubt", "chance"],
         rows,
         "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
         "measured, each joint by itself, on the rows that count for every model. Chance: that the "
         "best and its nearest rival are equally good, from the spread of the difference between "
         f"blocks of time; beyond doubt is less than {percent(DOUBT)}, shared among the rivals.",
-    )  # fmt: skip
+        dict.fromkeys(found.names, "bar") | {"best beyond doubt": "text"},
+    )
 
 
 def _sizes(found: Contest) -> PageTable:
-    rows: list[list[str | PageCell]] = [
+    rows = [
         [item.joint.name, *(f"{rms:.3g} {item.joint.effort_unit}" for rms in item.rms)]
         for item in found.joints
     ]
@@ -200,9 +196,8 @@ _REGION_PHRASES = {
     "fast +": "fast in the positive direction",
 }
 _HEAD = (
-    "joint", PageCell("relative error", "bar"), "rms residual", "sigma", "rms measured",
-    "largest residual", PageCell("at", "text"), "R\u00b2", "repeatable", "noise", "mean residual",
-    "samples",
+    "joint", "relative error", "rms residual", "sigma", "rms measured", "largest residual", "at",
+    "R\u00b2", "repeatable", "noise", "mean residual", "samples",
 )  # fmt: skip
 
 
@@ -260,6 +255,7 @@ def _sections(comparison: Comparison) -> list[Section]:
         "what was measured, each joint by itself, over the samples that count. R\u00b2 compares "
         "with the best constant. Sigma is the rms standard deviation of the prediction by the "
         "covariance of the fit. " + method,
+        {"relative error": "bar", "at": "text"},
     )
     found = [Section("Verdict", [Verdicts(_judged(comparison)), table, *_log_table(comparison)])]
     if comparison.joints:
@@ -347,13 +343,13 @@ def _table_row(item: JointComparison, comparison: Comparison) -> list[str | Page
     top = max(other.relative_error for other in comparison.joints)
     share = item.relative_error / top if top else 0.0
     return [
-        PageCell(item.joint.name, "text", link=f"joint-{item.joint.name}"),
-        PageCell(percent(item.relative_error), "bar", share),
+        PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
+        PageCell(percent(item.relative_error), share),
         f"{item.rms:.3g} {unit}",
         "-" if item.predicted_sigma is None else f"{item.predicted_sigma:.2g} {unit}",
         f"{item.measured_rms:.3g} {unit}",
         f"{item.largest.value:.3g} {unit}",
-        PageCell(f"{item.largest.time:.2f} s of {item.largest.log}", "text"),
+        f"{item.largest.time:.2f} s of {item.largest.log}",
         or_dash(item.r2, ".4f"),
         percent(None if item.shares is None else item.shares.systematic),
         percent(None if item.shares is None else item.shares.floor),

@@ -12,18 +12,9 @@ from modeler.core.result import Figures, Presentation, Tables, present
 from modeler.core.table import Cell, MathCell, Table
 from modeler.derivation.home import HomeModes, written
 from modeler.derivation.relations import relation_latex, relation_text
+from modeler.report.blocks import Block, FormulaBlock, PageTable, Paragraph
 from modeler.report.figures import robot_figure
-from modeler.report.page import (
-    Block,
-    FormulaBlock,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Section,
-    write_page,
-)
+from modeler.report.page import Origin, Page, Section, write_page
 from modeler.report.robot_page import table_head, table_rows
 from modeler.robot.robot import JointKind, Robot
 from modeler.runtime.model import CompiledModel
@@ -245,13 +236,10 @@ def write_derivation(path: Path, robot: Robot, derived: Derived, given: str) -> 
 
 
 def _table(robot: Robot, tied: Sequence[str]) -> list[Block]:
-    head = [PageCell(text) for text in table_head(robot)[:-1]]
-    rows = [
-        [PageCell(text) for text in (*row.cells, *(text for _, text in row.entries))]
-        for row in table_rows(robot)
-    ]
+    head = table_head(robot)[:-1]
+    rows = [(*row.cells, *(text for _, text in row.entries)) for row in table_rows(robot)]
     note = (
         "Lengths in m, angles in rad. \u03bc 1: actuated. \u03c3 0 revolute, 1 prismatic, 2 fixed."
     )
-    blocks: list[Block] = [PageTable(head, rows, note)]
+    blocks: list[Block] = [PageTable(head, rows, note, dict.fromkeys(head, "number"))]
     return blocks + [Paragraph(line) for line in tied]

@@ -5,7 +5,8 @@ from pathlib import Path
 
 from modeler.estimation.result import ParameterEstimate
 from modeler.estimation.side_by_side import Tried
-from modeler.report.page import Items, Origin, Page, PageTable, Section, write_page
+from modeler.report.blocks import Items, PageTable
+from modeler.report.page import Origin, Page, Section, write_page
 
 
 def write_estimators(

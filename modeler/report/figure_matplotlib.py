@@ -9,19 +9,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from modeler.core.figure import (
-    BLUE,
-    SHADE,
-    Band,
-    Bars,
-    Curve,
-    Heat,
-    Means,
-    Panel,
-    Picture,
-    Points,
-    Series,
-)
+from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
+from modeler.core.style import BLUE, SHADE
 
 if TYPE_CHECKING:
     pass

@@ -8,18 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.figure import (
-    Band,
-    Bars,
-    Curve,
-    Heat,
-    Means,
-    Panel,
-    Picture,
-    Points,
-    Series,
-    picture_csv,
-)
+from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
 from modeler.core.files import write_atomically
 
 # The numbers of all pictures of a page in one compressed block, each array once.
@@ -245,3 +234,40 @@ def write_files(
         if progress is not None:
             progress(number / len(pictures))
     return tuple(written)
+
+
+def picture_csv(picture: Picture) -> str:
+    """The numbers behind a picture: panel, series, x, y, error; five significant digits."""
+    lines = ["panel,series,x,y,error"]
+    for panel in (panel for row in picture.panels for panel in row):
+        for series in panel.series:
+            lines += [
+                f"{_quote(panel.title)},{_quote(series.label)},{row}" for row in _rows(series)
+            ]
+    return "\n".join(lines) + "\n"
+
+
+def _rows(series: Series) -> list[str]:
+    if isinstance(series, Heat):
+        return [
+            f"{_quote(column)} / {_quote(row)},{series.values[i, j]:.5g},"
+            for i, row in enumerate(series.rows)
+            for j, column in enumerate(series.columns)
+        ]
+    if isinstance(series, Bars):
+        pairs = zip(series.names, series.values, strict=True)
+        return [f"{_quote(name)},{value:.5g}," for name, value in pairs]
+    if isinstance(series, Means):
+        triples = zip(series.x, series.y, series.error, strict=True)
+        return [f"{x:.5g},{y:.5g},{error:.5g}".replace("nan", "") for x, y, error in triples]
+    if isinstance(series, Band):
+        middle, half = 0.5 * (series.low + series.high), 0.5 * (series.high - series.low)
+        triples = zip(series.x, middle, half, strict=True)
+        return [f"{x:.7g},{y:.5g},{error:.5g}" for x, y, error in triples if np.isfinite(y)]
+    both = zip(series.x, series.y, strict=True)
+    return [f"{x:.7g},{y:.5g}," for x, y in both if np.isfinite(y)]
+
+
+def _quote(text: str) -> str:
+    """Commas would shift the columns; line breaks of labels are no part of a name."""
+    return text.replace(",", ";").replace("\n", " ")

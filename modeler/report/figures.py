@@ -9,17 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLUE,
-    COLORS,
-    ORANGE,
-    Bars,
-    Curve,
-    Panel,
-    Picture,
-    Style,
-    thin_curves,
-)
+from modeler.core.figure import Bars, Curve, Panel, Picture
+from modeler.core.style import BLUE, COLORS, ORANGE, Style
+from modeler.core.thinning import thin_curves
 from modeler.estimation.result import FitResult
 from modeler.report.showing import show
 from modeler.robot.robot import Robot

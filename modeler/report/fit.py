@@ -11,21 +11,11 @@ from modeler.core.table import Cell, Table, percent
 from modeler.estimation.model_file import Addition, IdentifiedModel
 from modeler.estimation.result import FitResult, ParameterEstimate
 from modeler.estimation.side_by_side import SideBySide
+from modeler.report.blocks import Items, JudgedLine, PageTable, Verdicts
 from modeler.report.estimators import table_of, values_of
 from modeler.report.figures import parameters_figure, picture_figure
 from modeler.report.history import waterfall_picture
-from modeler.report.page import (
-    Items,
-    JudgedLine,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Section,
-    Verdicts,
-    after_fit,
-    write_page,
-)
+from modeler.report.page import Origin, Page, Section, after_fit, write_page
 from modeler.report.values import joints_table, values_table
 
 
@@ -265,11 +255,10 @@ def tangled(model: IdentifiedModel) -> list[tuple[str, str, float]]:
 
 
 def _pairs(pairs: Sequence[tuple[str, str, float]]) -> PageTable:
-    rows: list[list[str | PageCell]] = [
-        [a, PageCell(b, "text"), f"{value:+.3f}"] for a, b, value in pairs
-    ]
     return PageTable(
-        ("parameter", PageCell("and", "text"), "correlation"), rows,
+        ("parameter", "and", "correlation"),
+        [(a, b, f"{value:+.3f}") for a, b, value in pairs],
         "The torques of these logs tell the sum (-1) or the difference (+1) of such a pair better "
         "than either; more exciting motion parts them.",
-    )  # fmt: skip
+        {"and": "text"},
+    )

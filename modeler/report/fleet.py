@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.figure import BLUE, COLORS, GREY, Curve, Heat, Means, Panel, Picture, Style
+from modeler.core.figure import Curve, Heat, Means, Panel, Picture
 from modeler.core.result import Figures, Presentation, Tables, present
+from modeler.core.style import BLUE, COLORS, GREY, Style
 from modeler.core.table import Cell, Table, percent
 from modeler.fleet.result import (
     Fleet,
@@ -22,20 +23,16 @@ from modeler.fleet.result import (
     rows_of,
     sentence,
 )
-from modeler.report.figures import picture_figure
-from modeler.report.page import (
+from modeler.report.blocks import (
     Figure,
     Items,
     JudgedLine,
-    Origin,
-    Page,
-    PageCell,
     PageTable,
     Paragraph,
-    Section,
     Verdicts,
-    write_page,
 )
+from modeler.report.figures import picture_figure
+from modeler.report.page import Origin, Page, Section, write_page
 
 if TYPE_CHECKING:
     from modeler.report.figure_matplotlib import Drawing
@@ -182,16 +179,13 @@ def _map(followed: Sequence[Followed], machines: Sequence[str], number: int) -> 
 
 def _followed(found: Fleet) -> PageTable:
     head, *rows = rows_of(found)
-    texts = (0, 1, 2, 4)
     return PageTable(
-        [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(head)],
-        [
-            [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(r)]
-            for r in rows
-        ],
+        head,
+        rows,
         "Level: median of all machines and periods. Scatter: by which values change from one "
         "period to the next more than the noise of their logs explains. Told: the smallest "
         "straight drift over all periods that would be a finding.",
+        dict.fromkeys(("effect", "parameter", "unit"), "text"),
     )
 
 

@@ -6,25 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.core.figure import BLUE, GREEN, ORANGE, SKY, Bars, Panel, Picture, Style
+from modeler.core.figure import Bars, Panel, Picture
+from modeler.core.style import BLUE, GREEN, ORANGE, SKY, Style
 from modeler.core.table import DIGITS, WORDS, percent, printed
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Effect
 from modeler.estimation.model_file import Addition, IdentifiedModel
-from modeler.report.page import (
-    Block,
-    Code,
-    Figure,
-    Items,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Section,
-    write_page,
-)
-from modeler.report.values import added_names, chosen, joints_table, shapes_table, values_table
+from modeler.report.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
+from modeler.report.page import Origin, Page, Section, write_page
+from modeler.report.values import added_names, joints_table, shapes_table, values_table
 from modeler.robot.read import robot_from_text
 
 HELD, FITTED = Style(BLUE), Style(ORANGE)
@@ -116,23 +106,24 @@ def _sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[Section]:
 
 def _by_joint(history: Sequence[Addition]) -> PageTable:
     """Errors before, and after each addition."""
-    names = list(history[-1].joints)
     rows: list[list[str | PageCell]] = []
-    for name in names:
+    for name in history[-1].joints:
         errors = [_errors(step).get(name) for step in history]
         top = max((e for e in errors if e is not None), default=0.0) or 1.0
-        cells = [
-            PageCell("-", "bar") if e is None
-            else PageCell(percent(e) + (" *" if name in step.changed else ""), "bar", e / top)
-            for e, step in zip(errors, history, strict=True)
-        ]  # fmt: skip
-        rows.append([name, *cells])
+        changed = [" *" if name in step.changed else "" for step in history]
+        rows.append([name, *(
+            PageCell("-") if e is None else PageCell(percent(e) + mark, e / top)
+            for e, mark in zip(errors, changed, strict=True)
+        )])  # fmt: skip
+    steps, held = [step_name(step) for step in history], ", ".join(history[-1].held_out)
+    judged = (
+        f"the held-out logs {held}" if held else "parts of the fitted logs, each left out in turn"
+    )
     return PageTable(
-        ["joint", *(PageCell(step_name(step), "bar") for step in history)], rows,
+        ["joint", *steps], rows,
         "Relative error of each joint, in parts of its own rms torque or force, on "
-        + (f"the held-out logs {', '.join(history[-1].held_out)}" if history[-1].held_out
-           else "parts of the fitted logs, each left out in turn")
-        + ". * a change beyond chance, paired over blocks of time.",
+        f"{judged}. * a change beyond chance, paired over blocks of time.",
+        dict.fromkeys(steps, "bar"),
     )  # fmt: skip
 
 
@@ -146,7 +137,8 @@ def _added(model: IdentifiedModel) -> list[Block]:
         Items([(f"{step_name(step)[2:]}:", effect.title)
                for step in steps if (effect := found[step.effect]) is not None])
     ]  # fmt: skip
-    own = chosen(model.fit.parameters, added_names(model))
+    added = added_names(model)
+    own = [parameter for parameter in model.fit.parameters if parameter.name in added]
     if own:
         caption = (
             "SI units; sigma is one standard deviation, and knows that shapes were fitted too."

@@ -6,38 +6,20 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.core.figure import (
-    COLORS,
-    SLATE,
-    Curve,
-    Panel,
-    Picture,
-    Points,
-    Style,
-    thin_curves,
-    thin_points,
-)
+from modeler.core.figure import Curve, Panel, Picture, Points
 from modeler.core.result import Figures, Presentation, Tables, present
+from modeler.core.style import COLORS, SLATE, Style
 from modeler.core.table import Cell, Table, percent
+from modeler.core.thinning import thin_curves, thin_points
 from modeler.excitation.result import Exciting
 from modeler.logs.guess import template_of
 from modeler.logs.inspect import Channel, Clock, Look
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation
 from modeler.observation.report import DataReport
+from modeler.report.blocks import Code, Figure, Items, PageTable, Paragraph
 from modeler.report.figures import log_figure, picture_figure
-from modeler.report.page import (
-    Code,
-    Figure,
-    Items,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Section,
-    write_page,
-)
+from modeler.report.page import Origin, Page, Section, write_page
 from modeler.simulation.log import SimulatedLog
 
 _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remarks")
@@ -63,7 +45,13 @@ def write_log_page(
         Section(
             "Doubts", [Items([("", line) for line in doubts])] if doubts else [Paragraph("None.")]
         ),
-        Section("Channels", [_table(head, rows), *map(Figure, channel_pictures(seen))]),
+        Section(
+            "Channels",
+            [
+                PageTable(head, rows, kinds=dict.fromkeys(("unit", "remarks"), "text")),
+                *map(Figure, channel_pictures(seen)),
+            ],
+        ),
     ]
     picture = clock_picture(seen)
     if seen.clock is not None and picture is not None:
@@ -80,18 +68,6 @@ def write_log_page(
         command="log",
     )
     return write_page(path, sheet, "log.html")
-
-
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> PageTable:
-    """Units and remarks are text."""
-    texts = (1, len(head) - 1)
-    return PageTable(
-        [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(head)],
-        [
-            [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(r)]
-            for r in rows
-        ],
-    )
 
 
 def clock_line(clock: Clock) -> str:

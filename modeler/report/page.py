@@ -14,7 +14,7 @@ import jinja2
 
 from modeler.core.figure import Picture
 from modeler.core.files import page_place, resource_dir, write_atomically
-from modeler.core.formula import Formula
+from modeler.report.blocks import Block
 from modeler.report.figure_page import Numbers, cells, drawn, keys, packed, plotted
 
 if TYPE_CHECKING:
@@ -197,104 +197,6 @@ def _about(path: Path) -> dict[str, object] | None:
     except (OSError, ValueError):
         return None
     return about if isinstance(about, dict) else None
-
-
-@dataclass(frozen=True)
-class PageCell:
-    """Of a table.
-
-    Attributes:
-        text: what stands there.
-        kind: "number" to the right, "text" to the left and wrapped, "bar" with a bar before it.
-        share: length of the bar, 0 to 1.
-        link: id of a section of this page.
-    """
-
-    text: str
-    kind: str = "number"
-    share: float = 0.0
-    link: str = ""
-
-
-@dataclass(frozen=True)
-class PageTable:
-    """Head and rows; a plain string is a number, or the text of the first column."""
-
-    head: Sequence[str | PageCell]
-    rows: Sequence[Sequence[str | PageCell]]
-    caption: str = ""
-    block: str = "table"
-
-
-@dataclass(frozen=True)
-class Paragraph:
-    """A paragraph."""
-
-    text: str
-    block: str = "lead"
-
-
-@dataclass(frozen=True)
-class Items:
-    """A list; each line with a word before it that is set bold, or none."""
-
-    lines: Sequence[tuple[str, str]]
-    block: str = "items"
-
-
-@dataclass(frozen=True)
-class JudgedLine:
-    """One line of a verdict.
-
-    Attributes:
-        kind: "noise" (good), "pattern" (bad), "other" (unclear), "" (none of them).
-        tag: a word or two.
-        head: what it is about.
-        text: what is said of it.
-        link: id of a section of this page, or nothing.
-    """
-
-    kind: str
-    tag: str
-    head: str
-    text: str
-    link: str = ""
-
-
-@dataclass(frozen=True)
-class Verdicts:
-    """A list of judgements."""
-
-    lines: Sequence[JudgedLine]
-    block: str = "verdicts"
-
-
-@dataclass(frozen=True)
-class Figure:
-    """A picture with its caption, legend, maps of cells as tables, and its numbers to download."""
-
-    picture: Picture
-    titled: bool = True
-    block: str = "figure"
-
-
-@dataclass(frozen=True)
-class FormulaBlock:
-    """Formulas below one another, each in pieces between which a line may break, and its unit."""
-
-    rows: Sequence[tuple[Sequence[Formula], str]]
-    block: str = "formulas"
-
-
-@dataclass(frozen=True)
-class Code:
-    """Commands or text to copy, as it is."""
-
-    text: str
-    block: str = "code"
-
-
-Block = PageTable | Paragraph | Items | Verdicts | Figure | FormulaBlock | Code
 
 
 @dataclass(frozen=True)

@@ -2,18 +2,8 @@
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLACK,
-    COLOR_NAMES,
-    COLORS,
-    GREEN,
-    SHADE,
-    VERMILLION,
-    Curve,
-    Panel,
-    Picture,
-    Style,
-)
+from modeler.core.figure import Curve, Panel, Picture
+from modeler.core.style import BLACK, COLOR_NAMES, COLORS, GREEN, SHADE, VERMILLION, Style
 from modeler.core.table import WORDS
 from modeler.diagnosis.events import AFTER, MARGIN, Window, load_turns
 from modeler.diagnosis.state import State

@@ -7,20 +7,12 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.core.figure import (
-    BLACK,
-    GREY,
-    ORANGE,
-    VERMILLION,
-    Curve,
-    Panel,
-    Picture,
-    Style,
-    thin_curves,
-)
+from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.json import nulled
 from modeler.core.result import Presented
+from modeler.core.style import BLACK, GREY, ORANGE, VERMILLION, Style
 from modeler.core.table import percent
+from modeler.core.thinning import thin_curves
 from modeler.validation.stability import Stability
 
 

@@ -4,25 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLUE,
-    COLORS,
-    GREY,
-    ORANGE,
-    SLATE,
-    VERMILLION,
-    Bars,
-    Curve,
-    Heat,
-    Means,
-    Panel,
-    Picture,
-    Points,
-    Style,
-    thin_curves,
-    thin_points,
-)
+from modeler.core.figure import Bars, Curve, Heat, Means, Panel, Picture, Points
+from modeler.core.style import BLUE, COLORS, GREY, ORANGE, SLATE, VERMILLION, Style
 from modeler.core.table import percent
+from modeler.core.thinning import thin_curves, thin_points
 from modeler.validation.comparison import METHODS, REGIONS, Comparison, JointComparison
 from modeler.validation.prediction import Prediction, residual
 from modeler.validation.residual_structure import (

@@ -4,29 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLACK,
-    COLOR_NAMES,
-    ORANGE,
-    PALE_BLUE,
-    PALE_BROWN,
-    PALE_GREEN,
-    PALE_ORANGE,
-    PALE_PINK,
-    PALE_YELLOW,
-    SHADE,
-    SKY,
-    VERMILLION,
-    Band,
-    Curve,
-    Panel,
-    Picture,
-    Series,
-    Span,
-    Style,
-    thin_curves,
-)
+from modeler.core.figure import Band, Curve, Panel, Picture, Series, Span
+from modeler.core.style import BLACK, COLOR_NAMES, ORANGE, PALE, SHADE, SKY, VERMILLION, Style
 from modeler.core.table import WORDS
+from modeler.core.thinning import thin_curves
 from modeler.observation.observation import MASKS, WHY
 from modeler.observation.segments import runs
 from modeler.validation.comparison import WINDOW, JointComparison
@@ -38,14 +19,14 @@ from modeler.validation.prediction import DEVIATIONS, Prediction, residual
 GAP = "no rows"
 OTHER = "left out"
 _COLORS = {
-    "low speed": PALE_BLUE,
-    "torque at its limit": PALE_ORANGE,
-    "no good value": PALE_PINK,
-    "impossible derivative": PALE_GREEN,
-    "filter end": PALE_YELLOW,
-    "loops open": PALE_PINK,
-    GAP: PALE_YELLOW,
-    OTHER: PALE_BROWN,
+    "low speed": PALE["blue"],
+    "torque at its limit": PALE["orange"],
+    "no good value": PALE["pink"],
+    "impossible derivative": PALE["green"],
+    "filter end": PALE["yellow"],
+    "loops open": PALE["pink"],
+    GAP: PALE["yellow"],
+    OTHER: PALE["brown"],
 }
 _WHY = WHY | {
     GAP: "a gap in the log, with the start-up of the filter on either side",

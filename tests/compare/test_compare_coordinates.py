@@ -8,7 +8,7 @@ import pytest
 from known_defects import NOISE, prediction
 
 from modeler.core.errors import ShapeError
-from modeler.core.figure import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
+from modeler.core.style import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
 from modeler.core.table import percent
 from modeler.numerics.spectra import order_spectrum
 from modeler.observation.motion import travel_since_reversal
