@@ -7,13 +7,12 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.core.json import nulled
+from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
-from modeler.core.table import percent
+from modeler.core.table import aligned, percent
 from modeler.effects.catalogue import CATALOGUE, effect_named
 from modeler.fleet.drift import Unit
 from modeler.fleet.joint_fit import GAIN, LOAD, Quantity
-from modeler.validation.comparison import aligned
 
 
 @dataclass(frozen=True)
@@ -163,61 +162,50 @@ class Fleet(Presented):
             "robot": self.robot,
             "verdict": self.verdict,
             "time": self.unit,
-            "logs": self.logs,
-            "machines": {name: list(periods) for name, periods in self.machines.items()},
+            **entries(self, "logs machines"),
             "findings": [_finding(found) | {"sentence": sentence(found, self.unit)}
                          for found in self.findings],
             "quantities": [_followed(each) for each in self.followed],
             "false_alarm": self.false_alarm,
-            "not_told": list(self.aside),
+            "not_told": self.aside,
             "left_out": [{"log": place, "why": why} for place, why in self.left],
-            "doubts": list(self.doubts),
-            "notes": list(self.notes),
+            **entries(self, "doubts notes"),
         })  # fmt: skip
+
+
+_QUANTITY = "effect joint parameter unit"
 
 
 def _finding(found: FleetFinding) -> dict[str, Any]:
     warmth = found.warmth
     return {
         "machine": found.machine,
-        "effect": found.quantity.effect,
-        "joint": found.quantity.joint,
-        "parameter": found.quantity.parameter,
-        "unit": found.quantity.unit,
+        **entries(found.quantity, _QUANTITY),
         "shape": found.shape,
         "from": found.begin,
         "to": found.end,
         "periods_since": found.since,
-        "before": found.before,
-        "change": found.change,
+        **entries(found, "before change"),
         "change_percent": found.percent,
-        "sigma": found.sigma,
-        "score": found.score,
-        "chance": found.chance,
-        "temperature": None if warmth is None else {
-            "lowest": warmth.lowest, "highest": warmth.highest,
-            "correlation": warmth.correlation, "moves_along": warmth.along,
-            "others_alike": warmth.shared,
+        **entries(found, "sigma score chance"),
+        "temperature": warmth and {
+            **entries(warmth, "lowest highest correlation"),
+            "moves_along": warmth.along, "others_alike": warmth.shared,
         },
     }  # fmt: skip
 
 
 def _followed(each: Followed) -> dict[str, Any]:
     return {
-        "effect": each.quantity.effect,
-        "joint": each.quantity.joint,
-        "parameter": each.quantity.parameter,
-        "unit": each.quantity.unit,
+        **entries(each.quantity, _QUANTITY),
         "level": each.level,
         "scatter_factor": each.factor,
         "would_be_told": each.told,
         "machines": {
-            name: {"periods": list(own.periods), "at": own.at,
-                   "values": own.values, "sigmas": own.sigmas,
-                   "score": each.scores.get(name)}
+            name: entries(own, "periods at values sigmas") | {"score": each.scores.get(name)}
             for name, own in each.machines.items()
         },
-    }  # fmt: skip
+    }
 
 
 # What a fleet shows, in words and as tables of text.
@@ -258,7 +246,9 @@ def _warmth(warmth: Warmth | None) -> str:
 
 def _happens(found: FleetFinding, unit: Unit) -> str:
     up = found.change > 0.0
-    size = _size(found)
+    size = f"{abs(found.change):.3g} {found.quantity.unit}"
+    if found.percent is not None:
+        size = percent(0.01 * abs(found.percent))
     after = f"{found.before:.4g} to {found.before + found.change:.4g} {found.quantity.unit}"
     if found.shape == "odd machine":
         side = "above" if up else "below"
@@ -277,12 +267,6 @@ def _stays(found: FleetFinding) -> str:
     if found.shape != "jump":
         return " and is back after it"
     return " and stays" if found.since > 1 else ", the last period (whether it stays is not known)"
-
-
-def _size(found: FleetFinding) -> str:
-    if found.percent is None:
-        return f"{abs(found.change):.3g} {found.quantity.unit}"
-    return percent(0.01 * abs(found.percent))
 
 
 def headline_of(found: Fleet) -> tuple[str, str]:
@@ -319,10 +303,13 @@ def left_lines(found: Fleet) -> list[str]:
     return [f"left out: {why if place in why else f'{place}: {why}'}" for place, why in found.left]
 
 
+HEAD = "joint, effect, parameter, level, unit, scatter, told"
+"""Of the table of what was looked at."""
+
+
 def rows_of(found: Fleet) -> list[list[str]]:
     """Header, and a row for each quantity."""
-    head = ["joint", "effect", "parameter", "level", "unit", "scatter", "told"]
-    return [head, *(_row(each) for each in found.followed)]
+    return [HEAD.split(", "), *(_row(each) for each in found.followed)]
 
 
 def _row(each: Followed) -> list[str]:

@@ -126,7 +126,7 @@ def _picture(found: Contest, item: JointContest) -> Picture:
 
 def _errors(found: Contest) -> PageTable:
     top = max((e for item in found.joints for e in item.errors), default=0.0) or 1.0
-    rows = [
+    rows: list[list[str | PageCell]] = [
         [
             PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
             *(PageCell(percent(e), e / top) for e in item.errors),

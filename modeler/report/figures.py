@@ -4,12 +4,14 @@ A figure of matplotlib stands in a notebook as a picture, works without a networ
 paper; the pages that commands write have the ones that can be zoomed.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from modeler.core.figure import Bars, Curve, Panel, Picture
+from modeler.core.result import Figures
 from modeler.core.style import BLUE, COLORS, ORANGE, Style
 from modeler.core.thinning import thin_curves
 from modeler.estimation.result import FitResult
@@ -29,6 +31,15 @@ def picture_figure(picture: Picture) -> "Drawing":
     from modeler.report.figure_matplotlib import drawing  # it takes long to load
 
     return drawing(picture)
+
+
+def picture_figures(drawn: Mapping[str, Callable[[], Picture]]) -> Figures:
+    """Figures by name, each drawn when it is asked for."""
+    return {name: partial(_drawn_by, draw) for name, draw in drawn.items()}
+
+
+def _drawn_by(draw: Callable[[], Picture]) -> "Drawing":
+    return picture_figure(draw())
 
 
 def robot_figure(robot: Robot) -> "Drawing":

@@ -3,15 +3,15 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from modeler.core.figure import Curve, Heat, Means, Panel, Picture
 from modeler.core.result import Figures, Presentation, Tables, present
 from modeler.core.style import BLUE, COLORS, GREY, Style
-from modeler.core.table import Cell, Table, percent
+from modeler.core.table import Table, percent
 from modeler.fleet.result import (
+    HEAD,
     Fleet,
     FleetFinding,
     Followed,
@@ -31,11 +31,8 @@ from modeler.report.blocks import (
     Paragraph,
     Verdicts,
 )
-from modeler.report.figures import picture_figure
+from modeler.report.figures import picture_figures
 from modeler.report.page import Origin, Page, Section, write_page
-
-if TYPE_CHECKING:
-    from modeler.report.figure_matplotlib import Drawing
 
 _PICTURES = 12  # findings that are drawn
 _COLUMNS = 24  # machines of one map
@@ -156,12 +153,17 @@ def _background(others: Sequence[Values]) -> Curve:
 
 def map_pictures(found: Fleet) -> list[Picture]:
     """The greatest change of every quantity and machine, in sigmas; machines in portions."""
+    return [_map(found, own, k) for k, own in enumerate(_portions(found), start=1)]
+
+
+def _portions(found: Fleet) -> list[list[str]]:
+    """Machines that may drift, as many at a time as one map shows."""
     names = [name for name, periods in found.machines.items() if len(periods) > 1]
-    portions = [names[k : k + _COLUMNS] for k in range(0, len(names), _COLUMNS)]
-    return [_map(found.followed, own, k) for k, own in enumerate(portions, start=1)]
+    return [names[k : k + _COLUMNS] for k in range(0, len(names), _COLUMNS)]
 
 
-def _map(followed: Sequence[Followed], machines: Sequence[str], number: int) -> Picture:
+def _map(found: Fleet, machines: Sequence[str], number: int) -> Picture:
+    followed = found.followed
     values = np.array([[each.scores.get(name, np.nan) for name in machines] for each in followed])
     texts = tuple(
         tuple("" if np.isnan(value) else f"{value:.1f}" for value in row) for row in values
@@ -206,50 +208,44 @@ def _tables(found: Fleet) -> Tables:
 
 
 def _findings(found: Fleet) -> Table:
-    columns = (("machine", ""), ("joint", ""), ("effect", ""), ("shape", ""), ("from", ""),
-               ("to", ""), ("before", ""), ("change", ""), ("unit", ""), ("change of it", "%"),
-               ("sigmas", ""), ("chance", ""))  # fmt: skip
-    rows: tuple[tuple[Cell, ...], ...] = tuple(
+    rows = [
         (f.machine, f.quantity.joint, f.quantity.effect, f.shape, f.begin, f.end, f.before,
          f.change, f.quantity.unit, f.percent, f.score, f.chance)
         for f in found.findings
+    ]  # fmt: skip
+    return Table.of(
+        f"{found.robot}: {found.verdict}",
+        "machine, joint, effect, shape, from, to, before, change, unit, change of it [%], sigmas, "
+        "chance", rows,
     )  # fmt: skip
-    return Table(f"{found.robot}: {found.verdict}", columns, rows)
 
 
 def _values(found: Fleet) -> Table:
-    columns = (("machine", ""), ("period", ""), ("at", found.unit), ("parameter", ""),
-               ("value", ""), ("sigma", ""), ("unit", ""))  # fmt: skip
-    rows: tuple[tuple[Cell, ...], ...] = tuple(
-        (name, own.periods[k], own.at[k], each.quantity.parameter, own.values[k], own.sigmas[k],
-         each.quantity.unit)
+    rows = [
+        (name, period, at, each.quantity.parameter, value, sigma, each.quantity.unit)
         for each in found.followed
         for name, own in each.machines.items()
-        for k in range(len(own.periods))
-    )  # fmt: skip
-    return Table("what was followed, log by log", columns, rows)
+        for period, at, value, sigma in zip(
+            own.periods, own.at, own.values, own.sigmas, strict=True
+        )
+    ]
+    head = f"machine, period, at [{found.unit}], parameter, value, sigma, unit"
+    return Table.of("what was followed, log by log", head, rows)
 
 
 def _quantities(found: Fleet) -> Table:
-    columns = (("joint", ""), ("effect", ""), ("parameter", ""), ("level", ""), ("unit", ""),
-               ("scatter", ""), ("told", ""))  # fmt: skip
-    rows: tuple[tuple[Cell, ...], ...] = tuple(
+    rows = [
         (each.quantity.joint, effect_title(each.quantity), each.quantity.parameter, each.level,
          each.quantity.unit, each.factor, each.told)
         for each in found.followed
-    )  # fmt: skip
-    return Table("what may drift", columns, rows)
+    ]  # fmt: skip
+    return Table.of("what may drift", HEAD, rows)
 
 
 def _figures(found: Fleet) -> Figures:
-    drawn: dict[str, Callable[[], Drawing]] = {
-        "changes" if not k else f"changes {k + 1}": partial(picture_figure, picture)
-        for k, picture in enumerate(map_pictures(found))
-    }
+    drawn: dict[str, Callable[[], Picture]] = {}
+    for k, portion in enumerate(_portions(found)):
+        drawn["changes" if not k else f"changes {k + 1}"] = partial(_map, found, portion, k + 1)
     for k, each in enumerate(found.followed, start=1):
-        drawn[f"quantity {k}"] = partial(_drawn, found, each)
-    return drawn
-
-
-def _drawn(found: Fleet, each: Followed) -> "Drawing":
-    return picture_figure(quantity_picture(found, each))
+        drawn[f"quantity {k}"] = partial(quantity_picture, found, each)
+    return picture_figures(drawn)

@@ -1,16 +1,16 @@
 """Measured against predicted: numbers of each joint, regions, logs, scale; table and JSON."""
 
-import dataclasses
 import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.core.json import nulled
+from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
 from modeler.core.table import POOLED, WORDS, aligned, percent
 from modeler.numerics.spectra import OrderSpectrum, ResidualSpectrum, residual_spectrum, spans
@@ -24,10 +24,6 @@ from modeler.validation.prediction import (
 )
 from modeler.validation.repeatability import Repetition, Shares, repetitions, shares
 from modeler.validation.residual_structure import Structure, lines, ripple, structure
-
-if TYPE_CHECKING:
-    pass
-
 
 # The comparison as a table of plain text.
 
@@ -103,8 +99,7 @@ def by_log(comparison: "Comparison", error: str = "error") -> list[list[str]]:
         [
             item.log,
             str(item.samples),
-            *(percent(error) for error in item.by_unit.values()),
-            *(percent(error) for _, error in item.joints),
+            *map(percent, (*item.by_unit.values(), *dict(item.joints).values())),
         ]
         for item in comparison.logs
     ]
@@ -161,23 +156,20 @@ def velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...]:
     which[np.abs(qd) <= AROUND_ZERO * top] = 2  # also a joint that never moves
     limits = np.array([-top, *edges, top])
     total = float(e @ e)
-    regions = []
-    for index, name in enumerate(REGIONS):
-        part = e[which == index]
-        energy = float(part @ part)
-        regions.append(
-            Region(
-                name=name,
-                low=float(limits[index]),
-                high=float(limits[index + 1]),
-                samples=part.size,
-                time_share=part.size / e.size,
-                energy_share=energy / total if total else 0.0,
-                rms=float(np.sqrt(energy / part.size)) if part.size else math.nan,
-                bias=float(part.mean()) if part.size else math.nan,
-            )
+    return tuple(
+        Region(
+            name=name,
+            low=float(low),
+            high=float(high),
+            samples=part.size,
+            time_share=part.size / e.size,
+            energy_share=float(part @ part) / total if total else 0.0,
+            rms=float(np.sqrt(part @ part / part.size)) if part.size else math.nan,
+            bias=float(part.mean()) if part.size else math.nan,
         )
-    return tuple(regions)
+        for index, (name, (low, high)) in enumerate(zip(REGIONS, pairwise(limits), strict=True))
+        for part in [e[which == index]]
+    )
 
 
 def worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -> WorstWindow:
@@ -276,18 +268,13 @@ def errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
     found = []
     for run, log in enumerate(prediction.logs):
         rows = prediction.run == run
-        found.append(
-            LogError(
-                log=log,
-                samples=int(prediction.used[rows].any(axis=1).sum()),
-                relative_error=_relative(e[rows], measured[rows]),
-                joints=tuple(
-                    (info.name, _relative(e[rows, j], measured[rows, j]))
-                    for j, info in enumerate(prediction.joints)
-                ),
-                by_unit=unit_errors(prediction, rows),
-            )
+        joints = tuple(
+            (info.name, _relative(e[rows, j], measured[rows, j]))
+            for j, info in enumerate(prediction.joints)
         )
+        samples = int(prediction.used[rows].any(axis=1).sum())
+        whole, by_unit = _relative(e[rows], measured[rows]), unit_errors(prediction, rows)
+        found.append(LogError(log, samples, whole, joints, by_unit))
     return tuple(found)
 
 
@@ -345,17 +332,17 @@ class Comparison(Presented):
         """The comparison as plain numbers and text; undefined numbers are None."""
         return nulled({
             "robot": self.prediction.robot,
-            "logs": list(self.prediction.logs),
-            "samples": self.samples,
-            "relative_error": self.relative_error,
+            "logs": self.prediction.logs,
+            **entries(self, "samples relative_error"),
             "relative_error_pools": POOLED,
-            "by_unit": dict(self.by_unit),
+            "by_unit": self.by_unit,
             "joints": {joint.joint.name: _joint_dict(joint) for joint in self.joints},
             "unjudged": dict(self.unjudged),
-            "by_log": [_log_dict(log) for log in self.logs],
-            "repeated": [
-                {"method": item.kind, "periods": list(item.periods)} for item in self.repeated
+            "by_log": [
+                entries(log, "log samples relative_error by_unit") | {"joints": dict(log.joints)}
+                for log in self.logs
             ],
+            "repeated": [{"method": item.kind, "periods": item.periods} for item in self.repeated],
         })  # fmt: skip
 
     def to_json(self) -> str:
@@ -415,7 +402,9 @@ def _compare_joint(
     top = int(np.nanargmax(np.abs(e)))
     spread = float(np.sum((measured - measured.mean()) ** 2))
     energy = float(counted @ counted)
-    found = structure(prediction, index)
+    found, sigma = structure(prediction, index), None
+    if prediction.sigma is not None:
+        sigma = float(np.sqrt(np.mean(prediction.sigma[rows, index] ** 2)))
     return JointComparison(
         joint=prediction.joints[index],
         index=index,
@@ -426,9 +415,7 @@ def _compare_joint(
         r2=1.0 - energy / spread if spread > 0.0 else math.nan,
         bias=float(counted.mean()),
         largest=Moment(
-            value=float(abs(e[top])),
-            log=prediction.logs[prediction.run[top]],
-            time=float(prediction.time[top]),
+            float(abs(e[top])), prediction.logs[prediction.run[top]], float(prediction.time[top])
         ),
         regions=velocity_regions(prediction.qd[rows, index], counted),
         worst=worst_window(prediction, e),
@@ -437,67 +424,33 @@ def _compare_joint(
         shares=shares(prediction, index, e, repeated, found),
         scale=scale(measured, prediction.predicted[rows, index]),
         orders=ripple(looked or prediction, index),
-        predicted_sigma=None
-        if prediction.sigma is None
-        else float(np.sqrt(np.mean(prediction.sigma[rows, index] ** 2))),
+        predicted_sigma=sigma,
     )
 
 
 def _joint_dict(item: JointComparison) -> dict[str, Any]:
-    found, colour = item.structure, item.spectrum
+    found, colour, parts = item.structure, item.spectrum, item.shares
     return {
-        "relative_error": item.relative_error,
-        "rms": item.rms,
+        **entries(item, "relative_error rms"),
         "max": item.largest.value,
         "r2": item.r2,
-        "max_at": {"log": item.largest.log, "time": item.largest.time},
+        "max_at": entries(item.largest, "log time"),
         "unit": item.joint.effort_unit,
-        "samples": item.samples,
-        "bias": item.bias,
-        "predicted_sigma": item.predicted_sigma,
-        "regions": [dataclasses.asdict(region) for region in item.regions],
-        "worst_window": dataclasses.asdict(item.worst),
-        "structure": None
-        if found is None
-        else {
-            "shares": dict(found.shares),
-            "together": found.together,
-            "across": dict(found.across),
-            "motors": dict(found.motors),
-            "follows": dataclasses.asdict(found.follows),
+        **entries(item, "samples bias predicted_sigma regions"),
+        "worst_window": item.worst,
+        "structure": found and {
+            "shares": dict(found.shares), "together": found.together,
+            "across": dict(found.across), "motors": dict(found.motors), "follows": found.follows,
         },
-        "spectrum": None
-        if colour is None
-        else {
-            "memory": colour.memory,
-            "lag_one": float(colour.correlation[1]),
-            "peak": colour.peak,
-            "peak_share": colour.peak_share,
+        "spectrum": colour and {
+            "memory": colour.memory, "lag_one": colour.correlation[1],
+            **entries(colour, "peak peak_share"),
         },
-        **_shares_dict(item),
-        "scale": None if item.scale is None else dataclasses.asdict(item.scale),
-        "orders": None
-        if item.orders is None
-        else [dataclasses.asdict(line) for line in lines(item.orders, item.joint.unit)],
-    }
-
-
-def _shares_dict(item: JointComparison) -> dict[str, Any]:
-    found = item.shares
-    return {
         "explained": item.r2,
-        "systematic": None if found is None else found.systematic,
-        "floor": None if found is None else found.floor,
-        "method": None if found is None else found.method,
-        "systematic_sigma": None if found is None else found.sigma,
-    }
-
-
-def _log_dict(found: LogError) -> dict[str, Any]:
-    return {
-        "log": found.log,
-        "samples": found.samples,
-        "relative_error": found.relative_error,
-        "by_unit": dict(found.by_unit),
-        "joints": dict(found.joints),
-    }
+        "systematic": parts and parts.systematic,
+        "floor": parts and parts.floor,
+        "method": parts and parts.method,
+        "systematic_sigma": parts and parts.sigma,
+        "scale": item.scale,
+        "orders": item.orders and lines(item.orders, item.joint.unit),
+    }  # fmt: skip
