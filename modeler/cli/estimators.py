@@ -11,7 +11,7 @@ from modeler.core.errors import DataError, Method
 from modeler.core.estimators import ABOUT
 from modeler.core.table import aligned
 from modeler.estimation.side_by_side import Tried, side_by_side
-from modeler.report.estimators import table_of, values_of, write_estimators
+from modeler.report.estimators import remarks_of, table_of, values_of, write_estimators
 
 
 def run_estimators(args: argparse.Namespace) -> Json:
@@ -27,9 +27,8 @@ def run_estimators(args: argparse.Namespace) -> Json:
     tried, lines = _compared(args, methods)
     for line in (*lines, "", *_aligned(table_of(tried)), "", *_aligned(values_of(tried)), ""):
         say(line)
-    for own in tried:
-        for remark in (own.refusal,) if own.refusal else own.remarks:
-            say(f"{own.method}: {remark}")
+    for method, remark in remarks_of(tried):
+        say(f"{method}: {remark}")
     if args.report is not None:
         with working("drawing the page"):
             place = write_estimators(Path(args.report), args.robot, tried, lines)

@@ -53,7 +53,7 @@ class Table(Brief):
 
     @classmethod
     def of(
-        cls, title: str, head: str | Iterable[str], rows: Iterable[Iterable[Cell]], note: str = ""
+        cls, title: str, head: str | Iterable[str], rows: Iterable[Iterable[Any]], note: str = ""
     ) -> "Table":
         """A table whose head is written as "name, mass [kg]", or as such names one by one."""
         columns = []

@@ -78,7 +78,7 @@ def _errors(comparison: Comparison) -> Table:
 
 def _by_log(comparison: Comparison) -> Table:
     joints = [f"joint {name} [%]" for name, _ in comparison.logs[0].joints]
-    rows: list[tuple[Cell, ...]] = [
+    rows = [
             (log.log, log.samples, 100.0 * log.relative_error, *(100.0 * e for _, e in log.joints))
             for log in comparison.logs]  # fmt: skip
     head = ["log", "samples", "all joints [%]", *joints]
