@@ -32,8 +32,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
     Raises:
         DataError: no usable logs, too few to compare, rows given twice, nothing that may drift.
     """
-    used = [each for each in given if isinstance(each, LogSummary)]
-    used, foreign, said = of_another_robot(used)
+    used, foreign, said = of_another_robot([log for log in given if isinstance(log, LogSummary)])
     apart = [*(each for each in given if isinstance(each, Left)), *foreign]
     left = tuple((each.named.place, each.why) for each in apart)
     _check(used, left)
@@ -41,7 +40,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
     layout = layout_of(spec)
     fit = joint_fit(layout, logs)
     found = judged(layout, fit, logs, at)
-    findings = [*_drifting(found, logs), *_apart(found, logs)]
+    findings = _findings(found, logs)
     machines = _machines(logs)
     return Fleet(
         robot=spec.robot,
@@ -70,18 +69,15 @@ def _check(used: Sequence[LogSummary], left: Sequence[tuple[str, str]]) -> None:
         )
     for k, each in enumerate(used):
         for other in used[:k]:
-            if (
-                each.content
-                and each.content == other.content
-                and (each.span[0] <= other.span[1] and other.span[0] <= each.span[1])
-            ):
+            overlap = each.span[0] <= other.span[1] and other.span[0] <= each.span[1]
+            if each.content and each.content == other.content and overlap:
                 raise DataError(
                     f"{each.named.place}: got rows of {other.named.place} again; expected each row "
                     "once; leave one of the two out"
                 )
 
 
-def _drifting(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFinding]:
+def _findings(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFinding]:
     findings = []
     for (m, i), move in found.moves.items():
         own, quantity = found.known(m, i), found.quantities[i]
@@ -91,36 +87,30 @@ def _drifting(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFi
             ([logs[k] for k in found.known(other, i)], found.values[found.known(other, i), i])
             for other in (m, *(o for o in range(found.machines) if o != m))
         ]
-        line = line_of(move, found.at[own])
         findings.append(
             FleetFinding(
                 machine=logs[own[0]].named.machine,
                 quantity=quantity,
                 shape=move.shape,
                 begin=periods[move.begin],
-                end=periods[-1] if trend else periods[move.begin],
+                end=periods[-1 if trend else move.begin],
                 length=float(found.at[own[-1]] - found.at[own[0]]) if trend else 0.0,
                 before=move.level,
                 change=move.change,
                 sigma=move.sigma,
                 score=move.score,
                 chance=move.chance,
-                warmth=warmth_of(both[0], quantity.joint, line, both[1:]),
+                warmth=warmth_of(both[0], quantity.joint, line_of(move, found.at[own]), both[1:]),
                 since=len(own) - move.begin,
             )
         )
-    return findings
-
-
-def _apart(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFinding]:
-    findings = []
     for (m, i), odd in found.odd.items():
-        own, quantity = found.known(m, i), found.quantities[i]
+        own = found.known(m, i)
         mean = float(np.average(found.values[own, i], weights=found.sigmas[own, i] ** -2.0))
         findings.append(
             FleetFinding(
                 machine=logs[own[0]].named.machine,
-                quantity=quantity,
+                quantity=found.quantities[i],
                 shape="odd machine",
                 begin=logs[own[0]].named.period,
                 end=logs[own[-1]].named.period,
@@ -130,7 +120,6 @@ def _apart(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFindi
                 sigma=odd.spread,
                 score=odd.score,
                 chance=0.5 * FALSE_ALARM,
-                warmth=None,
                 since=len(own),
             )
         )
@@ -143,13 +132,13 @@ def _followed(found: JudgedQuantity, logs: Sequence[LogSummary]) -> tuple[Follow
         machines, scores = {}, {}
         for m in range(found.machines):
             own = found.known(m, i)
-            if (m, i) in found.scores:
-                scores[logs[own[0]].named.machine] = found.scores[m, i]
             if len(own):
+                name = logs[own[0]].named.machine
                 sigmas = found.scatters[i].sigmas(found.series(m, i))
                 names = tuple(logs[k].named.period for k in own)
-                values = Values(found.at[own], names, found.values[own, i], sigmas)
-                machines[logs[own[0]].named.machine] = values
+                machines[name] = Values(found.at[own], names, found.values[own, i], sigmas)
+                if (m, i) in found.scores:
+                    scores[name] = found.scores[m, i]
         known = found.values[np.isfinite(found.values[:, i]), i]
         level = float(np.median(known)) if known.size else float("nan")
         factor = found.scatters[i].factor

@@ -1,6 +1,6 @@
 """What a fleet shows: findings, and the values behind them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -229,19 +229,16 @@ def sentence(found: FleetFinding, unit: Unit) -> str:
     )
     named = effect_title(quantity) + ("" if quantity.column < 0 else f" ({quantity.parameter})")
     line = f"{where}: {named} {_happens(found, unit)}"
-    return line + _warmth(found.warmth)
-
-
-def _warmth(warmth: Warmth | None) -> str:
+    warmth = found.warmth
     if warmth is None or not warmth.along:
-        return ""
-    told = (
-        f"; the temperature of the logs moves along, {warmth.lowest:.4g} to {warmth.highest:.4g} "
-        f"(correlation {warmth.correlation:.2f})"
-    )
+        return line
+    cause = "and may be the cause: compare periods of one temperature"
     if warmth.shared is False:
-        return f"{told}, but machines that warm alike do not change so"
-    return f"{told}, and may be the cause: compare periods of one temperature"
+        cause = "but machines that warm alike do not change so"
+    return (
+        f"{line}; the temperature of the logs moves along, {warmth.lowest:.4g} to "
+        f"{warmth.highest:.4g} (correlation {warmth.correlation:.2f}), {cause}"
+    )
 
 
 def _happens(found: FleetFinding, unit: Unit) -> str:
@@ -257,16 +254,12 @@ def _happens(found: FleetFinding, unit: Unit) -> str:
         verb = "rises" if up else "falls"
         span = f"{found.length:.3g} {unit}"
         return f"{verb} by {size} over {span}, from {after} ({abs(found.score):.1f} sigma)"
+    stays = " and is back after it"
+    if found.shape == "jump":  # of the time after a leap in the last period nothing is known
+        told = ", the last period (whether it stays is not known)"
+        stays = " and stays" if found.since > 1 else told
     verb = "leaps up" if up else "leaps down"
-    told = f"from {after} ({abs(found.score):.1f} sigma)"
-    return f"{verb} by {size} at {found.begin}{_stays(found)}, {told}"
-
-
-def _stays(found: FleetFinding) -> str:
-    """What is known of the time after a leap: of one in the last period, nothing."""
-    if found.shape != "jump":
-        return " and is back after it"
-    return " and stays" if found.since > 1 else ", the last period (whether it stays is not known)"
+    return f"{verb} by {size} at {found.begin}{stays}, from {after} ({abs(found.score):.1f} sigma)"
 
 
 def headline_of(found: Fleet) -> tuple[str, str]:
@@ -291,7 +284,12 @@ def fleet_lines(found: Fleet) -> list[str]:
         "told: the smallest straight drift over all periods that would be a finding; chance of any "
         f"finding where nothing drifts: {percent(found.false_alarm)}"
     )
-    lines += [*found.notes, *_gain_note(found)]
+    lines += found.notes
+    if any(one.quantity.effect == GAIN for one in found.findings):
+        lines.append(
+            "a drive gain above the others: the logged torque (current times gain) is more than "
+            "the motion needs, as with a weaker magnet, or a torque sensor that reads too much"
+        )
     lines += left_lines(found)
     if found.aside:
         lines.append(f"not told by any log, taken as 0: {', '.join(found.aside)}")
@@ -309,26 +307,11 @@ HEAD = "joint, effect, parameter, level, unit, scatter, told"
 
 def rows_of(found: Fleet) -> list[list[str]]:
     """Header, and a row for each quantity."""
-    return [HEAD.split(", "), *(_row(each) for each in found.followed)]
-
-
-def _row(each: Followed) -> list[str]:
-    quantity = each.quantity
-    return [
-        quantity.joint or "-",
-        effect_title(quantity),
-        quantity.parameter,
-        f"{each.level:.4g}" if each.level == each.level else "-",
-        quantity.unit,
-        f"{each.factor:.2f}",
-        "-" if each.told is None else f"{each.told:.2g}",
-    ]
-
-
-def _gain_note(found: Fleet) -> Sequence[str]:
-    if not any(one.quantity.effect == GAIN for one in found.findings):
-        return ()
-    return (
-        "a drive gain above the others: the logged torque (current times gain) is more than the "
-        "motion needs, as with a weaker magnet, or a torque sensor that reads too much",
-    )
+    return [HEAD.split(", "), *(
+        [
+            each.quantity.joint or "-", effect_title(each.quantity), each.quantity.parameter,
+            f"{each.level:.4g}" if each.level == each.level else "-", each.quantity.unit,
+            f"{each.factor:.2f}", "-" if each.told is None else f"{each.told:.2g}",
+        ]
+        for each in found.followed
+    )]  # fmt: skip

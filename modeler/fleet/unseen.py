@@ -30,7 +30,8 @@ def not_seen(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[str]:
                 continue
             times = sigmas[m, i] / float(np.median(others))
             if times > FAR:
-                hidden.append(f"{quantity.parameter} ({_count(times)})")
+                count = f"{times:.2g} times" if np.isfinite(times) else "not at all"
+                hidden.append(f"{quantity.parameter} ({count})")
         if hidden:
             said.append(
                 f"machine {name}: its logs tell {', '.join(hidden)} far worse than those of the "
@@ -47,10 +48,6 @@ def _sigma(found: JudgedQuantity, m: int, i: int) -> float:
         return float(np.median(found.sigmas[own, i]))
     load = found.quantities[i].column < 0 and found.loaded is not None and m in found.loaded
     return float("nan") if load else float("inf")
-
-
-def _count(times: float) -> str:
-    return f"{times:.2g} times" if np.isfinite(times) else "not at all"
 
 
 def scatter_known(found: JudgedQuantity, logs: int) -> list[str]:

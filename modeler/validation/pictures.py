@@ -39,13 +39,14 @@ def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
         if coordinate.id != "direction"
     ]
     drawn += [_spectrum_panel(item), _order_panel(item)]
+    heated = any(panel.title.startswith("Temperature") for panel in drawn)
     drawn += [_EMPTY] * (-len(drawn) % _ACROSS)
     rows = [tuple(drawn[k : k + _ACROSS]) for k in range(0, len(drawn), _ACROSS)]
     name = item.joint.name
     return Picture(
         name=f"joint_{name}_residual",
         title=f"Joint {name}: does the residual still have structure?",
-        caption=_residual_caption(any(panel.title.startswith("Temperature") for panel in drawn)),
+        caption=f"{_FIRST}{_HEATED if heated else ''} {_LAST}",
         panels=tuple(rows),
         heights=tuple(1.0 / len(rows) for _ in rows),
         widths=(1 / 3, 1 / 3, 1 / 3),
@@ -54,11 +55,6 @@ def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
 
 
 _EMPTY = Panel("", "", "", ())
-
-
-def _residual_caption(heated: bool) -> str:
-    """How to read the panels; `heated` where one of them is over temperature."""
-    return f"{_FIRST}{_HEATED if heated else ''} {_LAST}"
 
 
 _FIRST = (
@@ -150,22 +146,15 @@ def _by_direction(x: np.ndarray, e: np.ndarray, qd: np.ndarray) -> tuple[Means, 
 def _spectrum_panel(item: JointComparison) -> Panel:
     unit = item.joint.effort_unit
     colour = item.spectrum
-    nothing = np.array([np.nan])
-    title = "Spectrum"
+    title, shown = "Spectrum", (np.array([np.nan]), np.array([np.nan]))
     if colour is not None:
+        shown = colour.frequency, colour.density
         title += f": {percent(colour.peak_share)} of the power near {colour.peak:.3g} Hz"
     return Panel(
         title=title,
         x_label="frequency [Hz]",
         y_label=f"density [({unit})^2/Hz]",
-        series=(
-            Curve(
-                "residual",
-                nothing if colour is None else colour.frequency,
-                nothing if colour is None else colour.density,
-                _MEAN,
-            ),
-        ),
+        series=(Curve("residual", *shown, _MEAN),),
         scale="log",
     )
 
@@ -245,7 +234,7 @@ def _overview_caption(comparison: Comparison) -> str:
 
 
 def _regions(comparison: Comparison) -> Heat:
-    energy = np.array([[r.energy_share for r in item.regions] for item in comparison.joints])
+    energy = [[r.energy_share for r in item.regions] for item in comparison.joints]
     texts = tuple(
         tuple(f"{percent(r.energy_share)} ({percent(r.time_share)})" for r in item.regions)
         for item in comparison.joints
@@ -267,7 +256,7 @@ def _shares(comparison: Comparison) -> Heat:
         else [*(item.structure.share(name) for name in names), item.structure.together]
         for item in comparison.joints
     ]
-    return _heat(comparison, "explained share", columns, np.array(rows), None)
+    return _heat(comparison, "explained share", columns, rows)
 
 
 def _across(comparison: Comparison) -> Heat:
@@ -282,17 +271,18 @@ def _across(comparison: Comparison) -> Heat:
         else [share for _, share in (*item.structure.across, *item.structure.motors)]
         for item in comparison.joints
     ]
-    return _heat(comparison, "explained share", columns, np.array(rows), None)
+    return _heat(comparison, "explained share", columns, rows)
 
 
 def _heat(
     comparison: Comparison,
     label: str,
     columns: tuple[str, ...],
-    values: np.ndarray,
-    texts: tuple[tuple[str, ...], ...] | None,
+    rows: Sequence[Sequence[float]],
+    texts: tuple[tuple[str, ...], ...] = (),
 ) -> Heat:
-    if texts is None:
+    values = np.array(rows)
+    if not texts:
         texts = tuple(
             tuple("" if np.isnan(value) else f"{100 * value:.0f}" for value in row)
             for row in values

@@ -62,22 +62,15 @@ def coordinates_of(prediction: Prediction, joint: int) -> tuple[Coordinate, ...]
 def coordinate_values(prediction: Prediction, joint: int, coordinate: str) -> np.ndarray:
     """Values of a coordinate of one joint, all rows, (n,); time counts from the log's start."""
     qd = prediction.qd[:, joint]
+    plain = {"position": prediction.q, "velocity": prediction.qd, "acceleration": prediction.qdd,
+             "temperature": prediction.temperature}  # fmt: skip
+    turned = {"load": np.abs(prediction.predicted), "travel": prediction.travel}
     if coordinate == "direction":
         return np.sign(qd)
-    if coordinate == "velocity":
-        return qd
-    if coordinate == "position":
-        return prediction.q[:, joint]
-    if coordinate == "acceleration":
-        return prediction.qdd[:, joint]
-    if coordinate == "load":
-        return np.abs(prediction.predicted[:, joint]) * np.sign(qd)
-    if coordinate == "travel":
-        assert prediction.travel is not None
-        return prediction.travel[:, joint] * np.sign(qd)
-    if coordinate == "temperature":
-        assert prediction.temperature is not None
-        return prediction.temperature[:, joint]
+    if (values := plain.get(coordinate)) is not None:
+        return values[:, joint]
+    if (values := turned.get(coordinate)) is not None:
+        return values[:, joint] * np.sign(qd)
     assert coordinate == "time", coordinate
     starts = [prediction.time[prediction.run == run] for run in range(len(prediction.logs))]
     first = np.array([times[0] if times.size else 0.0 for times in starts])

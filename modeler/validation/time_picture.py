@@ -48,7 +48,8 @@ def masked_spans(
     """
     if rows.size < 2:
         return ()
-    half = 0.5 * _spacing(prediction, time)
+    steps = np.diff(time)[np.diff(prediction.segment) == 0]
+    half = 0.5 * float(np.median(steps)) if steps.size else 0.0
     close = _CLOSE * float(np.ptp(time[rows]))
     reasons = _reasons(prediction, j)[rows]
     whole = prediction.segment[rows]
@@ -102,11 +103,6 @@ def _gaps(
     return [(start, end) for start, end in ends if end > start]
 
 
-def _spacing(prediction: Prediction, time: np.ndarray) -> float:
-    steps = np.diff(time)[np.diff(prediction.segment) == 0]
-    return float(np.median(steps)) if steps.size else 0.0
-
-
 def _joined(ends: np.ndarray, close: float) -> np.ndarray:
     """(k, 2) intervals, those nearer than `close` made one."""
     apart = np.flatnonzero(ends[1:, 0] - ends[:-1, 1] > close) + 1
@@ -129,7 +125,8 @@ def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
     near = own & (time >= window.start - margin) & (time <= window.end + margin)
     running, label, marks = running_time(prediction)
     start = float(running[own & (time == window.start)][0])
-    left = _column(prediction, item, np.arange(time.size), running, _whole_title(prediction), label)
+    title = "All logs" if len(np.unique(prediction.run)) > 1 else "Whole log"
+    left = _column(prediction, item, np.arange(time.size), running, title, label)
     right = _column(
         prediction, item, np.flatnonzero(near), time, f"Worst {WINDOW} s",
         f"time in {window.log} [s]", banded=True,
@@ -188,10 +185,6 @@ def running_time(
         marks.append((offset, prediction.logs[run]))
         offset += float(own.max() - own.min())
     return whole, "time, logs one after the other [s]", tuple(marks)
-
-
-def _whole_title(prediction: Prediction) -> str:
-    return "All logs" if len(np.unique(prediction.run)) > 1 else "Whole log"
 
 
 def broken(segment: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -124,17 +124,14 @@ def best_other(item: JointComparison) -> tuple[str, float] | None:
     if item.structure is None:
         return None
     others = [(f"joint {k}", x) for k, x in item.structure.across if k != item.joint.name]
-    others += [(_motor(k), x) for k, x in item.structure.motors]
+    for name, share in item.structure.motors:
+        first, _, last = name.replace("+", ", ").rpartition(", ")
+        others.append((f"the motor that turns with joints {first} and {last}", share))
     if not others:
         return None
     name, share = max(others, key=lambda entry: entry[1])
     own = max(item.structure.share("velocity"), item.structure.share("direction"))
     return (name, share) if share >= own + NOTICEABLE else None
-
-
-def _motor(name: str) -> str:
-    first, _, last = name.replace("+", ", ").rpartition(", ")
-    return f"the motor that turns with joints {first} and {last}"
 
 
 def kind_of_residual(item: JointComparison) -> str:
