@@ -111,7 +111,12 @@ class Picture:
     title: str
     caption: str
     panels: tuple[tuple[Panel, ...], ...]  # rows of panels, all of one length
-    heights: tuple[float, ...]  # relative, one per row
-    widths: tuple[float, ...]  # relative, one per column
     height: int  # pixels, at a width of 1200
     shared_time: bool = False  # panels of one column share their x axis
+    heights: tuple[float, ...] = ()  # relative, one per row; alike if they are left out
+    widths: tuple[float, ...] = ()  # relative, one per column; likewise
+
+    def __post_init__(self) -> None:
+        rows, columns = len(self.panels), len(self.panels[0])
+        object.__setattr__(self, "heights", self.heights or (1.0 / rows,) * rows)
+        object.__setattr__(self, "widths", self.widths or (1.0 / columns,) * columns)

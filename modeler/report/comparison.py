@@ -101,22 +101,12 @@ def _fact(found: Contest, k: int) -> str:
 
 
 def _model_sections(found: Contest) -> list[Section]:
-    sections = [
-        Section(
-            "Verdict",
-            [
-                Items([("", line) for line in contest_sentences(found)]),
-                _errors(found),
-                _sizes(found),
-            ],
-        )
-    ]
-    sections += [
+    said = Items([("", line) for line in contest_sentences(found)])
+    return [Section("Verdict", [said, _errors(found), _sizes(found)])] + [
         Section(f"Joint {item.joint.name}", [Figure(_picture(found, item), titled=False)],
                 f"joint-{item.joint.name}")
         for item in found.joints
     ]  # fmt: skip
-    return sections
 
 
 def _picture(found: Contest, item: JointContest) -> Picture:
@@ -159,10 +149,8 @@ def _sizes(found: Contest) -> PageTable:
 
 def joint_pictures(comparison: Comparison, item: JointComparison) -> tuple[Picture, ...]:
     """The pictures of one joint: against time, then against each coordinate."""
-    return (
-        time_picture(comparison.prediction, item),
-        residual_picture(comparison.prediction, item),
-    )
+    found = comparison.prediction
+    return time_picture(found, item), residual_picture(found, item)
 
 
 def all_pictures(comparison: Comparison) -> tuple[Picture, ...]:
@@ -241,7 +229,13 @@ def _sheet(
         origin=origin or Origin(prediction.robot, prediction.logs),
         facts=_facts(comparison),
         next=following,
-        provenance=(*_facts_on_data(comparison), *provenance),
+        provenance=(
+            f"Robot: {prediction.robot}.",
+            f"Logs: {', '.join(prediction.logs)}.",
+            f"Samples: {comparison.samples} of {prediction.time.size} count for at least one "
+            "joint; filtered alike on both sides, never differenced across a gap.",
+            *provenance,
+        ),
         command="compare",
     )
 
@@ -260,7 +254,11 @@ def _sections(comparison: Comparison) -> list[Section]:
     found = [Section("Verdict", [Verdicts(_judged(comparison)), table, *_log_table(comparison)])]
     if comparison.joints:
         found.append(Section("All joints", [Figure(overview_picture(comparison), titled=False)]))
-    return [*found, *(_joint_section(comparison, item) for item in comparison.joints)]
+    for item in comparison.joints:
+        pictures = [Figure(picture) for picture in joint_pictures(comparison, item)]
+        name, said = item.joint.name, Paragraph(joint_verdict(item))
+        found.append(Section(f"Joint {name}", [said, *pictures], f"joint-{name}"))
+    return found
 
 
 def _facts(comparison: Comparison) -> list[tuple[str, str]]:
@@ -316,16 +314,6 @@ def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
     return "No pattern in the joints' motion, but not all of it is noise: see below."
 
 
-def _facts_on_data(comparison: Comparison) -> list[str]:
-    prediction = comparison.prediction
-    lines = [f"Robot: {prediction.robot}.", f"Logs: {', '.join(prediction.logs)}."]
-    lines.append(
-        f"Samples: {comparison.samples} of {prediction.time.size} count for at least one joint; "
-        "filtered alike on both sides, never differenced across a gap."
-    )
-    return lines
-
-
 def _judged(comparison: Comparison) -> list[JudgedLine]:
     lines = []
     for item in comparison.joints:
@@ -365,9 +353,3 @@ def _log_table(comparison: Comparison) -> list[PageTable]:
     head, *rows = by_log(comparison, "all")
     caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
     return [PageTable(head, rows, caption)]
-
-
-def _joint_section(comparison: Comparison, item: JointComparison) -> Section:
-    name = item.joint.name
-    pictures = [Figure(picture) for picture in joint_pictures(comparison, item)]
-    return Section(f"Joint {name}", [Paragraph(joint_verdict(item)), *pictures], f"joint-{name}")

@@ -109,7 +109,9 @@ def _sections(diagnosis: Diagnosis) -> list[Section]:
         again = ids.count(own)
         found.append(_shown(diagnosis, step, own if again == 1 else f"{own}-{again}"))
     found += _events(diagnosis)
-    found.append(Section("What these logs cannot show", [_blind(diagnosis)]))
+    blind = [(f"{what}:", why) for what, why in blind_spots(diagnosis)]
+    nothing = Paragraph("Nothing of the catalogue.")
+    found.append(Section("What these logs cannot show", [Items(blind) if blind else nothing]))
     return found
 
 
@@ -117,16 +119,11 @@ def _shown(diagnosis: Diagnosis, step: Step, own: str) -> Section:
     """One effect: what it explains, before and after, and what else could stand for it."""
     item = shown(diagnosis.search, step)
     effect, joint = step.pick.effect.id, step.pick.joint
-    blocks: list[Block] = [
+    alone = Paragraph(f"No other effect of the catalogue explains anything of {where(joint)}.")
+    return Section(_name(effect, joint), [
         Paragraph(figures(item)), Figure(torque_picture(item)), Figure(evidence_picture(item)),
-    ]  # fmt: skip
-    if rivals_of(step):
-        blocks.append(rivals_table(step))
-    else:
-        blocks.append(
-            Paragraph(f"No other effect of the catalogue explains anything of {where(joint)}.")
-        )
-    return Section(_name(effect, joint), blocks, own)
+        rivals_table(step) if rivals_of(step) else alone,
+    ], own)  # fmt: skip
 
 
 def _id(effect: str, joint: str | None) -> str:
@@ -207,8 +204,3 @@ def _joints(diagnosis: Diagnosis) -> PageTable:
         "the effects in. Systematic is what smooth functions "
         "of the motion predict, what returns in the next lap, what lasts, and outbursts.",
     )
-
-
-def _blind(diagnosis: Diagnosis) -> Block:
-    lines = [(f"{what}:", why) for what, why in blind_spots(diagnosis)]
-    return Items(lines) if lines else Paragraph("Nothing of the catalogue.")

@@ -128,7 +128,10 @@ _DOTS = 1500
 def evidence_picture(item: Shown) -> Picture:
     """Residual on the axis where the effect shows itself, without the effect and with it."""
     pick, view = item.step.pick, view_of(item)
-    panels = [_without(item, view), _with(item, view)]
+    panels = [
+        _without(item, view),
+        _panel("with it", item, view, _cloud(item, view, item.after)),
+    ]
     if item.axis.shows == "waves":
         panels.insert(0, _orders(item))
     elif item.own is not None:
@@ -141,8 +144,6 @@ def evidence_picture(item: Shown) -> Picture:
         title=f"{pick.effect.title}: {name}{seen}",
         caption=" ".join(_caption(item, view)),
         panels=(tuple(panels),),
-        heights=(1.0,),
-        widths=tuple(1.0 / len(panels) for _ in panels),
         height=400,
     )
 
@@ -157,10 +158,6 @@ def _without(item: Shown, view: View) -> Panel:
     ]
     series = (*_cloud(item, view, item.before), *lines)
     return _panel("without the effect", item, view, series)
-
-
-def _with(item: Shown, view: View) -> Panel:
-    return _panel("with it", item, view, _cloud(item, view, item.after))
 
 
 def _law(item: Shown, own: np.ndarray, view: View) -> Panel:

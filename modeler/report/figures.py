@@ -63,7 +63,7 @@ def parameters_figure(fit: FitResult) -> "Drawing":
         name="parameters", title=f"{fit.robot}: how sure the parameters are", caption="",
         panels=((Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label,
                        (bars,)),),),
-        heights=(1.0,), widths=(1.0,), height=380,
+        height=380,
     ))  # fmt: skip
 
 
@@ -75,7 +75,7 @@ def errors_picture(diagnosis: "Diagnosis") -> Picture:
     )
     return Picture(
         name="errors", title=f"{diagnosis.robot}: {diagnosis.verdict}", caption="",
-        panels=(panels,), heights=(1.0,), widths=(0.5, 0.5), height=380,
+        panels=(panels,), height=380,
     )  # fmt: skip
 
 
@@ -98,8 +98,7 @@ def log_figure(
         )
     )
     return picture_figure(Picture(
-        name="channels", title=title, caption="", panels=panels, heights=(1.0, 1.0),
-        widths=(1.0,), height=620, shared_time=True,
+        name="channels", title=title, caption="", panels=panels, height=620, shared_time=True,
     ))  # fmt: skip
 
 

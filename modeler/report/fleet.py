@@ -95,16 +95,13 @@ def _id(k: int) -> str:
 def _verdict(found: Fleet) -> Verdicts | Paragraph:
     if not found.findings:
         return Paragraph("No machine drifts and none is apart from the others, beyond doubt.")
-    return Verdicts([
-        JudgedLine("pattern", one.shape, f"{one.machine}, {_short(one)}", sentence(one, found.unit),
-               _id(k) if k < _PICTURES else "")
-        for k, one in enumerate(found.findings)
-    ])  # fmt: skip
-
-
-def _short(one: FleetFinding) -> str:
-    joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
-    return joint + effect_title(one.quantity)
+    lines = []
+    for k, one in enumerate(found.findings):
+        joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
+        head = f"{one.machine}, {joint}{effect_title(one.quantity)}"
+        link = _id(k) if k < _PICTURES else ""
+        lines.append(JudgedLine("pattern", one.shape, head, sentence(one, found.unit), link))
+    return Verdicts(lines)
 
 
 def finding_picture(found: Fleet, one: FleetFinding) -> Picture:
@@ -126,7 +123,7 @@ def finding_picture(found: Fleet, one: FleetFinding) -> Picture:
         "grey all others."
     )
     place = found.findings.index(one) + 1
-    return Picture(f"finding_{place}", label, caption, ((panel,),), (1.0,), (1.0,), 320)
+    return Picture(f"finding_{place}", label, caption, ((panel,),), 320)
 
 
 def quantity_picture(found: Fleet, each: Followed) -> Picture:
@@ -141,7 +138,7 @@ def quantity_picture(found: Fleet, each: Followed) -> Picture:
         f"{effect_title(each.quantity)} of {each.quantity.whose}, log by log, one line a machine; "
         "whiskers: two standard deviations, scatter from period to period included."
     )
-    return Picture("quantity", label, caption, ((panel,),), (1.0,), (1.0,), 320)
+    return Picture("quantity", label, caption, ((panel,),), 320)
 
 
 def _background(others: Sequence[Values]) -> Curve:
@@ -176,7 +173,7 @@ def _map(found: Fleet, machines: Sequence[str], number: int) -> Picture:
     )
     panel = Panel("", "machine", "", (heat,))
     height = 60 + 28 * len(rows)
-    return Picture(f"map_{number}", "Changes", caption, ((panel,),), (1.0,), (1.0,), height)
+    return Picture(f"map_{number}", "Changes", caption, ((panel,),), height)
 
 
 def _followed(found: Fleet) -> PageTable:

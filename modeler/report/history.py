@@ -98,9 +98,14 @@ def _sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[Section]:
         values_table(model.fit.parameters, model.spec.base,
                      "SI units; sigma is one standard deviation. The bar is full at 30 %."),
     ]))  # fmt: skip
-    again = [Code(_again(step)) for step in history[1:]]
-    if again:
-        sections.append(Section("To do this again, in this order", again))
+    if len(history) > 1:
+        again = [
+            f"modeler add MODEL {step.effect}"
+            + (f" --joint {step.joint}" if step.joint else "")
+            + " LOG... --out MODEL"
+            for step in history[1:]
+        ]
+        sections.append(Section("To do this again, in this order", [Code(line) for line in again]))
     return sections
 
 
@@ -165,11 +170,6 @@ def _refused(left_out: Sequence[str]) -> Items:
     return Items(lines)
 
 
-def _again(step: Addition) -> str:
-    joint = f" --joint {step.joint}" if step.joint else ""
-    return f"modeler add MODEL {step.effect}{joint} LOG... --out MODEL"
-
-
 def step_name(step: Addition) -> str:
     """What a step is called: "as fitted", "+ spring @2"."""
     if not step.effect:
@@ -205,8 +205,6 @@ def waterfall_picture(history: Sequence[Addition]) -> Picture:
             + "`modeler add MODEL undo LOG... --out MODEL` takes the last effect back."
         ),
         panels=(panels,),
-        heights=(1.0,),
-        widths=(0.5, 0.5),
         height=380,
     )  # fmt: skip
 
@@ -233,8 +231,6 @@ def joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Pic
         title="Error of every joint after every effect",
         caption=f"{said}.",
         panels=rows,
-        heights=tuple(1.0 / len(rows) for _ in rows),
-        widths=tuple(1.0 / across for _ in range(across)),
         height=270 * len(rows) + 40,
     )
 

@@ -143,7 +143,7 @@ def _against_time(seen: Look, number: int, template: str, names: Sequence[str]) 
         f"{title} against time, as logged, {len(names)} columns: every extreme is drawn, values "
         "between them are thinned. A value that is missing breaks its line."
     )
-    return Picture(f"channels_{number}", title, caption, ((panel,),), (1.0,), (1.0,), 320)
+    return Picture(f"channels_{number}", title, caption, ((panel,),), 320)
 
 
 def clock_picture(seen: Look) -> Picture | None:
@@ -160,7 +160,7 @@ def clock_picture(seen: Look) -> Picture | None:
         "Time from each row to the next. A level line is a steady clock; dots above it are gaps, "
         "dots at or below 0 times that repeat or go back."
     )
-    return Picture("clock", "Clock", caption, ((panel,),), (1.0,), (1.0,), 260)
+    return Picture("clock", "Clock", caption, ((panel,),), 260)
 
 
 def _time_label(seen: Look) -> str:

@@ -100,6 +100,7 @@ def _share(value: float, top: float) -> str:
 NAME = "index.html"
 _ABOUT = re.compile(r'id="about">([^<]*)<')
 _HEAD = 200_000  # characters within which a page says what it is about
+_TEXTS = ("command", "title", "figure", "verdict", "model")
 _ORDER = ("derive", "show", "home", "fit", "estimators", "compare", "diagnose", "add")
 
 
@@ -167,25 +168,18 @@ def entries(folder: Path) -> list[Entry]:
     for path in pages:
         about = _about(path)
         if about is not None and about.get("command") != "index":
-            found.append(_entry(path.relative_to(folder).as_posix(), about))
+            place = path.relative_to(folder).as_posix()
+            texts = {name: str(about.get(name) or "") for name in _TEXTS}
+            logs, held = about.get("logs"), about.get("held_out")
+            found.append(
+                Entry(
+                    place=place,
+                    logs=tuple(map(str, logs)) if isinstance(logs, list) else (),
+                    held_out=held if isinstance(held, bool) else None,
+                    **texts | {"title": texts["title"] or place},
+                )
+            )
     return sorted(found, key=lambda entry: (entry.folder, entry.rank))
-
-
-def _entry(place: str, about: dict[str, object]) -> Entry:
-    def text(name: str) -> str:
-        return str(about.get(name) or "")
-
-    logs, held = about.get("logs"), about.get("held_out")
-    return Entry(
-        place=place,
-        command=text("command"),
-        title=text("title") or place,
-        figure=text("figure"),
-        verdict=text("verdict"),
-        model=text("model"),
-        logs=tuple(map(str, logs)) if isinstance(logs, list) else (),
-        held_out=held if isinstance(held, bool) else None,
-    )
 
 
 def _about(path: Path) -> dict[str, object] | None:
@@ -256,15 +250,9 @@ def page(sheet: Page) -> str:
 
 def _page_facts(sheet: Page) -> dict[str, Any]:
     """What the index of a folder says of the page."""
-    return {
-        "command": sheet.command,
-        "title": sheet.title,
-        "figure": sheet.headline[0],
-        "verdict": sheet.headline[1],
-        "model": sheet.origin.model,
-        "logs": list(sheet.origin.logs),
-        "held_out": sheet.origin.held_out,
-    }
+    texts = (sheet.command, sheet.title, *sheet.headline, sheet.origin.model)
+    logs, held = list(sheet.origin.logs), sheet.origin.held_out
+    return dict(zip(_TEXTS, texts, strict=True)) | {"logs": logs, "held_out": held}
 
 
 def write_page(path: Path, sheet: Page, name: str) -> Path:

@@ -213,7 +213,6 @@ def free_run_picture(found: FreeRun, j: int) -> Picture:
         ),
         panels=((above,), (below,)),
         heights=(0.58, 0.42),
-        widths=(1.0,),
         height=440,
         shared_time=True,
     )

@@ -48,8 +48,6 @@ def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
         title=f"Joint {name}: does the residual still have structure?",
         caption=f"{_FIRST}{_HEATED if heated else ''} {_LAST}",
         panels=tuple(rows),
-        heights=tuple(1.0 / len(rows) for _ in rows),
-        widths=(1 / 3, 1 / 3, 1 / 3),
         height=310 * len(rows),
     )
 
@@ -210,8 +208,6 @@ def overview_picture(comparison: Comparison) -> Picture:
         title="All joints",
         caption=_overview_caption(comparison),
         panels=panels,
-        heights=(1 / 3, 1 / 3, 1 / 3),
-        widths=(0.5, 0.5),
         height=max(780, 360 + 3 * 44 * len(names)),
     )
 
@@ -362,7 +358,6 @@ def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: 
             (Panel("Squared residual so far", label, "sum [%]", tuple(gains), marks=marks),),
         ),
         heights=(0.6, 0.4),
-        widths=(1.0,),
         height=430,
         shared_time=True,
     )  # fmt: skip

@@ -256,7 +256,7 @@ def test_svg_is_the_same_twice() -> None:
     panel = Panel(
         "t", "x [s]", "y [m]", (Heat("h", ("a",), ("b",), np.ones((1, 1)), (("1",),), 2),)
     )
-    picture = Picture("p", "p", "c", ((panel,),), (1.0,), (1.0,), 200)
+    picture = Picture("p", "p", "c", ((panel,),), 200)
     assert images(picture) == images(picture)
     assert picture_csv(picture).splitlines()[1:] == ["t,h,a / b,1,"]
 
