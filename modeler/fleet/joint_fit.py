@@ -214,10 +214,7 @@ def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> FleetFit:
 
 
 def _common(
-    layout: Layout,
-    summaries: Sequence[LogSummary],
-    sigmas: Sequence[np.ndarray],
-    scale: np.ndarray,
+    layout: Layout, summaries: Sequence[LogSummary], sigmas: Sequence[np.ndarray], scale: np.ndarray
 ) -> tuple[np.ndarray, tuple[str, ...]]:
     """Theta (c,) of all logs with their friction and offsets eliminated, and what is set aside."""
     if not layout.common.any():
@@ -257,11 +254,7 @@ def _units(layout: Layout) -> np.ndarray:
 
 
 def _log_fit(
-    layout: Layout,
-    each: LogSummary,
-    sigma: np.ndarray,
-    theta: np.ndarray,
-    blocks: Blocks,
+    layout: Layout, each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blocks
 ) -> LogFit:
     """Least squares of one log beside theta."""
     own = sigma

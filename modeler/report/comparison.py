@@ -18,13 +18,7 @@ from modeler.report.blocks import (
 )
 from modeler.report.figure_page import write_files
 from modeler.report.page import Origin, Page, Section, page, write_page
-from modeler.validation.comparison import (
-    Comparison,
-    JointComparison,
-    by_log,
-    method_lines,
-    or_dash,
-)
+from modeler.validation.comparison import Comparison, JointComparison, by_log, method_lines, or_dash
 from modeler.validation.models import DOUBT, Contest, JointContest, contest_sentences, headline_of
 from modeler.validation.pictures import overlay_picture, overview_picture, residual_picture
 from modeler.validation.time_picture import time_picture

@@ -128,10 +128,7 @@ _DOTS = 1500
 def evidence_picture(item: Shown) -> Picture:
     """Residual on the axis where the effect shows itself, without the effect and with it."""
     pick, view = item.step.pick, view_of(item)
-    panels = [
-        _without(item, view),
-        _panel("with it", item, view, _cloud(item, view, item.after)),
-    ]
+    panels = [_without(item, view), _panel("with it", item, view, _cloud(item, view, item.after))]
     if item.axis.shows == "waves":
         panels.insert(0, _orders(item))
     elif item.own is not None:

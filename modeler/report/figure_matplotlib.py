@@ -1,7 +1,7 @@
 """A picture as PNG or SVG, by matplotlib; no window, no global state."""
 
 import io
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -11,10 +11,6 @@ from matplotlib.figure import Figure
 
 from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
 from modeler.core.style import BLUE, SHADE
-
-if TYPE_CHECKING:
-    pass
-
 
 _BESIDE = 4  # entries of a legend that leave room for the title
 _SETTINGS: Any = {

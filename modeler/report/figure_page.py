@@ -97,9 +97,7 @@ def drawn(picture: Picture, numbers: Numbers) -> dict[str, Any]:
     }
 
 
-def plotted(
-    picture: Picture,
-) -> tuple[Sequence[Sequence[Panel]], Sequence[float], Sequence[float]]:
+def plotted(picture: Picture) -> tuple[Sequence[Sequence[Panel]], Sequence[float], Sequence[float]]:
     """Rows of panels with axes, their heights and the widths of the columns.
 
     Where maps of cells stand between them, the others are put side by side.

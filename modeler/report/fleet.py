@@ -23,14 +23,7 @@ from modeler.fleet.result import (
     rows_of,
     sentence,
 )
-from modeler.report.blocks import (
-    Figure,
-    Items,
-    JudgedLine,
-    PageTable,
-    Paragraph,
-    Verdicts,
-)
+from modeler.report.blocks import Figure, Items, JudgedLine, PageTable, Paragraph, Verdicts
 from modeler.report.figures import picture_figures
 from modeler.report.page import Origin, Page, Section, write_page
 

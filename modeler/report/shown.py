@@ -120,7 +120,7 @@ def figures(item: Shown) -> str:
 
     def told(left: np.ndarray) -> str:
         rms = float(np.sqrt(np.mean(left**2)))
-        return f"{rms:.3g} {item.unit} ({percent(rms / size) if size > 0.0 else '-'})"
+        return f"{rms:.3g} {item.unit} ({percent(rms / size if size > 0.0 else None)})"
 
     before, after = (crossed(state, item.j) for state in (item.without, item.full))
     joint = item.without.data.compiled.spec.joints[item.j].name

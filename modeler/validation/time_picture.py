@@ -166,9 +166,7 @@ def _caption(prediction: Prediction, item: JointComparison) -> list[str]:
     return [*lines, masks] if masks else lines
 
 
-def running_time(
-    prediction: Prediction,
-) -> tuple[np.ndarray, str, tuple[tuple[float, str], ...]]:
+def running_time(prediction: Prediction) -> tuple[np.ndarray, str, tuple[tuple[float, str], ...]]:
     """Time of all rows on one axis, (n,) s, its label, and where each log begins.
 
     One log keeps its own time; several are put one after the other, each starting where the
