@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, ManifestError
-from modeler.core.json import nulled
+from modeler.core.json import entries, nulled
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Presented
 from modeler.core.table import POOLED, errors_by_unit, percent, told_by_unit
@@ -444,33 +444,21 @@ class FitResult(Presented):
     def to_json(self) -> dict[str, Any]:
         """The `fit` object that scripts read; numbers that mean nothing are null."""
         return nulled({
-            "robot": self.robot,
-            "method": self.method,
-            "status": self.status,
-            "samples": self.samples,
-            "rows": self.rows,
-            "condition_number": self.condition_number,
-            "condition_scaled": self.condition_scaled,
+            **entries(self, "robot method status samples rows condition_number condition_scaled"),
             "relative_error": self.relative_error,
             "relative_error_pools": POOLED,
-            "by_unit": self.by_unit,
-            "essential_error": self.essential_error,
+            **entries(self, "by_unit essential_error"),
             "joints": _joints_to_json(self.joints),
             "by_load": {
                 name: {"relative_error": pooled(own), "joints": _joints_to_json(own)}
                 for name, own in self.by_load.items()
             },
-            "parameters": [parameter.to_json() for parameter in self.parameters],
-            "loads": [parameter.to_json() for parameter in self.loads],
-            "gains": [parameter.to_json() for parameter in self.gains],
-            "singular_values": list(self.singular_values),
-            "sentences": list(self.sentences),
-            "processing": self.processing.to_json(),
-            "standard": dict(self.standard),
-            "essential": None if self.essential is None else self.essential.to_json(),
-            "directions": [item.to_json() for item in self.directions],
+            **entries(self, "parameters loads gains singular_values sentences processing"),
+            "standard": self.standard,
+            "essential": self.essential,
+            "directions": self.directions,
             "model": "torque" if self.energy is None else "energy",
-            "energy": None if self.energy is None else self.energy.to_json(),
+            "energy": self.energy,
             **_verdict_to_json(self.verdict),
             **({"reading": dict(self.reading)} if self.reading else {}),
         })  # fmt: skip
@@ -525,16 +513,7 @@ def pooled(joints: Sequence[JointFit]) -> float:
 
 
 def _joints_to_json(joints: Sequence[JointFit]) -> dict[str, Any]:
-    return {
-        joint.name: {
-            "relative_error": joint.relative_error,
-            "rms": joint.rms,
-            "sigma": joint.sigma,
-            "rows": joint.rows,
-            "unit": joint.unit,
-        }
-        for joint in joints
-    }
+    return {joint.name: entries(joint, "relative_error rms sigma rows unit") for joint in joints}
 
 
 def _joints_from_json(raw: Mapping[str, Any]) -> tuple[JointFit, ...]:

@@ -42,6 +42,8 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
     found = judged(layout, fit, logs, at)
     findings = _findings(found, logs)
     machines = _machines(logs)
+    gone = dict.fromkeys(e.named.machine for e in apart if e.named.machine not in machines)
+    unseen = [f"{name}: none of its logs could be used: nothing is known of it" for name in gone]
     return Fleet(
         robot=spec.robot,
         unit=unit,
@@ -52,7 +54,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
         aside=fit.aside,
         left=left,
         doubts=tuple(f"{e.named.machine}, {e.named.period}: {d}" for e in logs for d in e.doubts),
-        notes=(*_processed(used[0]), *_notes(found, logs), *said, *_unseen(apart, machines)),
+        notes=(*_processed(used[0]), *_notes(found, logs), *said, *unseen),
     )
 
 
@@ -155,12 +157,6 @@ def _processed(first: LogSummary) -> list[str]:
         f"all logs are filtered alike, as chosen from {first.named.place}: positions below "
         f"{position:.4g} Hz, torques and columns below {chosen.parallel_cutoff:.4g} Hz"
     ]
-
-
-def _unseen(left: Sequence[Left], machines: dict[str, tuple[str, ...]]) -> list[str]:
-    """Machines of which no log was used."""
-    gone = dict.fromkeys(e.named.machine for e in left if e.named.machine not in machines)
-    return [f"{name}: none of its logs could be used: nothing is known of it" for name in gone]
 
 
 def _machines(logs: Sequence[LogSummary]) -> dict[str, tuple[str, ...]]:

@@ -105,7 +105,12 @@ def plotted(picture: Picture) -> tuple[Sequence[Sequence[Panel]], Sequence[float
     panels = [panel for row in picture.panels for panel in row]
     if not cells(picture):
         return picture.panels, picture.heights, picture.widths
-    kept = [panel for panel in panels if not _cells(panel) and _filled(panel)]
+    kept = [
+        panel
+        for panel in panels
+        if not any(isinstance(s, Heat) for s in panel.series)
+        and any(len(s.values if isinstance(s, Bars | Heat) else s.x) for s in panel.series)
+    ]
     return ([kept], picture.heights[:1], [1.0] * len(kept)) if kept else ((), (), ())
 
 
@@ -126,14 +131,6 @@ def keys(picture: Picture) -> list[tuple[str, str, str]]:
         for span in panel.spans:
             found.setdefault(span.label, (span.label, span.color, "span"))
     return list(found.values())
-
-
-def _filled(panel: Panel) -> bool:
-    return any(len(s.values if isinstance(s, Bars | Heat) else s.x) for s in panel.series)
-
-
-def _cells(panel: Panel) -> bool:
-    return any(isinstance(series, Heat) for series in panel.series)
 
 
 def _shade(series: Curve | Points | Means | Band | Bars) -> str:

@@ -55,7 +55,11 @@ def parameters_figure(fit: FitResult) -> "Drawing":
     """How sure each parameter is: its sigma in percent of its value."""
     known = [p for p in fit.parameters if p.relative_sigma_percent is not None][:_MOST_BARS]
     shares = np.array([min(p.relative_sigma_percent or 0.0, 100.0) for p in known])
-    texts = tuple(_rounded(p.relative_sigma_percent or 0.0) for p in known)
+    # two digits, all of those before the point
+    texts = tuple(
+        f"{share:.2g}" if share < 100.0 else f"{share:.0f}" if share < 1e4 else ">10000"
+        for share in (p.relative_sigma_percent or 0.0 for p in known)
+    )
     names = tuple(p.name for p in known)
     bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
     label = "sigma [% of the value], at most 100 drawn"
@@ -69,21 +73,16 @@ def parameters_figure(fit: FitResult) -> "Drawing":
 
 def errors_picture(diagnosis: "Diagnosis") -> Picture:
     """Relative error of every joint, without and with the effects."""
-    panels = tuple(
-        Panel(title, "joint", "relative error [%]", (_error_bars(diagnosis, after),))
-        for title, after in (("as fitted", False), ("with the effects", True))
-    )
-    return Picture(
-        name="errors", title=f"{diagnosis.robot}: {diagnosis.verdict}", caption="",
-        panels=(panels,), height=380,
-    )  # fmt: skip
-
-
-def _error_bars(diagnosis: "Diagnosis", after: bool) -> Bars:
-    joints = diagnosis.joints.values()
-    values = np.array([100.0 * (j.error_after if after else j.error_before) for j in joints])
-    texts = tuple("" if np.isnan(value) else f"{value:.2f}" for value in values)
-    return Bars("error", tuple(diagnosis.joints), values, texts, Style(ORANGE if after else BLUE))
+    panels, names = [], tuple(diagnosis.joints)
+    for title, entry, color in (
+        ("as fitted", "error_before", BLUE), ("with the effects", "error_after", ORANGE),
+    ):  # fmt: skip
+        values = np.array([100.0 * getattr(joint, entry) for joint in diagnosis.joints.values()])
+        texts = tuple("" if np.isnan(value) else f"{value:.2f}" for value in values)
+        bars = Bars("error", names, values, texts, Style(color))
+        panels.append(Panel(title, "joint", "relative error [%]", (bars,)))
+    title = f"{diagnosis.robot}: {diagnosis.verdict}"
+    return Picture("errors", title, "", (tuple(panels),), 380)
 
 
 def log_figure(
@@ -109,8 +108,3 @@ def _curves(joints: Sequence[str], time: np.ndarray, values: np.ndarray) -> list
         color = COLORS[j % len(COLORS)]
         found.append(Curve(name, time[rows], values[rows, j], Style(color, dash=j >= len(COLORS))))
     return found
-
-
-def _rounded(percent: float) -> str:
-    """Two digits, all of those before the point."""
-    return f"{percent:.2g}" if percent < 100.0 else f"{percent:.0f}" if percent < 1e4 else ">10000"

@@ -185,10 +185,10 @@ def _broken(step: Addition) -> str:
 def waterfall_picture(history: Sequence[Addition]) -> Picture:
     """Error over the joints after every effect, on held-out and on fitted logs."""
     names = tuple(_broken(step) for step in history)
-    held = np.array([100.0 * s.error for s in history])
-    fitted = np.array([100.0 * s.training_error for s in history])
-    apart = bool(history[-1].held_out)
-    first = "held-out logs" if apart else "parts of the fitted logs, left out in turn"
+    held, fitted = 100.0 * np.array([(s.error, s.training_error) for s in history]).T
+    first = (
+        "held-out logs" if history[-1].held_out else "parts of the fitted logs, left out in turn"
+    )
     panels = (
         Panel(f"On {first}", "", "error [%]", (_bars("judged", names, held, HELD),)),
         Panel("On the fitted logs", "", "error [%]", (_bars("fitted", names, fitted, FITTED),)),

@@ -328,7 +328,9 @@ def after_diagnosis(
     held = f" --holdout {_listed(holdout)}" if holdout else ""
     effect = shlex.quote(first.effect)
     words = f"modeler add {_listed([model])} {effect}{joint} {_listed(logs)}{held}"
-    return [f"{words} --out {_listed([_better(model)])}"]
+    path = Path(model)
+    better = path.with_name(f"{path.name.partition('.')[0]}-improved{''.join(path.suffixes)}")
+    return [f"{words} --out {_listed([str(better)])}"]
 
 
 def after_add(model: str, holdout: Sequence[str]) -> list[str]:
@@ -340,16 +342,8 @@ def after_add(model: str, holdout: Sequence[str]) -> list[str]:
 
 def _taken(model: str) -> str:
     """To the controller."""
-    return f"modeler generate {_listed([model])} --out {_folder(model)}"
-
-
-def _better(model: str) -> str:
-    path = Path(model)
-    return str(path.with_name(f"{path.name.partition('.')[0]}-improved{''.join(path.suffixes)}"))
-
-
-def _folder(model: str) -> str:
-    return _listed([f"{Path(model).name.partition('.')[0]}_c"])
+    folder = f"{Path(model).name.partition('.')[0]}_c"
+    return f"modeler generate {_listed([model])} --out {_listed([folder])}"
 
 
 def _listed(words: Sequence[str]) -> str:

@@ -33,9 +33,12 @@ def good_view(skeleton: Skeleton, posture: Posture) -> ViewDirection:
 
     Straight on for planar mechanisms; nearly so for others that stand in a plane.
     """
-    up = _up(skeleton)
+    pull = float(np.linalg.norm(skeleton.gravity))
+    up = -skeleton.gravity / pull if pull > 0.0 else np.array([0.0, 0.0, 1.0])
     points = joint_points(skeleton, posture.u)
-    axes = _turning_axes(skeleton, posture)
+    frames = poses(skeleton, posture.u)
+    turning = [i for i, row in enumerate(skeleton.rows) if row.joint.moves and row.joint.angular]
+    axes = np.array([frames[i][:3, 2] for i in turning]).reshape(-1, 3)
     normal = _normal(points, axes, posture.size)
     if normal is not None:
         return ViewDirection(_at_plane(normal, axes, up), up)
@@ -92,22 +95,6 @@ def joint_points(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
             before = np.eye(4) if row.parent == BASE else frames[row.parent]
             points.append((before @ foot(row))[:3, 3])
     return np.unique(np.round(np.array(points), 9), axis=0)
-
-
-def _up(skeleton: Skeleton) -> np.ndarray:
-    length = float(np.linalg.norm(skeleton.gravity))
-    return -skeleton.gravity / length if length > 0.0 else np.array([0.0, 0.0, 1.0])
-
-
-def _turning_axes(skeleton: Skeleton, posture: Posture) -> np.ndarray:
-    """(n, 3) directions of the revolute joints."""
-    frames = poses(skeleton, posture.u)
-    found = [
-        frames[i][:3, 2]
-        for i, row in enumerate(skeleton.rows)
-        if row.joint.moves and row.joint.angular
-    ]
-    return np.array(found).reshape(-1, 3)
 
 
 def _parallel(axes: np.ndarray, normal: np.ndarray) -> bool:

@@ -12,7 +12,7 @@ from modeler.report.robot_closing import CLOSED, Gap, Posture, gaps_of
 from modeler.report.robot_labels import good_view
 from modeler.report.robot_scene import Point, Scene, scene_of
 from modeler.report.robot_skeleton import Skeleton, SkeletonRow, kind_word, poses
-from modeler.robot.robot import Joint, JointKind, Robot
+from modeler.robot.robot import JointKind, Robot
 
 _DIGITS = 7  # of coordinates of drawn points: finer than any screen
 
@@ -131,20 +131,17 @@ def table_head(robot: Robot) -> tuple[str, ...]:
 
 def table_rows(robot: Robot) -> tuple[TableRow, ...]:
     """The rows in table order, the platform's last."""
-    used = _used(robot)
-    rows = [_table_row(i, joint, used, robot) for i, joint in enumerate(robot.joints)]
+    used, rows = _used(robot), []
+    for i, joint in enumerate(robot.joints):
+        kind = "fixed" if not joint.moves else "actuated" if joint.actuated else "passive"
+        cells = (joint.name, joint.antecedent, f"{joint.actuated:d}", f"{JointKind(joint.kind):d}")
+        columns = tuple((name, _typeset(getattr(joint, name).text)) for name in used)
+        rows.append(TableRow(i, kind, cells, columns, joint.name in robot.platform))
     return tuple(sorted(rows, key=lambda row: row.platform))
 
 
 def _used(robot: Robot) -> list[str]:
     return [name for name in _COLUMNS if any(not getattr(j, name).is_zero for j in robot.joints)]
-
-
-def _table_row(i: int, joint: Joint, used: list[str], robot: Robot) -> TableRow:
-    kind = "fixed" if not joint.moves else "actuated" if joint.actuated else "passive"
-    cells = (joint.name, joint.antecedent, f"{joint.actuated:d}", f"{JointKind(joint.kind):d}")
-    entries = tuple((name, _typeset(getattr(joint, name).text)) for name in used)
-    return TableRow(i, kind, cells, entries, joint.name in robot.platform)
 
 
 def _typeset(cell: str) -> str:

@@ -152,7 +152,9 @@ def poses(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
     for i, row in enumerate(skeleton.rows):
         before = np.eye(4) if row.parent == BASE else found[row.parent]
         q = row.constant + row.coefficients @ u
-        found[i] = before @ foot(row) @ _screw_z(*_moved(row, q))
+        theta, r = row.cells["theta"], row.cells["r"]
+        moved = (theta + row.rate * q, r) if row.joint.angular else (theta, r + row.rate * q)
+        found[i] = before @ foot(row) @ _screw_z(*moved)
     return found
 
 
@@ -169,13 +171,6 @@ def foot(row: SkeletonRow) -> np.ndarray:
 def corner(row: SkeletonRow) -> np.ndarray:
     """(3,) where the common normal leaves the antecedent's z axis, in the antecedent frame."""
     return np.array([0.0, 0.0, row.cells["b"]])
-
-
-def _moved(row: SkeletonRow, q: complex | float) -> tuple[complex | float, complex | float]:
-    theta, r = row.cells["theta"], row.cells["r"]
-    if row.joint.angular:
-        return theta + row.rate * q, r
-    return theta, r + row.rate * q
 
 
 def _screw_z(angle: complex | float, travel: complex | float) -> np.ndarray:

@@ -17,7 +17,6 @@ from modeler.core.table import aligned, percent
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation
-from modeler.observation.processing import Processing
 from modeler.runtime.model import CompiledModel
 from modeler.validation.predict import predict
 from modeler.validation.prediction import JointInfo, Prediction, relative_error, unit_errors
@@ -215,10 +214,11 @@ def predict_together(
     """
     check_joints(models, names)
     first = models[0].processing
-    made = [
-        predict(_processed_as(model, first), read, own)
-        for model, own, read in zip(models, compiled, logs, strict=True)
-    ]
+    made = []
+    for model, own, read in zip(models, compiled, logs, strict=True):
+        processing = dataclasses.replace(first, delay=model.processing.delay)
+        fit = dataclasses.replace(model.fit, processing=processing)
+        made.append(predict(dataclasses.replace(model, fit=fit), read, own))
     predictions = [prediction for prediction, _ in made]
     for prediction, name in zip(predictions[1:], names[1:], strict=True):
         if not _same_rows(predictions[0], prediction):
@@ -236,11 +236,6 @@ def predict_together(
     # what counts for one model alone is masked unnamed
     found = [dataclasses.replace(prediction, used=used, full=None) for prediction in predictions]
     return found, [observation for _, observation in made]
-
-
-def _processed_as(model: IdentifiedModel, other: Processing) -> IdentifiedModel:
-    processing = dataclasses.replace(other, delay=model.processing.delay)
-    return dataclasses.replace(model, fit=dataclasses.replace(model.fit, processing=processing))
 
 
 def _same_rows(one: Prediction, other: Prediction) -> bool:
