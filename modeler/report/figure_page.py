@@ -10,6 +10,7 @@ import numpy as np
 
 from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
 from modeler.core.files import write_atomically
+from modeler.core.json import entries
 
 # The numbers of all pictures of a page in one compressed block, each array once.
 
@@ -176,21 +177,11 @@ def _series(
     series: Curve | Points | Means | Band | Bars, numbers: Numbers, log: bool
 ) -> dict[str, Any]:
     style = series.style
-    found: dict[str, Any] = {
-        "label": series.label,
-        "color": style.color,
-        "width": style.width,
-        "opacity": style.opacity,
-    }
+    found: dict[str, Any] = {"label": series.label, **entries(style, "color width opacity")}
     if isinstance(series, Bars):
         base = None if series.base is None else numbers.exact(series.base)
-        return found | {
-            "kind": "bars",
-            "names": list(series.names),
-            "texts": list(series.texts),
-            "y": numbers.exact(series.values),
-            "base": base,
-        }
+        y = numbers.exact(series.values)
+        return found | {"kind": "bars", **entries(series, "names texts"), "y": y, "base": base}
     if isinstance(series, Band):
         places = {"low": numbers.exact(series.low), "high": numbers.exact(series.high)}
         return found | {"kind": "band", "x": numbers.exact(series.x)} | places

@@ -1,4 +1,4 @@
-"""Comparisons and diagnoses as tables and figures of a notebook."""
+"""Comparisons, free runs and diagnoses as tables and figures of a notebook."""
 
 from collections.abc import Callable
 from functools import partial
@@ -15,6 +15,7 @@ from modeler.report.evidence import evidence_picture
 from modeler.report.figures import errors_picture, picture_figures
 from modeler.report.shown import shown
 from modeler.validation.comparison import Comparison, method_lines
+from modeler.validation.free_run_result import FreeRun, free_run_picture
 from modeler.validation.models import Contest, contest_lines
 from modeler.validation.pictures import overview_picture, residual_picture
 from modeler.validation.prediction import Prediction, residual
@@ -23,7 +24,10 @@ from modeler.validation.verdict import headline, verdict
 
 
 def present_judgements() -> None:
-    """Comparison, Contest, Diagnosis."""
+    """Comparison, Contest, Diagnosis, FreeRun."""
+    present(
+        FreeRun, Presentation("a free run", FreeRun.summary, _free_run_tables, _free_run_figures)
+    )
     present(Contest, Presentation("a contest of models", _contest_summary, _contest_tables))
     present(Comparison, Presentation("a comparison", _comparison_summary, _comparison_tables,
                                      _comparison_figures))  # fmt: skip
@@ -173,3 +177,19 @@ def _diagnosis_figures(diagnosis: Diagnosis) -> Figures:
 
 def _evidence(diagnosis: Diagnosis, step: Step) -> Picture:
     return evidence_picture(shown(diagnosis.search, step))
+
+
+def _free_run_tables(found: FreeRun) -> Tables:
+    return {"joints": lambda: Table.of(
+        f"{found.robot}: free run in windows of {found.window:g} s",
+        "joint, position [%], constant speed [%], whole run [%], horizon [s], largest error, unit",
+        [(j.name, j.fit, j.constant_speed, j.whole, j.horizon, j.largest, j.unit)
+         for j in found.joints],
+        "position: 100 % is the logged one, 0 % its mean",
+    )}  # fmt: skip
+
+
+def _free_run_figures(found: FreeRun) -> Figures:
+    drawn = [partial(free_run_picture, found, j) for j in range(len(found.joints))]
+    names = [f"joint {joint.name}" for joint in found.joints]
+    return picture_figures(dict(zip(names, drawn, strict=True)))

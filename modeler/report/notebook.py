@@ -13,8 +13,7 @@ _SHOWN = {
     "derivation.present_robots": "Robot Derivation Emitted CompiledModel HomeModes",
     "log.present_logs": "Look Log SimulatedLog Observation DataReport Exciting",
     "fit.present_models": "FitResult IdentifiedModel Addition SideBySide",
-    "judgements.present_judgements": "Contest Comparison Diagnosis",
-    "free_run.present_free_runs": "FreeRun",
+    "judgements.present_judgements": "Contest Comparison Diagnosis FreeRun",
     "fleet.present_fleets": "Fleet",
 }
 """Classes of results, by the file of this package and its function that says how they are shown."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.core.json import entries
 from modeler.core.table import aligned
+from modeler.report.page import render, script_json
 from modeler.report.robot_closing import CLOSED, Gap, Posture, gaps_of
 from modeler.report.robot_labels import good_view
 from modeler.report.robot_scene import Point, Scene, scene_of
@@ -270,3 +271,34 @@ def _direction(z: np.ndarray) -> str:
     if abs(z[k]) > 1.0 - 1e-9:
         return f"{'-' if z[k] < 0 else '+'}{'xyz'[k]}0"
     return " ".join(f"{0.0 if abs(x) < 5e-4 else x:.3f}" for x in z)
+
+
+def robot_html(skeleton: Skeleton, posture: Posture) -> str:
+    """The page as text; its security policy forbids any network access."""
+    robot = skeleton.robot
+    return render(
+        "robot",
+        title=f"{robot.name}: skeleton",
+        about={"command": "show", "title": f"{robot.name}: skeleton", "verdict": robot.title},
+        robot=robot,
+        notes=" ".join(robot.notes.split()),
+        posture=posture.note,
+        gravity=gravity_text(skeleton),
+        head=table_head(robot),
+        rows=table_rows(robot),
+        relations=relations_text(robot),
+        content=script_json(page_content(skeleton, posture)),
+    )
+
+
+def modes_html(name: str, title: str, count: int, svg: str) -> str:
+    """The page of a robot's assembly modes.
+
+    Args:
+        name: of the robot.
+        title: of the robot.
+        count: of modes.
+        svg: the picture of them all, as our own drawer makes it.
+    """
+    drawn = svg[svg.index("<svg") :]
+    return render("modes", title=f"{name}: assembly modes", robot=title, count=count, svg=drawn)

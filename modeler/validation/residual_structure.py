@@ -30,18 +30,23 @@ class Coordinate:
     id: str
     label: str
     phrase: str  # "41 % of that is a repeatable function of <phrase>"
+    unit: str  # on an axis, {unit} that of the position, {effort} that of the torque
 
 
 # In the order in which a simpler explanation is preferred to one that is hardly better.
 COORDINATES = (
-    Coordinate("direction", "direction of motion", "the direction of motion alone"),
-    Coordinate("velocity", "velocity", "velocity"),
-    Coordinate("position", "position", "position"),
-    Coordinate("acceleration", "acceleration", "acceleration"),
-    Coordinate("load", "|predicted| x direction of motion", "load and direction of motion"),
-    Coordinate("travel", "travel x direction of motion", "travel since the last reversal"),
-    Coordinate("temperature", "temperature", "temperature"),
-    Coordinate("time", "time", "time (slow drift)"),
+    Coordinate("direction", "direction of motion", "the direction of motion alone", "-"),
+    Coordinate("velocity", "velocity", "velocity", "{unit}/s"),
+    Coordinate("position", "position", "position", "{unit}"),
+    Coordinate("acceleration", "acceleration", "acceleration", "{unit}/s^2"),
+    Coordinate(
+        "load", "|predicted| x direction of motion", "load and direction of motion", "{effort}"
+    ),
+    Coordinate(
+        "travel", "travel x direction of motion", "travel since the last reversal", "{unit}"
+    ),
+    Coordinate("temperature", "temperature", "temperature", "as logged"),
+    Coordinate("time", "time", "time (slow drift)", "s"),
 )
 
 DRIFTS = ("temperature", "time")
@@ -80,16 +85,8 @@ def coordinate_values(prediction: Prediction, joint: int, coordinate: str) -> np
 def coordinate_unit(prediction: Prediction, joint: int, coordinate: str) -> str:
     """Unit of a coordinate as it stands on an axis."""
     info = prediction.joints[joint]
-    return {
-        "direction": "-",
-        "velocity": f"{info.unit}/s",
-        "position": info.unit,
-        "acceleration": f"{info.unit}/s^2",
-        "load": info.effort_unit,
-        "travel": info.unit,
-        "temperature": "as logged",
-        "time": "s",
-    }[coordinate]
+    unit = next(own.unit for own in COORDINATES if own.id == coordinate)
+    return unit.format(unit=info.unit, effort=info.effort_unit)
 
 
 ENOUGH = 200  # samples below which nothing is said about structure
