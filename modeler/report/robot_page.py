@@ -173,7 +173,7 @@ def relations_text(robot: Robot) -> str:
 _HEAD = ("j", "a", "joint", "q", "x", "y", "z", "axis")
 
 
-def told(skeleton: Skeleton, posture: Posture) -> list[str]:
+def posture_lines(skeleton: Skeleton, posture: Posture) -> list[str]:
     """Lines for people: where every frame stands at home, and whether the loops close."""
     robot = skeleton.robot
     frames = poses(skeleton, posture.u)
@@ -226,7 +226,7 @@ def _loop_lines(skeleton: Skeleton, posture: Posture) -> list[str]:
     return lines
 
 
-def described(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
+def posture_json(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
     """The same for machines: poses are 4x4 matrices, rows first, in frame 0, m."""
     frames = poses(skeleton, posture.u)
     return {

@@ -23,7 +23,7 @@ from modeler.validation.prediction import (
     unit_errors,
 )
 from modeler.validation.repeatability import Repetition, Shares, repetitions, shares
-from modeler.validation.residual_structure import Structure, lines, ripple, structure
+from modeler.validation.residual_structure import Structure, order_lines, ripple, structure
 
 # The comparison as a table of plain text.
 
@@ -452,5 +452,5 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
         "method": parts and parts.method,
         "systematic_sigma": parts and parts.sigma,
         "scale": item.scale,
-        "orders": item.orders and lines(item.orders, item.joint.unit),
+        "orders": item.orders and order_lines(item.orders, item.joint.unit),
     }  # fmt: skip

@@ -273,7 +273,9 @@ def free_run(
     plant.check_inertia(every[:: max(1, len(every) // 500)])
     nature = stability(plant, _along(observation, segments, compiled))
     ranges = ranges_of(every, [joint.unit for joint in observation.joints])
-    field = _MotionField(plant, segments, nature.fastest, ranges, compiled)
+    finest = min(_LONGEST, _STABLE / nature.fastest if nature.fastest > 0.0 else _LONGEST)
+    signals = [signals_of(compiled.spec, segment) for segment in segments]
+    field = _MotionField(plant, segments, signals, ranges, finest)
     tell(0.1)
     runs = _windows(field, starts, asked, tell)
     whole = _whole(field, lambda share: tell(0.5 + 0.3 * share))
@@ -346,21 +348,15 @@ def _along(
     return found
 
 
+@dataclass(frozen=True, eq=False)
 class _MotionField:
     """Where robots run: the logged torques, and how finely."""
 
-    def __init__(
-        self,
-        plant: FittedPlant,
-        segments: Sequence[Segment],
-        fastest: float,
-        ranges: np.ndarray,
-        compiled: CompiledModel,
-    ) -> None:
-        self.plant, self.segments, self.ranges = plant, segments, ranges
-        self.finest = min(_LONGEST, _STABLE / fastest if fastest > 0.0 else _LONGEST)
-        self.far = _LOST * np.where(np.isfinite(ranges), ranges, np.inf)
-        self.signals = [signals_of(compiled.spec, segment) for segment in segments]
+    plant: FittedPlant
+    segments: Sequence[Segment]
+    signals: Sequence[np.ndarray | None]  # of each segment
+    ranges: np.ndarray
+    finest: float  # s, of a step
 
     def run(
         self,
@@ -399,7 +395,7 @@ class _MotionField:
         speeds = np.stack([self.segments[s.segment].qd[s.first] for s in starts])
         return Lanes(
             around[0], speeds, stacked(lambda i: self.segments[i].tau), signals, step,
-            self.far, around,
+            _LOST * np.where(np.isfinite(self.ranges), self.ranges, np.inf), around,
         )  # fmt: skip
 
 

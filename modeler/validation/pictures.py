@@ -15,10 +15,10 @@ from modeler.validation.residual_structure import (
     coordinate_unit,
     coordinate_values,
     coordinates_of,
-    lines,
+    order_lines,
     waves,
 )
-from modeler.validation.time_picture import broken, masked_spans, running_time, told_masks
+from modeler.validation.time_picture import broken, mask_caption, masked_spans, running_time
 
 _DOTS = 700
 _BINS = 24
@@ -167,7 +167,7 @@ def _order_panel(item: JointComparison) -> Panel:
         y, floor = item.orders.amplitude, item.orders.floor
         kept = thin_curves((y,))
         x, y, floor = x[kept], y[kept], floor[kept]
-        found = lines(item.orders, item.joint.unit)
+        found = order_lines(item.orders, item.joint.unit)
         if found:
             title += f": {found[0].waves:.4g} waves per {per}"
     return Panel(
@@ -351,7 +351,7 @@ def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: 
     return Picture(
         name=f"joint_{joint.name}_models",
         title=f"Joint {joint.name}: what each model leaves",
-        caption=_overlay_caption(names, styles, told_masks(first, j)),
+        caption=_overlay_caption(names, styles, mask_caption(first, j)),
         panels=(
             (Panel("Residual", label, f"residual [{joint.effort_unit}]", tuple(residuals),
                    marks=marks, zero=True, spans=spans),),

@@ -258,7 +258,7 @@ def waves(orders: OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
     return orders.order / (2.0 * np.pi), "m"
 
 
-def lines(orders: OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
+def order_lines(orders: OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
     """What stands out in an order spectrum, the strongest first; see `waves`."""
     if orders is None:
         return ()

@@ -64,7 +64,7 @@ def masked_spans(
     return tuple(found)
 
 
-def told_masks(prediction: Prediction, j: int) -> str:
+def mask_caption(prediction: Prediction, j: int) -> str:
     """Which colour means what, and how many rows it takes; "" where every row counts."""
     reasons, rows = _reasons(prediction, j), prediction.time.size
     told = [
@@ -162,7 +162,7 @@ def _caption(prediction: Prediction, item: JointComparison) -> list[str]:
             "side, from the covariance of the fitted parameters alone: 95 % where the model is "
             "right; it knows nothing of effects that the model lacks."
         )
-    masks = told_masks(prediction, item.index)
+    masks = mask_caption(prediction, item.index)
     return [*lines, masks] if masks else lines
 
 

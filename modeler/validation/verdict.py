@@ -2,7 +2,13 @@
 
 from modeler.core.table import WORDS, percent
 from modeler.validation.comparison import Comparison, JointComparison, Region
-from modeler.validation.residual_structure import COORDINATES, NEARLY, Coordinate, lines, waves
+from modeler.validation.residual_structure import (
+    COORDINATES,
+    NEARLY,
+    Coordinate,
+    order_lines,
+    waves,
+)
 
 NOTICEABLE = 0.05  # share of the residual variance below which a pattern is not mentioned
 _STANDS_OUT = 3.0  # energy share over time share of a region or window worth a remark
@@ -18,7 +24,7 @@ def headline(comparison: Comparison) -> str:
     if not comparison.joints:
         return f"{comparison.prediction.robot}: no joint could be judged."
     ranked = sorted(comparison.joints, key=lambda item: item.relative_error)
-    parts = [f"{percent(error)} of the {WORDS[unit]}" for unit, error in told_units(comparison)]
+    parts = [f"{percent(error)} of the {WORDS[unit]}" for unit, error in judged_units(comparison)]
     text = f"{' and '.join(parts)} is unexplained"
     if len(ranked) == 1:
         return f"{text}."
@@ -29,7 +35,7 @@ def headline(comparison: Comparison) -> str:
     )
 
 
-def told_units(comparison: Comparison) -> list[tuple[str, float]]:
+def judged_units(comparison: Comparison) -> list[tuple[str, float]]:
     """Units of the judged joints, and the error over the joints of each."""
     judged = {item.joint.effort_unit for item in comparison.joints}
     return [(unit, error) for unit, error in comparison.by_unit.items() if unit in judged]
@@ -212,7 +218,8 @@ def _ripple(item: JointComparison) -> str | None:
         return None
     orders, per = waves(item.orders, item.joint.unit)
     # the slowest waves of the spectrum are patterns over position, named elsewhere
-    fast = [line for line in lines(item.orders, item.joint.unit) if line.waves > 2.0 * orders[0]]
+    drawn = order_lines(item.orders, item.joint.unit)
+    fast = [line for line in drawn if line.waves > 2.0 * orders[0]]
     strong = [line for line in fast if line.share >= NOTICEABLE]
     if not strong:
         return None
