@@ -132,8 +132,8 @@ def figures(item: Shown) -> str:
         return f"{text}."
     return (
         f"{text}, {rms_left(before - item.rival)} with the flexible rival, which stands for any "
-        f"smooth law of what was measured. Percent of the joint's rms {WORDS[item.unit]}, {size:.3g} "
-        f"{item.unit}."
+        f"smooth law of what was measured. Percent of the joint's rms {WORDS[item.unit]}, "
+        f"{size:.3g} {item.unit}."
     )
 
 
