@@ -18,7 +18,7 @@ import numpy as np
 
 from modeler.core.errors import DataError, ManifestError
 from modeler.core.files import read_file, read_text, write_atomically
-from modeler.core.json import JsonError, PlainError, check_fields, parse_json, plain, shown
+from modeler.core.json import JsonError, PlainError, check_fields, entries, parse_json, plain, shown
 from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, module_from_plain
 from modeler.core.result import Presented
 from modeler.core.table import percent
@@ -117,9 +117,7 @@ class Addition(Presented):
         """Plain data, without the robot file."""
         return {
             "effect": self.effect or None,
-            "joint": self.joint,
-            "error": self.error,
-            "training_error": self.training_error,
+            **entries(self, "joint error training_error"),
             "shapes": dict(self.shapes),
             "shape_sigmas": dict(self.shape_sigmas),
             "shape_intervals": {name: list(ends) for name, ends in self.shape_intervals.items()},
