@@ -2,7 +2,8 @@
 
 import re
 
-from modeler.core.figure import COLOR_NAMES, SHADE, Heat, Picture
+from modeler.core.figure import Heat, Picture
+from modeler.core.style import COLOR_NAMES, SHADE
 
 
 def colours_said(picture: Picture) -> set[str]:

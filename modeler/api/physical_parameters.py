@@ -10,7 +10,7 @@ import numpy as np
 from modeler.codegen.derivation import Derivation, derive
 from modeler.core.errors import DataError, ModelerError
 from modeler.core.result import Presentation, Presented, present
-from modeler.core.table import Table
+from modeler.core.table import Table, percent
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.formulas import values as rules
 from modeler.formulas.cad import CadComparison, KnownAgainstFit, compare_cad, test_known
@@ -70,7 +70,7 @@ class PhysicalValues(Presented):
         """From which the variance of parameter k mostly comes, "ZZ2R 80 %, am 15 %"."""
         shares = self.derived.shares[k]
         return ", ".join(
-            f"{self.derived.inputs[i]} {100 * shares[i]:.0f} %"
+            f"{self.derived.inputs[i]} {percent(shares[i])}"
             for i in np.argsort(-shares)[:2]
             if shares[i] > 0.05
         )

@@ -77,7 +77,7 @@ def judged(
     lines = [
         f"model: {model.spec.robot}, {len(model.beta)} base parameters, "
         f"{what}{titled(model.fit.method)} on {fitted}; relative error there "
-        f"{model.fit.error_told('{:.2f} %')}"
+        f"{model.fit.error_told()}"
     ]
     lines += [*model.warning, *_training(model, observation), *observation.report.lines()]
     found = findings_of_prediction(compiled, observation, model.beta)

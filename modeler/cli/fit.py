@@ -24,7 +24,7 @@ from modeler.observation.log import Log, check_apart
 from modeler.observation.observation import Observation, observe
 from modeler.observation.processing import Processing
 from modeler.observation.survey import WholeNeeded
-from modeler.report.estimators import table_of, values_of, write_estimators
+from modeler.report.estimators import remarks_of, table_of, values_of, write_estimators
 from modeler.report.page import after_fit
 from modeler.robot.edit import with_parameters
 from modeler.robot.read import robot_from_text
@@ -237,9 +237,8 @@ def run_estimators(args: argparse.Namespace) -> Json:
     tables = (aligned(table, (0,)) for table in (table_of(tried), values_of(tried)))
     for line in (*lines, *(row.rstrip() for table in tables for row in ("", *table)), ""):
         say(line)
-    for own in tried:
-        for remark in (own.refusal,) if own.refusal else own.remarks:
-            say(f"{own.method}: {remark}")
+    for method, remark in remarks_of(tried):
+        say(f"{method}: {remark}")
     if args.report is not None:
         with working("drawing the page"):
             place = write_estimators(Path(args.report), args.robot, tried, lines)

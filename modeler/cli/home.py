@@ -14,8 +14,8 @@ from modeler.core.errors import DataError
 from modeler.core.files import check_writable, write_atomically
 from modeler.derivation.home import HomeModes, written
 from modeler.derivation.walks import Linkage
-from modeler.report.robot import modes_html
 from modeler.report.robot_closing import Posture
+from modeler.report.robot_page import modes_html
 from modeler.report.robot_skeleton import PICTURE_KINDS, size_of, skeleton_of
 from modeler.robot.edit import home_lines, with_home_text
 from modeler.robot.loops import read_home

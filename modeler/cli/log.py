@@ -14,7 +14,7 @@ from modeler.api.long_logs import are_long, judged_long, too_long
 from modeler.cli.console import Json, progress, say, working
 from modeler.cli.lists import read_told
 from modeler.core.errors import ModelerError
-from modeler.core.table import aligned
+from modeler.core.table import aligned, percent
 from modeler.estimation.identify import identify
 from modeler.estimation.long_logs import stream
 from modeler.estimation.result import FitResult
@@ -130,7 +130,7 @@ def _heard(compiled: CompiledModel, place: str, mapping: LogMap, seen: Look) -> 
     if verdict is not None and not verdict.usable:
         lines += [*verdict.doubts, f"a fit of {observation.robot} is {verdict.line}"]
     elif result.relative_error > _POOR:
-        lines.append(f"a fit of {observation.robot} leaves {result.relative_error:.1%} of the "
+        lines.append(f"a fit of {observation.robot} leaves {percent(result.relative_error)} of the "
                      "torque unexplained")  # fmt: skip
     fresh = [line for line in dict.fromkeys(lines) if not line.endswith(seen.notes)]
     longer = [line for line in fresh if not any(o != line and o.endswith(line) for o in fresh)]

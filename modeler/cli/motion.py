@@ -12,6 +12,7 @@ from modeler.cli.lists import robot_of
 from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
+from modeler.core.table import percent
 from modeler.estimation.model_file import load_model
 from modeler.excitation.criterion import signals
 from modeler.excitation.motion import Bounds
@@ -200,9 +201,9 @@ def run_simulate(args: argparse.Namespace) -> Json:
         say(f"hidden: {effect.effect}{where}: {values}")
     if log.range_share < 1.0:
         say(
-            f"motion: within {log.range_share:.0%} of the way from [home] to the limits: farther, "
-            f"the loops come nearer than {simulation.KEPT:.0%} of home's distance to a singular "
-            "posture, or do not close"
+            f"motion: within {percent(log.range_share)} of the way from [home] to the limits: "
+            f"farther, the loops come nearer than {percent(simulation.KEPT)} of home's distance to "
+            "a singular posture, or do not close"
         )
     say(f"written: {args.out}")
     return {

@@ -8,6 +8,7 @@ from modeler.cli.console import Json, note, progress, say, working
 from modeler.cli.lists import read_told
 from modeler.codegen.derivation import derive
 from modeler.core.errors import DataError
+from modeler.core.table import percent
 from modeler.estimation.model_file import load_model
 from modeler.formulas.cad import CadComparison, KnownAgainstFit
 from modeler.formulas.physical_system import PhysicalSystem
@@ -208,7 +209,8 @@ def _sets(subject: Physical, size: int | None, cad: Given | None) -> Json:
             + (", the least error first (1 % in all that is measured gives, median and worst):"
                if ratings else ":"))  # fmt: skip
         lines = [
-            f"  {','.join(r.known)}  {r.middle:.2g} %, {r.letter} {r.worst:.2g} %" for r in ratings
+            f"  {','.join(r.known)}  {percent(0.01 * r.middle)}, {r.letter} {percent(0.01 * r.worst)}"
+            for r in ratings
         ]
         lines = lines or [f"  {','.join(members)}" for members in found.easiest]
         for line in lines[:_SHOWN]:

@@ -8,7 +8,7 @@ from modeler.cli.lists import read_told
 from modeler.cli.places import Output, check_places
 from modeler.core.errors import ModelerError
 from modeler.core.files import Kind, destination, write_atomically
-from modeler.report.robot_page import described, told
+from modeler.report.robot_page import posture_json, posture_lines
 from modeler.report.showing import show
 from modeler.robot.library import converted
 from modeler.robot.read import robot_from_text
@@ -51,10 +51,10 @@ def run_show(args: argparse.Namespace) -> Json:
         check_places(args)
     with working(f"drawing {robot.name}"):
         found = show(robot, args.out, args.png)
-    for line in told(found.skeleton, found.posture):
+    for line in posture_lines(found.skeleton, found.posture):
         say(line)
     places = {"page": args.out, "picture": args.png}
     written = {what: str(place) for what, place in places.items() if place is not None}
     for what, place in written.items():
         say(f"{what}: {place}")
-    return {**described(found.skeleton, found.posture), **written}
+    return {**posture_json(found.skeleton, found.posture), **written}

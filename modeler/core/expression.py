@@ -17,7 +17,10 @@ from modeler.core import rounded
 
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp", "abs", "sign", "tanh")
 _KNOWN = (*FUNCTIONS, "pi")
-_BINARY = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
+_BINARY: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul,
+    ast.Div: operator.truediv, ast.Pow: operator.pow,
+}  # fmt: skip
 
 MOST_LETTERS = 4000
 MOST_OPERATIONS = 300
@@ -103,11 +106,7 @@ class _Algebra:
         if isinstance(node.op, ast.Pow):
             return self.power(left, _exponent(node.right, self.of))
         right = self.of(node.right)
-        if isinstance(node.op, ast.Add):
-            return left + right
-        if isinstance(node.op, ast.Sub):
-            return left - right
-        return left * right if isinstance(node.op, ast.Mult) else left / right
+        return _BINARY[type(node.op)](left, right)
 
 
 def parse(value: str | int | float) -> Expression:
@@ -122,7 +121,12 @@ def parse(value: str | int | float) -> Expression:
         )
     if isinstance(value, float) and not math.isfinite(value):
         raise ExpressionError(f"got {value!r}; expected a finite number")
-    text = value.strip() if isinstance(value, str) else _written(value)
+    try:
+        text = value.strip() if isinstance(value, str) else repr(value)
+    except ValueError:  # Python prints no integer of more than 4300 digits
+        raise ExpressionError(
+            "got a number of thousands of digits; expected a finite number"
+        ) from None
     _check_text(text)
     try:
         tree = ast.parse(text, mode="eval").body
@@ -136,15 +140,6 @@ def parse(value: str | int | float) -> Expression:
     _check(tree, text, names)
     _check_exponents(tree, text)
     return Expression(text, frozenset(names), tree)
-
-
-def _written(value: int | float) -> str:
-    try:
-        return repr(value)
-    except ValueError:  # Python prints no integer of more than 4300 digits
-        raise ExpressionError(
-            "got a number of thousands of digits; expected a finite number"
-        ) from None
 
 
 def _check_text(text: str) -> None:

@@ -78,9 +78,7 @@ def destination(path: Path) -> Destination:
         return _checked(path, Destination(place, Kind.DESCRIPTOR, os.fstat(int(place.name))))
     try:
         status = place.stat()
-    except FileNotFoundError:
-        return Destination(place, Kind.NEW, None)
-    except NotADirectoryError:
+    except (FileNotFoundError, NotADirectoryError):
         return Destination(place, Kind.NEW, None)
     replaceable = stat.S_ISREG(status.st_mode) and owner is None
     return _checked(path, Destination(place, Kind.FILE if replaceable else Kind.NODE, status))
@@ -195,19 +193,16 @@ def write_together(files: Iterable[tuple[Path, bytes | str]], gone: Iterable[Pat
     try:
         for path, content in files:
             with _errors_named(path):
-                data = (
-                    content
-                    if isinstance(content, bytes)
-                    else content.encode(errors="backslashreplace")
-                )
+                if isinstance(content, str):
+                    content = content.encode(errors="backslashreplace")
                 found = destination(Path(path))
                 if found.kind in (Kind.NEW, Kind.FILE):
                     folders = (found.place.parent, *found.place.parent.parents)
                     made += [folder for folder in folders if not folder.exists()]
                     staged.append((_beside(found.place.parent), found.place))
-                    _stage(found, staged[-1][0], data)
+                    _stage(found, staged[-1][0], content)
                 else:
-                    _pour(_opened(found), data)
+                    _pour(_opened(found), content)
         with undisturbed():
             while staged:
                 beside, place = staged.pop(0)
@@ -255,7 +250,10 @@ def check_writable(path: Path) -> None:
     with _errors_named(path):
         found = destination(path)
         if found.kind is Kind.DESCRIPTOR:
-            _check_descriptor(found.descriptor)
+            import fcntl  # where files have numbers in the file system, there is fcntl
+
+            if fcntl.fcntl(found.descriptor, fcntl.F_GETFL) & os.O_ACCMODE == os.O_RDONLY:
+                raise OSError(errno.EBADF, "open for reading only")
             return
         _check_access(found)
         if found.kind is not Kind.NODE:
@@ -348,13 +346,6 @@ def _pour(handle: int, data: bytes) -> None:
 def _check_access(found: Destination) -> None:
     if found.status is not None and not os.access(found.place, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-
-
-def _check_descriptor(number: int) -> None:
-    import fcntl  # where files have numbers in the file system, there is fcntl
-
-    if fcntl.fcntl(number, fcntl.F_GETFL) & os.O_ACCMODE == os.O_RDONLY:
-        raise OSError(errno.EBADF, "open for reading only")
 
 
 def _check_folder(folder: Path) -> None:

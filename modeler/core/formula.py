@@ -27,13 +27,18 @@ def latex_name(name: str) -> str:
 
     An underscore is a letter of the name, so that different names stay different.
     """
-    split = re.fullmatch(r"([A-Za-z]+)(\d\w*)?", name)
-    head, index = (split[1], split[2]) if split else (name, None)
+    head, index = _head_and_index(name)
     if _GREEK_NAME.fullmatch(head):
         head = f"\\{head}"
     elif len(head) > 1:
         head = f"\\mathit{{{_escaped(head)}}}"
     return f"{head}_{{{_escaped(index)}}}" if index else head
+
+
+def _head_and_index(name: str) -> tuple[str, str | None]:
+    """`ZZ2R` as ZZ and 2R."""
+    split = re.fullmatch(r"([A-Za-z]+)(\d\w*)?", name)
+    return (split[1], split[2]) if split else (name, None)
 
 
 def latex_text(text: str) -> str:
@@ -80,8 +85,7 @@ class Formula:
 
 def name(text: str) -> Formula:
     """`ZZ2R` as ZZ with the index 2R, `alpha` as its letter."""
-    split = re.fullmatch(r"([A-Za-z]+)(\d\w*)?", text)
-    head, index = (split[1], split[2]) if split else (text, None)
+    head, index = _head_and_index(text)
     letter = Formula("name", _GREEK.get(head, head))
     return letter if not index else Formula("sub", parts=(letter, Formula("name", index)))
 

@@ -10,7 +10,7 @@ from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from functools import partial
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from modeler import __version__
 from modeler.core.errors import DataError, installing
@@ -34,8 +34,8 @@ LOCAL = "local"
 """In place of the address of a scheduler: a cluster of this machine's processors."""
 
 
-class Workers(Protocol):
-    """Whoever carries out jobs.
+class Workers:
+    """Whoever carries out jobs: this process itself, unless a subclass knows others.
 
     Functions, what they share and jobs must be such that they can be sent to another process:
     functions of a module, dataclasses of arrays. A job may be carried out more than once.
@@ -55,18 +55,19 @@ class Workers(Protocol):
         Raises:
             ModelerError: the first that a job raised, or no worker could do one.
         """
+        found = []
+        for k, job in enumerate(jobs, start=1):
+            found.append(work(shared, job))
+            tell(done, k, len(jobs))
+        return found
 
     def begun(
-        self,
-        work: Callable[[S, J], R],
-        shared: S,
-        jobs: Sequence[J],
-        merge: Callable[[R, R], R],
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], merge: Callable[[R, R], R]
     ) -> Callable[[], R]:
         """All results merged in pairs of neighbours, pairs of pairs, and so on: begun.
 
         The pairs are the same whoever works, and so is the result, to the last bit, on machines
-        that compute alike.
+        that compute alike. This process does nothing before the result is asked for.
 
         Args:
             work: of what all share, and a job.
@@ -77,6 +78,7 @@ class Workers(Protocol):
         Returns:
             what waits for the result; raises as `each` does.
         """
+        return lambda: in_pairs([work(shared, job) for job in jobs], merge)
 
 
 @contextmanager
@@ -97,31 +99,7 @@ def open_workers(dask: str | None = None, processes: int = 1) -> Iterator[Worker
         with open_processes(processes) as workers:
             yield workers
     else:
-        yield Here()
-
-
-class Here:
-    """This process."""
-
-    def each(
-        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
-    ) -> list[R]:
-        """See `Workers`."""
-        found = []
-        for k, job in enumerate(jobs, start=1):
-            found.append(work(shared, job))
-            tell(done, k, len(jobs))
-        return found
-
-    def begun(
-        self,
-        work: Callable[[S, J], R],
-        shared: S,
-        jobs: Sequence[J],
-        merge: Callable[[R, R], R],
-    ) -> Callable[[], R]:
-        """See `Workers`; nothing is done before its result is asked for."""
-        return lambda: in_pairs([work(shared, job) for job in jobs], merge)
+        yield Workers()
 
 
 def tell(done: Done | None, count: int, all_: int) -> None:
@@ -163,7 +141,7 @@ def pairs(count: int) -> Iterator[tuple[int, int]]:
 _ANSWER = 10.0  # s, in which a scheduler must answer and have a worker
 
 
-class Cluster:
+class Cluster(Workers):
     """The workers of a scheduler.
 
     A job whose worker is lost is done again by another; one that has cost several workers is told.
@@ -177,17 +155,18 @@ class Cluster:
     ) -> list[R]:
         """See `Workers`."""
         futures = self._sent(work, shared, jobs)
+        from distributed import as_completed
+
         with _lost_told():
-            self._watched(futures, done)
+            for k, future in enumerate(as_completed(futures), start=1):
+                if future.status == "error":
+                    future.result()
+                tell(done, k, len(futures))
             found: list[R] = self._client.gather(futures)
         return found
 
     def begun(
-        self,
-        work: Callable[[S, J], R],
-        shared: S,
-        jobs: Sequence[J],
-        merge: Callable[[R, R], R],
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], merge: Callable[[R, R], R]
     ) -> Callable[[], R]:
         """See `Workers`; merged where the results are, only the last one travels here."""
         own = self._sent(work, shared, jobs)
@@ -199,14 +178,6 @@ class Cluster:
         """Futures; what is shared is one of them, so that it is made again if it is lost."""
         common = self._client.submit(same, shared, pure=False)
         return [self._client.submit(work, common, job, pure=False) for job in jobs]
-
-    def _watched(self, futures: Sequence[Any], done: Done | None) -> None:
-        from distributed import as_completed
-
-        for k, future in enumerate(as_completed(futures), start=1):
-            if future.status == "error":
-                future.result()
-            tell(done, k, len(futures))
 
 
 @contextmanager
@@ -229,13 +200,11 @@ def open_cluster(address: str) -> Iterator[Cluster]:
         logging.getLogger(name).setLevel(logging.CRITICAL)
     if address == LOCAL:
         count = os.process_cpu_count() if hasattr(os, "process_cpu_count") else os.cpu_count()
+        given = {"dashboard_address": ":0", "memory_limit": 0, "silence_logs": logging.CRITICAL}
         with (
-            LocalCluster(
-                n_workers=count or 1, threads_per_worker=1, dashboard_address=":0",
-                memory_limit=0, silence_logs=logging.CRITICAL,
-            ) as cluster,
+            LocalCluster(n_workers=count or 1, threads_per_worker=1, **given) as cluster,
             Client(cluster) as client,
-        ):  # fmt: skip
+        ):
             yield _checked(client, address)
         return
     try:
@@ -308,7 +277,7 @@ _WARNINGS = "PYTHONWARNINGS"
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
-class Processes:
+class Processes(Workers):
     """A pool; each process has one thread for linear algebra."""
 
     def __init__(self, pool: ProcessPoolExecutor) -> None:
@@ -321,11 +290,7 @@ class Processes:
         return _gathered(self._sent(work, shared, jobs), done)
 
     def begun(
-        self,
-        work: Callable[[S, J], R],
-        shared: S,
-        jobs: Sequence[J],
-        merge: Callable[[R, R], R],
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], merge: Callable[[R, R], R]
     ) -> Callable[[], R]:
         """See `Workers`; merged in this process."""
         futures = self._sent(work, shared, jobs)

@@ -56,15 +56,26 @@ def parse_json(data: bytes | str) -> Any:
 
 
 def nulled(content: Any) -> Any:
-    """Plain data with null for every number that is not finite; arrays become lists."""
+    """Plain data with null for every number that is not finite.
+
+    Arrays and tuples become lists; a result is what its `to_json` says, another dataclass an
+    object with its fields.
+    """
     if hasattr(content, "tolist"):
         content = content.tolist()
+    elif dataclasses.is_dataclass(content):
+        content = content.to_json() if hasattr(content, "to_json") else vars(content)
     if isinstance(content, Mapping):
         return {key: nulled(value) for key, value in content.items()}
     if isinstance(content, list | tuple):
         return [nulled(value) for value in content]
     unknown = isinstance(content, float) and not math.isfinite(content)
     return None if unknown else content
+
+
+def entries(thing: Any, names: str) -> dict[str, Any]:
+    """Attributes by name, as JSON names them too; the names with spaces between."""
+    return {name: getattr(thing, name) for name in names.split()}
 
 
 def parse_toml(text: str) -> dict[str, Any]:
@@ -145,7 +156,7 @@ def built(cls: type[T], raw: Any, place: str = "") -> T:
     """
     if not isinstance(raw, Mapping):
         raise _unlike(place or "it", raw, "an object")
-    hints, head = _hints(cls), f"{place}." if place else ""
+    hints, head = _field_types(cls), f"{place}." if place else ""  # type: ignore[arg-type]
     for field in dataclasses.fields(cls):  # type: ignore[arg-type]
         required = field.default is field.default_factory is dataclasses.MISSING
         if required and field.name not in raw:
@@ -165,7 +176,7 @@ def check_fields(instance: Any, place: str = "") -> None:
         PlainError: names the first.
     """
     head = f"{place}." if place else ""
-    for name, hint in _hints(type(instance)).items():
+    for name, hint in _field_types(type(instance)).items():  # type: ignore[arg-type]
         plain(hint, getattr(instance, name), head + name)
 
 
@@ -241,10 +252,6 @@ def _either(options: tuple[Any, ...], value: Any, place: str) -> Any:
 
 def _unlike(place: str, value: Any, expected: str) -> PlainError:
     return PlainError(f"{place} is {shown(value)}, expected {expected}")
-
-
-def _hints(cls: Any) -> Mapping[str, Any]:
-    return _field_types(cls)
 
 
 @cache

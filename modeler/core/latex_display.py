@@ -19,6 +19,7 @@ _SIGN, _BINARY = 7.8, 12.3  # a sign alone, and with the space around it
 _ENDS = ("break", "dot")
 _SCRIPT = 0.85  # an index against a letter of full size
 _WORDS = {"cdot": 7.3, "_": 6.0, "{": 5.0, "}": 5.0}
+_PRINTED = ("sin", "cos", "tan", "exp", "tanh", "sinh", "cosh", "log")
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\s+|.", re.DOTALL)
 
 
@@ -103,7 +104,9 @@ def _joined(boxes: Sequence[LatexBox]) -> str:
 
 def _parts(boxes: Sequence[LatexBox], room: float) -> Iterator[list[LatexBox]]:
     """Pieces between which lines may end, each as wide as it must be."""
-    for part in _split(boxes):
+    # before every sign, and before the factors of a product that has to be broken
+    starts = [0, *(i for i, box in enumerate(boxes) if i and box.kind in _ENDS), len(boxes)]
+    for part in (list(boxes[a:b]) for a, b in pairwise(starts) if a < b):
         if _total(part) <= room:
             yield part
             continue
@@ -116,12 +119,6 @@ def _parts(boxes: Sequence[LatexBox], room: float) -> Iterator[list[LatexBox]]:
             yield from _parts([dot if box.kind == "times" else box for box in part], room)
         else:
             yield part
-
-
-def _split(boxes: Sequence[LatexBox]) -> Iterator[list[LatexBox]]:
-    """Before every sign, and before the factors of a product that has to be broken."""
-    starts = [0, *(i for i, box in enumerate(boxes) if i and box.kind in _ENDS), len(boxes)]
-    yield from (list(boxes[a:b]) for a, b in pairwise(starts) if a < b)
 
 
 def _opened(box: LatexBox) -> list[LatexBox]:
@@ -220,7 +217,9 @@ class _LatexReader:
             inside = self._group()
             return LatexBox(f"{token}{{{_joined(inside)}}}", _total(inside))
         gap = " " if name[0].isalpha() and self._next()[:1].isalnum() else ""
-        return LatexBox(token + gap, _WORDS.get(name, _command_width(name)))
+        # names of functions are printed, of letters drawn
+        drawn = 5.0 * len(name) + 3.4 if name in _PRINTED else 9.0
+        return LatexBox(token + gap, _WORDS.get(name, drawn))
 
     def _root(self) -> LatexBox:
         """A square root can be opened, a higher one not."""
@@ -252,25 +251,14 @@ class _LatexReader:
         start = self.at
         size = _SCRIPT * _total(self._group()) + 0.6
         text = token + "".join(self.tokens[start : self.at])
-        if not found:
-            found.append(LatexBox("{}", 0.0))
-        base = found.pop()
+        base = found.pop() if found else LatexBox("{}", 0.0)
+        whole, after = base.text.rstrip() + text, base.after + text
         inner = base.inside if base.kind == "bracket" else ()
-        found.append(
-            LatexBox(
-                base.text.rstrip() + text, base.width + size, base.kind, inner, base.after + text
-            )
-        )
+        found.append(LatexBox(whole, base.width + size, base.kind, inner, after))
 
 
 def _parsed(text: str) -> tuple[LatexBox, ...]:
     return _LatexReader(text).boxes()
-
-
-def _command_width(name: str) -> float:
-    """Names of functions are printed, of letters drawn."""
-    known = name in ("sin", "cos", "tan", "exp", "tanh", "sinh", "cosh", "log")
-    return 5.0 * len(name) + 3.4 if known else 9.0
 
 
 def _letter(letter: str) -> float:

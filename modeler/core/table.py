@@ -51,6 +51,17 @@ class Table(Brief):
     rows: tuple[tuple[Cell, ...], ...]
     note: str = ""
 
+    @classmethod
+    def of(
+        cls, title: str, head: str | Iterable[str], rows: Iterable[Iterable[Any]], note: str = ""
+    ) -> "Table":
+        """A table whose head is written as "name, mass [kg]", or as such names one by one."""
+        columns = []
+        for text in head.split(", ") if isinstance(head, str) else head:
+            name, _, unit = text.removesuffix("]").rpartition(" [")
+            columns.append((name, unit) if name and text.endswith("]") else (text, ""))
+        return cls(title, tuple(columns), tuple(map(tuple, rows)), note)
+
     def __len__(self) -> int:
         return len(self.rows)
 
@@ -69,19 +80,17 @@ class Table(Brief):
         """An HTML table; of a long one its first and last rows, and how many are left out."""
         head = "".join(f"<th>{html.escape(_headed(*column))}</th>" for column in self.columns)
         half = _SHOWN // 2
-        if len(self.rows) <= _SHOWN:
-            rows = [self._html_row(row) for row in self.rows]
-        else:
-            gap = f'<tr><td colspan="{len(self.columns)}">... {len(self.rows) - _SHOWN} rows more'
-            rows = [self._html_row(row) for row in self.rows[:half]]
-            rows += [f"{gap} ...</td></tr>", *map(self._html_row, self.rows[-half:])]
+        rows = [
+            f"<tr>{''.join(f'<td>{html.escape(_formula(cell))}</td>' for cell in row)}</tr>"
+            for row in (self.rows if len(self) <= _SHOWN else self.rows[:half] + self.rows[-half:])
+        ]
+        if len(self) > _SHOWN:
+            gap = f'<tr><td colspan="{len(self.columns)}">... {len(self) - _SHOWN} rows more'
+            rows.insert(half, f"{gap} ...</td></tr>")
         caption = f"<caption>{html.escape(self.title)}</caption>" if self.title else ""
         note = f"<p>{html.escape(self.note)}</p>" if self.note else ""
-        return (
-            f"<table>{caption}\n<thead><tr>{head}</tr></thead>\n<tbody>\n"
-            + "\n".join(rows)
-            + f"\n</tbody></table>{note}"
-        )
+        head, body = f"<thead><tr>{head}</tr></thead>", "\n".join(rows)
+        return f"<table>{caption}\n{head}\n<tbody>\n{body}\n</tbody></table>{note}"
 
     def _repr_html_(self) -> str:
         return self.to_html()
@@ -89,14 +98,18 @@ class Table(Brief):
     def markdown(self) -> str:
         """A Markdown table."""
         cells = [[_headed(*column) for column in self.columns], ["---"] * len(self.columns)]
-        cells += [[_markdown(cell) for cell in row] for row in self.rows]
+        for row in self.rows:
+            cells.append([_formula(cell).replace("|", r"\|").replace("\n", " ") for cell in row])
         return "\n".join("| " + " | ".join(row) + " |" for row in cells)
 
     def latex(self) -> str:
         """A tabular environment; formulas in dollars."""
         kinds = "".join("r" if self._numeric(k) else "l" for k in range(len(self.columns)))
         cells = [[latex_text(_headed(*column)) for column in self.columns]]
-        cells += [[_latex(cell) for cell in row] for row in self.rows]
+        for row in self.rows:
+            formulas = (isinstance(cell, MathCell) for cell in row)
+            texts = map(_formula, row)
+            cells.append([t if f else latex_text(t) for t, f in zip(texts, formulas, strict=True)])
         head, *body = [" & ".join(row) + r" \\" for row in cells]
         lines = [rf"\begin{{tabular}}{{{kinds}}}", r"\hline", head, r"\hline", *body, r"\hline"]
         return "\n".join([*lines, r"\end{tabular}"])
@@ -114,7 +127,7 @@ class Table(Brief):
                 f"to_frame: pandas is not installed; {installing('notebook')}"
             ) from None
         names = [name for name, _ in self.columns]
-        rows = [[_bare(cell) for cell in row] for row in self.rows]
+        rows = [[c.text if isinstance(c, MathCell) else c for c in row] for row in self.rows]
         frame = pandas.DataFrame(rows, columns=names)
         frame.attrs["title"], frame.attrs["units"] = self.title, dict(self.columns)
         return frame
@@ -133,9 +146,6 @@ class Table(Brief):
     def _numeric(self, k: int) -> bool:
         found = [row[k] for row in self.rows if row[k] is not None]
         return all(isinstance(cell, int | float) for cell in found)
-
-    def _html_row(self, row: Sequence[Cell]) -> str:
-        return f"<tr>{''.join(f'<td>{_html(cell)}</td>' for cell in row)}</tr>"
 
 
 def aligned(rows: Sequence[Sequence[str]], left: Sequence[int]) -> list[str]:
@@ -164,21 +174,9 @@ def _plain(cell: Cell) -> str:
     return f"{cell:.6g}" if isinstance(cell, float) else str(cell)
 
 
-def _bare(cell: Cell) -> str | int | float | bool | None:
-    return cell.text if isinstance(cell, MathCell) else cell
-
-
-def _html(cell: Cell) -> str:
-    return html.escape(f"${cell.latex}$" if isinstance(cell, MathCell) else _plain(cell))
-
-
-def _markdown(cell: Cell) -> str:
-    text = f"${cell.latex}$" if isinstance(cell, MathCell) else _plain(cell)
-    return text.replace("|", r"\|").replace("\n", " ")
-
-
-def _latex(cell: Cell) -> str:
-    return f"${cell.latex}$" if isinstance(cell, MathCell) else latex_text(_plain(cell))
+def _formula(cell: Cell) -> str:
+    """A cell as text, a formula between dollars."""
+    return f"${cell.latex}$" if isinstance(cell, MathCell) else _plain(cell)
 
 
 # Relative errors of joints whose efforts have different units: N m and N are never one number.
@@ -212,20 +210,11 @@ def effort(errors: Mapping[str, float]) -> str:
     return " and ".join(WORDS[unit] for unit in errors) or "torque"
 
 
-def told_by_unit(errors: Mapping[str, float], form: str = "{:.3f} %") -> str:
-    """Errors as text: "2.1 % of the torques (N m), 3 % of the forces (N)"; of one unit: "2.1 %".
-
-    Args:
-        errors: from `errors_by_unit`.
-        form: of a percentage.
-    """
-    told = {
-        unit: form.format(100.0 * error) if math.isfinite(error) else "-"
-        for unit, error in errors.items()
-    }
-    if len(told) == 1:
-        return next(iter(told.values()))
-    return ", ".join(f"{text} of the {WORDS[unit]}s ({unit})" for unit, text in told.items())
+def told_by_unit(errors: Mapping[str, float]) -> str:
+    """Errors as text: "2.1 % of the torques (N m), 3 % of the forces (N)"; of one unit: "2.1 %"."""
+    if len(errors) == 1:
+        return percent(next(iter(errors.values())))
+    return ", ".join(f"{percent(e)} of the {WORDS[unit]}s ({unit})" for unit, e in errors.items())
 
 
 POOLED = (
@@ -239,9 +228,15 @@ DIGITS = 4
 """Most significant digits of an error that is printed: what does not differ in them is the same."""
 
 
-def percent(share: float, digits: int = 3) -> str:
-    """A share in percent, as in "3.41 %"; "-" where it is not known."""
-    return f"{100.0 * share:.{digits}g} %" if math.isfinite(share) else "-"
+def percent(share: float | None, digits: int = 3) -> str:
+    """A share in percent, as in "3.41 %"; "-" where it is not known.
+
+    What is less than a part in a million is 0: no measurement tells it.
+    """
+    if share is None or not math.isfinite(share):
+        return "-"
+    value = 100.0 * share if abs(share) >= 1e-6 else 0.0
+    return f"{value:.{digits}g} %" if abs(value) < 10**digits else f"{value:.0f} %"
 
 
 def printed(before: float, after: float) -> tuple[str, str]:

@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 from modeler.codegen.derivation import derive, generate
 from modeler.core.errors import DataError, RobotError
 from modeler.core.manifest import ModuleSpec
-from modeler.core.table import printed
+from modeler.core.table import percent, printed
 from modeler.diagnosis.added_model import (
     HoldoutRows,
     Logs,
@@ -338,7 +338,7 @@ def _check_seen(pick: Pick) -> None:
         effect = pick.candidate.effect
         raise DataError(
             f"{effect.id}: cannot be told from what the model has on these logs "
-            f"({100 * pick.visible:.1g} % of it is left); {effect.look_alikes}"
+            f"({percent(pick.visible)} of it is left); {effect.look_alikes}"
         )
 
 

@@ -5,6 +5,7 @@ from functools import partial
 
 import numpy as np
 
+from modeler.core.table import percent
 from modeler.diagnosis.effect_columns import Rows
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.plausible import has_friction, largest_friction
@@ -116,7 +117,7 @@ def _smooth(state: State) -> list[str]:
     if not shares or max(shares) > _SMOOTH:
         return []
     return [
-        f"no joint rubs: friction is at most {100.0 * max(shares):.2g} % of the torque; a robot "
+        f"no joint rubs: friction is at most {percent(max(shares))} of the torque; a robot "
         "with gears does: were these torques computed from the motion, and not measured?"
     ]
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from modeler.core.table import printed
+from modeler.core.table import percent, printed
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.events import BURST, LOUD, Window, burst_ratio
 from modeler.diagnosis.judge import GATE, SURE, Judged
@@ -175,7 +175,7 @@ def _faint(found: Search, least: float, knocks: bool) -> list[Finding]:
         if ratio > least:
             return [_backlash(found, [j], _bursts(ratio))]
         if knocks and share > KNOCKS:
-            text = f"{100.0 * share:.0f} % of the residual's energy comes in brief outbursts"
+            text = f"{percent(share)} of the residual's energy comes in brief outbursts"
             doubt = "its outbursts do not follow the sign of the load"
             return [_backlash(found, [j], text, doubt)]
     return []

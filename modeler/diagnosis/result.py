@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.core.json import nulled
+from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.cross_checks import CrossCheck, Key
@@ -164,20 +164,10 @@ class Finding(Brief):
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         return {
-            "effect": self.effect,
-            "joint": self.joint,
-            "status": self.status,
-            "gain": self.gain,
-            "error_before": self.error_before,
-            "error_after": self.error_after,
-            "parameters": dict(self.parameters),
-            "sigmas": dict(self.sigmas),
-            "intervals": {name: list(ends) for name, ends in self.intervals.items()},
-            "units": dict(self.units),
+            **entries(self, "effect joint status gain error_before error_after parameters sigmas"),
+            **entries(self, "intervals units"),
             "ties": [{"effect": effect, "joint": joint} for effect, joint in self.ties],
-            "evidence": self.evidence,
-            "closure": self.closure,
-            "objection": self.objection,
+            **entries(self, "evidence closure objection"),
             "looks": [look.to_json() for look in self.looks],
         }
 
@@ -210,10 +200,6 @@ class JointState(Brief):
         """True if what is left of physics is worth a word."""
         left = self.systematic + self.noise
         return self.systematic > max(FELT**2, LEFT * left)
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain data."""
-        return dict(vars(self))
 
 
 @dataclass(frozen=True, eq=False)
@@ -268,10 +254,7 @@ class Diagnosis(Presented):
     def to_json(self) -> dict[str, Any]:
         """The `diagnose` object that scripts read; numbers that mean nothing are null."""
         return nulled({
-            "robot": self.robot,
-            "verdict": self.verdict,
-            "effects": [finding.to_json() for finding in self.effects],
-            "refinements": [finding.to_json() for finding in self.refinements],
+            **entries(self, "robot verdict effects refinements"),
             "rivals": [
                 {"effect": effect, "joint": joint, "gain": gain}
                 for effect, joint, gain in self.rivals
@@ -279,13 +262,6 @@ class Diagnosis(Presented):
             "blind_spots": [
                 {"effect": effect, "joint": joint} for effect, joint in self.blind_spots
             ],
-            "joints": {name: joint.to_json() for name, joint in self.joints.items()},
-            "unmoved": list(self.unmoved),
-            "held_out": list(self.held_out),
-            "sentences": list(self.sentences),
-            "band": self.band,
-            "fit_band": self.fit_band,
-            "data": list(self.data),
-            "changed": self.changed,
+            **entries(self, "joints unmoved held_out sentences band fit_band data changed"),
             "contradicted": self.contradicted,
         })  # fmt: skip

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from modeler.core.manifest import BaseSpec, ModuleSpec
+from modeler.core.table import percent
 from modeler.estimation.identify import CrossValidation, Equations, base_equations, fit_equations
 from modeler.estimation.least_squares import least_squares
 from modeler.estimation.payload import Payload, loaded_equations
@@ -102,7 +103,7 @@ def undescribed(result: FitResult) -> list[Doubt]:
     """Joints whose torques the model does not describe, even where it was fitted."""
     return [
         Doubt(
-            f"joint {joint.name}: {100.0 * joint.relative_error:.0f} % of the torque is not "
+            f"joint {joint.name}: {percent(joint.relative_error)} of the torque is not "
             f"described even on the data of the fit; {_TORQUES}; `modeler diagnose` names what is "
             "missing",
             certain=joint.relative_error > HALF,
@@ -129,7 +130,7 @@ def systematic(result: FitResult, lasting: np.ndarray) -> list[Doubt]:
         return []
     return [
         Doubt(
-            f"joint {', '.join(large)}: up to {100.0 * max(large.values()):.2g} % of the "
+            f"joint {', '.join(large)}: up to {percent(max(large.values()))} of the "
             "torque is left and is no noise: an effect is missing, and the values of others stand "
             "in for it; `modeler diagnose` names it",
             values=True,
@@ -150,7 +151,7 @@ def scarce(result: FitResult, seen: CrossValidation) -> list[Doubt]:
         return []
     names = ", ".join(name for name, _ in lost)
     much = max(error for _, error in lost)
-    miss = "all of the torque" if much >= 1.0 else f"up to {100.0 * much:.0f} % of the torque"
+    miss = "all of the torque" if much >= 1.0 else f"up to {percent(much)} of the torque"
     swings = f"swings of the motion ({seen.swing:.2g} s each)"
     moved = (
         f"the logs hold less than two {swings}"
@@ -185,8 +186,8 @@ def unshown(result: FitResult, seen: CrossValidation, scale: np.ndarray) -> list
             continue
         found.append(
             Doubt(
-                f"joint {joint.name}: all rows are described to {100.0 * own:.2g} %, the windows "
-                f"to {100.0 * error:.2g} %: some rows hold what the windows do not show; fit "
+                f"joint {joint.name}: all rows are described to {percent(own)}, the windows "
+                f"to {percent(error)}: some rows hold what the windows do not show; fit "
                 "pieces, FILE@START:END, to find them",
                 certain=True,
             )
@@ -345,13 +346,11 @@ def not_alike(
     worst = int(np.argmax(ratio))
     if ratio[worst] < WORSE**2:
         return []
-    apart, all_of_them = (
-        100.0 * float(np.sqrt(v[worst])) / float(torque[worst]) for v in (alone, together)
-    )
+    apart, all_of_them = (np.sqrt(v[worst]) / torque[worst] for v in (alone, together))
     return [
         f"the logs {', '.join(observation.logs)} do not fit one robot: joint "
-        f"{observation.joints[worst].name} has {apart:.2g} % of its torque left if each is "
-        f"described alone, and {all_of_them:.2g} % together; are all of the same robot, is the "
+        f"{observation.joints[worst].name} has {percent(apart)} of its torque left if each is "
+        f"described alone, and {percent(all_of_them)} together; are all of the same robot, is the "
         "load on the link that is said to carry it, and does friction grow with the load?"
     ]
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec, ModuleSpec
+from modeler.core.table import percent
 from modeler.estimation.covariance import Colour, coloured
 from modeler.estimation.doubts import not_together
 from modeler.estimation.identify import Equations, dead_joints, fit_equations
@@ -191,8 +192,8 @@ def _check_told(observation: Observation, estimate: GainEstimate, colour: Colour
         worst = int(np.argmax(np.where(np.isnan(share), np.inf, share)))
         raise DataError(
             f"--method tls: the gain of joint {observation.joints[driven[worst]].name} has a sigma "
-            f"of {100.0 * share[worst]:.3g} %, no better than a data sheet; expected at most "
-            f"{100.0 * LOOSE:.0f} % (s[-2]/s[-1] = {estimate.gap:.4g}); {_MORE}"
+            f"of {percent(share[worst])}, no better than a data sheet; expected at most "
+            f"{percent(LOOSE)} (s[-2]/s[-1] = {estimate.gap:.4g}); {_MORE}"
         )
 
 

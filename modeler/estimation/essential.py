@@ -10,6 +10,7 @@ from scipy.special import fdtri
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, Method
+from modeler.core.table import percent, printed
 from modeler.estimation.least_squares import Estimate, least_squares, solve_by_qr
 from modeler.estimation.parameter import ParameterEstimate, read_parameter
 from modeler.numerics.least_squares import Compressed, triangle
@@ -50,8 +51,8 @@ class Essential:
             return f"all {len(self.names)} parameters are essential"
         return (
             f"{len(self.names)} of {len(self.names) + len(self.dropped)} parameters are "
-            f"essential; leaving the others out changes the relative error from "
-            f"{100.0 * self.error_before:.4g} % to {100.0 * self.error_after:.4g} %"
+            "essential; leaving the others out changes the relative error from "
+            + " to ".join(printed(self.error_before, self.error_after))
         )
 
     def judged_on(self, data: Compressed, full: np.ndarray) -> "Essential":
@@ -204,7 +205,7 @@ class Reduced(Brief):
             f"reduced model: {count} essential of {count + len(self.dropped)} parameters, "
             f"estimated anew; condition number {self.condition_number:.4g} "
             f"({self.condition_scaled:.4g} with columns of length one), relative error "
-            f"{100.0 * self.relative_error:.3f} %"
+            f"{percent(self.relative_error)}"
         ]
 
     def to_json(self) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.core.table import percent
 from modeler.estimation.direct_model import ControlLoop, DirectModel, Motion
 from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
 from modeler.estimation.problem import Problem
@@ -294,7 +295,7 @@ def _worse(problem: Problem, method: str, start: Estimate, beta: np.ndarray) -> 
 def _told(problem: Problem, robot: DirectModel, loop: ControlLoop, error: np.ndarray) -> list[str]:
     worst = int(np.argmax(error))
     joint = problem.observation.joints[worst].name
-    near = f"within {100 * error[worst]:.2g} % of the range of joint {joint}, the farthest"
+    near = f"within {percent(error[worst])} of the range of joint {joint}, the farthest"
     if np.isinf(loop.speed):
         how = (
             "the commanded motion is nearer to the log than what any controller that was tried "
@@ -321,7 +322,7 @@ def _told(problem: Problem, robot: DirectModel, loop: ControlLoop, error: np.nda
     if robot.raised > 0.0:
         light = problem.observation.joints[robot.lightest].name
         said.append(
-            f"the fitted inertia matrix is not positive definite in {100 * robot.raised:.0f} % of "
+            f"the fitted inertia matrix is not positive definite in {percent(robot.raised)} of "
             f"the postures, most at joint {light}: it was raised for the simulation; record "
             "more motion, or leave out parameters that are not essential"
         )

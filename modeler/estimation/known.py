@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec, ModuleSpec
+from modeler.core.table import percent
 from modeler.estimation.doubts import Doubt, not_together
 from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.identify import fit_equations
@@ -63,7 +64,7 @@ def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[D
             continue
         assert payload.mass is not None
         mass, sigma = factor.value * payload.mass, factor.sigma * payload.mass
-        more = f"{100.0 * abs(factor.value - 1.0):.2g} % {'more' if factor.value > 1.0 else 'less'}"
+        more = f"{percent(abs(factor.value - 1.0))} {'more' if factor.value > 1.0 else 'less'}"
         gains = (
             f"or all drive gains are {1.0 / factor.value:.3g} times what the robot file says; "
             "--method tls finds the gains"
@@ -137,5 +138,5 @@ def _deviation(joint: JointSpec, gain: float, sigma: float) -> str:
             f"{told}, {beside}: current{joint.name} or q{joint.name} is counted the other way "
             "round; if that is a mistake of the log, give the one that is wrong sign = -1 in [log]"
         )
-    percent = 100.0 * (gain / stated - 1.0)
-    return f"{told}, {abs(percent):.2g} % {'above' if percent > 0.0 else 'below'} {stated:.4g}"
+    share = gain / stated - 1.0
+    return f"{told}, {percent(abs(share))} {'above' if share > 0.0 else 'below'} {stated:.4g}"

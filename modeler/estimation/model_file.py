@@ -18,9 +18,10 @@ import numpy as np
 
 from modeler.core.errors import DataError, ManifestError
 from modeler.core.files import read_file, read_text, write_atomically
-from modeler.core.json import JsonError, PlainError, check_fields, parse_json, plain, shown
+from modeler.core.json import JsonError, PlainError, check_fields, entries, parse_json, plain, shown
 from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, module_from_plain
 from modeler.core.result import Presented
+from modeler.core.table import percent
 from modeler.estimation.essential import Reduced
 from modeler.estimation.result import FitResult, fit_from_json
 from modeler.observation.log import LogRows, shared_rows
@@ -116,9 +117,7 @@ class Addition(Presented):
         """Plain data, without the robot file."""
         return {
             "effect": self.effect or None,
-            "joint": self.joint,
-            "error": self.error,
-            "training_error": self.training_error,
+            **entries(self, "joint error training_error"),
             "shapes": dict(self.shapes),
             "shape_sigmas": dict(self.shape_sigmas),
             "shape_intervals": {name: list(ends) for name, ends in self.shape_intervals.items()},
@@ -448,7 +447,7 @@ def _remarks(model: IdentifiedModel) -> list[str]:
     energy = "" if fit.energy is None else ", of the energies instead of the torques"
     told = [
         f"Values by the method {fit.method}{energy}, {fit.samples} samples, relative error "
-        f"{100.0 * fit.relative_error:.3g} %."
+        f"{percent(fit.relative_error)}."
     ]
     added = [
         step.effect if step.joint is None else f"{step.effect} (joint {step.joint})"

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core.json import entries
+
 LOPSIDED = 2.0
 """Ratio of the sides of an interval above which one standard deviation does not describe it."""
 
@@ -41,16 +43,9 @@ class ParameterEstimate:
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        return {
-            "name": self.name,
-            "value": self.value,
-            "sigma": self.sigma,
-            "relative_sigma_percent": self.relative_sigma_percent,
-            "essential": self.essential,
-            "unit": self.unit,
-            "status": self.status,
-            "interval": None if self.interval is None else list(self.interval),
-        }
+        names = "name value sigma relative_sigma_percent essential unit status"
+        interval = None if self.interval is None else list(self.interval)
+        return entries(self, names) | {"interval": interval}
 
 
 def estimates(

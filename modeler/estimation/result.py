@@ -8,10 +8,10 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, ManifestError
-from modeler.core.json import nulled
+from modeler.core.json import entries, nulled
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Presented
-from modeler.core.table import POOLED, errors_by_unit, told_by_unit
+from modeler.core.table import POOLED, errors_by_unit, percent, told_by_unit
 from modeler.estimation.essential import Reduced, reduced_from_json
 from modeler.estimation.parameter import ParameterEstimate, parameter_lines, read_parameter
 from modeler.observation.processing import Processing, processing_from_json
@@ -62,8 +62,8 @@ class ModelFigures(Brief):
             f"{self.rows}",
             f"{self.condition_scaled:.4g}",
             f"{self.known}",
-            f"{100.0 * self.torque_error:.3g} %",
-            f"{100.0 * self.torque_sigma:.2g} %",
+            percent(self.torque_error),
+            percent(self.torque_sigma),
             "-" if self.imbalance is None else f"{self.imbalance:.1e}",
             "-" if self.bias is None else f"{self.bias:.2g} sigma",
         )
@@ -112,7 +112,7 @@ class EnergyReport(Brief):
         head = ("rows", "cond", "known", "error", "sigma", "missed", "bias")
         lines = [
             f"energy model: windows of {self.window:.4g} s, energies met to "
-            f"{100.0 * self.relative_error:.3g} %; beside the torque model on the same data:",
+            f"{percent(self.relative_error)}; beside the torque model on the same data:",
             _line("model", head),
             *(_line(item.model, item.cells()) for item in self.figures),
         ]
@@ -409,19 +409,14 @@ class FitResult(Presented):
             for left in [joint.rows * joint.rms**2]
         )
 
-    def error_told(self, form: str = "{:.3f} %") -> str:
+    def error_told(self) -> str:
         """The relative error as text; of torques and forces apart where the robot has both."""
         if self.energy is None and len(self.by_unit) > 1:
-            return told_by_unit(self.by_unit, form)
-        return form.format(100.0 * self.relative_error)
+            return told_by_unit(self.by_unit)
+        return percent(self.relative_error)
 
     def lines(self) -> list[str]:
         """Lines of text: parameters, joints, remarks, the verdict last."""
-
-        def share(joint: JointFit) -> str:
-            error = joint.relative_error
-            return "-" if error is None else f"{100.0 * error:.2f} %"
-
         alone = self.essential.parameters if self.essential and self.essential.dropped else ()
         lines = parameter_lines((*self.gains, *self.parameters, *self.loads), alone)
         lines += direction_lines(self.directions)
@@ -431,9 +426,12 @@ class FitResult(Presented):
             f"relative error {self.error_told()}",
         ]
         for k, joint in enumerate(self.joints):
-            apart = "".join(f", {name} {share(own[k])}" for name, own in self.by_load.items())
+            apart = "".join(
+                f", {name} {percent(own[k].relative_error)}" for name, own in self.by_load.items()
+            )
             lines.append(
-                f"  joint {joint.name}: {share(joint)}{apart}, rms {joint.rms:.4g} {joint.unit}"
+                f"  joint {joint.name}: {percent(joint.relative_error)}{apart}, rms "
+                f"{joint.rms:.4g} {joint.unit}"
             )
         lines += [*bodies_told(self.standard), *self.sentences]
         lines += self.essential.lines() if self.essential is not None else []
@@ -446,33 +444,21 @@ class FitResult(Presented):
     def to_json(self) -> dict[str, Any]:
         """The `fit` object that scripts read; numbers that mean nothing are null."""
         return nulled({
-            "robot": self.robot,
-            "method": self.method,
-            "status": self.status,
-            "samples": self.samples,
-            "rows": self.rows,
-            "condition_number": self.condition_number,
-            "condition_scaled": self.condition_scaled,
+            **entries(self, "robot method status samples rows condition_number condition_scaled"),
             "relative_error": self.relative_error,
             "relative_error_pools": POOLED,
-            "by_unit": self.by_unit,
-            "essential_error": self.essential_error,
+            **entries(self, "by_unit essential_error"),
             "joints": _joints_to_json(self.joints),
             "by_load": {
                 name: {"relative_error": pooled(own), "joints": _joints_to_json(own)}
                 for name, own in self.by_load.items()
             },
-            "parameters": [parameter.to_json() for parameter in self.parameters],
-            "loads": [parameter.to_json() for parameter in self.loads],
-            "gains": [parameter.to_json() for parameter in self.gains],
-            "singular_values": list(self.singular_values),
-            "sentences": list(self.sentences),
-            "processing": self.processing.to_json(),
-            "standard": dict(self.standard),
-            "essential": None if self.essential is None else self.essential.to_json(),
-            "directions": [item.to_json() for item in self.directions],
+            **entries(self, "parameters loads gains singular_values sentences processing"),
+            "standard": self.standard,
+            "essential": self.essential,
+            "directions": self.directions,
             "model": "torque" if self.energy is None else "energy",
-            "energy": None if self.energy is None else self.energy.to_json(),
+            "energy": self.energy,
             **_verdict_to_json(self.verdict),
             **({"reading": dict(self.reading)} if self.reading else {}),
         })  # fmt: skip
@@ -527,16 +513,7 @@ def pooled(joints: Sequence[JointFit]) -> float:
 
 
 def _joints_to_json(joints: Sequence[JointFit]) -> dict[str, Any]:
-    return {
-        joint.name: {
-            "relative_error": joint.relative_error,
-            "rms": joint.rms,
-            "sigma": joint.sigma,
-            "rows": joint.rows,
-            "unit": joint.unit,
-        }
-        for joint in joints
-    }
+    return {joint.name: entries(joint, "relative_error rms sigma rows unit") for joint in joints}
 
 
 def _joints_from_json(raw: Mapping[str, Any]) -> tuple[JointFit, ...]:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from modeler.core.table import percent
 from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
 from modeler.estimation.problem import Problem
 
@@ -156,7 +157,7 @@ def _told(problem: Problem, weight: np.ndarray, joint: np.ndarray) -> tuple[str,
         share = float(np.mean(weight[own] < 0.5)) if own.any() else 0.0
         if share > _TOLD:
             said.append(
-                f"joint {spec.name}: {100 * share:.2g} % of its rows have less than half a weight "
+                f"joint {spec.name}: {percent(share)} of its rows have less than half a weight "
                 "in the robust fit; Gaussian noise leaves 2 %; if they lie together (low speed, "
                 "a part of the range), the model is wrong there and not the rows"
             )

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import TWO_STEPS
+from modeler.core.table import percent
 from modeler.estimation.doubts import LITTLE, Doubt
 from modeler.estimation.essential import essential_parameters
 from modeler.estimation.identify import all_rows, base_equations, identify, joints_of, result_of
@@ -197,8 +198,8 @@ class TwoStepFit:
             ]  # fmt: skip
             lines.append(f"{two.name:<{width}} {cells[0]} {cells[1]}")
         lines.append(
-            f"relative error {100 * self.result.relative_error:.3f} % in two steps, "
-            f"{100 * self.one_step.relative_error:.3f} % in one"
+            f"relative error {percent(self.result.relative_error)} in two steps, "
+            f"{percent(self.one_step.relative_error)} in one"
         )
         return lines
 

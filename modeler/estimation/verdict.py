@@ -10,6 +10,7 @@ from scipy.special import chdtri
 
 from modeler.core.errors import LoopError
 from modeler.core.manifest import ModuleSpec
+from modeler.core.table import percent
 from modeler.estimation.covariance import autocorrelation
 from modeler.estimation.doubts import (
     LITTLE,
@@ -205,7 +206,7 @@ def _predicts(
 
     def largest(errors: np.ndarray, joints: Sequence[JointFit]) -> str:
         own = [np.nan if j.relative_error is None else j.relative_error for j in joints]
-        return f"{100.0 * float(np.fmax(np.nan_to_num(errors), np.nan_to_num(own)).max()):.2g} %"
+        return percent(float(np.fmax(np.nan_to_num(errors), np.nan_to_num(own)).max()))
 
     told = {
         name: largest(seen.on(equations, own), result.by_load[name])
@@ -353,8 +354,8 @@ class _Cost:
         if self.after < _FELT * self.before:
             return ""
         return (
-            f"; the nearest possible one leaves {100.0 * self.after:.3g} % of the torque of joint "
-            f"{self.joint}, not {100.0 * self.before:.3g} %"
+            f"; the nearest possible one leaves {percent(self.after)} of the torque of joint "
+            f"{self.joint}, not {percent(self.before)}"
         )
 
 

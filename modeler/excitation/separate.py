@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.core.table import percent
 from modeler.diagnosis.candidates import Candidate, JointScale, over_grid
 from modeler.diagnosis.effect_columns import all_columns
 from modeler.diagnosis.signals import SignalReference, Signals
@@ -66,8 +67,8 @@ class Apart:
     def lines(self) -> list[str]:
         """Lines of text."""
         return [
-            f"{name}: {here:.1%} of its torque is explained by neither the model nor {other}; best "
-            f"of the random motions {there:.1%}; that part is {gain:.3g} times as large"
+            f"{name}: {percent(here)} of its torque is explained by neither the model nor {other}; "
+            f"best of the random motions {percent(there)}; that part is {gain:.3g} times as large"
             for name, other, here, there, gain in zip(
                 self.names, self.names[::-1], self.left, self.random, self.gain, strict=True
             )

@@ -1,5 +1,6 @@
 """One quantity of one machine over its periods: does it stay, drift or jump; is a machine odd?"""
 
+import dataclasses
 import datetime
 import re
 from collections.abc import Sequence
@@ -152,8 +153,7 @@ def move_of(series: PeriodSeries, scatter: Scatter) -> Drift | None:
     tried = [_moved(series, sigma, *shape) for shape in _shapes(series.at)]
     best = max(tried, key=lambda move: abs(move.score))
     chance = 2.0 * float(stdtr(scatter.degrees, -abs(best.score))) * len(tried)
-    return Drift(best.shape, best.begin, best.change, best.sigma, best.level, best.score,
-                min(1.0, chance))  # fmt: skip
+    return dataclasses.replace(best, chance=min(1.0, chance))
 
 
 def _shapes(at: np.ndarray) -> list[tuple[Shape, int, np.ndarray]]:
@@ -227,7 +227,8 @@ def in_time(summaries: Sequence[LogSummary]) -> tuple[list[LogSummary], np.ndarr
         if _apart(summaries, days, days):
             return _ordered(summaries, days, "days")
     starts, ends = (np.array([each.span[k] for each in summaries]) / _DAY for k in (0, 1))
-    if _several(summaries) and _apart(summaries, starts, ends):
+    several = len({each.named.machine for each in summaries}) < len(summaries)
+    if several and _apart(summaries, starts, ends):
         return _ordered(summaries, starts, "days")
     keys = sorted({each.named.period for each in summaries}, key=natural)
     places = np.array([float(keys.index(each.named.period)) for each in summaries])
@@ -247,11 +248,6 @@ def date_of(period: str) -> datetime.datetime | None:
         return None
 
 
-def _several(summaries: Sequence[LogSummary]) -> bool:
-    machines = [each.named.machine for each in summaries]
-    return len(set(machines)) < len(machines)
-
-
 def _apart(summaries: Sequence[LogSummary], starts: np.ndarray, ends: np.ndarray) -> bool:
     """True if no two logs of a machine overlap, or begin together."""
     machines = np.array([each.named.machine for each in summaries])
@@ -267,9 +263,8 @@ def _apart(summaries: Sequence[LogSummary], starts: np.ndarray, ends: np.ndarray
 def _ordered(
     summaries: Sequence[LogSummary], at: np.ndarray, unit: Unit
 ) -> tuple[list[LogSummary], np.ndarray, Unit]:
-    order = sorted(
-        range(len(summaries)), key=lambda k: (natural(summaries[k].named.machine), at[k])
-    )
+    machines = [natural(each.named.machine) for each in summaries]
+    order = sorted(range(len(summaries)), key=lambda k: (machines[k], at[k]))
     return [summaries[k] for k in order], at[order] - at.min(), unit
 
 

@@ -7,11 +7,10 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.fleet.drift import LEAST, in_time, line_of
-from modeler.fleet.joint_fit import joint_fit, layout_of
+from modeler.fleet.joint_fit import LOAD, joint_fit, layout_of
 from modeler.fleet.judge import FALSE_ALARM, JudgedQuantity, judged
 from modeler.fleet.result import Fleet, FleetFinding, Followed, Values
 from modeler.fleet.summary import Left, LogSummary, of_another_robot
-from modeler.fleet.unseen import not_seen, scatter_known
 from modeler.fleet.warmth import warmth_of
 
 
@@ -32,8 +31,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
     Raises:
         DataError: no usable logs, too few to compare, rows given twice, nothing that may drift.
     """
-    used = [each for each in given if isinstance(each, LogSummary)]
-    used, foreign, said = of_another_robot(used)
+    used, foreign, said = of_another_robot([log for log in given if isinstance(log, LogSummary)])
     apart = [*(each for each in given if isinstance(each, Left)), *foreign]
     left = tuple((each.named.place, each.why) for each in apart)
     _check(used, left)
@@ -41,8 +39,10 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
     layout = layout_of(spec)
     fit = joint_fit(layout, logs)
     found = judged(layout, fit, logs, at)
-    findings = [*_drifting(found, logs), *_apart(found, logs)]
+    findings = _findings(found, logs)
     machines = _machines(logs)
+    gone = dict.fromkeys(e.named.machine for e in apart if e.named.machine not in machines)
+    unseen = [f"{name}: none of its logs could be used: nothing is known of it" for name in gone]
     return Fleet(
         robot=spec.robot,
         unit=unit,
@@ -53,7 +53,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
         aside=fit.aside,
         left=left,
         doubts=tuple(f"{e.named.machine}, {e.named.period}: {d}" for e in logs for d in e.doubts),
-        notes=(*_processed(used[0]), *_notes(found, logs), *said, *_unseen(apart, machines)),
+        notes=(*_processed(used[0]), *_notes(found, logs), *said, *unseen),
     )
 
 
@@ -70,18 +70,15 @@ def _check(used: Sequence[LogSummary], left: Sequence[tuple[str, str]]) -> None:
         )
     for k, each in enumerate(used):
         for other in used[:k]:
-            if (
-                each.content
-                and each.content == other.content
-                and (each.span[0] <= other.span[1] and other.span[0] <= each.span[1])
-            ):
+            overlap = each.span[0] <= other.span[1] and other.span[0] <= each.span[1]
+            if each.content and each.content == other.content and overlap:
                 raise DataError(
                     f"{each.named.place}: got rows of {other.named.place} again; expected each row "
                     "once; leave one of the two out"
                 )
 
 
-def _drifting(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFinding]:
+def _findings(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFinding]:
     findings = []
     for (m, i), move in found.moves.items():
         own, quantity = found.known(m, i), found.quantities[i]
@@ -91,36 +88,30 @@ def _drifting(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFi
             ([logs[k] for k in found.known(other, i)], found.values[found.known(other, i), i])
             for other in (m, *(o for o in range(found.machines) if o != m))
         ]
-        line = line_of(move, found.at[own])
         findings.append(
             FleetFinding(
                 machine=logs[own[0]].named.machine,
                 quantity=quantity,
                 shape=move.shape,
                 begin=periods[move.begin],
-                end=periods[-1] if trend else periods[move.begin],
+                end=periods[-1 if trend else move.begin],
                 length=float(found.at[own[-1]] - found.at[own[0]]) if trend else 0.0,
                 before=move.level,
                 change=move.change,
                 sigma=move.sigma,
                 score=move.score,
                 chance=move.chance,
-                warmth=warmth_of(both[0], quantity.joint, line, both[1:]),
+                warmth=warmth_of(both[0], quantity.joint, line_of(move, found.at[own]), both[1:]),
                 since=len(own) - move.begin,
             )
         )
-    return findings
-
-
-def _apart(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFinding]:
-    findings = []
     for (m, i), odd in found.odd.items():
-        own, quantity = found.known(m, i), found.quantities[i]
+        own = found.known(m, i)
         mean = float(np.average(found.values[own, i], weights=found.sigmas[own, i] ** -2.0))
         findings.append(
             FleetFinding(
                 machine=logs[own[0]].named.machine,
-                quantity=quantity,
+                quantity=found.quantities[i],
                 shape="odd machine",
                 begin=logs[own[0]].named.period,
                 end=logs[own[-1]].named.period,
@@ -130,7 +121,6 @@ def _apart(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[FleetFindi
                 sigma=odd.spread,
                 score=odd.score,
                 chance=0.5 * FALSE_ALARM,
-                warmth=None,
                 since=len(own),
             )
         )
@@ -143,13 +133,13 @@ def _followed(found: JudgedQuantity, logs: Sequence[LogSummary]) -> tuple[Follow
         machines, scores = {}, {}
         for m in range(found.machines):
             own = found.known(m, i)
-            if (m, i) in found.scores:
-                scores[logs[own[0]].named.machine] = found.scores[m, i]
             if len(own):
+                name = logs[own[0]].named.machine
                 sigmas = found.scatters[i].sigmas(found.series(m, i))
                 names = tuple(logs[k].named.period for k in own)
-                values = Values(found.at[own], names, found.values[own, i], sigmas)
-                machines[logs[own[0]].named.machine] = values
+                machines[name] = Values(found.at[own], names, found.values[own, i], sigmas)
+                if (m, i) in found.scores:
+                    scores[name] = found.scores[m, i]
         known = found.values[np.isfinite(found.values[:, i]), i]
         level = float(np.median(known)) if known.size else float("nan")
         factor = found.scatters[i].factor
@@ -166,12 +156,6 @@ def _processed(first: LogSummary) -> list[str]:
         f"all logs are filtered alike, as chosen from {first.named.place}: positions below "
         f"{position:.4g} Hz, torques and columns below {chosen.parallel_cutoff:.4g} Hz"
     ]
-
-
-def _unseen(left: Sequence[Left], machines: dict[str, tuple[str, ...]]) -> list[str]:
-    """Machines of which no log was used."""
-    gone = dict.fromkeys(e.named.machine for e in left if e.named.machine not in machines)
-    return [f"{name}: none of its logs could be used: nothing is known of it" for name in gone]
 
 
 def _machines(logs: Sequence[LogSummary]) -> dict[str, tuple[str, ...]]:
@@ -200,3 +184,57 @@ def _notes(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[str]:
     if blind:
         said.append(f"{', '.join(blind)}: no log tells it from the other parameters")
     return said
+
+
+FAR = 5.0
+"""Times by which a machine's sigmas exceed those of the others, from which it is told."""
+
+FEW = 5
+"""Changes from period to period below which the scatter of a quantity is not known by them."""
+
+
+def not_seen(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[str]:
+    """A sentence on each machine that would hide a drift which the others would show."""
+    names = list(dict.fromkeys(each.named.machine for each in logs))
+    sigmas = np.array([[_sigma(found, m, i) for i in range(len(found.quantities))]
+                       for m in range(found.machines)])  # fmt: skip
+    said = []
+    for m, name in enumerate(names):
+        hidden = []
+        for i, quantity in enumerate(found.quantities):
+            others = np.delete(sigmas[:, i], m)
+            others = others[np.isfinite(others)]
+            if quantity.effect == LOAD or not others.size:
+                continue
+            times = sigmas[m, i] / float(np.median(others))
+            if times > FAR:
+                count = f"{times:.2g} times" if np.isfinite(times) else "not at all"
+                hidden.append(f"{quantity.parameter} ({count})")
+        if hidden:
+            said.append(
+                f"machine {name}: its logs tell {', '.join(hidden)} far worse than those of the "
+                "others do (times their sigma): a drift that would be found there may hide here; "
+                "record a motion like theirs"
+            )
+    return said
+
+
+def _sigma(found: JudgedQuantity, m: int, i: int) -> float:
+    """Usual sigma of one log; infinite if none tells it, NaN of gains that a load stands for."""
+    own = found.known(m, i)
+    if own.size:
+        return float(np.median(found.sigmas[own, i]))
+    load = found.quantities[i].column < 0 and found.loaded is not None and m in found.loaded
+    return float("nan") if load else float("inf")
+
+
+def scatter_known(found: JudgedQuantity, logs: int) -> list[str]:
+    """A sentence if the scatter from period to period comes from few changes."""
+    count = max(sum(len(found.series(m, i).changes) for m in range(found.machines))
+                for i in range(len(found.quantities)))  # fmt: skip
+    if count >= FEW or logs == found.machines:
+        return []
+    return [
+        f"{logs} logs: too few to know how values scatter from one period to the next; a drift "
+        "must be large to be told, and that nothing drifts says little; record more periods"
+    ]

@@ -192,9 +192,6 @@ def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> FleetFit:
         )
     sigmas = [least_squares(each.data).sigma for each in summaries]
     scale = np.ones((len(summaries), len(summaries[0].data.rows)))
-    aside: tuple[str, ...] = ()
-    theta = np.zeros(len(layout.common))
-    logs: tuple[LogFit, ...] = ()
     for _ in range(_ROUNDS):
         theta, aside = _common(layout, summaries, sigmas, scale)
         blocks = _gain_blocks(layout, theta, scale.shape[1])
@@ -206,15 +203,18 @@ def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> FleetFit:
         if np.allclose(updated, scale, rtol=0.0, atol=1e-6):
             break
         scale = updated
-    loaded = _loaded(layout, summaries, sigmas, theta)
+    loaded: tuple[LogFit, ...] = ()
+    if layout.load.shape[1]:  # every log with a load in place of gains
+        blocks = [np.column_stack([_units(layout), layout.load])] * scale.shape[1]
+        loaded = tuple(
+            _log_fit(layout, each, own, theta, blocks)
+            for each, own in zip(summaries, sigmas, strict=True)
+        )
     return FleetFit(theta, aside, logs, loaded)
 
 
 def _common(
-    layout: Layout,
-    summaries: Sequence[LogSummary],
-    sigmas: Sequence[np.ndarray],
-    scale: np.ndarray,
+    layout: Layout, summaries: Sequence[LogSummary], sigmas: Sequence[np.ndarray], scale: np.ndarray
 ) -> tuple[np.ndarray, tuple[str, ...]]:
     """Theta (c,) of all logs with their friction and offsets eliminated, and what is set aside."""
     if not layout.common.any():
@@ -254,11 +254,7 @@ def _units(layout: Layout) -> np.ndarray:
 
 
 def _log_fit(
-    layout: Layout,
-    each: LogSummary,
-    sigma: np.ndarray,
-    theta: np.ndarray,
-    blocks: Blocks,
+    layout: Layout, each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blocks
 ) -> LogFit:
     """Least squares of one log beside theta."""
     own = sigma
@@ -282,11 +278,11 @@ def _solved(
     each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blocks
 ) -> tuple[list[int], np.ndarray, np.ndarray, np.ndarray]:
     """Columns that can be told, their values, a root of (Z^T Z)^-1, and (n,) ||r_j||."""
-    parts = []
-    for j, R in enumerate(each.data.triangles):
-        parts.append(np.column_stack([R[:, :-1] @ blocks[j], R[:, -1] - R[:, :-1] @ theta]))
-    weighted = [part / s for part, s in zip(parts, sigma, strict=True)]
-    whole = triangle(np.vstack(weighted))
+    parts = [
+        np.column_stack([R[:, :-1] @ block, R[:, -1] - R[:, :-1] @ theta])
+        for R, block in zip(each.data.triangles, blocks, strict=True)
+    ]
+    whole = triangle(np.vstack([part / s for part, s in zip(parts, sigma, strict=True)]))
     names = [str(i) for i in range(whole.shape[1] - 1)]
     kept = list(independent_columns(whole[:, :-1], names).kept)
     if not kept:
@@ -311,20 +307,3 @@ def _scales(layout: Layout, logs: Sequence[LogFit], shape: tuple[int, int]) -> n
         out = seen & (np.abs(apart) > _STANDS_OUT * sigma[:, i])
         scale[out, place] = np.maximum(1.0 + apart[out], 0.1)
     return scale
-
-
-def _loaded(
-    layout: Layout,
-    summaries: Sequence[LogSummary],
-    sigmas: Sequence[np.ndarray],
-    theta: np.ndarray,
-) -> tuple[LogFit, ...]:
-    """Every log with a load in place of gains."""
-    if not layout.load.shape[1]:
-        return ()
-    block = np.column_stack([_units(layout), layout.load])
-    blocks = [block] * len(summaries[0].data.rows)
-    return tuple(
-        _log_fit(layout, each, own, theta, blocks)
-        for each, own in zip(summaries, sigmas, strict=True)
-    )

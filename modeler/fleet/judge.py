@@ -105,8 +105,7 @@ def judged(
     gains = [i for i, each in enumerate(found.quantities) if each.effect == GAIN]
     others = [i for i, each in enumerate(found.quantities) if each.effect != GAIN]
     found = _without_gains(_tested(found, gains))
-    found = _tested(dataclasses.replace(found, scatters=_scatters(found)), others)
-    return found
+    return _tested(dataclasses.replace(found, scatters=_scatters(found)), others)
 
 
 def _arrays(layout: Layout, fit: FleetFit) -> tuple[np.ndarray, np.ndarray]:
@@ -114,8 +113,8 @@ def _arrays(layout: Layout, fit: FleetFit) -> tuple[np.ndarray, np.ndarray]:
     values = np.array([log.values for log in fit.logs])
     sigmas = np.array([log.sigmas for log in fit.logs])
     first = len(layout.columns)
-    values[:, first:] *= 100.0
-    sigmas[:, first:] *= 100.0
+    for array in (values, sigmas):
+        array[:, first:] *= 100.0
     if fit.loaded:
         values = np.column_stack([values, [log.values[first] for log in fit.loaded]])
         sigmas = np.column_stack([sigmas, [log.sigmas[first] for log in fit.loaded]])

@@ -1,18 +1,18 @@
 """What a fleet shows: findings, and the values behind them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.core.json import nulled
+from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
+from modeler.core.table import aligned, percent
 from modeler.effects.catalogue import CATALOGUE, effect_named
 from modeler.fleet.drift import Unit
 from modeler.fleet.joint_fit import GAIN, LOAD, Quantity
-from modeler.validation.comparison import aligned
 
 
 @dataclass(frozen=True)
@@ -162,61 +162,50 @@ class Fleet(Presented):
             "robot": self.robot,
             "verdict": self.verdict,
             "time": self.unit,
-            "logs": self.logs,
-            "machines": {name: list(periods) for name, periods in self.machines.items()},
+            **entries(self, "logs machines"),
             "findings": [_finding(found) | {"sentence": sentence(found, self.unit)}
                          for found in self.findings],
             "quantities": [_followed(each) for each in self.followed],
             "false_alarm": self.false_alarm,
-            "not_told": list(self.aside),
+            "not_told": self.aside,
             "left_out": [{"log": place, "why": why} for place, why in self.left],
-            "doubts": list(self.doubts),
-            "notes": list(self.notes),
+            **entries(self, "doubts notes"),
         })  # fmt: skip
+
+
+_QUANTITY = "effect joint parameter unit"
 
 
 def _finding(found: FleetFinding) -> dict[str, Any]:
     warmth = found.warmth
     return {
         "machine": found.machine,
-        "effect": found.quantity.effect,
-        "joint": found.quantity.joint,
-        "parameter": found.quantity.parameter,
-        "unit": found.quantity.unit,
+        **entries(found.quantity, _QUANTITY),
         "shape": found.shape,
         "from": found.begin,
         "to": found.end,
         "periods_since": found.since,
-        "before": found.before,
-        "change": found.change,
+        **entries(found, "before change"),
         "change_percent": found.percent,
-        "sigma": found.sigma,
-        "score": found.score,
-        "chance": found.chance,
-        "temperature": None if warmth is None else {
-            "lowest": warmth.lowest, "highest": warmth.highest,
-            "correlation": warmth.correlation, "moves_along": warmth.along,
-            "others_alike": warmth.shared,
+        **entries(found, "sigma score chance"),
+        "temperature": warmth and {
+            **entries(warmth, "lowest highest correlation"),
+            "moves_along": warmth.along, "others_alike": warmth.shared,
         },
     }  # fmt: skip
 
 
 def _followed(each: Followed) -> dict[str, Any]:
     return {
-        "effect": each.quantity.effect,
-        "joint": each.quantity.joint,
-        "parameter": each.quantity.parameter,
-        "unit": each.quantity.unit,
+        **entries(each.quantity, _QUANTITY),
         "level": each.level,
         "scatter_factor": each.factor,
         "would_be_told": each.told,
         "machines": {
-            name: {"periods": list(own.periods), "at": own.at,
-                   "values": own.values, "sigmas": own.sigmas,
-                   "score": each.scores.get(name)}
+            name: entries(own, "periods at values sigmas") | {"score": each.scores.get(name)}
             for name, own in each.machines.items()
         },
-    }  # fmt: skip
+    }
 
 
 # What a fleet shows, in words and as tables of text.
@@ -240,24 +229,23 @@ def sentence(found: FleetFinding, unit: Unit) -> str:
     )
     named = effect_title(quantity) + ("" if quantity.column < 0 else f" ({quantity.parameter})")
     line = f"{where}: {named} {_happens(found, unit)}"
-    return line + _warmth(found.warmth)
-
-
-def _warmth(warmth: Warmth | None) -> str:
+    warmth = found.warmth
     if warmth is None or not warmth.along:
-        return ""
-    told = (
-        f"; the temperature of the logs moves along, {warmth.lowest:.4g} to {warmth.highest:.4g} "
-        f"(correlation {warmth.correlation:.2f})"
-    )
+        return line
+    cause = "and may be the cause: compare periods of one temperature"
     if warmth.shared is False:
-        return f"{told}, but machines that warm alike do not change so"
-    return f"{told}, and may be the cause: compare periods of one temperature"
+        cause = "but machines that warm alike do not change so"
+    return (
+        f"{line}; the temperature of the logs moves along, {warmth.lowest:.4g} to "
+        f"{warmth.highest:.4g} (correlation {warmth.correlation:.2f}), {cause}"
+    )
 
 
 def _happens(found: FleetFinding, unit: Unit) -> str:
     up = found.change > 0.0
-    size = _size(found)
+    size = f"{abs(found.change):.3g} {found.quantity.unit}"
+    if found.percent is not None:
+        size = percent(0.01 * abs(found.percent))
     after = f"{found.before:.4g} to {found.before + found.change:.4g} {found.quantity.unit}"
     if found.shape == "odd machine":
         side = "above" if up else "below"
@@ -266,22 +254,12 @@ def _happens(found: FleetFinding, unit: Unit) -> str:
         verb = "rises" if up else "falls"
         span = f"{found.length:.3g} {unit}"
         return f"{verb} by {size} over {span}, from {after} ({abs(found.score):.1f} sigma)"
+    stays = " and is back after it"
+    if found.shape == "jump":  # of the time after a leap in the last period nothing is known
+        told = ", the last period (whether it stays is not known)"
+        stays = " and stays" if found.since > 1 else told
     verb = "leaps up" if up else "leaps down"
-    told = f"from {after} ({abs(found.score):.1f} sigma)"
-    return f"{verb} by {size} at {found.begin}{_stays(found)}, {told}"
-
-
-def _stays(found: FleetFinding) -> str:
-    """What is known of the time after a leap: of one in the last period, nothing."""
-    if found.shape != "jump":
-        return " and is back after it"
-    return " and stays" if found.since > 1 else ", the last period (whether it stays is not known)"
-
-
-def _size(found: FleetFinding) -> str:
-    if found.percent is None:
-        return f"{abs(found.change):.3g} {found.quantity.unit}"
-    return f"{abs(found.percent):.3g} %"
+    return f"{verb} by {size} at {found.begin}{stays}, from {after} ({abs(found.score):.1f} sigma)"
 
 
 def headline_of(found: Fleet) -> tuple[str, str]:
@@ -304,9 +282,14 @@ def fleet_lines(found: Fleet) -> list[str]:
     lines += ["", *aligned(rows_of(found), (0, 1)), ""]
     lines.append(
         "told: the smallest straight drift over all periods that would be a finding; chance of any "
-        f"finding where nothing drifts: {100 * found.false_alarm:.2g} %"
+        f"finding where nothing drifts: {percent(found.false_alarm)}"
     )
-    lines += [*found.notes, *_gain_note(found)]
+    lines += found.notes
+    if any(one.quantity.effect == GAIN for one in found.findings):
+        lines.append(
+            "a drive gain above the others: the logged torque (current times gain) is more than "
+            "the motion needs, as with a weaker magnet, or a torque sensor that reads too much"
+        )
     lines += left_lines(found)
     if found.aside:
         lines.append(f"not told by any log, taken as 0: {', '.join(found.aside)}")
@@ -318,29 +301,17 @@ def left_lines(found: Fleet) -> list[str]:
     return [f"left out: {why if place in why else f'{place}: {why}'}" for place, why in found.left]
 
 
+HEAD = "joint, effect, parameter, level, unit, scatter, told"
+"""Of the table of what was looked at."""
+
+
 def rows_of(found: Fleet) -> list[list[str]]:
     """Header, and a row for each quantity."""
-    head = ["joint", "effect", "parameter", "level", "unit", "scatter", "told"]
-    return [head, *(_row(each) for each in found.followed)]
-
-
-def _row(each: Followed) -> list[str]:
-    quantity = each.quantity
-    return [
-        quantity.joint or "-",
-        effect_title(quantity),
-        quantity.parameter,
-        f"{each.level:.4g}" if each.level == each.level else "-",
-        quantity.unit,
-        f"{each.factor:.2f}",
-        "-" if each.told is None else f"{each.told:.2g}",
-    ]
-
-
-def _gain_note(found: Fleet) -> Sequence[str]:
-    if not any(one.quantity.effect == GAIN for one in found.findings):
-        return ()
-    return (
-        "a drive gain above the others: the logged torque (current times gain) is more than the "
-        "motion needs, as with a weaker magnet, or a torque sensor that reads too much",
-    )
+    return [HEAD.split(", "), *(
+        [
+            each.quantity.joint or "-", effect_title(each.quantity), each.quantity.parameter,
+            f"{each.level:.4g}" if each.level == each.level else "-", each.quantity.unit,
+            f"{each.factor:.2f}", "-" if each.told is None else f"{each.told:.2g}",
+        ]
+        for each in found.followed
+    )]  # fmt: skip

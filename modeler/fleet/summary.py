@@ -116,7 +116,11 @@ def summary(
         raise DataError(f"{log.name}: {len(y)} rows for {W.shape[1]} parameters; record more")
     free = [j for j, each in enumerate(observation.joints) if not each.actuated]
     data = compress(W, y, joint, len(observation.joints), observation.names, free)
-    _check_fits(model, observation, data, named.place)
+    result = identify(observation, "weighted", model)
+    faults = faults_of_fit(model, observation, result.beta)
+    against = contradictions(model, observation, result, faults, data)
+    if against:  # certainly not usable: its deviations would say anything
+        raise DataError(f"{named.place}: does not fit {model.spec.robot}: {against[0]}")
     residual = y - W @ least_squares(data).beta
     doubts = [f"joint {observation.joints[j].name}: its torque is 0 throughout" for j in dead]
     return LogSummary(
@@ -126,22 +130,15 @@ def summary(
         samples=len(observation.time),
         data=data,
         repeats=_repeats(observation, W, joint, observation.row_sample[alive], residual),
-        temperatures=_temperatures(log),
+        temperatures={
+            name.removeprefix(TEMPERATURE): float(np.mean(values))
+            for name, values in log.extra.items()
+            if name.startswith(TEMPERATURE)
+        },
         processing=observation.report.processing,
         doubts=(*observation.report.doubts(), *doubts),
         beyond=_joints_beyond(log.extra),
     )
-
-
-def _check_fits(
-    model: CompiledModel, observation: Observation, data: Compressed, place: str
-) -> None:
-    """Refuses a log whose own fit is certainly not usable: its deviations would say anything."""
-    result = identify(observation, "weighted", model)
-    told = faults_of_fit(model, observation, result.beta)
-    against = contradictions(model, observation, result, told, data)
-    if against:
-        raise DataError(f"{place}: does not fit {model.spec.robot}: {against[0]}")
 
 
 def _repeats(
@@ -158,14 +155,6 @@ def _repeats(
             r = remembered(observation, residual[own], sample[own])
             found[j] = repeated_whole(W[own], r, sample[own], observation.segment)
     return found
-
-
-def _temperatures(log: Log) -> dict[str, float]:
-    return {
-        name.removeprefix(TEMPERATURE): float(np.mean(values))
-        for name, values in log.extra.items()
-        if name.startswith(TEMPERATURE)
-    }
 
 
 def _joints_beyond(columns: Iterable[str]) -> tuple[str, ...]:

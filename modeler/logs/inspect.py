@@ -11,6 +11,7 @@ from modeler.core.errors import DataError
 from modeler.core.json import nulled
 from modeler.core.manifest import JointSpec
 from modeler.core.result import Presented
+from modeler.core.table import percent
 from modeler.logs.columns import Stream
 from modeler.logs.guess import Guess, absent_roles, guesses, log_text, unlike_si
 from modeler.logs.log_table import LogTable
@@ -433,5 +434,5 @@ def _of_clock(clock: Clock | None) -> list[str]:
             f"{clock.largest:.4g} s at {clock.at:.4g} s"
         )
     if clock.jitter > max(_JITTER, clock.tick * clock.rate):
-        lines.append(f"{clock.column} is uneven: its steps differ by {clock.jitter:.0%}")
+        lines.append(f"{clock.column} is uneven: its steps differ by {percent(clock.jitter)}")
     return lines

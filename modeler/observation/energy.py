@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.core.table import percent
 from modeler.observation.low_speed import signals_of
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
@@ -161,7 +162,7 @@ def _check_window(observation: Observation, window: float | None) -> None:
 def _none(observation: Observation) -> str:
     """Which joints leave no window whole."""
     bad = [
-        f"joint {joint.name} has {share:.0f} % of its samples"
+        f"joint {joint.name} has {percent(share)} of its samples"
         for joint, share in zip(observation.joints, _shares(observation), strict=True)
     ]
     return (
@@ -173,7 +174,7 @@ def _none(observation: Observation) -> str:
 
 def _shares(observation: Observation) -> np.ndarray:
     valid = np.concatenate([part.segment.valid for part in observation.stretches])
-    return np.asarray(100.0 * valid.mean(axis=0))
+    return np.asarray(valid.mean(axis=0))
 
 
 def weights(intervals: int, step: float, rule: Rule) -> np.ndarray:

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.table import percent
+
 IDLE = 1e-12
 """A column this much smaller than the largest, each measured in its own torque, is idle."""
 
@@ -127,7 +129,7 @@ class Ringing:
     def sentence(self, name: str) -> str:
         """For the report."""
         return (
-            f"joint {name} rings at {self.frequency:.3g} Hz, with {100.0 * self.share:.2g} % of "
+            f"joint {name} rings at {self.frequency:.3g} Hz, with {percent(self.share)} of "
             "its velocity's energy, far above its motion; the cut-offs are chosen without it, and "
             "friction looks smoother than it is: look at the controller's gains"
         )

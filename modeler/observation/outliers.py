@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from modeler.core.manifest import ModuleSpec
+from modeler.core.table import percent
 from modeler.numerics.noise import (
     LEAST,
     NEAR,
@@ -547,7 +548,7 @@ def _size(channel: _Channel, same: Sequence[Found]) -> str:
 def _lost(log: Log | Whose, same: Sequence[Found]) -> str:
     count = sum(one.stop - one.start for one in same)
     samples = f"{count} sample{'s' if count > 1 else ''}"
-    return f"{samples} ({100.0 * count / log.rows:.2g} % of the rows) not used"
+    return f"{samples} ({percent(count / log.rows)} of the rows) not used"
 
 
 def _wrap(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:

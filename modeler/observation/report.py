@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from modeler.core.brief import Brief
 from modeler.core.result import Presented
+from modeler.core.table import percent
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
 from modeler.observation.outliers import Damage
 from modeler.observation.processing import Processing
@@ -74,7 +75,7 @@ class LogReport(Brief):
             text.append(f"  {self.pieces} pieces{gap}; no filter runs across their ends")
         if self.resampled and self.jitter > JITTER:  # else a few rows were bridged
             text.append(
-                f"  time steps vary by up to {100.0 * self.jitter:.3g} %: {self.resampled} of "
+                f"  time steps vary by up to {percent(self.jitter)}: {self.resampled} of "
                 f"{self.pieces} pieces resampled on a uniform grid"
             )
         if self.short:
@@ -153,7 +154,7 @@ class JointReport(Brief):
         if self.speed_floor is None:
             return f"joint {self.name}: {self.used} rows"
         return (
-            f"joint {self.name}: {self.used} rows; {100.0 * self.slow:.3g} % of the samples masked "
+            f"joint {self.name}: {self.used} rows; {percent(self.slow)} of the samples masked "
             f"below {self.speed_floor:.3g} {self.unit}, where the sign of the speed is "
             "doubtful"
         )
@@ -166,11 +167,11 @@ class JointReport(Brief):
             if self.speed_floor in (None, float("inf")):
                 return "never moves, so its friction cannot be told and none of its rows is used"
             return (
-                f"0 rows; {100.0 * self.slow:.3g} % of the samples masked below "
+                f"0 rows; {percent(self.slow)} of the samples masked below "
                 f"{self.speed_floor:.3g} {self.unit}: it hardly moves, or the time column is not "
                 "in seconds"
             )
-        return f"0 rows; {100.0 * self.lost[cause] / self.samples:.3g} % of its samples {cause}"
+        return f"0 rows; {percent(self.lost[cause] / self.samples)} of its samples {cause}"
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ import numpy as np
 from modeler.codegen.derivation import Derivation, derive, generate
 from modeler.core.builtin import builtin_text
 from modeler.core.expression import parse
+from modeler.core.table import percent
 from modeler.estimation.two_step import Directions
 from modeler.estimation.two_step_result import TwoStepFit, identify_in_two_steps
 from modeler.formulas.physical_system import physical_system
@@ -148,7 +149,7 @@ def _one_step(steps: TwoStepFit) -> MethodTable:
         Row("parameters found", "-", f"{known[0]} in two steps, {known[1]} in one", Outcome.SHOWN,
             "joints that stand with dry friction tell nothing of J12"),
         Row("relative error of the torques", "-",
-            f"{100 * two.relative_error:.2f} % in two steps, {100 * one.relative_error:.2f} % in "
+            f"{percent(two.relative_error)} in two steps, {percent(one.relative_error)} in "
             "one", Outcome.SHOWN),
     ]  # fmt: skip
     return MethodTable("Two steps beside one step", (), tuple(rows))

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from modeler.core.errors import RobotError
+from modeler.core.table import percent
 from modeler.papers import Paper
 from modeler.papers.quotation import numbers_of
 
@@ -79,12 +80,12 @@ def recovered(name: str, printed: str, truth: float, value: float, sigma: float)
     """
     z = (value - truth) / sigma if sigma > 0.0 else float("inf")
     share = sigma / abs(value) if value else float("inf")
-    text = f"{value:.5g} +- {sigma:.2g} ({100 * share:.3g} %)"
+    text = f"{value:.5g} +- {sigma:.2g} ({percent(share)})"
     why = f"{truth:.5g}, {z:+.1f} sigma"
     if abs(z) >= ZMAX:
         return Row(name, printed, text, Outcome.FAILED, why)
     if share > LARGEST:
-        return Row(name, printed, text, Outcome.UNDETERMINED, f"sigma {100 * share:.3g} %; {why}")
+        return Row(name, printed, text, Outcome.UNDETERMINED, f"sigma {percent(share)}; {why}")
     return Row(name, printed, text, Outcome.RECOVERED, why)
 
 

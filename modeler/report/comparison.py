@@ -7,29 +7,18 @@ from pathlib import Path
 
 from modeler.core.figure import Picture
 from modeler.core.table import percent
-from modeler.report.figure_page import write_files
-from modeler.report.page import (
+from modeler.report.blocks import (
     Figure,
     Items,
     JudgedLine,
-    Origin,
-    Page,
     PageCell,
     PageTable,
     Paragraph,
-    Section,
     Verdicts,
-    page,
-    write_page,
 )
-from modeler.validation.comparison import (
-    Comparison,
-    JointComparison,
-    by_log,
-    method_lines,
-    or_dash,
-    share_text,
-)
+from modeler.report.figure_page import write_files
+from modeler.report.page import Origin, Page, Section, page, write_page
+from modeler.validation.comparison import Comparison, JointComparison, by_log, method_lines, or_dash
 from modeler.validation.models import DOUBT, Contest, JointContest, contest_sentences, headline_of
 from modeler.validation.pictures import overlay_picture, overview_picture, residual_picture
 from modeler.validation.time_picture import time_picture
@@ -40,7 +29,6 @@ from modeler.validation.verdict import (
     joint_verdict,
     kind_of_residual,
     looks_like_noise,
-    rounded_percent,
     wrong_scale,
 )
 
@@ -107,22 +95,12 @@ def _fact(found: Contest, k: int) -> str:
 
 
 def _model_sections(found: Contest) -> list[Section]:
-    sections = [
-        Section(
-            "Verdict",
-            [
-                Items([("", line) for line in contest_sentences(found)]),
-                _errors(found),
-                _sizes(found),
-            ],
-        )
-    ]
-    sections += [
+    said = Items([("", line) for line in contest_sentences(found)])
+    return [Section("Verdict", [said, _errors(found), _sizes(found)])] + [
         Section(f"Joint {item.joint.name}", [Figure(_picture(found, item), titled=False)],
                 f"joint-{item.joint.name}")
         for item in found.joints
     ]  # fmt: skip
-    return sections
 
 
 def _picture(found: Contest, item: JointContest) -> Picture:
@@ -134,26 +112,26 @@ def _errors(found: Contest) -> PageTable:
     top = max((e for item in found.joints for e in item.errors), default=0.0) or 1.0
     rows: list[list[str | PageCell]] = [
         [
-            PageCell(item.joint.name, "text", link=f"joint-{item.joint.name}"),
-            *(PageCell(percent(e), "bar", e / top) for e in item.errors),
-            PageCell("-" if item.best is None else found.names[item.best], "text"),
+            PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
+            *(PageCell(percent(e), e / top) for e in item.errors),
+            "-" if item.best is None else found.names[item.best],
             f"{item.chance:.2g}" if item.chance >= 1e-6 else "under 1e-6",
         ]
         for item in found.joints
     ]
     return PageTable(
-        ["joint", *(PageCell(name, "bar") for name in found.names),
-         PageCell("best beyond doubt", "text"), "chance"],
+        ["joint", *found.names, "best beyond doubt", "chance"],
         rows,
         "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
         "measured, each joint by itself, on the rows that count for every model. Chance: that the "
         "best and its nearest rival are equally good, from the spread of the difference between "
-        f"blocks of time; beyond doubt is less than {100 * DOUBT:.2g} %, shared among the rivals.",
-    )  # fmt: skip
+        f"blocks of time; beyond doubt is less than {percent(DOUBT)}, shared among the rivals.",
+        dict.fromkeys(found.names, "bar") | {"best beyond doubt": "text"},
+    )
 
 
 def _sizes(found: Contest) -> PageTable:
-    rows: list[list[str | PageCell]] = [
+    rows = [
         [item.joint.name, *(f"{rms:.3g} {item.joint.effort_unit}" for rms in item.rms)]
         for item in found.joints
     ]
@@ -165,10 +143,8 @@ def _sizes(found: Contest) -> PageTable:
 
 def joint_pictures(comparison: Comparison, item: JointComparison) -> tuple[Picture, ...]:
     """The pictures of one joint: against time, then against each coordinate."""
-    return (
-        time_picture(comparison.prediction, item),
-        residual_picture(comparison.prediction, item),
-    )
+    found = comparison.prediction
+    return time_picture(found, item), residual_picture(found, item)
 
 
 def all_pictures(comparison: Comparison) -> tuple[Picture, ...]:
@@ -202,9 +178,8 @@ _REGION_PHRASES = {
     "fast +": "fast in the positive direction",
 }
 _HEAD = (
-    "joint", PageCell("relative error", "bar"), "rms residual", "sigma", "rms measured",
-    "largest residual", PageCell("at", "text"), "R\u00b2", "repeatable", "noise", "mean residual",
-    "samples",
+    "joint", "relative error", "rms residual", "sigma", "rms measured", "largest residual", "at",
+    "R\u00b2", "repeatable", "noise", "mean residual", "samples",
 )  # fmt: skip
 
 
@@ -248,7 +223,13 @@ def _sheet(
         origin=origin or Origin(prediction.robot, prediction.logs),
         facts=_facts(comparison),
         next=following,
-        provenance=(*_facts_on_data(comparison), *provenance),
+        provenance=(
+            f"Robot: {prediction.robot}.",
+            f"Logs: {', '.join(prediction.logs)}.",
+            f"Samples: {comparison.samples} of {prediction.time.size} count for at least one "
+            "joint; filtered alike on both sides, never differenced across a gap.",
+            *provenance,
+        ),
         command="compare",
     )
 
@@ -262,11 +243,16 @@ def _sections(comparison: Comparison) -> list[Section]:
         "what was measured, each joint by itself, over the samples that count. R\u00b2 compares "
         "with the best constant. Sigma is the rms standard deviation of the prediction by the "
         "covariance of the fit. " + method,
+        {"relative error": "bar", "at": "text"},
     )
     found = [Section("Verdict", [Verdicts(_judged(comparison)), table, *_log_table(comparison)])]
     if comparison.joints:
         found.append(Section("All joints", [Figure(overview_picture(comparison), titled=False)]))
-    return [*found, *(_joint_section(comparison, item) for item in comparison.joints)]
+    for item in comparison.joints:
+        pictures = [Figure(picture) for picture in joint_pictures(comparison, item)]
+        name, said = item.joint.name, Paragraph(joint_verdict(item))
+        found.append(Section(f"Joint {name}", [said, *pictures], f"joint-{name}"))
+    return found
 
 
 def _facts(comparison: Comparison) -> list[tuple[str, str]]:
@@ -282,7 +268,7 @@ def _facts(comparison: Comparison) -> list[tuple[str, str]]:
 
 def _how_good(joints: tuple[JointComparison, ...]) -> str:
     below = sum(item.relative_error < 0.1 for item in joints)
-    middle = rounded_percent(statistics.median(item.relative_error for item in joints))
+    middle = percent(statistics.median(item.relative_error for item in joints))
     text = f"{below} of {len(joints)} joints are within 10 %; the middle one is at {middle}."
     defined = [item for item in joints if not math.isnan(item.r2)]
     if defined:
@@ -296,9 +282,9 @@ def _where(joints: tuple[JointComparison, ...]) -> str:
     window = worst.worst
     region = max(worst.regions, key=lambda part: part.energy_share - part.time_share)
     return (
-        f"Most on joint {worst.joint.name} ({rounded_percent(worst.relative_error)}): "
-        f"{rounded_percent(region.energy_share)} of its squared residual while "
-        f"{_REGION_PHRASES[region.name]} ({rounded_percent(region.time_share)} of the samples); "
+        f"Most on joint {worst.joint.name} ({percent(worst.relative_error)}): "
+        f"{percent(region.energy_share)} of its squared residual while "
+        f"{_REGION_PHRASES[region.name]} ({percent(region.time_share)} of the samples); "
         f"worst at {window.start:.2f}-{window.end:.2f} s of {window.log}."
     )
 
@@ -315,21 +301,11 @@ def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
             named.append((pattern[1], f"joint {item.joint.name} follows {pattern[0].phrase}"))
     if named:
         named.sort(reverse=True)
-        listed = "; ".join(f"{text} ({rounded_percent(share)})" for share, text in named[:3])
+        listed = "; ".join(f"{text} ({percent(share)})" for share, text in named[:3])
         return f"Yes, on {len(named)} of {len(joints)} joints: {listed}."
     if all(looks_like_noise(item) for item in joints):
         return "No: the residual of every joint looks like noise."
     return "No pattern in the joints' motion, but not all of it is noise: see below."
-
-
-def _facts_on_data(comparison: Comparison) -> list[str]:
-    prediction = comparison.prediction
-    lines = [f"Robot: {prediction.robot}.", f"Logs: {', '.join(prediction.logs)}."]
-    lines.append(
-        f"Samples: {comparison.samples} of {prediction.time.size} count for at least one joint; "
-        "filtered alike on both sides, never differenced across a gap."
-    )
-    return lines
 
 
 def _judged(comparison: Comparison) -> list[JudgedLine]:
@@ -349,16 +325,16 @@ def _table_row(item: JointComparison, comparison: Comparison) -> list[str | Page
     top = max(other.relative_error for other in comparison.joints)
     share = item.relative_error / top if top else 0.0
     return [
-        PageCell(item.joint.name, "text", link=f"joint-{item.joint.name}"),
-        PageCell(rounded_percent(item.relative_error), "bar", share),
+        PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
+        PageCell(percent(item.relative_error), share),
         f"{item.rms:.3g} {unit}",
         "-" if item.predicted_sigma is None else f"{item.predicted_sigma:.2g} {unit}",
         f"{item.measured_rms:.3g} {unit}",
         f"{item.largest.value:.3g} {unit}",
-        PageCell(f"{item.largest.time:.2f} s of {item.largest.log}", "text"),
+        f"{item.largest.time:.2f} s of {item.largest.log}",
         or_dash(item.r2, ".4f"),
-        "-" if item.shares is None else share_text(item.shares.systematic),
-        "-" if item.shares is None else share_text(item.shares.floor),
+        percent(None if item.shares is None else item.shares.systematic),
+        percent(None if item.shares is None else item.shares.floor),
         f"{item.bias:+.2g} {unit}",
         str(item.samples),
     ]
@@ -371,9 +347,3 @@ def _log_table(comparison: Comparison) -> list[PageTable]:
     head, *rows = by_log(comparison, "all")
     caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
     return [PageTable(head, rows, caption)]
-
-
-def _joint_section(comparison: Comparison, item: JointComparison) -> Section:
-    name = item.joint.name
-    pictures = [Figure(picture) for picture in joint_pictures(comparison, item)]
-    return Section(f"Joint {name}", [Paragraph(joint_verdict(item)), *pictures], f"joint-{name}")

@@ -4,26 +4,18 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from modeler.codegen.derivation import Derivation
 from modeler.core.formula import Formula
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.result import Figures, Presentation, Tables, present
-from modeler.core.table import Cell, MathCell, Table
+from modeler.core.table import MathCell, Table
 from modeler.derivation.home import HomeModes, written
 from modeler.derivation.relations import relation_latex, relation_text
+from modeler.report.blocks import Block, FormulaBlock, PageTable, Paragraph
 from modeler.report.figures import robot_figure
-from modeler.report.page import (
-    Block,
-    FormulaBlock,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Section,
-    write_page,
-)
+from modeler.report.page import Origin, Page, Section, write_page
 from modeler.report.robot_page import table_head, table_rows
 from modeler.robot.robot import JointKind, Robot
 from modeler.runtime.model import CompiledModel
@@ -60,24 +52,23 @@ def _robot_summary(robot: Robot) -> str:
 def _robot_tables(robot: Robot) -> Tables:
     found = {"mdh": lambda: _mdh(robot)}
     if robot.parameters:
-        found["parameters"] = lambda: Table(
-            f"{robot.name}: nominal parameters", (("parameter", ""), ("value", "SI")),
-            tuple(robot.parameters.items()),
-        )  # fmt: skip
+        found["parameters"] = lambda: Table.of(
+            f"{robot.name}: nominal parameters", "parameter, value [SI]", robot.parameters.items()
+        )
     return found
 
 
 def _mdh(robot: Robot) -> Table:
     used = [(name, unit) for name, unit in _COLUMNS
             if any(not getattr(joint, name).is_zero for joint in robot.joints)]  # fmt: skip
-    rows = tuple(
+    rows = [
         (joint.name, joint.antecedent, int(joint.actuated), int(JointKind(joint.kind)),
          *(getattr(joint, name).text for name, _ in used))
         for joint in robot.joints
-    )  # fmt: skip
-    return Table(
+    ]  # fmt: skip
+    return Table.of(
         f"{robot.name}: {robot.title}",
-        (("j", ""), ("a", ""), ("mu", ""), ("sigma", ""), *used), rows,
+        ["j", "a", "mu", "sigma", *(f"{name} [{unit}]" for name, unit in used)], rows,
         "Khalil-Kleinfinger notation; sigma 0 revolute, 1 prismatic, 2 fixed; mu 1 actuated",
     )  # fmt: skip
 
@@ -107,7 +98,7 @@ def _derivation_tables(derivation: Derivation) -> Tables:
 
 
 def _base_table(derivation: Derivation) -> Table:
-    base, rows = derivation.base, []
+    base, rows = derivation.base, list[tuple[Any, ...]]()
     for parameter in base.parameters:
         left, right = relation_latex(parameter).split(" = ", 1)
         column = base.columns[parameter.column]
@@ -116,22 +107,20 @@ def _base_table(derivation: Derivation) -> Table:
             MathCell(relation_text(parameter).split(" = ", 1)[1], right),
             column.unit, column.kind.replace("_", " "),
         ))  # fmt: skip
-    names = ("base parameter", "is", "unit", "kind")
     title = f"{derivation.robot.name}: base parameters"
-    return Table(title, tuple((name, "") for name in names), tuple(rows))
+    return Table.of(title, "base parameter, is, unit, kind", rows)
 
 
 def _standard_table(derivation: Derivation) -> Table:
     base = derivation.base
     grouped = {term.parameter: p.name for p in base.parameters for term in p.terms}
-    rows = tuple(
+    rows = [
         (c.name, c.unit, c.kind.replace("_", " "),
          "no effect" if c.name in base.unidentifiable else grouped.get(c.name, "-"))
         for c in base.columns
-    )  # fmt: skip
-    names = ("parameter", "unit", "kind", "goes into")
+    ]  # fmt: skip
     title = f"{derivation.robot.name}: standard parameters"
-    return Table(title, tuple((name, "") for name in names), rows)
+    return Table.of(title, "parameter, unit, kind, goes into", rows)
 
 
 def _emitted_summary(emitted: Emitted) -> str:
@@ -142,16 +131,15 @@ def _emitted_summary(emitted: Emitted) -> str:
 
 
 def _emitted_tables(emitted: Emitted) -> Tables:
-    sizes = tuple((name, len(text)) for name, text in sorted(emitted.files.items()))
-    files = Table(f"files of {emitted.spec.robot}", (("file", ""), ("size", "bytes")), sizes)
+    sizes = [(name, len(text)) for name, text in sorted(emitted.files.items())]
+    files = Table.of(f"files of {emitted.spec.robot}", "file, size [bytes]", sizes)
     return {**_functions(emitted.spec), "files": lambda: files}
 
 
 def _functions(spec: ModuleSpec) -> Tables:
-    rows = tuple((f.name, f.equation, f.additions, f.multiplications) for f in spec.functions)
-    names = ("function", "equation", "additions", "multiplications")
-    table = Table(f"functions of {spec.robot}", tuple((name, "") for name in names), rows)
-    return {"functions": lambda: table}
+    rows = [(f.name, f.equation, f.additions, f.multiplications) for f in spec.functions]
+    head = "function, equation, additions, multiplications"
+    return {"functions": lambda: Table.of(f"functions of {spec.robot}", head, rows)}
 
 
 def _compiled_summary(compiled: CompiledModel) -> str:
@@ -172,17 +160,15 @@ def _modes_summary(found: HomeModes) -> str:
 
 
 def _modes_tables(found: HomeModes) -> Tables:
-    names = [joint.name for joint in found.linkage.free]
-    units = [joint.unit for joint in found.linkage.free]
-    rows: tuple[tuple[Cell, ...], ...] = tuple(
+    free = found.linkage.free
+    rows = [
         (mode.letter, mode.sigma, mode.kept, mode.copies,
-         *(float(written(found.linkage, mode.posture).get(name, 0.0)) for name in names))
+         *(float(written(found.linkage, mode.posture).get(joint.name, 0.0)) for joint in free))
         for mode in found.modes
-    )  # fmt: skip
-    columns = (("mode", ""), ("singular value", ""), ("within limits", ""), ("copies", ""),
-               *((f"q{name}", unit) for name, unit in zip(names, units, strict=True)))  # fmt: skip
-    table = Table(f"{found.linkage.robot.name}: assembly modes", columns, rows)
-    return {"modes": lambda: table}
+    ]  # fmt: skip
+    head = ["mode", "singular value", "within limits", "copies"]
+    head += [f"q{joint.name} [{joint.unit}]" for joint in free]
+    return {"modes": lambda: Table.of(f"{found.linkage.robot.name}: assembly modes", head, rows)}
 
 
 # The page of a derivation: table, base parameters with their relations typeset, proof.
@@ -245,13 +231,10 @@ def write_derivation(path: Path, robot: Robot, derived: Derived, given: str) -> 
 
 
 def _table(robot: Robot, tied: Sequence[str]) -> list[Block]:
-    head = [PageCell(text) for text in table_head(robot)[:-1]]
-    rows = [
-        [PageCell(text) for text in (*row.cells, *(text for _, text in row.entries))]
-        for row in table_rows(robot)
-    ]
+    head = table_head(robot)[:-1]
+    rows = [(*row.cells, *(text for _, text in row.entries)) for row in table_rows(robot)]
     note = (
         "Lengths in m, angles in rad. \u03bc 1: actuated. \u03c3 0 revolute, 1 prismatic, 2 fixed."
     )
-    blocks: list[Block] = [PageTable(head, rows, note)]
+    blocks: list[Block] = [PageTable(head, rows, note, dict.fromkeys(head, "number"))]
     return blocks + [Paragraph(line) for line in tied]

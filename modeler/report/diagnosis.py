@@ -8,19 +8,9 @@ from modeler.diagnosis.result import Diagnosis, Finding
 from modeler.diagnosis.search import Step
 from modeler.diagnosis.sentences import blind_spots, tie_names, tied, unit, where
 from modeler.effects.catalogue import effect_named
+from modeler.report.blocks import Block, Figure, Items, PageCell, PageTable, Paragraph
 from modeler.report.evidence import evidence_picture, rivals_of, rivals_table
-from modeler.report.page import (
-    Block,
-    Figure,
-    Items,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Section,
-    write_page,
-)
+from modeler.report.page import Origin, Page, Section, write_page
 from modeler.report.shown import figures, shown
 from modeler.report.torque_picture import play_picture, push_picture, torque_picture
 
@@ -119,7 +109,9 @@ def _sections(diagnosis: Diagnosis) -> list[Section]:
         again = ids.count(own)
         found.append(_shown(diagnosis, step, own if again == 1 else f"{own}-{again}"))
     found += _events(diagnosis)
-    found.append(Section("What these logs cannot show", [_blind(diagnosis)]))
+    blind = [(f"{what}:", why) for what, why in blind_spots(diagnosis)]
+    nothing = Paragraph("Nothing of the catalogue.")
+    found.append(Section("What these logs cannot show", [Items(blind) if blind else nothing]))
     return found
 
 
@@ -127,16 +119,11 @@ def _shown(diagnosis: Diagnosis, step: Step, own: str) -> Section:
     """One effect: what it explains, before and after, and what else could stand for it."""
     item = shown(diagnosis.search, step)
     effect, joint = step.pick.effect.id, step.pick.joint
-    blocks: list[Block] = [
+    alone = Paragraph(f"No other effect of the catalogue explains anything of {where(joint)}.")
+    return Section(_name(effect, joint), [
         Paragraph(figures(item)), Figure(torque_picture(item)), Figure(evidence_picture(item)),
-    ]  # fmt: skip
-    if rivals_of(step):
-        blocks.append(rivals_table(step))
-    else:
-        blocks.append(
-            Paragraph(f"No other effect of the catalogue explains anything of {where(joint)}.")
-        )
-    return Section(_name(effect, joint), blocks, own)
+        rivals_table(step) if rivals_of(step) else alone,
+    ], own)  # fmt: skip
 
 
 def _id(effect: str, joint: str | None) -> str:
@@ -166,13 +153,11 @@ def _table(diagnosis: Diagnosis) -> list[Block]:
     findings = by_error(diagnosis)
     if not findings:
         return [Paragraph(diagnosis.sentences[0])]
-    head = (
-        "effect", PageCell("joint", "text"), PageCell("values", "values"), "error before",
-        "error after", PageCell("gain", "bar"), PageCell("why", "why"),
-    )  # fmt: skip
+    head = ("effect", "joint", "values", "error before", "error after", "gain", "why")
+    kinds = {"joint": "text", "values": "values", "gain": "bar", "why": "why"}
     drawn = {step.pick.key for step in diagnosis.search.steps}
     rows = [_row(finding, (finding.effect, finding.joint) in drawn) for finding in findings]
-    return [PageTable(head, rows, _ERRORS)]
+    return [PageTable(head, rows, _ERRORS, kinds)]
 
 
 _ERRORS = (
@@ -193,20 +178,17 @@ def _row(finding: Finding, drawn: bool) -> list[str | PageCell]:
     )
     name = finding.effect + (" (refinement)" if finding.refines else "")
     return [
-        PageCell(name, "text", link=_id(finding.effect, finding.joint) if drawn else ""),
-        PageCell(finding.joint or "all", "text"),
-        PageCell(values, "values"),
+        PageCell(name, link=_id(finding.effect, finding.joint) if drawn else ""),
+        finding.joint or "all",
+        values,
         *printed(finding.error_before, finding.error_after),
-        PageCell(percent(finding.gain), "bar", max(0.0, finding.gain)),
-        PageCell(finding.evidence, "why"),
+        PageCell(percent(finding.gain), max(0.0, finding.gain)),
+        finding.evidence,
     ]
 
 
 def _joints(diagnosis: Diagnosis) -> PageTable:
     """Share of each joint's torque: explained, systematic, noise."""
-    head = (
-        "joint", "error", "with the effects", "explained", "systematic, unexplained", "noise",
-    )  # fmt: skip
     rows = [
         [
             name,
@@ -216,14 +198,9 @@ def _joints(diagnosis: Diagnosis) -> PageTable:
         for name, j in diagnosis.joints.items()
     ]
     return PageTable(
-        head,
+        ("joint", "error", "with the effects", "explained", "systematic, unexplained", "noise"),
         rows,
         "Errors of each joint in parts of its own rms torque or force. Shares of its variance with "
         "the effects in. Systematic is what smooth functions "
         "of the motion predict, what returns in the next lap, what lasts, and outbursts.",
     )
-
-
-def _blind(diagnosis: Diagnosis) -> Block:
-    lines = [(f"{what}:", why) for what, why in blind_spots(diagnosis)]
-    return Items(lines) if lines else Paragraph("Nothing of the catalogue.")

@@ -5,7 +5,8 @@ from pathlib import Path
 
 from modeler.estimation.result import ParameterEstimate
 from modeler.estimation.side_by_side import Tried
-from modeler.report.page import Items, Origin, Page, PageTable, Section, write_page
+from modeler.report.blocks import Items, PageTable
+from modeler.report.page import Origin, Page, Section, write_page
 
 
 def write_estimators(
@@ -22,10 +23,11 @@ def write_estimators(
     Raises:
         ModelerError: the place cannot be written.
     """
+    (head, *errors), (names, *values) = table_of(tried), values_of(tried)
     sections = [
-        Section("Errors and effort", [_table(table_of(tried))]),
-        Section("Values and standard deviations", [_table(values_of(tried))]),
-        Section("What each says", [_said(tried)]),
+        Section("Errors and effort", [PageTable(head, errors)]),
+        Section("Values and standard deviations", [PageTable(names, values)]),
+        Section("What each says", [Items(remarks_of(tried))]),
     ]
     done = sum(own.fit is not None for own in tried)
     sheet = Page(
@@ -75,16 +77,10 @@ def _value(parameter: ParameterEstimate) -> str:
     return f"{parameter.value:.4g} +- {parameter.sigma:.2g}"
 
 
-def _table(rows: Sequence[Sequence[str]]) -> PageTable:
-    head, *body = rows
-    return PageTable(head, body)
-
-
-def _said(tried: Sequence[Tried]) -> Items:
-    return Items(
-        [
-            (own.method, remark)
-            for own in tried
-            for remark in ((own.refusal,) if own.refusal else own.remarks)
-        ]
-    )
+def remarks_of(tried: Sequence[Tried]) -> list[tuple[str, str]]:
+    """Method and remark, or why it refused."""
+    return [
+        (own.method, remark)
+        for own in tried
+        for remark in ((own.refusal,) if own.refusal else own.remarks)
+    ]

@@ -6,28 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    SKY,
-    VERMILLION,
-    Band,
-    Curve,
-    Means,
-    Panel,
-    Picture,
-    Points,
-    Series,
-    Style,
-)
+from modeler.core.figure import Band, Curve, Means, Panel, Picture, Points, Series
+from modeler.core.style import BLACK, BLUE, GREEN, GREY, SKY, VERMILLION, Style
 from modeler.core.table import percent
 from modeler.diagnosis.judge import Judged
 from modeler.diagnosis.orders import order_spectrum
 from modeler.diagnosis.search import Step
+from modeler.report.blocks import PageCell, PageTable
 from modeler.report.evidence_axes import bins_of
-from modeler.report.page import PageCell, PageTable
 from modeler.report.shown import Shown
 from modeler.validation.prediction import DEVIATIONS
 
@@ -142,7 +128,7 @@ _DOTS = 1500
 def evidence_picture(item: Shown) -> Picture:
     """Residual on the axis where the effect shows itself, without the effect and with it."""
     pick, view = item.step.pick, view_of(item)
-    panels = [_without(item, view), _with(item, view)]
+    panels = [_without(item, view), _panel("with it", item, view, _cloud(item, view, item.after))]
     if item.axis.shows == "waves":
         panels.insert(0, _orders(item))
     elif item.own is not None:
@@ -155,8 +141,6 @@ def evidence_picture(item: Shown) -> Picture:
         title=f"{pick.effect.title}: {name}{seen}",
         caption=" ".join(_caption(item, view)),
         panels=(tuple(panels),),
-        heights=(1.0,),
-        widths=tuple(1.0 / len(panels) for _ in panels),
         height=400,
     )
 
@@ -171,10 +155,6 @@ def _without(item: Shown, view: View) -> Panel:
     ]
     series = (*_cloud(item, view, item.before), *lines)
     return _panel("without the effect", item, view, series)
-
-
-def _with(item: Shown, view: View) -> Panel:
-    return _panel("with it", item, view, _cloud(item, view, item.after))
 
 
 def _law(item: Shown, own: np.ndarray, view: View) -> Panel:
@@ -276,18 +256,16 @@ def rivals_of(step: Step) -> list[Judged]:
 
 def rivals_table(step: Step) -> PageTable:
     """What the best effects on the same joint explain within the logs, below one another."""
-    items = [step.judged, *rivals_of(step)[:7]]
-    rows: list[list[str | PageCell]] = [
-        [item.candidate.effect.id, PageCell(percent(gain), "bar", gain)]
-        for item in items
-        for gain in [max(0.0, item.gain)]
-    ]
+    gains = [(item.candidate.effect.id, max(0.0, item.gain))
+             for item in (step.judged, *rivals_of(step)[:7])]  # fmt: skip
     return PageTable(
-        ["Why not another effect", PageCell("explains", "bar")], rows,
+        ("Why not another effect", "explains"),
+        [(name, PageCell(percent(gain), gain)) for name, gain in gains],
         "Share of the error variance of its own joints that each effect explains within these "
         "logs, cross-validated. Only effects on the same joint are rivals; one on another joint is "
         "perhaps the next to be found.",
-    )  # fmt: skip
+        {"explains": "bar"},
+    )
 
 
 def scatter(

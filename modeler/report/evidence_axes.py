@@ -53,8 +53,10 @@ def axis_of(state: State, pick: Candidate, j: int, own: np.ndarray) -> Axis:
     joint = state.data.compiled.spec.joints[j]
     if shows == "itself":
         return Axis(shows, f"what the effect adds [{joint.effort_unit}]", own, None)
-    way = np.sign(state.rows.filtered(j, [_speed(pick, s, j) for s in state.rows.signals]))
-    turns = _turns(pick, shows)
+    way = np.sign(state.rows.filtered(j, [_VALUES["v"](pick, s, j) for s in state.rows.signals]))
+    # where the effect turns with the motion and the axis does not say which way it goes
+    slips = pick.form.memory is not None and pick.form.memory.kind == "slip"
+    turns = shows not in ("v", "a", "waves") and ("v" in pick.form.names or slips)
     values = [_VALUES[shows](pick, s, j) for s in state.rows.signals]
     if shows == "load" and turns:
         values = [np.abs(value) for value in values]
@@ -68,18 +70,6 @@ def _shown(pick: Candidate, j: int) -> Shows:
     if pick.local and j != pick.index:
         return "itself"
     return "t" if shows == "T" and "T" not in pick.form.names else shows
-
-
-def _turns(pick: Candidate, shows: Shows) -> bool:
-    """True if the effect turns with the motion and the axis does not say which way it goes."""
-    if shows in ("v", "a", "waves"):
-        return False
-    slips = pick.form.memory is not None and pick.form.memory.kind == "slip"
-    return "v" in pick.form.names or slips
-
-
-def _speed(pick: Candidate, signals: Signals, j: int) -> np.ndarray:
-    return _of_shaft(pick, signals.v, j)
 
 
 def _of_shaft(pick: Candidate, motion: np.ndarray, j: int) -> np.ndarray:
@@ -103,7 +93,7 @@ def _temperature(pick: Candidate, signals: Signals, j: int) -> np.ndarray:
 
 _VALUES: dict[Shows, Callable[[Candidate, Signals, int], np.ndarray]] = {
     "q": lambda pick, s, j: s.q[:, j],
-    "v": _speed,
+    "v": lambda pick, s, j: _of_shaft(pick, s.v, j),
     "a": lambda pick, s, j: _of_shaft(pick, s.a, j),
     "load": _load,
     "torque": lambda pick, s, j: s.torque[:, j],

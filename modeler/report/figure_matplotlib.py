@@ -1,7 +1,7 @@
 """A picture as PNG or SVG, by matplotlib; no window, no global state."""
 
 import io
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -9,23 +9,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from modeler.core.figure import (
-    BLUE,
-    SHADE,
-    Band,
-    Bars,
-    Curve,
-    Heat,
-    Means,
-    Panel,
-    Picture,
-    Points,
-    Series,
-)
-
-if TYPE_CHECKING:
-    pass
-
+from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
+from modeler.core.style import BLUE, SHADE
 
 _BESIDE = 4  # entries of a legend that leave room for the title
 _SETTINGS: Any = {

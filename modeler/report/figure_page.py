@@ -8,19 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.figure import (
-    Band,
-    Bars,
-    Curve,
-    Heat,
-    Means,
-    Panel,
-    Picture,
-    Points,
-    Series,
-    picture_csv,
-)
+from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
 from modeler.core.files import write_atomically
+from modeler.core.json import entries
 
 # The numbers of all pictures of a page in one compressed block, each array once.
 
@@ -108,9 +98,7 @@ def drawn(picture: Picture, numbers: Numbers) -> dict[str, Any]:
     }
 
 
-def plotted(
-    picture: Picture,
-) -> tuple[Sequence[Sequence[Panel]], Sequence[float], Sequence[float]]:
+def plotted(picture: Picture) -> tuple[Sequence[Sequence[Panel]], Sequence[float], Sequence[float]]:
     """Rows of panels with axes, their heights and the widths of the columns.
 
     Where maps of cells stand between them, the others are put side by side.
@@ -118,7 +106,12 @@ def plotted(
     panels = [panel for row in picture.panels for panel in row]
     if not cells(picture):
         return picture.panels, picture.heights, picture.widths
-    kept = [panel for panel in panels if not _cells(panel) and _filled(panel)]
+    kept = [
+        panel
+        for panel in panels
+        if not any(isinstance(s, Heat) for s in panel.series)
+        and any(len(s.values if isinstance(s, Bars | Heat) else s.x) for s in panel.series)
+    ]
     return ([kept], picture.heights[:1], [1.0] * len(kept)) if kept else ((), (), ())
 
 
@@ -139,14 +132,6 @@ def keys(picture: Picture) -> list[tuple[str, str, str]]:
         for span in panel.spans:
             found.setdefault(span.label, (span.label, span.color, "span"))
     return list(found.values())
-
-
-def _filled(panel: Panel) -> bool:
-    return any(len(s.values if isinstance(s, Bars | Heat) else s.x) for s in panel.series)
-
-
-def _cells(panel: Panel) -> bool:
-    return any(isinstance(series, Heat) for series in panel.series)
 
 
 def _shade(series: Curve | Points | Means | Band | Bars) -> str:
@@ -192,21 +177,11 @@ def _series(
     series: Curve | Points | Means | Band | Bars, numbers: Numbers, log: bool
 ) -> dict[str, Any]:
     style = series.style
-    found: dict[str, Any] = {
-        "label": series.label,
-        "color": style.color,
-        "width": style.width,
-        "opacity": style.opacity,
-    }
+    found: dict[str, Any] = {"label": series.label, **entries(style, "color width opacity")}
     if isinstance(series, Bars):
         base = None if series.base is None else numbers.exact(series.base)
-        return found | {
-            "kind": "bars",
-            "names": list(series.names),
-            "texts": list(series.texts),
-            "y": numbers.exact(series.values),
-            "base": base,
-        }
+        y = numbers.exact(series.values)
+        return found | {"kind": "bars", **entries(series, "names texts"), "y": y, "base": base}
     if isinstance(series, Band):
         places = {"low": numbers.exact(series.low), "high": numbers.exact(series.high)}
         return found | {"kind": "band", "x": numbers.exact(series.x)} | places
@@ -245,3 +220,40 @@ def write_files(
         if progress is not None:
             progress(number / len(pictures))
     return tuple(written)
+
+
+def picture_csv(picture: Picture) -> str:
+    """The numbers behind a picture: panel, series, x, y, error; five significant digits."""
+    lines = ["panel,series,x,y,error"]
+    for panel in (panel for row in picture.panels for panel in row):
+        for series in panel.series:
+            lines += [
+                f"{_quote(panel.title)},{_quote(series.label)},{row}" for row in _rows(series)
+            ]
+    return "\n".join(lines) + "\n"
+
+
+def _rows(series: Series) -> list[str]:
+    if isinstance(series, Heat):
+        return [
+            f"{_quote(column)} / {_quote(row)},{series.values[i, j]:.5g},"
+            for i, row in enumerate(series.rows)
+            for j, column in enumerate(series.columns)
+        ]
+    if isinstance(series, Bars):
+        pairs = zip(series.names, series.values, strict=True)
+        return [f"{_quote(name)},{value:.5g}," for name, value in pairs]
+    if isinstance(series, Means):
+        triples = zip(series.x, series.y, series.error, strict=True)
+        return [f"{x:.5g},{y:.5g},{error:.5g}".replace("nan", "") for x, y, error in triples]
+    if isinstance(series, Band):
+        middle, half = 0.5 * (series.low + series.high), 0.5 * (series.high - series.low)
+        triples = zip(series.x, middle, half, strict=True)
+        return [f"{x:.7g},{y:.5g},{error:.5g}" for x, y, error in triples if np.isfinite(y)]
+    both = zip(series.x, series.y, strict=True)
+    return [f"{x:.7g},{y:.5g}," for x, y in both if np.isfinite(y)]
+
+
+def _quote(text: str) -> str:
+    """Commas would shift the columns; line breaks of labels are no part of a name."""
+    return text.replace(",", ";").replace("\n", " ")

@@ -4,22 +4,16 @@ A figure of matplotlib stands in a notebook as a picture, works without a networ
 paper; the pages that commands write have the ones that can be zoomed.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLUE,
-    COLORS,
-    ORANGE,
-    Bars,
-    Curve,
-    Panel,
-    Picture,
-    Style,
-    thin_curves,
-)
+from modeler.core.figure import Bars, Curve, Panel, Picture
+from modeler.core.result import Figures
+from modeler.core.style import BLUE, COLORS, ORANGE, Style
+from modeler.core.thinning import thin_curves
 from modeler.estimation.result import FitResult
 from modeler.report.showing import show
 from modeler.robot.robot import Robot
@@ -39,6 +33,15 @@ def picture_figure(picture: Picture) -> "Drawing":
     return drawing(picture)
 
 
+def picture_figures(drawn: Mapping[str, Callable[[], Picture]]) -> Figures:
+    """Figures by name, each drawn when it is asked for."""
+    return {name: partial(_drawn_by, draw) for name, draw in drawn.items()}
+
+
+def _drawn_by(draw: Callable[[], Picture]) -> "Drawing":
+    return picture_figure(draw())
+
+
 def robot_figure(robot: Robot) -> "Drawing":
     """The robot at its [home], as wide as a column of a paper."""
     from modeler.report.figure_matplotlib import Drawing
@@ -52,7 +55,11 @@ def parameters_figure(fit: FitResult) -> "Drawing":
     """How sure each parameter is: its sigma in percent of its value."""
     known = [p for p in fit.parameters if p.relative_sigma_percent is not None][:_MOST_BARS]
     shares = np.array([min(p.relative_sigma_percent or 0.0, 100.0) for p in known])
-    texts = tuple(_rounded(p.relative_sigma_percent or 0.0) for p in known)
+    # two digits, all of those before the point
+    texts = tuple(
+        f"{share:.2g}" if share < 100.0 else f"{share:.0f}" if share < 1e4 else ">10000"
+        for share in (p.relative_sigma_percent or 0.0 for p in known)
+    )
     names = tuple(p.name for p in known)
     bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
     label = "sigma [% of the value], at most 100 drawn"
@@ -60,27 +67,22 @@ def parameters_figure(fit: FitResult) -> "Drawing":
         name="parameters", title=f"{fit.robot}: how sure the parameters are", caption="",
         panels=((Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label,
                        (bars,)),),),
-        heights=(1.0,), widths=(1.0,), height=380,
+        height=380,
     ))  # fmt: skip
 
 
 def errors_picture(diagnosis: "Diagnosis") -> Picture:
     """Relative error of every joint, without and with the effects."""
-    panels = tuple(
-        Panel(title, "joint", "relative error [%]", (_error_bars(diagnosis, after),))
-        for title, after in (("as fitted", False), ("with the effects", True))
-    )
-    return Picture(
-        name="errors", title=f"{diagnosis.robot}: {diagnosis.verdict}", caption="",
-        panels=(panels,), heights=(1.0,), widths=(0.5, 0.5), height=380,
-    )  # fmt: skip
-
-
-def _error_bars(diagnosis: "Diagnosis", after: bool) -> Bars:
-    joints = diagnosis.joints.values()
-    values = np.array([100.0 * (j.error_after if after else j.error_before) for j in joints])
-    texts = tuple("" if np.isnan(value) else f"{value:.2f}" for value in values)
-    return Bars("error", tuple(diagnosis.joints), values, texts, Style(ORANGE if after else BLUE))
+    panels, names = [], tuple(diagnosis.joints)
+    for title, entry, color in (
+        ("as fitted", "error_before", BLUE), ("with the effects", "error_after", ORANGE),
+    ):  # fmt: skip
+        values = np.array([100.0 * getattr(joint, entry) for joint in diagnosis.joints.values()])
+        texts = tuple("" if np.isnan(value) else f"{value:.2f}" for value in values)
+        bars = Bars("error", names, values, texts, Style(color))
+        panels.append(Panel(title, "joint", "relative error [%]", (bars,)))
+    title = f"{diagnosis.robot}: {diagnosis.verdict}"
+    return Picture("errors", title, "", (tuple(panels),), 380)
 
 
 def log_figure(
@@ -95,8 +97,7 @@ def log_figure(
         )
     )
     return picture_figure(Picture(
-        name="channels", title=title, caption="", panels=panels, heights=(1.0, 1.0),
-        widths=(1.0,), height=620, shared_time=True,
+        name="channels", title=title, caption="", panels=panels, height=620, shared_time=True,
     ))  # fmt: skip
 
 
@@ -107,8 +108,3 @@ def _curves(joints: Sequence[str], time: np.ndarray, values: np.ndarray) -> list
         color = COLORS[j % len(COLORS)]
         found.append(Curve(name, time[rows], values[rows, j], Style(color, dash=j >= len(COLORS))))
     return found
-
-
-def _rounded(percent: float) -> str:
-    """Two digits, all of those before the point."""
-    return f"{percent:.2g}" if percent < 100.0 else f"{percent:.0f}" if percent < 1e4 else ">10000"

@@ -1,31 +1,22 @@
 """Fits and models: the page of a fit, tables and figures of a notebook."""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from modeler.core.estimators import titled
 from modeler.core.result import Figures, Presentation, Tables, present
-from modeler.core.table import Cell, Table
+from modeler.core.table import Table, percent
 from modeler.estimation.model_file import Addition, IdentifiedModel
 from modeler.estimation.result import FitResult, ParameterEstimate
 from modeler.estimation.side_by_side import SideBySide
-from modeler.report.estimators import table_of, values_of
+from modeler.report.blocks import Items, JudgedLine, PageTable, Verdicts
+from modeler.report.estimators import remarks_of, table_of, values_of
 from modeler.report.figures import parameters_figure, picture_figure
-from modeler.report.history import waterfall_picture
-from modeler.report.page import (
-    Items,
-    JudgedLine,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Section,
-    Verdicts,
-    after_fit,
-    write_page,
-)
+from modeler.report.history import step_name, waterfall_picture
+from modeler.report.page import Origin, Page, Section, after_fit, write_page
 from modeler.report.values import joints_table, values_table
 
 
@@ -35,52 +26,49 @@ def present_models() -> None:
                                     ("parameters", "errors")))  # fmt: skip
     present(IdentifiedModel, Presentation("a model", _model_summary, _model_tables, _model_figures,
                                           ("parameters", "errors", "waterfall")))  # fmt: skip
-    present(Addition, Presentation("an addition", _addition_summary))
+    present(Addition, Presentation("an addition", _step_line))
     present(SideBySide, Presentation("a comparison of estimators", _trials_summary, _trials_tables))
 
 
 def _fit_summary(fit: FitResult) -> str:
     first = (f"{fit.robot}: {len(fit.parameters)} base parameters by {fit.method}, relative error "
-             f"{100.0 * fit.relative_error:.3f} %")  # fmt: skip
+             f"{percent(fit.relative_error)}")  # fmt: skip
     return "\n".join([first, *fit.lines()])
 
 
 def fit_tables(fit: FitResult) -> Tables:
     """The tables of a fit; those of loads, gains and the reduced model where there are any."""
-    found = {
+    reduced = () if fit.essential is None else fit.essential.parameters
+    named = {"essential": ("reduced model", reduced), "loads": ("loads", fit.loads),
+             "gains": ("drive gains", fit.gains)}  # fmt: skip
+    return {
         "parameters": lambda: _estimates(f"{fit.robot}: base parameters", fit.parameters),
         "errors": lambda: _errors(fit),
+        **{
+            name: partial(_estimates, f"{fit.robot}: {title}", parameters)
+            for name, (title, parameters) in named.items()
+            if parameters or (name == "essential" and fit.essential is not None)
+        },
     }
-    if fit.essential is not None:
-        reduced = fit.essential.parameters
-        found["essential"] = lambda: _estimates(f"{fit.robot}: reduced model", reduced)
-    if fit.loads:
-        found["loads"] = lambda: _estimates(f"{fit.robot}: loads", fit.loads)
-    if fit.gains:
-        found["gains"] = lambda: _estimates(f"{fit.robot}: drive gains", fit.gains)
-    return found
 
 
 def _estimates(title: str, parameters: Sequence[ParameterEstimate]) -> Table:
-    rows: list[tuple[Cell, ...]] = [
+    rows = [
         (p.name, p.value if p.sigma is not None else None, p.sigma, p.relative_sigma_percent,
          p.unit, p.essential if p.sigma is not None else p.status)
         for p in parameters
     ]  # fmt: skip
-    columns = (("parameter", ""), ("value", ""), ("sigma", ""), ("relative sigma", "%"),
-               ("unit", ""), ("essential", ""))  # fmt: skip
-    return Table(title, columns, tuple(rows))
+    return Table.of(title, "parameter, value, sigma, relative sigma [%], unit, essential", rows)
 
 
 def _errors(fit: FitResult) -> Table:
-    rows: list[tuple[Cell, ...]] = [
-        (j.name, None if j.relative_error is None else 100.0 * j.relative_error, j.rms, j.unit,
-         j.rows)
-        for j in fit.joints
-    ]  # fmt: skip
-    columns = (("joint", ""), ("relative error", "%"), ("rms", ""), ("unit", ""), ("rows", ""))
-    note = f"all rows together: {100.0 * fit.relative_error:.3f} %, on the logs of the fit"
-    return Table(f"{fit.robot}: what the fit leaves", columns, tuple(rows), note)
+    return Table.of(
+        f"{fit.robot}: what the fit leaves",
+        "joint, relative error [%], rms, unit, rows",
+        [(j.name, j.relative_error and 100.0 * j.relative_error, j.rms, j.unit, j.rows)
+         for j in fit.joints],
+        f"all rows together: {percent(fit.relative_error)}, on the logs of the fit",
+    )  # fmt: skip
 
 
 def _fit_figures(fit: FitResult) -> Figures:
@@ -99,23 +87,22 @@ def _model_tables(model: IdentifiedModel) -> Tables:
     found = dict(fit_tables(model.fit))
     if model.history:
         found["waterfall"] = lambda: _waterfall(model)
-    found["logs"] = lambda: Table(
-        "logs of the fit",
-        (("log", ""), ("rows", ""), ("samples", ""), ("from", "s"), ("to", "s")),
-        tuple((log.name, log.rows, log.samples, log.start, log.end) for log in model.logs),
-    )
+    found["logs"] = lambda: Table.of(
+        "logs of the fit", "log, rows, samples, from [s], to [s]",
+        [(log.name, log.rows, log.samples, log.start, log.end) for log in model.logs],
+    )  # fmt: skip
     return found
 
 
 def _waterfall(model: IdentifiedModel) -> Table:
-    rows: list[tuple[Cell, ...]] = [
-        (step.effect or "as fitted", step.joint, 100.0 * step.error, 100.0 * step.training_error)
-        for step in model.history
-    ]
-    columns = (("effect", ""), ("joint", ""), ("error", "%"), ("on the fitted logs", "%"))
     held = ", ".join(model.history[-1].held_out)
-    note = f"error: on {held}" if held else "error: on parts of the fitted logs, left out in turn"
-    return Table(f"{model.spec.robot}: error after every effect", columns, tuple(rows), note)
+    return Table.of(
+        f"{model.spec.robot}: error after every effect",
+        "effect, joint, error [%], on the fitted logs [%]",
+        [(step.effect or "as fitted", step.joint, 100.0 * step.error, 100.0 * step.training_error)
+         for step in model.history],
+        f"error: on {held}" if held else "error: on parts of the fitted logs, left out in turn",
+    )  # fmt: skip
 
 
 def _model_figures(model: IdentifiedModel) -> Figures:
@@ -126,37 +113,24 @@ def _model_figures(model: IdentifiedModel) -> Figures:
     return found
 
 
-def _addition_summary(step: Addition) -> str:
-    return _step_line(step)
-
-
 def _step_line(step: Addition) -> str:
-    name = f"+ {step.effect}" if step.effect else "as fitted"
-    name += f" @{step.joint}" if step.joint else ""
-    return f"{name}: error {step.error:.2%} ({step.training_error:.2%} on the fitted logs)"
+    fitted = percent(step.training_error)
+    return f"{step_name(step)}: error {percent(step.error)} ({fitted} on the fitted logs)"
 
 
 def _trials_summary(trials: SideBySide) -> str:
     fitted = sum(own.fit is not None for own in trials.tried)
     first = f"{trials.robot}: {fitted} of {len(trials.tried)} estimators fit these logs"
-    said = [
-        f"{own.method}: {remark}"
-        for own in trials.tried
-        for remark in ((own.refusal,) if own.refusal else own.remarks)
-    ]
+    said = [f"{method}: {remark}" for method, remark in remarks_of(trials.tried)]
     return "\n".join([first, *trials.data, *said])
 
 
 def _trials_tables(trials: SideBySide) -> Tables:
+    errors, values = table_of(trials.tried), values_of(trials.tried)
     return {
-        "errors": lambda: _texts("estimators on the same logs", table_of(trials.tried)),
-        "values": lambda: _texts("values and standard deviations", values_of(trials.tried)),
+        "errors": lambda: Table.of("estimators on the same logs", errors[0], errors[1:]),
+        "values": lambda: Table.of("values and standard deviations", values[0], values[1:]),
     }
-
-
-def _texts(title: str, lines: list[list[str]]) -> Table:
-    head, *rows = lines
-    return Table(title, tuple((name, "") for name in head), tuple(map(tuple, rows)))
 
 
 # The page of a fit: values with sigma, what each is the sum of, condition, doubts.
@@ -186,9 +160,10 @@ def write_fit(
         ModelerError: the place cannot be written.
     """
     fit = model.fit
+    judged = "nobody has judged it" if fit.verdict is None else fit.verdict.line
     sheet = Page(
         title=f"{fit.robot}: fitted values",
-        headline=(fit.error_told("{:.2f} %"), f"left on the fitted logs: {_verdict(fit)}"),
+        headline=(fit.error_told(), f"left on the fitted logs: {judged}"),
         sections=_sections(model),
         origin=Origin(place, [log.name for log in model.logs], False),
         facts=_facts(fit),
@@ -197,10 +172,6 @@ def write_fit(
         command="fit",
     )
     return write_page(path, sheet, "fit.html")
-
-
-def _verdict(fit: FitResult) -> str:
-    return "nobody has judged it" if fit.verdict is None else fit.verdict.line
 
 
 def _facts(fit: FitResult) -> list[tuple[str, str]]:
@@ -231,7 +202,14 @@ def _sections(model: IdentifiedModel) -> list[Section]:
             found.append(Section(title, [values_table(others)]))
     pairs = tangled(model)
     if pairs:
-        found.append(Section("What the data hardly tell apart", [_pairs(pairs)]))
+        table = PageTable(
+            ("parameter", "and", "correlation"),
+            [(a, b, f"{value:+.3f}") for a, b, value in pairs],
+            "The torques of these logs tell the sum (-1) or the difference (+1) of such a pair "
+            "better than either; more exciting motion parts them.",
+            {"and": "text"},
+        )
+        found.append(Section("What the data hardly tell apart", [table]))
     return found
 
 
@@ -261,14 +239,3 @@ def tangled(model: IdentifiedModel) -> list[tuple[str, str, float]]:
         if abs(correlation[i, j]) > _TANGLED
     ]
     return sorted(strong, key=lambda pair: -abs(pair[2]))[:_MOST]
-
-
-def _pairs(pairs: Sequence[tuple[str, str, float]]) -> PageTable:
-    rows: list[list[str | PageCell]] = [
-        [a, PageCell(b, "text"), f"{value:+.3f}"] for a, b, value in pairs
-    ]
-    return PageTable(
-        ("parameter", PageCell("and", "text"), "correlation"), rows,
-        "The torques of these logs tell the sum (-1) or the difference (+1) of such a pair better "
-        "than either; more exciting motion parts them.",
-    )  # fmt: skip

@@ -3,14 +3,15 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.figure import BLUE, COLORS, GREY, Curve, Heat, Means, Panel, Picture, Style
+from modeler.core.figure import Curve, Heat, Means, Panel, Picture
 from modeler.core.result import Figures, Presentation, Tables, present
-from modeler.core.table import Cell, Table
+from modeler.core.style import BLUE, COLORS, GREY, Style
+from modeler.core.table import Table, percent
 from modeler.fleet.result import (
+    HEAD,
     Fleet,
     FleetFinding,
     Followed,
@@ -22,23 +23,9 @@ from modeler.fleet.result import (
     rows_of,
     sentence,
 )
-from modeler.report.figures import picture_figure
-from modeler.report.page import (
-    Figure,
-    Items,
-    JudgedLine,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Section,
-    Verdicts,
-    write_page,
-)
-
-if TYPE_CHECKING:
-    from modeler.report.figure_matplotlib import Drawing
+from modeler.report.blocks import Figure, Items, JudgedLine, PageTable, Paragraph, Verdicts
+from modeler.report.figures import picture_figures
+from modeler.report.page import Origin, Page, Section, write_page
 
 _PICTURES = 12  # findings that are drawn
 _COLUMNS = 24  # machines of one map
@@ -64,7 +51,7 @@ def write_fleet(path: Path, found: Fleet, provenance: Sequence[str] = ()) -> Pat
         facts=[
             ("machines", str(len(found.machines))),
             ("logs", str(found.logs)),
-            ("chance of any finding where nothing drifts", f"{100 * found.false_alarm:.2g} %"),
+            ("chance of any finding where nothing drifts", percent(found.false_alarm)),
         ],
         provenance=[*found.notes, *left_lines(found), *provenance],
         command="fleet",
@@ -101,16 +88,13 @@ def _id(k: int) -> str:
 def _verdict(found: Fleet) -> Verdicts | Paragraph:
     if not found.findings:
         return Paragraph("No machine drifts and none is apart from the others, beyond doubt.")
-    return Verdicts([
-        JudgedLine("pattern", one.shape, f"{one.machine}, {_short(one)}", sentence(one, found.unit),
-               _id(k) if k < _PICTURES else "")
-        for k, one in enumerate(found.findings)
-    ])  # fmt: skip
-
-
-def _short(one: FleetFinding) -> str:
-    joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
-    return joint + effect_title(one.quantity)
+    lines = []
+    for k, one in enumerate(found.findings):
+        joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
+        head = f"{one.machine}, {joint}{effect_title(one.quantity)}"
+        link = _id(k) if k < _PICTURES else ""
+        lines.append(JudgedLine("pattern", one.shape, head, sentence(one, found.unit), link))
+    return Verdicts(lines)
 
 
 def finding_picture(found: Fleet, one: FleetFinding) -> Picture:
@@ -132,7 +116,7 @@ def finding_picture(found: Fleet, one: FleetFinding) -> Picture:
         "grey all others."
     )
     place = found.findings.index(one) + 1
-    return Picture(f"finding_{place}", label, caption, ((panel,),), (1.0,), (1.0,), 320)
+    return Picture(f"finding_{place}", label, caption, ((panel,),), 320)
 
 
 def quantity_picture(found: Fleet, each: Followed) -> Picture:
@@ -147,7 +131,7 @@ def quantity_picture(found: Fleet, each: Followed) -> Picture:
         f"{effect_title(each.quantity)} of {each.quantity.whose}, log by log, one line a machine; "
         "whiskers: two standard deviations, scatter from period to period included."
     )
-    return Picture("quantity", label, caption, ((panel,),), (1.0,), (1.0,), 320)
+    return Picture("quantity", label, caption, ((panel,),), 320)
 
 
 def _background(others: Sequence[Values]) -> Curve:
@@ -159,12 +143,17 @@ def _background(others: Sequence[Values]) -> Curve:
 
 def map_pictures(found: Fleet) -> list[Picture]:
     """The greatest change of every quantity and machine, in sigmas; machines in portions."""
+    return [_map(found, own, k) for k, own in enumerate(_portions(found), start=1)]
+
+
+def _portions(found: Fleet) -> list[list[str]]:
+    """Machines that may drift, as many at a time as one map shows."""
     names = [name for name, periods in found.machines.items() if len(periods) > 1]
-    portions = [names[k : k + _COLUMNS] for k in range(0, len(names), _COLUMNS)]
-    return [_map(found.followed, own, k) for k, own in enumerate(portions, start=1)]
+    return [names[k : k + _COLUMNS] for k in range(0, len(names), _COLUMNS)]
 
 
-def _map(followed: Sequence[Followed], machines: Sequence[str], number: int) -> Picture:
+def _map(found: Fleet, machines: Sequence[str], number: int) -> Picture:
+    followed = found.followed
     values = np.array([[each.scores.get(name, np.nan) for name in machines] for each in followed])
     texts = tuple(
         tuple("" if np.isnan(value) else f"{value:.1f}" for value in row) for row in values
@@ -177,21 +166,18 @@ def _map(followed: Sequence[Followed], machines: Sequence[str], number: int) -> 
     )
     panel = Panel("", "machine", "", (heat,))
     height = 60 + 28 * len(rows)
-    return Picture(f"map_{number}", "Changes", caption, ((panel,),), (1.0,), (1.0,), height)
+    return Picture(f"map_{number}", "Changes", caption, ((panel,),), height)
 
 
 def _followed(found: Fleet) -> PageTable:
     head, *rows = rows_of(found)
-    texts = (0, 1, 2, 4)
     return PageTable(
-        [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(head)],
-        [
-            [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(r)]
-            for r in rows
-        ],
+        head,
+        rows,
         "Level: median of all machines and periods. Scatter: by which values change from one "
         "period to the next more than the noise of their logs explains. Told: the smallest "
         "straight drift over all periods that would be a finding.",
+        dict.fromkeys(("effect", "parameter", "unit"), "text"),
     )
 
 
@@ -212,50 +198,44 @@ def _tables(found: Fleet) -> Tables:
 
 
 def _findings(found: Fleet) -> Table:
-    columns = (("machine", ""), ("joint", ""), ("effect", ""), ("shape", ""), ("from", ""),
-               ("to", ""), ("before", ""), ("change", ""), ("unit", ""), ("change of it", "%"),
-               ("sigmas", ""), ("chance", ""))  # fmt: skip
-    rows: tuple[tuple[Cell, ...], ...] = tuple(
+    rows = [
         (f.machine, f.quantity.joint, f.quantity.effect, f.shape, f.begin, f.end, f.before,
          f.change, f.quantity.unit, f.percent, f.score, f.chance)
         for f in found.findings
+    ]  # fmt: skip
+    return Table.of(
+        f"{found.robot}: {found.verdict}",
+        "machine, joint, effect, shape, from, to, before, change, unit, change of it [%], sigmas, "
+        "chance", rows,
     )  # fmt: skip
-    return Table(f"{found.robot}: {found.verdict}", columns, rows)
 
 
 def _values(found: Fleet) -> Table:
-    columns = (("machine", ""), ("period", ""), ("at", found.unit), ("parameter", ""),
-               ("value", ""), ("sigma", ""), ("unit", ""))  # fmt: skip
-    rows: tuple[tuple[Cell, ...], ...] = tuple(
-        (name, own.periods[k], own.at[k], each.quantity.parameter, own.values[k], own.sigmas[k],
-         each.quantity.unit)
+    rows = [
+        (name, period, at, each.quantity.parameter, value, sigma, each.quantity.unit)
         for each in found.followed
         for name, own in each.machines.items()
-        for k in range(len(own.periods))
-    )  # fmt: skip
-    return Table("what was followed, log by log", columns, rows)
+        for period, at, value, sigma in zip(
+            own.periods, own.at, own.values, own.sigmas, strict=True
+        )
+    ]
+    head = f"machine, period, at [{found.unit}], parameter, value, sigma, unit"
+    return Table.of("what was followed, log by log", head, rows)
 
 
 def _quantities(found: Fleet) -> Table:
-    columns = (("joint", ""), ("effect", ""), ("parameter", ""), ("level", ""), ("unit", ""),
-               ("scatter", ""), ("told", ""))  # fmt: skip
-    rows: tuple[tuple[Cell, ...], ...] = tuple(
+    rows = [
         (each.quantity.joint, effect_title(each.quantity), each.quantity.parameter, each.level,
          each.quantity.unit, each.factor, each.told)
         for each in found.followed
-    )  # fmt: skip
-    return Table("what may drift", columns, rows)
+    ]  # fmt: skip
+    return Table.of("what may drift", HEAD, rows)
 
 
 def _figures(found: Fleet) -> Figures:
-    drawn: dict[str, Callable[[], Drawing]] = {
-        "changes" if not k else f"changes {k + 1}": partial(picture_figure, picture)
-        for k, picture in enumerate(map_pictures(found))
-    }
+    drawn: dict[str, Callable[[], Picture]] = {}
+    for k, portion in enumerate(_portions(found)):
+        drawn["changes" if not k else f"changes {k + 1}"] = partial(_map, found, portion, k + 1)
     for k, each in enumerate(found.followed, start=1):
-        drawn[f"quantity {k}"] = partial(_drawn, found, each)
-    return drawn
-
-
-def _drawn(found: Fleet, each: Followed) -> "Drawing":
-    return picture_figure(quantity_picture(found, each))
+        drawn[f"quantity {k}"] = partial(quantity_picture, found, each)
+    return picture_figures(drawn)

@@ -6,25 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.core.figure import BLUE, GREEN, ORANGE, SKY, Bars, Panel, Picture, Style
+from modeler.core.figure import Bars, Panel, Picture
+from modeler.core.style import BLUE, GREEN, ORANGE, SKY, Style
 from modeler.core.table import DIGITS, WORDS, percent, printed
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Effect
 from modeler.estimation.model_file import Addition, IdentifiedModel
-from modeler.report.page import (
-    Block,
-    Code,
-    Figure,
-    Items,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Section,
-    write_page,
-)
-from modeler.report.values import added_names, chosen, joints_table, shapes_table, values_table
+from modeler.report.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
+from modeler.report.page import Origin, Page, Section, write_page
+from modeler.report.values import added_names, joints_table, shapes_table, values_table
 from modeler.robot.read import robot_from_text
 
 HELD, FITTED = Style(BLUE), Style(ORANGE)
@@ -108,31 +98,37 @@ def _sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[Section]:
         values_table(model.fit.parameters, model.spec.base,
                      "SI units; sigma is one standard deviation. The bar is full at 30 %."),
     ]))  # fmt: skip
-    again = [Code(_again(step)) for step in history[1:]]
-    if again:
-        sections.append(Section("To do this again, in this order", again))
+    if len(history) > 1:
+        again = [
+            f"modeler add MODEL {step.effect}"
+            + (f" --joint {step.joint}" if step.joint else "")
+            + " LOG... --out MODEL"
+            for step in history[1:]
+        ]
+        sections.append(Section("To do this again, in this order", [Code(line) for line in again]))
     return sections
 
 
 def _by_joint(history: Sequence[Addition]) -> PageTable:
     """Errors before, and after each addition."""
-    names = list(history[-1].joints)
     rows: list[list[str | PageCell]] = []
-    for name in names:
+    for name in history[-1].joints:
         errors = [_errors(step).get(name) for step in history]
         top = max((e for e in errors if e is not None), default=0.0) or 1.0
-        cells = [
-            PageCell("-", "bar") if e is None
-            else PageCell(percent(e) + (" *" if name in step.changed else ""), "bar", e / top)
-            for e, step in zip(errors, history, strict=True)
-        ]  # fmt: skip
-        rows.append([name, *cells])
+        changed = [" *" if name in step.changed else "" for step in history]
+        rows.append([name, *(
+            PageCell("-") if e is None else PageCell(percent(e) + mark, e / top)
+            for e, mark in zip(errors, changed, strict=True)
+        )])  # fmt: skip
+    steps, held = [step_name(step) for step in history], ", ".join(history[-1].held_out)
+    judged = (
+        f"the held-out logs {held}" if held else "parts of the fitted logs, each left out in turn"
+    )
     return PageTable(
-        ["joint", *(PageCell(step_name(step), "bar") for step in history)], rows,
+        ["joint", *steps], rows,
         "Relative error of each joint, in parts of its own rms torque or force, on "
-        + (f"the held-out logs {', '.join(history[-1].held_out)}" if history[-1].held_out
-           else "parts of the fitted logs, each left out in turn")
-        + ". * a change beyond chance, paired over blocks of time.",
+        f"{judged}. * a change beyond chance, paired over blocks of time.",
+        dict.fromkeys(steps, "bar"),
     )  # fmt: skip
 
 
@@ -146,7 +142,8 @@ def _added(model: IdentifiedModel) -> list[Block]:
         Items([(f"{step_name(step)[2:]}:", effect.title)
                for step in steps if (effect := found[step.effect]) is not None])
     ]  # fmt: skip
-    own = chosen(model.fit.parameters, added_names(model))
+    added = added_names(model)
+    own = [parameter for parameter in model.fit.parameters if parameter.name in added]
     if own:
         caption = (
             "SI units; sigma is one standard deviation, and knows that shapes were fitted too."
@@ -173,11 +170,6 @@ def _refused(left_out: Sequence[str]) -> Items:
     return Items(lines)
 
 
-def _again(step: Addition) -> str:
-    joint = f" --joint {step.joint}" if step.joint else ""
-    return f"modeler add MODEL {step.effect}{joint} LOG... --out MODEL"
-
-
 def step_name(step: Addition) -> str:
     """What a step is called: "as fitted", "+ spring @2"."""
     if not step.effect:
@@ -193,10 +185,10 @@ def _broken(step: Addition) -> str:
 def waterfall_picture(history: Sequence[Addition]) -> Picture:
     """Error over the joints after every effect, on held-out and on fitted logs."""
     names = tuple(_broken(step) for step in history)
-    held = np.array([100.0 * s.error for s in history])
-    fitted = np.array([100.0 * s.training_error for s in history])
-    apart = bool(history[-1].held_out)
-    first = "held-out logs" if apart else "parts of the fitted logs, left out in turn"
+    held, fitted = 100.0 * np.array([(s.error, s.training_error) for s in history]).T
+    first = (
+        "held-out logs" if history[-1].held_out else "parts of the fitted logs, left out in turn"
+    )
     panels = (
         Panel(f"On {first}", "", "error [%]", (_bars("judged", names, held, HELD),)),
         Panel("On the fitted logs", "", "error [%]", (_bars("fitted", names, fitted, FITTED),)),
@@ -213,8 +205,6 @@ def waterfall_picture(history: Sequence[Addition]) -> Picture:
             + "`modeler add MODEL undo LOG... --out MODEL` takes the last effect back."
         ),
         panels=(panels,),
-        heights=(1.0,),
-        widths=(0.5, 0.5),
         height=380,
     )  # fmt: skip
 
@@ -241,8 +231,6 @@ def joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Pic
         title="Error of every joint after every effect",
         caption=f"{said}.",
         panels=rows,
-        heights=tuple(1.0 / len(rows) for _ in rows),
-        widths=tuple(1.0 / across for _ in range(across)),
         height=270 * len(rows) + 40,
     )
 

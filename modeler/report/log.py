@@ -1,43 +1,25 @@
 """What is in a log, as pictures and as a page."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 
-from modeler.core.figure import (
-    COLORS,
-    SLATE,
-    Curve,
-    Panel,
-    Picture,
-    Points,
-    Style,
-    thin_curves,
-    thin_points,
-)
+from modeler.core.figure import Curve, Panel, Picture, Points
 from modeler.core.result import Figures, Presentation, Tables, present
-from modeler.core.table import Cell, Table
+from modeler.core.style import COLORS, SLATE, Style
+from modeler.core.table import Cell, Table, percent
+from modeler.core.thinning import thin_curves, thin_points
 from modeler.excitation.result import Exciting
 from modeler.logs.guess import template_of
-from modeler.logs.inspect import Channel, Clock, Look
+from modeler.logs.inspect import Clock, Look
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation
 from modeler.observation.report import DataReport
+from modeler.report.blocks import Code, Figure, Items, PageTable, Paragraph
 from modeler.report.figures import log_figure, picture_figure
-from modeler.report.page import (
-    Code,
-    Figure,
-    Items,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Section,
-    write_page,
-)
+from modeler.report.page import Origin, Page, Section, write_page
 from modeler.simulation.log import SimulatedLog
 
 _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remarks")
@@ -63,7 +45,13 @@ def write_log_page(
         Section(
             "Doubts", [Items([("", line) for line in doubts])] if doubts else [Paragraph("None.")]
         ),
-        Section("Channels", [_table(head, rows), *map(Figure, channel_pictures(seen))]),
+        Section(
+            "Channels",
+            [
+                PageTable(head, rows, kinds=dict.fromkeys(("unit", "remarks"), "text")),
+                *map(Figure, channel_pictures(seen)),
+            ],
+        ),
     ]
     picture = clock_picture(seen)
     if seen.clock is not None and picture is not None:
@@ -82,23 +70,11 @@ def write_log_page(
     return write_page(path, sheet, "log.html")
 
 
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> PageTable:
-    """Units and remarks are text."""
-    texts = (1, len(head) - 1)
-    return PageTable(
-        [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(head)],
-        [
-            [PageCell(cell, "text") if k in texts else cell for k, cell in enumerate(r)]
-            for r in rows
-        ],
-    )
-
-
 def clock_line(clock: Clock) -> str:
     """The clock in words."""
     rate = f"{clock.rate:.6g} Hz" if clock.rate > 0.0 else "unknown rate"
     parts = [f"{clock.column}: {rate} over {clock.duration:.4g} s"]
-    uneven = f"jitter {100 * clock.jitter:.2g} % of a step"
+    uneven = f"jitter {percent(clock.jitter)} of a step"
     parts += [uneven if clock.jitter > 1e-6 else "even"] * (clock.rate > 0.0)
     if clock.gaps:
         parts.append(
@@ -115,21 +91,22 @@ def clock_line(clock: Clock) -> str:
 
 def channel_rows(seen: Look) -> list[list[str]]:
     """Header and one row a channel, as text."""
-    return [list(_HEAD), *(_row(channel) for channel in seen.channels)]
-
-
-def _row(channel: Channel) -> list[str]:
-    remarks = ["never changes"] if channel.constant else []
-    remarks += [f"stays at {end:.4g} in {share:.1%} of the rows" for end, share in channel.limits]
-    return [
-        channel.name,
-        f"{channel.unit}?" if channel.guessed else channel.unit or "-",
-        f"{channel.low:.5g}",
-        f"{channel.high:.5g}",
-        f"{channel.resolution:.3g}" if channel.resolution else "-",
-        str(channel.missing or "-"),
-        "; ".join(remarks),
-    ]
+    rows = [list(_HEAD)]
+    for channel in seen.channels:
+        remarks = ["never changes"] if channel.constant else []
+        remarks += [
+            f"stays at {x:.4g} in {percent(share)} of the rows" for x, share in channel.limits
+        ]
+        rows.append([
+            channel.name,
+            f"{channel.unit}?" if channel.guessed else channel.unit or "-",
+            f"{channel.low:.5g}",
+            f"{channel.high:.5g}",
+            f"{channel.resolution:.3g}" if channel.resolution else "-",
+            str(channel.missing or "-"),
+            "; ".join(remarks),
+        ])  # fmt: skip
+    return rows
 
 
 def log_pictures(seen: Look) -> list[Picture]:
@@ -166,7 +143,7 @@ def _against_time(seen: Look, number: int, template: str, names: Sequence[str]) 
         f"{title} against time, as logged, {len(names)} columns: every extreme is drawn, values "
         "between them are thinned. A value that is missing breaks its line."
     )
-    return Picture(f"channels_{number}", title, caption, ((panel,),), (1.0,), (1.0,), 320)
+    return Picture(f"channels_{number}", title, caption, ((panel,),), 320)
 
 
 def clock_picture(seen: Look) -> Picture | None:
@@ -183,7 +160,7 @@ def clock_picture(seen: Look) -> Picture | None:
         "Time from each row to the next. A level line is a steady clock; dots above it are gaps, "
         "dots at or below 0 times that repeat or go back."
     )
-    return Picture("clock", "Clock", caption, ((panel,),), (1.0,), (1.0,), 260)
+    return Picture("clock", "Clock", caption, ((panel,),), 260)
 
 
 def _time_label(seen: Look) -> str:
@@ -195,14 +172,23 @@ def _time_label(seen: Look) -> str:
 
 def present_logs() -> None:
     """Look, Log, SimulatedLog, Observation, DataReport, Exciting."""
-    present(Look, Presentation("a look at a log", _look_summary, _look_tables, _look_figures))
-    present(Log, Presentation("a log", _log_summary, _log_tables, _log_figures))
-    present(SimulatedLog, Presentation("a simulated log", _simulated_summary, _simulated_tables,
-                                       _simulated_figures))  # fmt: skip
-    present(Observation, Presentation("an observation", _observation_summary,
-                                      _observation_tables))  # fmt: skip
-    present(DataReport, Presentation("a report", lambda r: "\n".join(r.lines()), _report_tables))
-    present(Exciting, Presentation("a motion", _motion_summary, _motion_tables))
+    look = Presentation("a look at a log", _look_summary, _look_tables, _look_figures)
+    log = Presentation("a log", _log_summary, _log_tables, _log_figures)
+    simulated = Presentation("a simulated log", _simulated_summary, _simulated_tables, _log_figures)
+    observed = Presentation(
+        "an observation", _observation_summary, lambda o: _report_tables(o.report)
+    )
+    report = Presentation("a report", lambda r: "\n".join(r.lines()), _report_tables)
+    motion = Presentation("a motion", _motion_summary, lambda m: {"limits": partial(_limits, m)})
+    shown = {
+        Look: look,
+        Log: log,
+        SimulatedLog: simulated,
+        Observation: observed,
+        DataReport: report,
+    }
+    for kind, presentation in {**shown, Exciting: motion}.items():
+        present(kind, presentation)
 
 
 def _look_summary(seen: Look) -> str:
@@ -214,8 +200,7 @@ def _look_summary(seen: Look) -> str:
 
 def _look_tables(seen: Look) -> Tables:
     head, *rows = channel_rows(seen)
-    columns = tuple((name, "") for name in head)
-    return {"channels": lambda: Table(f"channels of {seen.name}", columns, tuple(map(tuple, rows)))}
+    return {"channels": lambda: Table.of(f"channels of {seen.name}", head, rows)}
 
 
 def _look_figures(seen: Look) -> Figures:
@@ -232,19 +217,30 @@ def _log_summary(log: Log) -> str:
     return "\n".join([*lines, *log.notes])
 
 
-def _log_channels(log: Log) -> Iterator[tuple[str, np.ndarray]]:
+def _log_channels(log: Log) -> dict[str, np.ndarray]:
     """Every column by name; units are SI."""
-    pairs = (("q", log.q), ("qd", log.qd), ("qdd", log.qdd), ("qc", log.commanded),
-             ("tau", log.tau))  # fmt: skip
-    for prefix, values in pairs:
-        for j, name in enumerate(log.joints) if values is not None else ():
-            yield f"{prefix}{name}", values[:, j]  # type: ignore[index]
-    yield from log.extra.items()
+    kinds = {"q": log.q, "qd": log.qd, "qdd": log.qdd, "qc": log.commanded, "tau": log.tau}
+    return {
+        f"{prefix}{name}": values[:, j]
+        for prefix, values in kinds.items()
+        if values is not None
+        for j, name in enumerate(log.joints)
+    } | dict(log.extra)
 
 
 def _log_tables(log: Log) -> Tables:
-    rows = tuple(_channel(name, values) for name, values in _log_channels(log))
-    return {"channels": lambda: _channels(log.name, rows), "data": lambda: _data(log)}
+    def channels() -> Table:
+        rows = [_channel(name, values) for name, values in _log_channels(log).items()]
+        head = "channel, least, largest, rms, missing"
+        return Table.of(f"channels of {log.name}, SI units", head, rows)
+
+    def data() -> Table:
+        """Every row; a long table."""
+        columns = {"time": log.time, **_log_channels(log)}
+        rows = tuple(map(tuple, np.column_stack([*columns.values()]).tolist()))
+        return Table(log.name, tuple((name, "") for name in columns), rows)
+
+    return {"channels": channels, "data": data}
 
 
 def _channel(name: str, values: np.ndarray) -> tuple[Cell, ...]:
@@ -255,20 +251,9 @@ def _channel(name: str, values: np.ndarray) -> tuple[Cell, ...]:
             int(values.size - there.size))  # fmt: skip
 
 
-def _channels(title: str, rows: tuple[tuple[Cell, ...], ...]) -> Table:
-    names = ("channel", "least", "largest", "rms", "missing")
-    return Table(f"channels of {title}, SI units", tuple((name, "") for name in names), rows)
-
-
-def _data(log: Log) -> Table:
-    """Every row; a long table."""
-    columns = {"time": log.time, **dict(_log_channels(log))}
-    rows = tuple(map(tuple, np.column_stack([*columns.values()]).tolist()))
-    return Table(log.name, tuple((name, "") for name in columns), rows)
-
-
-def _log_figures(log: Log) -> Figures:
-    return {"channels": lambda: log_figure(log.name, log.joints, log.time, log.q, log.tau)}
+def _log_figures(log: Log | SimulatedLog) -> Figures:
+    title = log.name if isinstance(log, Log) else f"{log.robot}, simulated"
+    return {"channels": lambda: log_figure(title, log.joints, log.time, log.q, log.tau)}
 
 
 def _simulated_summary(log: SimulatedLog) -> str:
@@ -282,17 +267,10 @@ def _simulated_summary(log: SimulatedLog) -> str:
 
 
 def _simulated_tables(log: SimulatedLog) -> Tables:
-    rows = tuple((name, value, name in log.truth.drawn)
-                 for name, value in log.truth.parameters.items())  # fmt: skip
-    truth = Table(
-        f"{log.robot}: true parameters", (("parameter", ""), ("value", "SI"), ("drawn", "")), rows
-    )
-    return {"truth": lambda: truth}
-
-
-def _simulated_figures(log: SimulatedLog) -> Figures:
-    title = f"{log.robot}, simulated"
-    return {"channels": lambda: log_figure(title, log.joints, log.time, log.q, log.tau)}
+    truth = log.truth
+    rows = [(name, value, name in truth.drawn) for name, value in truth.parameters.items()]
+    title = f"{log.robot}: true parameters"
+    return {"truth": lambda: Table.of(title, "parameter, value [SI], drawn", rows)}
 
 
 def _observation_summary(observation: Observation) -> str:
@@ -302,22 +280,15 @@ def _observation_summary(observation: Observation) -> str:
     return "\n".join([first, *observation.report.lines()])
 
 
-def _observation_tables(observation: Observation) -> Tables:
-    return _report_tables(observation.report)
-
-
 def _report_tables(report: DataReport) -> Tables:
-    joints = tuple((j.name, j.used, j.samples, j.slow, j.speed_floor, j.unit)
-                   for j in report.joints)  # fmt: skip
-    logs = tuple((log.name, log.rows, log.rate, log.samples, log.decimation, log.pieces,
-                  log.derivatives) for log in report.logs)  # fmt: skip
-    of_joint = ("joint", "rows", "samples", "share slow", "speed floor", "unit")
-    of_log = ("log", "rows", "rate", "samples", "one of", "pieces", "derivatives")
+    joints = [(j.name, j.used, j.samples, j.slow, j.speed_floor, j.unit) for j in report.joints]
+    logs = [(log.name, log.rows, log.rate, log.samples, log.decimation, log.pieces, log.derivatives)
+            for log in report.logs]  # fmt: skip
+    of_joint = "joint, rows, samples, share slow, speed floor, unit"
+    of_log = "log, rows, rate [Hz], samples, one of, pieces, derivatives"
     return {
-        "joints": lambda: Table("rows of each joint", tuple((n, "") for n in of_joint), joints),
-        "logs": lambda: Table(
-            "logs", tuple((n, "Hz" if n == "rate" else "") for n in of_log), logs
-        ),
+        "joints": lambda: Table.of("rows of each joint", of_joint, joints),
+        "logs": lambda: Table.of("logs", of_log, logs),
     }
 
 
@@ -326,14 +297,12 @@ def _motion_summary(motion: Exciting) -> str:
                       f"{motion.quality.condition:.4g}", *motion.lines()])  # fmt: skip
 
 
-def _motion_tables(motion: Exciting) -> Tables:
+def _limits(motion: Exciting) -> Table:
     b, u = motion.bounds, motion.used
-    rows = tuple(
-        (name, float(u.lower[j]), float(u.upper[j]), float(b.lower[j]), float(b.upper[j]),
-         float(u.speed[j]), float(b.speed[j]), float(u.acceleration[j]), float(b.acceleration[j]))
-        for j, name in enumerate(b.joints)
-    )  # fmt: skip
-    names = ("joint", "lower", "upper", "lower limit", "upper limit", "speed", "speed limit",
-             "acceleration", "acceleration limit")  # fmt: skip
-    title = f"{motion.robot}: what the motion uses of the limits, SI units"
-    return {"limits": lambda: Table(title, tuple((n, "") for n in names), rows)}
+    columns = (u.lower, u.upper, b.lower, b.upper, u.speed, b.speed, u.acceleration, b.acceleration)
+    return Table.of(
+        f"{motion.robot}: what the motion uses of the limits, SI units",
+        "joint, lower, upper, lower limit, upper limit, speed, speed limit, acceleration, "
+        "acceleration limit",
+        [(name, *(float(column[j]) for column in columns)) for j, name in enumerate(b.joints)],
+    )

@@ -4,50 +4,26 @@ One room for all: a result knows what it found, these files know how to say it. 
 when a result is first shown.
 """
 
+from functools import partial
+from importlib import import_module
+
 from modeler.core.result import present_later
+
+_SHOWN = {
+    "derivation.present_robots": "Robot Derivation Emitted CompiledModel HomeModes",
+    "log.present_logs": "Look Log SimulatedLog Observation DataReport Exciting",
+    "fit.present_models": "FitResult IdentifiedModel Addition SideBySide",
+    "judgements.present_judgements": "Contest Comparison Diagnosis FreeRun",
+    "fleet.present_fleets": "Fleet",
+}
+"""Classes of results, by the file of this package and its function that says how they are shown."""
 
 
 def register() -> None:
     """Says who knows how the results of every stage are shown."""
-    present_later(("Robot", "Derivation", "Emitted", "CompiledModel", "HomeModes"), _robots)
-    present_later(("Look", "Log", "SimulatedLog", "Observation", "DataReport", "Exciting"), _logs)
-    present_later(("FitResult", "IdentifiedModel", "Addition", "SideBySide"), _models)
-    present_later(("Contest", "Comparison", "Diagnosis"), _judgements)
-    present_later(("FreeRun",), _free_runs)
-    present_later(("Fleet",), _fleets)
+    for place, names in _SHOWN.items():
+        present_later(names.split(), partial(_load, *place.split(".")))
 
 
-def _robots() -> None:
-    from modeler.report.derivation import present_robots
-
-    present_robots()
-
-
-def _logs() -> None:
-    from modeler.report.log import present_logs
-
-    present_logs()
-
-
-def _models() -> None:
-    from modeler.report.fit import present_models
-
-    present_models()
-
-
-def _judgements() -> None:
-    from modeler.report.judgements import present_judgements
-
-    present_judgements()
-
-
-def _free_runs() -> None:
-    from modeler.report.free_run import present_free_runs
-
-    present_free_runs()
-
-
-def _fleets() -> None:
-    from modeler.report.fleet import present_fleets
-
-    present_fleets()
+def _load(module: str, function: str) -> None:
+    getattr(import_module(f"modeler.report.{module}"), function)()

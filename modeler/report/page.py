@@ -14,7 +14,7 @@ import jinja2
 
 from modeler.core.figure import Picture
 from modeler.core.files import page_place, resource_dir, write_atomically
-from modeler.core.formula import Formula
+from modeler.report.blocks import Block
 from modeler.report.figure_page import Numbers, cells, drawn, keys, packed, plotted
 
 if TYPE_CHECKING:
@@ -100,6 +100,7 @@ def _share(value: float, top: float) -> str:
 NAME = "index.html"
 _ABOUT = re.compile(r'id="about">([^<]*)<')
 _HEAD = 200_000  # characters within which a page says what it is about
+_TEXTS = ("command", "title", "figure", "verdict", "model")
 _ORDER = ("derive", "show", "home", "fit", "estimators", "compare", "diagnose", "add")
 
 
@@ -167,25 +168,18 @@ def entries(folder: Path) -> list[Entry]:
     for path in pages:
         about = _about(path)
         if about is not None and about.get("command") != "index":
-            found.append(_entry(path.relative_to(folder).as_posix(), about))
+            place = path.relative_to(folder).as_posix()
+            texts = {name: str(about.get(name) or "") for name in _TEXTS}
+            logs, held = about.get("logs"), about.get("held_out")
+            found.append(
+                Entry(
+                    place=place,
+                    logs=tuple(map(str, logs)) if isinstance(logs, list) else (),
+                    held_out=held if isinstance(held, bool) else None,
+                    **texts | {"title": texts["title"] or place},
+                )
+            )
     return sorted(found, key=lambda entry: (entry.folder, entry.rank))
-
-
-def _entry(place: str, about: dict[str, object]) -> Entry:
-    def text(name: str) -> str:
-        return str(about.get(name) or "")
-
-    logs, held = about.get("logs"), about.get("held_out")
-    return Entry(
-        place=place,
-        command=text("command"),
-        title=text("title") or place,
-        figure=text("figure"),
-        verdict=text("verdict"),
-        model=text("model"),
-        logs=tuple(map(str, logs)) if isinstance(logs, list) else (),
-        held_out=held if isinstance(held, bool) else None,
-    )
 
 
 def _about(path: Path) -> dict[str, object] | None:
@@ -197,104 +191,6 @@ def _about(path: Path) -> dict[str, object] | None:
     except (OSError, ValueError):
         return None
     return about if isinstance(about, dict) else None
-
-
-@dataclass(frozen=True)
-class PageCell:
-    """Of a table.
-
-    Attributes:
-        text: what stands there.
-        kind: "number" to the right, "text" to the left and wrapped, "bar" with a bar before it.
-        share: length of the bar, 0 to 1.
-        link: id of a section of this page.
-    """
-
-    text: str
-    kind: str = "number"
-    share: float = 0.0
-    link: str = ""
-
-
-@dataclass(frozen=True)
-class PageTable:
-    """Head and rows; a plain string is a number, or the text of the first column."""
-
-    head: Sequence[str | PageCell]
-    rows: Sequence[Sequence[str | PageCell]]
-    caption: str = ""
-    block: str = "table"
-
-
-@dataclass(frozen=True)
-class Paragraph:
-    """A paragraph."""
-
-    text: str
-    block: str = "lead"
-
-
-@dataclass(frozen=True)
-class Items:
-    """A list; each line with a word before it that is set bold, or none."""
-
-    lines: Sequence[tuple[str, str]]
-    block: str = "items"
-
-
-@dataclass(frozen=True)
-class JudgedLine:
-    """One line of a verdict.
-
-    Attributes:
-        kind: "noise" (good), "pattern" (bad), "other" (unclear), "" (none of them).
-        tag: a word or two.
-        head: what it is about.
-        text: what is said of it.
-        link: id of a section of this page, or nothing.
-    """
-
-    kind: str
-    tag: str
-    head: str
-    text: str
-    link: str = ""
-
-
-@dataclass(frozen=True)
-class Verdicts:
-    """A list of judgements."""
-
-    lines: Sequence[JudgedLine]
-    block: str = "verdicts"
-
-
-@dataclass(frozen=True)
-class Figure:
-    """A picture with its caption, legend, maps of cells as tables, and its numbers to download."""
-
-    picture: Picture
-    titled: bool = True
-    block: str = "figure"
-
-
-@dataclass(frozen=True)
-class FormulaBlock:
-    """Formulas below one another, each in pieces between which a line may break, and its unit."""
-
-    rows: Sequence[tuple[Sequence[Formula], str]]
-    block: str = "formulas"
-
-
-@dataclass(frozen=True)
-class Code:
-    """Commands or text to copy, as it is."""
-
-    text: str
-    block: str = "code"
-
-
-Block = PageTable | Paragraph | Items | Verdicts | Figure | FormulaBlock | Code
 
 
 @dataclass(frozen=True)
@@ -354,15 +250,9 @@ def page(sheet: Page) -> str:
 
 def _page_facts(sheet: Page) -> dict[str, Any]:
     """What the index of a folder says of the page."""
-    return {
-        "command": sheet.command,
-        "title": sheet.title,
-        "figure": sheet.headline[0],
-        "verdict": sheet.headline[1],
-        "model": sheet.origin.model,
-        "logs": list(sheet.origin.logs),
-        "held_out": sheet.origin.held_out,
-    }
+    texts = (sheet.command, sheet.title, *sheet.headline, sheet.origin.model)
+    logs, held = list(sheet.origin.logs), sheet.origin.held_out
+    return dict(zip(_TEXTS, texts, strict=True)) | {"logs": logs, "held_out": held}
 
 
 def write_page(path: Path, sheet: Page, name: str) -> Path:
@@ -438,7 +328,9 @@ def after_diagnosis(
     held = f" --holdout {_listed(holdout)}" if holdout else ""
     effect = shlex.quote(first.effect)
     words = f"modeler add {_listed([model])} {effect}{joint} {_listed(logs)}{held}"
-    return [f"{words} --out {_listed([_better(model)])}"]
+    path = Path(model)
+    better = path.with_name(f"{path.name.partition('.')[0]}-improved{''.join(path.suffixes)}")
+    return [f"{words} --out {_listed([str(better)])}"]
 
 
 def after_add(model: str, holdout: Sequence[str]) -> list[str]:
@@ -450,16 +342,8 @@ def after_add(model: str, holdout: Sequence[str]) -> list[str]:
 
 def _taken(model: str) -> str:
     """To the controller."""
-    return f"modeler generate {_listed([model])} --out {_folder(model)}"
-
-
-def _better(model: str) -> str:
-    path = Path(model)
-    return str(path.with_name(f"{path.name.partition('.')[0]}-improved{''.join(path.suffixes)}"))
-
-
-def _folder(model: str) -> str:
-    return _listed([f"{Path(model).name.partition('.')[0]}_c"])
+    folder = f"{Path(model).name.partition('.')[0]}_c"
+    return f"modeler generate {_listed([model])} --out {_listed([folder])}"
 
 
 def _listed(words: Sequence[str]) -> str:

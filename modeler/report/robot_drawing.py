@@ -4,17 +4,18 @@ import io
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, FancyArrowPatch, Polygon
+from matplotlib.patches import Circle, FancyArrowPatch, Patch, Polygon
 
 from modeler.report.robot_closing import Posture
 from modeler.report.robot_labels import Name, good_view, placed_names
-from modeler.report.robot_scene import BASE, Dot, Face, Point, Scene, SceneLine, gap_lines, scene_of
+from modeler.report.robot_scene import BASE, Point, Scene, SceneLine, gap_lines, scene_of
 from modeler.report.robot_skeleton import Skeleton, poses
 
 SETTINGS: Any = {"svg.hashsalt": "modeler", "svg.fonttype": "none", "font.size": 7}
@@ -108,21 +109,16 @@ def _faces(scene: Scene, sheet: PaperSheet) -> list[Any]:
         if face.opacity == 1.0 and normal @ sheet.rotation[2] <= 0.0:
             continue
         bright = 0.74 + 0.42 * max(0.0, float(normal @ light)) if face.opacity == 1.0 else 1.0
-        points = sheet.seen(corners)
-        found.append((float(points[:, 2].mean()), _polygon(face, points[:, :2], bright)))
+        points, color = sheet.seen(corners), _shaded(face.color, bright)
+        patch = Polygon(points[:, :2], facecolor=color, edgecolor=color, linewidth=0.3,
+                        alpha=face.opacity)  # fmt: skip
+        found.append((float(points[:, 2].mean()), partial(_patched, patch)))
     return found
 
 
-def _polygon(face: Face, points: np.ndarray, bright: float) -> Any:
-    color = _shaded(face.color, bright)
-
-    def draw(axes: Any, order: float) -> None:
-        axes.add_patch(
-            Polygon(points, facecolor=color, edgecolor=color, linewidth=0.3,
-                    alpha=face.opacity, zorder=order)
-        )  # fmt: skip
-
-    return draw
+def _patched(patch: Patch, axes: Any, order: float) -> None:
+    patch.set_zorder(order)
+    axes.add_patch(patch)
 
 
 def _shaded(color: str, bright: float) -> tuple[float, ...]:
@@ -177,18 +173,13 @@ def arrow(a: np.ndarray, b: np.ndarray, color: str, width: float, order: float) 
 
 
 def _dots(scene: Scene, sheet: PaperSheet) -> list[Any]:
-    return [(float(sheet.point(dot.at)[2]), _spot(dot, sheet.point(dot.at)[:2]))
-            for dot in scene.dots]  # fmt: skip
-
-
-def _spot(dot: Dot, at: np.ndarray) -> Any:
-    def draw(axes: Any, order: float) -> None:
-        axes.add_patch(
-            Circle(tuple(at), dot.radius * _UNIT, facecolor=dot.color, edgecolor="white",
-                   linewidth=0.4, zorder=order)
-        )  # fmt: skip
-
-    return draw
+    found = []
+    for dot in scene.dots:
+        at = sheet.point(dot.at)
+        patch = Circle(tuple(at[:2]), dot.radius * _UNIT, facecolor=dot.color, edgecolor="white",
+                       linewidth=0.4)  # fmt: skip
+        found.append((float(at[2]), partial(_patched, patch)))
+    return found
 
 
 # The skeleton as a picture for papers: one column wide.
@@ -288,11 +279,8 @@ def _ruler(axes: Any, sheet: PaperSheet) -> None:
 # Several postures of a robot side by side, as the assembly modes of its loops.
 
 
-_WIDE, _LEAST_MODE, _MOST_MODE = (
-    126.0,
-    60.0,
-    150.0,
-)  # points, of one posture: half a column, and heights
+# Points, of one posture: half a column, and heights.
+_WIDE, _LEAST_MODE, _MOST_MODE = 126.0, 60.0, 150.0
 _MODE_MARGIN, _TITLE = 8.0, 14.0
 _ACROSS = 4
 _HIDDEN_IN_MODES = ("frames", "masses", "names", "fixed names", "loop names")
@@ -320,9 +308,8 @@ def modes_bytes(
     span = np.maximum(high - low, 1e-6 * postures[0].size)
     room = np.array([_WIDE, _MOST_MODE]) - 2.0 * _MODE_MARGIN - [0.0, _TITLE]
     scale = float(np.min(room / span))
-    high_one = float(
-        np.clip(scale * span[1] + 2.0 * _MODE_MARGIN + _TITLE, _LEAST_MODE, _MOST_MODE)
-    )
+    wanted = scale * span[1] + 2.0 * _MODE_MARGIN + _TITLE
+    high_one = float(np.clip(wanted, _LEAST_MODE, _MOST_MODE))
     across = min(_ACROSS, len(postures))
     down = -(-len(postures) // across)
     size = (_WIDE * across, high_one * down)
@@ -333,9 +320,6 @@ def modes_bytes(
             middle = corner + np.array([_WIDE, high_one - _TITLE]) / 2.0
             sheet = PaperSheet(each, rotation, scale, middle - scale * (low + high) / 2.0, size)
             draw_parts(axes, scene, sheet, postures[k].size)
-            _title(axes, titles[k], corner + np.array([_MODE_MARGIN, high_one - _TITLE]))
+            x, y = corner + np.array([_MODE_MARGIN, high_one - _TITLE])
+            axes.text(x, y, titles[k], fontsize=8, fontweight="bold", va="bottom", zorder=9.0)
         return saved(axes, suffix)
-
-
-def _title(axes: Any, text: str, at: np.ndarray) -> None:
-    axes.text(*at, text, fontsize=8, fontweight="bold", va="bottom", ha="left", zorder=9.0)

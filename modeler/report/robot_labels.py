@@ -33,9 +33,12 @@ def good_view(skeleton: Skeleton, posture: Posture) -> ViewDirection:
 
     Straight on for planar mechanisms; nearly so for others that stand in a plane.
     """
-    up = _up(skeleton)
+    pull = float(np.linalg.norm(skeleton.gravity))
+    up = -skeleton.gravity / pull if pull > 0.0 else np.array([0.0, 0.0, 1.0])
     points = joint_points(skeleton, posture.u)
-    axes = _turning_axes(skeleton, posture)
+    frames = poses(skeleton, posture.u)
+    turning = [i for i, row in enumerate(skeleton.rows) if row.joint.moves and row.joint.angular]
+    axes = np.array([frames[i][:3, 2] for i in turning]).reshape(-1, 3)
     normal = _normal(points, axes, posture.size)
     if normal is not None:
         return ViewDirection(_at_plane(normal, axes, up), up)
@@ -92,22 +95,6 @@ def joint_points(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
             before = np.eye(4) if row.parent == BASE else frames[row.parent]
             points.append((before @ foot(row))[:3, 3])
     return np.unique(np.round(np.array(points), 9), axis=0)
-
-
-def _up(skeleton: Skeleton) -> np.ndarray:
-    length = float(np.linalg.norm(skeleton.gravity))
-    return -skeleton.gravity / length if length > 0.0 else np.array([0.0, 0.0, 1.0])
-
-
-def _turning_axes(skeleton: Skeleton, posture: Posture) -> np.ndarray:
-    """(n, 3) directions of the revolute joints."""
-    frames = poses(skeleton, posture.u)
-    found = [
-        frames[i][:3, 2]
-        for i, row in enumerate(skeleton.rows)
-        if row.joint.moves and row.joint.angular
-    ]
-    return np.array(found).reshape(-1, 3)
 
 
 def _parallel(axes: np.ndarray, normal: np.ndarray) -> bool:
@@ -193,23 +180,13 @@ def placed_names(
         widths = [_wide(name.text) for name in group]
         width = sum(widths) + _BLANK * (len(group) - 1)
         others = [each[0] for each in groups if each is not group]
-        box = _best(group, width, _Beside(taken, dense, bars, others), paper)
+        box = _best(group, np.array([width, _HIGH]), taken, dense, bars, others, paper)
         taken.append(box)
         x = box[0, 0]
         for name, wide in zip(group, widths, strict=True):
             found.append(Name(name.text, name.color, np.array([x, box[:, 1].mean()])))
             x += wide + _BLANK
     return found
-
-
-@dataclass(frozen=True)
-class _Beside:
-    """What names should not cover: names that stand, points of lines and bars, what is named."""
-
-    taken: Sequence[np.ndarray]
-    lines: Sequence[np.ndarray]
-    bars: Sequence[np.ndarray]
-    named: Sequence[Name]
 
 
 def _wide(text: str) -> float:
@@ -222,25 +199,31 @@ def _wide(text: str) -> float:
 
 def _best(
     group: Sequence[Name],
-    width: float,
-    beside: _Beside,
+    size: np.ndarray,
+    taken: Sequence[np.ndarray],
+    lines: Sequence[np.ndarray],
+    bars: Sequence[np.ndarray],
+    others: Sequence[Name],
     paper: tuple[float, float],
 ) -> np.ndarray:
-    """(2, 2) lower left and upper right corner of the text."""
-    size, bulk = np.array([width, _HIGH]), max(name.bulk for name in group)
+    """(2, 2) lower left and upper right corner of a text of that size.
+
+    It should not cover names that stand, points of lines and bars, and what others name.
+    """
+    bulk = max(name.bulk for name in group)
     best, best_cost = None, np.inf
     for ring in range(3):
         for k in range(12):
             angle = np.pi * (k - 1) / 6.0
             reach = 4.0 + 5.0 * ring + bulk
-            way = np.array([np.cos(angle) * (reach + width / 2), np.sin(angle) * (reach + 2.0)])
+            way = np.array([np.cos(angle) * (reach + size[0] / 2), np.sin(angle) * (reach + 2.0)])
             low = group[0].at + way - size / 2
             box = np.array([low, low + size])
-            cost = 8.0 * sum(_overlap(box, other) for other in beside.taken) + 0.7 * ring
-            cost += min(4, sum(_through(points, box) for points in beside.lines))
-            cost += 2.0 * sum(_covers(box, name) for name in beside.named)
+            cost = 8.0 * sum(_overlap(box, other) for other in taken) + 0.7 * ring
+            cost += min(4, sum(_through(points, box) for points in lines))
+            cost += 2.0 * sum(_covers(box, name) for name in others)
             wide = box + np.array([[-0.7], [0.7]]) * bulk
-            cost += 2.0 * sum(_through(points, wide) for points in beside.bars)
+            cost += 2.0 * sum(_through(points, wide) for points in bars)
             cost += 20.0 * (np.any(box[0] < 3.0) or np.any(box[1] > np.array(paper) - 3.0))
             if best is None or cost < best_cost - 1e-9:
                 best, best_cost = box, cost

@@ -6,11 +6,14 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core.json import entries
+from modeler.core.table import aligned
+from modeler.report.page import render, script_json
 from modeler.report.robot_closing import CLOSED, Gap, Posture, gaps_of
 from modeler.report.robot_labels import good_view
-from modeler.report.robot_scene import Face, Point, Scene, SceneLine, scene_of
+from modeler.report.robot_scene import Point, Scene, scene_of
 from modeler.report.robot_skeleton import Skeleton, SkeletonRow, kind_word, poses
-from modeler.robot.robot import Joint, JointKind, Robot
+from modeler.robot.robot import JointKind, Robot
 
 _DIGITS = 7  # of coordinates of drawn points: finer than any screen
 
@@ -51,8 +54,7 @@ def _row(row: SkeletonRow) -> dict[str, Any]:
     joint = row.joint
     used = np.flatnonzero(row.coefficients)
     return {
-        "name": joint.name,
-        "antecedent": joint.antecedent,
+        **entries(joint, "name antecedent"),
         "parent": row.parent,
         "kind": kind_word(joint),
         "actuated": joint.actuated,
@@ -60,8 +62,7 @@ def _row(row: SkeletonRow) -> dict[str, Any]:
         "unit": joint.unit,
         "cells": dict(row.cells),
         "texts": {name: getattr(joint, name).text for name in row.cells},
-        "rate": row.rate,
-        "constant": row.constant,
+        **entries(row, "rate constant"),
         "terms": [[int(k), float(row.coefficients[k])] for k in used],
     }
 
@@ -77,44 +78,21 @@ def _range(skeleton: Skeleton, posture: Posture, k: int) -> list[float]:
 
 
 def _parts(scene: Scene) -> dict[str, Any]:
+    """Every part as an object with its fields; points are lists [frame, x, y, z]."""
     return {
         "bulk": scene.radius,
-        "sleeves": [[_point(end) for end in sleeve.ends] for sleeve in scene.sleeves],
-        "lines": [_line(line) for line in scene.lines],
-        "faces": [_face(face) for face in scene.faces],
-        "dots": [
-            {"row": d.row, "at": _point(d.at), "color": d.color, "radius": d.radius,
-             "layer": d.layer}
-            for d in scene.dots
+        "sleeves": [_ends(sleeve.ends) for sleeve in scene.sleeves],
+        "lines": [vars(line) | {"ends": _ends(line.ends)} for line in scene.lines],
+        "faces": [
+            vars(face) | {"points": np.round(face.points, _DIGITS).tolist()} for face in scene.faces
         ],
-        "labels": [
-            {"row": x.row, "at": _point(x.at), "text": x.text, "color": x.color, "layer": x.layer}
-            for x in scene.labels
-        ],
-    }  # fmt: skip
-
-
-def _line(line: SceneLine) -> dict[str, Any]:
-    return {
-        "row": line.row,
-        "ends": [_point(end) for end in line.ends],
-        "color": line.color,
-        "width": line.width,
-        "layer": line.layer,
-        "arrow": line.arrow,
-        "dashed": line.dashed,
+        "dots": [vars(dot) | {"at": _point(dot.at)} for dot in scene.dots],
+        "labels": [vars(label) | {"at": _point(label.at)} for label in scene.labels],
     }
 
 
-def _face(face: Face) -> dict[str, Any]:
-    return {
-        "row": face.row,
-        "frame": face.frame,
-        "points": np.round(face.points, _DIGITS).tolist(),
-        "color": face.color,
-        "layer": face.layer,
-        "opacity": face.opacity,
-    }
+def _ends(ends: tuple[Point, Point]) -> list[list[float]]:
+    return [_point(end) for end in ends]
 
 
 def _point(point: Point) -> list[float]:
@@ -154,20 +132,17 @@ def table_head(robot: Robot) -> tuple[str, ...]:
 
 def table_rows(robot: Robot) -> tuple[TableRow, ...]:
     """The rows in table order, the platform's last."""
-    used = _used(robot)
-    rows = [_table_row(i, joint, used, robot) for i, joint in enumerate(robot.joints)]
+    used, rows = _used(robot), []
+    for i, joint in enumerate(robot.joints):
+        kind = "fixed" if not joint.moves else "actuated" if joint.actuated else "passive"
+        cells = (joint.name, joint.antecedent, f"{joint.actuated:d}", f"{JointKind(joint.kind):d}")
+        columns = tuple((name, _typeset(getattr(joint, name).text)) for name in used)
+        rows.append(TableRow(i, kind, cells, columns, joint.name in robot.platform))
     return tuple(sorted(rows, key=lambda row: row.platform))
 
 
 def _used(robot: Robot) -> list[str]:
     return [name for name in _COLUMNS if any(not getattr(j, name).is_zero for j in robot.joints)]
-
-
-def _table_row(i: int, joint: Joint, used: list[str], robot: Robot) -> TableRow:
-    kind = "fixed" if not joint.moves else "actuated" if joint.actuated else "passive"
-    cells = (joint.name, joint.antecedent, f"{joint.actuated:d}", f"{JointKind(joint.kind):d}")
-    entries = tuple((name, _typeset(getattr(joint, name).text)) for name in used)
-    return TableRow(i, kind, cells, entries, joint.name in robot.platform)
 
 
 def _typeset(cell: str) -> str:
@@ -189,8 +164,7 @@ def gravity_text(skeleton: Skeleton) -> str:
 
 def relations_text(robot: Robot) -> str:
     """`q4 = -q3, q7 = q3`; nothing without relations."""
-    found = [f"q{name} = {relation.text}" for name, relation in robot.relations.items()]
-    return ", ".join(found)
+    return ", ".join(f"q{name} = {relation.text}" for name, relation in robot.relations.items())
 
 
 # What is shown, in words and for machines.
@@ -199,17 +173,12 @@ def relations_text(robot: Robot) -> str:
 _HEAD = ("j", "a", "joint", "q", "x", "y", "z", "axis")
 
 
-def told(skeleton: Skeleton, posture: Posture) -> list[str]:
+def posture_lines(skeleton: Skeleton, posture: Posture) -> list[str]:
     """Lines for people: where every frame stands at home, and whether the loops close."""
     robot = skeleton.robot
     frames = poses(skeleton, posture.u)
     cells = [_HEAD, *(_cells(row, frames[i], posture) for i, row in enumerate(skeleton.rows))]
-    widths = [max(len(line[k]) for line in cells) for k in range(len(_HEAD))]
-    table = [
-        "  ".join(text.rjust(w) if 3 <= k <= 6 else text.ljust(w)
-                  for k, (text, w) in enumerate(zip(line, widths, strict=True))).rstrip()
-        for line in cells
-    ]  # fmt: skip
+    table = [line.rstrip() for line in aligned(cells, (0, 1, 2, 7))]
     plain = gravity_text(skeleton).replace("\u2212", "-").replace("\u00b2", "2")
     lines = [f"{robot.name}: {robot.title}", plain]
     lines += ["frames at home: origin in frame 0 [m], direction of the joint's axis", *table]
@@ -257,7 +226,7 @@ def _loop_lines(skeleton: Skeleton, posture: Posture) -> list[str]:
     return lines
 
 
-def described(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
+def posture_json(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
     """The same for machines: poses are 4x4 matrices, rows first, in frame 0, m."""
     frames = poses(skeleton, posture.u)
     return {
@@ -270,9 +239,8 @@ def described(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
             if row.joint.moves
         },
         "frames": [
-            {"name": row.joint.name, "antecedent": row.joint.antecedent,
-             "joint": kind_word(row.joint), "actuated": row.joint.actuated,
-             "pose": frames[i].tolist()}
+            {**entries(row.joint, "name antecedent"), "joint": kind_word(row.joint),
+             "actuated": row.joint.actuated, "pose": frames[i].tolist()}
             for i, row in enumerate(skeleton.rows)
         ],
         "loops": [
@@ -303,3 +271,34 @@ def _direction(z: np.ndarray) -> str:
     if abs(z[k]) > 1.0 - 1e-9:
         return f"{'-' if z[k] < 0 else '+'}{'xyz'[k]}0"
     return " ".join(f"{0.0 if abs(x) < 5e-4 else x:.3f}" for x in z)
+
+
+def robot_html(skeleton: Skeleton, posture: Posture) -> str:
+    """The page as text; its security policy forbids any network access."""
+    robot = skeleton.robot
+    return render(
+        "robot",
+        title=f"{robot.name}: skeleton",
+        about={"command": "show", "title": f"{robot.name}: skeleton", "verdict": robot.title},
+        robot=robot,
+        notes=" ".join(robot.notes.split()),
+        posture=posture.note,
+        gravity=gravity_text(skeleton),
+        head=table_head(robot),
+        rows=table_rows(robot),
+        relations=relations_text(robot),
+        content=script_json(page_content(skeleton, posture)),
+    )
+
+
+def modes_html(name: str, title: str, count: int, svg: str) -> str:
+    """The page of a robot's assembly modes.
+
+    Args:
+        name: of the robot.
+        title: of the robot.
+        count: of modes.
+        svg: the picture of them all, as our own drawer makes it.
+    """
+    drawn = svg[svg.index("<svg") :]
+    return render("modes", title=f"{name}: assembly modes", robot=title, count=count, svg=drawn)

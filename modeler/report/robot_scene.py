@@ -1,7 +1,8 @@
 """What is drawn of a robot: parts and glyphs that hang on frames and move with them."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -150,14 +151,11 @@ class Scene:
 
     def without(self, layers: Sequence[str]) -> "Scene":
         """The scene without what is shown and hidden with these layers."""
-        return Scene(
-            self.radius,
-            tuple(part for part in self.lines if part.layer not in layers),
-            tuple(part for part in self.faces if part.layer not in layers),
-            tuple(part for part in self.dots if part.layer not in layers),
-            tuple(part for part in self.labels if part.layer not in layers),
-            self.sleeves,
-        )
+        kept: Any = {
+            kind: tuple(part for part in getattr(self, kind) if part.layer not in layers)
+            for kind in ("lines", "faces", "dots", "labels")
+        }
+        return replace(self, **kept)
 
 
 ORIGIN = (0.0, 0.0, 0.0)
@@ -176,17 +174,17 @@ def scene_of(skeleton: Skeleton, posture: Posture) -> Scene:
                 *maker.end(i, row),
             ]
         parts += maker.mass(i, row)
+
+    def every(kind: type[P]) -> tuple[P, ...]:
+        return tuple(part for part in parts if isinstance(part, kind))
+
     return Scene(
-        maker.radius,
-        tuple(part for part in parts if isinstance(part, SceneLine)),
-        tuple(part for part in parts if isinstance(part, Face)),
-        tuple(part for part in parts if isinstance(part, Dot)),
-        tuple(part for part in parts if isinstance(part, Label)),
-        tuple(part for part in parts if isinstance(part, Sleeve)),
+        maker.radius, every(SceneLine), every(Face), every(Dot), every(Label), every(Sleeve)
     )
 
 
 Part = SceneLine | Face | Dot | Label | Sleeve
+P = TypeVar("P", SceneLine, Face, Dot, Label, Sleeve)
 
 
 class _Maker:
@@ -198,20 +196,15 @@ class _Maker:
     """
 
     def __init__(self, skeleton: Skeleton, posture: Posture) -> None:
-        self.skeleton = skeleton
-        self.size = posture.size
+        self.skeleton, self.size = skeleton, posture.size
         self.r = [_travel(row, posture.u) for row in skeleton.rows]
-        self.radius = self._radius()
         self.frames = poses(skeleton, posture.u)
-
-    def _radius(self) -> float:
-        """Of joints: small beside the robot, and beside most of its links."""
-        rows = [(row, r) for row, r in zip(self.skeleton.rows, self.r, strict=True)
-                if not row.virtual]  # fmt: skip
+        rows = [pair for pair in zip(skeleton.rows, self.r, strict=True) if not pair[0].virtual]
         lengths = [abs(x) for row, r in rows for x in (row.cells["b"], row.cells["d"], r)]
         lengths = [x for x in lengths if x > 1e-6 * self.size]
         typical = float(np.quantile(lengths, 0.25)) if lengths else self.size
-        return float(np.clip(0.3 * typical, 0.010 * self.size, 0.021 * self.size))
+        # small beside the robot, and beside most of its links
+        self.radius = float(np.clip(0.3 * typical, 0.010 * self.size, 0.021 * self.size))
 
     def color(self, body: int) -> str:
         """Of a link."""
@@ -317,10 +310,8 @@ class _Maker:
         met = any(row.joint.name in (loop.frame, loop.meets) for loop in skeleton.robot.loops)
         if followed or met or not row.joint.moves:
             return
-        tip = self._way_out(row) * 0.13 * self.size
-        yield SceneLine(
-            i, ((i, ORIGIN), (i, _tuple(tip))), self.color(i), 3.0, "links", dashed=True
-        )
+        ends = ((i, ORIGIN), (i, _tuple(self._way_out(row) * 0.13 * self.size)))
+        yield SceneLine(i, ends, self.color(i), 3.0, "links", dashed=True)
 
     def _way_out(self, row: SkeletonRow) -> np.ndarray:
         """The axis of frame j that the link's mass lies along; else what the table suggests."""

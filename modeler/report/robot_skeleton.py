@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.core.expression import Expression
 from modeler.robot.cells import linear_form
 from modeler.robot.robot import Joint, JointKind, Robot
 
@@ -94,37 +93,25 @@ def skeleton_of(robot: Robot) -> Skeleton:
     free = tuple(joint.name for joint in robot.free)
     places = {joint.name: i for i, joint in enumerate(robot.joints)}
     forms = _forms(robot, values, free)
-    rows = tuple(
-        _row(robot, joint, places.get(joint.antecedent, BASE), values, forms)
-        for joint in robot.joints
-    )
+    rows = []
+    for joint in robot.joints:
+        cells: dict[str, float] = {}
+        rate = 0.0
+        for name in _CELLS:
+            affine = linear_form(getattr(joint, name), values)
+            cells[name] = affine.constant
+            rate += affine.coefficients.get(joint.variable, 0.0)
+        form = forms.get(joint.name, np.zeros(1 + len(free)))
+        parent, virtual = places.get(joint.antecedent, BASE), joint.name in robot.platform
+        rows.append(SkeletonRow(joint, parent, cells, rate, float(form[0]), form[1:], virtual))
     return Skeleton(
         robot=robot,
-        rows=rows,
+        rows=tuple(rows),
         free=free,
         given=tuple(free.index(joint.name) for joint in robot.coordinates),
         stated=np.array([robot.home.get(name, 0.0) for name in free]),
         gravity=np.array([component.number(values) for component in robot.gravity]),
     )
-
-
-def _row(
-    robot: Robot,
-    joint: Joint,
-    parent: int,
-    values: Mapping[str, float],
-    forms: Mapping[str, np.ndarray],
-) -> SkeletonRow:
-    cells: dict[str, float] = {}
-    rate = 0.0
-    for name in _CELLS:
-        cell: Expression = getattr(joint, name)
-        affine = linear_form(cell, values)
-        cells[name] = affine.constant
-        rate += affine.coefficients.get(joint.variable, 0.0)
-    form = forms.get(joint.name, np.zeros(1 + len(robot.free)))
-    virtual = joint.name in robot.platform
-    return SkeletonRow(joint, parent, cells, rate, float(form[0]), form[1:], virtual)
 
 
 def _forms(
@@ -165,7 +152,9 @@ def poses(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
     for i, row in enumerate(skeleton.rows):
         before = np.eye(4) if row.parent == BASE else found[row.parent]
         q = row.constant + row.coefficients @ u
-        found[i] = before @ foot(row) @ _screw_z(*_moved(row, q))
+        theta, r = row.cells["theta"], row.cells["r"]
+        moved = (theta + row.rate * q, r) if row.joint.angular else (theta, r + row.rate * q)
+        found[i] = before @ foot(row) @ _screw_z(*moved)
     return found
 
 
@@ -182,13 +171,6 @@ def foot(row: SkeletonRow) -> np.ndarray:
 def corner(row: SkeletonRow) -> np.ndarray:
     """(3,) where the common normal leaves the antecedent's z axis, in the antecedent frame."""
     return np.array([0.0, 0.0, row.cells["b"]])
-
-
-def _moved(row: SkeletonRow, q: complex | float) -> tuple[complex | float, complex | float]:
-    theta, r = row.cells["theta"], row.cells["r"]
-    if row.joint.angular:
-        return theta + row.rate * q, r
-    return theta, r + row.rate * q
 
 
 def _screw_z(angle: complex | float, travel: complex | float) -> np.ndarray:

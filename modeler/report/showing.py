@@ -7,8 +7,8 @@ from pathlib import Path
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, DerivationError, LoopError
 from modeler.core.files import write_atomically
-from modeler.report.robot import robot_html
 from modeler.report.robot_closing import Posture, home_posture
+from modeler.report.robot_page import robot_html
 from modeler.report.robot_skeleton import PICTURE_KINDS, Skeleton, skeleton_of
 from modeler.robot.robot import Robot
 

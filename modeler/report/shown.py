@@ -118,22 +118,22 @@ def figures(item: Shown) -> str:
     """What is left on blocks of time that were left out of the fit, N m or N, and in percent."""
     size = float(np.sqrt(np.mean(item.without.rows.y[item.j] ** 2)))
 
-    def told(left: np.ndarray) -> str:
+    def rms_left(left: np.ndarray) -> str:
         rms = float(np.sqrt(np.mean(left**2)))
-        return f"{rms:.3g} {item.unit} ({percent(rms / size) if size > 0.0 else '-'})"
+        return f"{rms:.3g} {item.unit} ({percent(rms / size if size > 0.0 else None)})"
 
     before, after = (crossed(state, item.j) for state in (item.without, item.full))
     joint = item.without.data.compiled.spec.joints[item.j].name
     text = (
         f"Rms residual of joint {joint} on left-out blocks of the training logs: "
-        f"{told(before)} without the effect, {told(after)} with it"
+        f"{rms_left(before)} without the effect, {rms_left(after)} with it"
     )
     if item.rival is None:
         return f"{text}."
     return (
-        f"{text}, {told(before - item.rival)} with the flexible rival, which stands for any smooth "
-        f"law of what was measured. Percent of the joint's rms {WORDS[item.unit]}, {size:.3g} "
-        f"{item.unit}."
+        f"{text}, {rms_left(before - item.rival)} with the flexible rival, which stands for any "
+        f"smooth law of what was measured. Percent of the joint's rms {WORDS[item.unit]}, "
+        f"{size:.3g} {item.unit}."
     )
 
 

@@ -1,19 +1,12 @@
 """Torque and residual before and after an effect, where the model without it is worst."""
 
+import itertools
+from dataclasses import replace
+
 import numpy as np
 
-from modeler.core.figure import (
-    BLACK,
-    COLOR_NAMES,
-    COLORS,
-    GREEN,
-    SHADE,
-    VERMILLION,
-    Curve,
-    Panel,
-    Picture,
-    Style,
-)
+from modeler.core.figure import Curve, Panel, Picture
+from modeler.core.style import BLACK, COLOR_NAMES, COLORS, GREEN, SHADE, VERMILLION, Style
 from modeler.core.table import WORDS
 from modeler.diagnosis.events import AFTER, MARGIN, Window, load_turns
 from modeler.diagnosis.state import State
@@ -64,7 +57,6 @@ def torque_picture(item: Shown) -> Picture:
         caption=_caption(item, what, (start, end), name),
         panels=((above,), (below,)),
         heights=(0.58, 0.42),
-        widths=(1.0,),
         height=430,
         shared_time=True,
     )
@@ -135,14 +127,15 @@ def play_picture(state: State, j: int) -> Picture:
         "", "time since the load changed its sign [s]", f"|residual| [{joint.effort_unit}]",
         since[near], np.abs(state.residual[j][near]), state.base.block[j][near],
     )  # fmt: skip
-    panel = Panel(panel.title, panel.x_label, panel.y_label, panel.series, shade=(0.0, AFTER))
-    return _picture(
+    panel = replace(panel, shade=(0.0, AFTER))
+    return Picture(
         f"evidence_backlash_{joint.name}",
         f"Play in the gear: joint {joint.name}",
         "The teeth knock when the load pushes them to the other side. "
         f"{ROWS.named.capitalize()}: rows; {MEANS.named}: means of bins with 95 % intervals; "
         "shaded: where the knocks are looked for. Friction and springs do not know these moments.",
-        panel,
+        ((panel,),),
+        380,
     )
 
 
@@ -178,7 +171,7 @@ def push_picture(state: State, window: Window) -> Picture:
     size = np.sqrt(np.mean(seen.torque**2, axis=0))
     curves = tuple(
         Curve(f"joint {joint.name}", seen.time[shown], left[shown, j] / size[j], Style(color))
-        for j, (joint, color) in enumerate(zip(seen.joints, _colors(len(size)), strict=True))
+        for j, (joint, color) in enumerate(zip(seen.joints, itertools.cycle(COLORS), strict=False))
         if size[j] > 0.0
     )
     name = seen.logs[window.log]
@@ -186,18 +179,11 @@ def push_picture(state: State, window: Window) -> Picture:
         name, "time [s]", "residual over rms torque", curves,
         shade=(window.start, window.end), zero=True,
     )  # fmt: skip
-    return _picture(
+    return Picture(
         "evidence_external_force",
         "Something pushed",
         "What the model leaves of the torques; shaded: while it pushed. These rows are left out of "
         "everything else.",
-        panel,
+        ((panel,),),
+        380,
     )
-
-
-def _colors(count: int) -> list[str]:
-    return [COLORS[k % len(COLORS)] for k in range(count)]
-
-
-def _picture(name: str, title: str, caption: str, panel: Panel) -> Picture:
-    return Picture(name, title, caption, ((panel,),), (1.0,), (1.0,), 380)

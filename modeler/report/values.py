@@ -1,13 +1,15 @@
 """Tables of fitted values: parameters with sigma, what each is the sum of, errors by joint."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from modeler.core.manifest import BaseSpec, TermSpec
+from modeler.core.table import percent
 from modeler.estimation.model_file import Addition, IdentifiedModel
 from modeler.estimation.parameter import ParameterEstimate, told_spread
 from modeler.estimation.result import FitResult
-from modeler.report.page import PageCell, PageTable
+from modeler.report.blocks import PageCell, PageTable
 
+_KINDS = {"% sigma": "bar", "unit": "unit", "is the sum of": "why"}
 _UNSURE = 30.0  # % of the value from which on the bar of a sigma is full
 
 
@@ -22,22 +24,19 @@ def values_table(
         caption: below the table.
     """
     sums = {b.name: relation(b) for b in base}
-    rows: list[list[str | PageCell]] = [
-        [
+    rows = [
+        (
             p.name,
             "set aside" if p.sigma is None else f"{p.value:.5g}",
-            "" if p.sigma is None else _plain(told_spread(p.value, p.sigma, p.interval)) or "0",
+            "" if p.sigma is None else _bare_spread(p.value, p.sigma, p.interval) or "0",
             _share(p),
-            PageCell(p.unit, "unit"),
-            PageCell(sums.get(p.name, ""), "why"),
-        ]
+            p.unit,
+            sums.get(p.name, ""),
+        )
         for p in parameters
     ]
-    head = (
-        "parameter", "value", "sigma", PageCell("% sigma", "bar"), PageCell("unit", "unit"),
-        PageCell("is the sum of", "why"),
-    )  # fmt: skip
-    return PageTable(head, rows, caption)
+    head = ("parameter", "value", "sigma", "% sigma", "unit", "is the sum of")
+    return PageTable(head, rows, caption, _KINDS)
 
 
 def relation(base: BaseSpec) -> str:
@@ -67,32 +66,30 @@ def _term(term: TermSpec) -> str:
 def _share(parameter: ParameterEstimate) -> PageCell:
     share = parameter.relative_sigma_percent
     if share is None:
-        return PageCell("-", "bar")
+        return PageCell("-")
     text = f"{share:.3g}" if share < 1e4 else ">10000"
     mark = "" if parameter.essential else " not essential"
-    return PageCell(f"{text}{mark}", "bar", min(1.0, share / _UNSURE))
+    return PageCell(f"{text}{mark}", min(1.0, share / _UNSURE))
 
 
 def joints_table(fit: FitResult) -> PageTable:
     """Errors by joint on the logs that were fitted, each in parts of the joint's own torque."""
     top = max((joint.relative_error or 0.0 for joint in fit.joints), default=0.0) or 1.0
-    rows: list[list[str | PageCell]] = [
-        [
+    rows = [
+        (
             joint.name,
-            PageCell("-", "bar") if joint.relative_error is None
-            else PageCell(
-                f"{100.0 * joint.relative_error:.3g} %", "bar", joint.relative_error / top
-            ),
+            PageCell(percent(joint.relative_error), (joint.relative_error or 0.0) / top),
             f"{joint.rms:.3g} {joint.unit}",
             f"{joint.rows}",
-        ]
+        )
         for joint in fit.joints
-    ]  # fmt: skip
+    ]
     return PageTable(
-        ("joint", PageCell("relative error", "bar"), "rms residual", "rows"),
+        ("joint", "relative error", "rms residual", "rows"),
         rows,
         "On the logs that were fitted. Relative error: norm of the residual over the norm of the "
         "joint's own torque or force.",
+        {"relative error": "bar"},
     )
 
 
@@ -109,38 +106,27 @@ def shapes_table(steps: Sequence[tuple[Addition, Mapping[str, str]]]) -> PageTab
     Args:
         steps: of a model's history, each with the units of its shapes by name.
     """
-    rows: list[list[str | PageCell]] = [
-        [
-            step.effect,
-            PageCell(step.joint or "all", "text"),
-            PageCell(name, "text"),
-            f"{value:.5g}",
-            _spread(step, name),
-            PageCell(units[name], "text"),
-        ]
+    rows = [
+        (step.effect, step.joint or "all", name, f"{value:.5g}", _spread(step, name), units[name])
         for step, units in steps
         for name, value in step.shapes.items()
     ]
     if not rows:
         return None
-    head = (
-        "effect", PageCell("joint", "text"), PageCell("shape", "text"), "value", "sigma",
-        PageCell("unit", "text"),
-    )  # fmt: skip
-    return PageTable(head, rows, "Shapes enter the torque not as factors; they were searched for.")
+    return PageTable(
+        ("effect", "joint", "shape", "value", "sigma", "unit"),
+        rows,
+        "Shapes enter the torque not as factors; they were searched for.",
+        dict.fromkeys(("joint", "shape", "unit"), "text"),
+    )
 
 
 def _spread(step: Addition, name: str) -> str:
     sigma, interval = step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name)
-    return _plain(told_spread(step.shapes[name], sigma, interval)) or "-"
+    return _bare_spread(step.shapes[name], sigma, interval) or "-"
 
 
-def _plain(spread: str) -> str:
-    return spread.strip().removeprefix("+- ").removeprefix("(").removesuffix(")")
-
-
-def chosen(
-    parameters: Sequence[ParameterEstimate], names: Collection[str]
-) -> list[ParameterEstimate]:
-    """Those with these names."""
-    return [parameter for parameter in parameters if parameter.name in names]
+def _bare_spread(value: float, sigma: float, interval: tuple[float, float] | None) -> str:
+    """As behind a value, without the signs that part it from that."""
+    spread = told_spread(value, sigma, interval).strip()
+    return spread.removeprefix("+- ").removeprefix("(").removesuffix(")")

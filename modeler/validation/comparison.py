@@ -1,18 +1,18 @@
 """Measured against predicted: numbers of each joint, regions, logs, scale; table and JSON."""
 
-import dataclasses
 import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.core.json import nulled
+from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
-from modeler.core.table import POOLED, WORDS, aligned
+from modeler.core.table import POOLED, WORDS, aligned, percent
 from modeler.numerics.spectra import OrderSpectrum, ResidualSpectrum, residual_spectrum, spans
 from modeler.validation.prediction import (
     JointInfo,
@@ -23,11 +23,7 @@ from modeler.validation.prediction import (
     unit_errors,
 )
 from modeler.validation.repeatability import Repetition, Shares, repetitions, shares
-from modeler.validation.residual_structure import Structure, lines, ripple, structure
-
-if TYPE_CHECKING:
-    pass
-
+from modeler.validation.residual_structure import Structure, order_lines, ripple, structure
 
 # The comparison as a table of plain text.
 
@@ -53,12 +49,11 @@ def summary(comparison: "Comparison") -> str:
     lines += [f"{name:<{width}}not judged: {reason}" for name, reason in comparison.unjudged]
     if len(comparison.by_unit) == 1:
         lines.append(
-            f"{'all':<{width}}{or_dash(comparison.relative_error, '.1%')}  of "
-            f"{comparison.samples} samples"
+            f"{'all':<{width}}{percent(comparison.relative_error)}  of {comparison.samples} samples"
         )
     else:  # N m and N add up to nothing
         lines += [
-            f"{'all':<{width}}{or_dash(error, '.1%')}  of the {WORDS[unit]}s ({unit})"
+            f"{'all':<{width}}{percent(error)}  of the {WORDS[unit]}s ({unit})"
             for unit, error in comparison.by_unit.items()
         ]
         lines.append(f"{comparison.samples} samples")
@@ -66,14 +61,6 @@ def summary(comparison: "Comparison") -> str:
     if len(comparison.logs) > 1:
         lines += ["", *aligned(by_log(comparison), (0,))]
     return "\n".join(line.rstrip() for line in lines)
-
-
-def share_text(share: float) -> str:
-    """A share of the variance in percent, two digits and more: small ones matter here."""
-    value = 100.0 * share
-    if abs(value) >= 10.0:
-        return f"{value:.1f}%"
-    return f"{value:.2g}%" if abs(value) >= 1e-4 else "0%"
 
 
 def method_lines(comparison: "Comparison") -> list[str]:
@@ -92,13 +79,13 @@ def _row(item: "JointComparison") -> tuple[str, ...]:
     unit, found = item.joint.effort_unit, item.shares
     return (
         item.joint.name,
-        f"{item.relative_error:.1%}",
+        percent(item.relative_error),
         f"{item.rms:.3g} {unit:<3}",
         f"{item.largest.value:.3g} {unit:<3}",
         f"{item.largest.time:.2f} s of {item.largest.log}",
         or_dash(item.r2, ".3f"),
-        "-" if found is None else share_text(found.systematic),
-        "-" if found is None else share_text(found.floor),
+        percent(None if found is None else found.systematic),
+        percent(None if found is None else found.floor),
         f"{item.bias:.2g} {unit:<3}",
     )
 
@@ -112,8 +99,7 @@ def by_log(comparison: "Comparison", error: str = "error") -> list[list[str]]:
         [
             item.log,
             str(item.samples),
-            *(or_dash(error, ".1%") for error in item.by_unit.values()),
-            *(or_dash(error, ".1%") for _, error in item.joints),
+            *map(percent, (*item.by_unit.values(), *dict(item.joints).values())),
         ]
         for item in comparison.logs
     ]
@@ -170,23 +156,20 @@ def velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...]:
     which[np.abs(qd) <= AROUND_ZERO * top] = 2  # also a joint that never moves
     limits = np.array([-top, *edges, top])
     total = float(e @ e)
-    regions = []
-    for index, name in enumerate(REGIONS):
-        part = e[which == index]
-        energy = float(part @ part)
-        regions.append(
-            Region(
-                name=name,
-                low=float(limits[index]),
-                high=float(limits[index + 1]),
-                samples=part.size,
-                time_share=part.size / e.size,
-                energy_share=energy / total if total else 0.0,
-                rms=float(np.sqrt(energy / part.size)) if part.size else math.nan,
-                bias=float(part.mean()) if part.size else math.nan,
-            )
+    return tuple(
+        Region(
+            name=name,
+            low=float(low),
+            high=float(high),
+            samples=part.size,
+            time_share=part.size / e.size,
+            energy_share=float(part @ part) / total if total else 0.0,
+            rms=float(np.sqrt(part @ part / part.size)) if part.size else math.nan,
+            bias=float(part.mean()) if part.size else math.nan,
         )
-    return tuple(regions)
+        for index, (name, (low, high)) in enumerate(zip(REGIONS, pairwise(limits), strict=True))
+        for part in [e[which == index]]
+    )
 
 
 def worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -> WorstWindow:
@@ -285,18 +268,13 @@ def errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
     found = []
     for run, log in enumerate(prediction.logs):
         rows = prediction.run == run
-        found.append(
-            LogError(
-                log=log,
-                samples=int(prediction.used[rows].any(axis=1).sum()),
-                relative_error=_relative(e[rows], measured[rows]),
-                joints=tuple(
-                    (info.name, _relative(e[rows, j], measured[rows, j]))
-                    for j, info in enumerate(prediction.joints)
-                ),
-                by_unit=unit_errors(prediction, rows),
-            )
+        joints = tuple(
+            (info.name, _relative(e[rows, j], measured[rows, j]))
+            for j, info in enumerate(prediction.joints)
         )
+        samples = int(prediction.used[rows].any(axis=1).sum())
+        whole, by_unit = _relative(e[rows], measured[rows]), unit_errors(prediction, rows)
+        found.append(LogError(log, samples, whole, joints, by_unit))
     return tuple(found)
 
 
@@ -354,17 +332,17 @@ class Comparison(Presented):
         """The comparison as plain numbers and text; undefined numbers are None."""
         return nulled({
             "robot": self.prediction.robot,
-            "logs": list(self.prediction.logs),
-            "samples": self.samples,
-            "relative_error": self.relative_error,
+            "logs": self.prediction.logs,
+            **entries(self, "samples relative_error"),
             "relative_error_pools": POOLED,
-            "by_unit": dict(self.by_unit),
+            "by_unit": self.by_unit,
             "joints": {joint.joint.name: _joint_dict(joint) for joint in self.joints},
             "unjudged": dict(self.unjudged),
-            "by_log": [_log_dict(log) for log in self.logs],
-            "repeated": [
-                {"method": item.kind, "periods": list(item.periods)} for item in self.repeated
+            "by_log": [
+                entries(log, "log samples relative_error by_unit") | {"joints": dict(log.joints)}
+                for log in self.logs
             ],
+            "repeated": [{"method": item.kind, "periods": item.periods} for item in self.repeated],
         })  # fmt: skip
 
     def to_json(self) -> str:
@@ -424,7 +402,9 @@ def _compare_joint(
     top = int(np.nanargmax(np.abs(e)))
     spread = float(np.sum((measured - measured.mean()) ** 2))
     energy = float(counted @ counted)
-    found = structure(prediction, index)
+    found, sigma = structure(prediction, index), None
+    if prediction.sigma is not None:
+        sigma = float(np.sqrt(np.mean(prediction.sigma[rows, index] ** 2)))
     return JointComparison(
         joint=prediction.joints[index],
         index=index,
@@ -435,9 +415,7 @@ def _compare_joint(
         r2=1.0 - energy / spread if spread > 0.0 else math.nan,
         bias=float(counted.mean()),
         largest=Moment(
-            value=float(abs(e[top])),
-            log=prediction.logs[prediction.run[top]],
-            time=float(prediction.time[top]),
+            float(abs(e[top])), prediction.logs[prediction.run[top]], float(prediction.time[top])
         ),
         regions=velocity_regions(prediction.qd[rows, index], counted),
         worst=worst_window(prediction, e),
@@ -446,67 +424,33 @@ def _compare_joint(
         shares=shares(prediction, index, e, repeated, found),
         scale=scale(measured, prediction.predicted[rows, index]),
         orders=ripple(looked or prediction, index),
-        predicted_sigma=None
-        if prediction.sigma is None
-        else float(np.sqrt(np.mean(prediction.sigma[rows, index] ** 2))),
+        predicted_sigma=sigma,
     )
 
 
 def _joint_dict(item: JointComparison) -> dict[str, Any]:
-    found, colour = item.structure, item.spectrum
+    found, colour, parts = item.structure, item.spectrum, item.shares
     return {
-        "relative_error": item.relative_error,
-        "rms": item.rms,
+        **entries(item, "relative_error rms"),
         "max": item.largest.value,
         "r2": item.r2,
-        "max_at": {"log": item.largest.log, "time": item.largest.time},
+        "max_at": entries(item.largest, "log time"),
         "unit": item.joint.effort_unit,
-        "samples": item.samples,
-        "bias": item.bias,
-        "predicted_sigma": item.predicted_sigma,
-        "regions": [dataclasses.asdict(region) for region in item.regions],
-        "worst_window": dataclasses.asdict(item.worst),
-        "structure": None
-        if found is None
-        else {
-            "shares": dict(found.shares),
-            "together": found.together,
-            "across": dict(found.across),
-            "motors": dict(found.motors),
-            "follows": dataclasses.asdict(found.follows),
+        **entries(item, "samples bias predicted_sigma regions"),
+        "worst_window": item.worst,
+        "structure": found and {
+            "shares": dict(found.shares), "together": found.together,
+            "across": dict(found.across), "motors": dict(found.motors), "follows": found.follows,
         },
-        "spectrum": None
-        if colour is None
-        else {
-            "memory": colour.memory,
-            "lag_one": float(colour.correlation[1]),
-            "peak": colour.peak,
-            "peak_share": colour.peak_share,
+        "spectrum": colour and {
+            "memory": colour.memory, "lag_one": colour.correlation[1],
+            **entries(colour, "peak peak_share"),
         },
-        **_shares_dict(item),
-        "scale": None if item.scale is None else dataclasses.asdict(item.scale),
-        "orders": None
-        if item.orders is None
-        else [dataclasses.asdict(line) for line in lines(item.orders, item.joint.unit)],
-    }
-
-
-def _shares_dict(item: JointComparison) -> dict[str, Any]:
-    found = item.shares
-    return {
         "explained": item.r2,
-        "systematic": None if found is None else found.systematic,
-        "floor": None if found is None else found.floor,
-        "method": None if found is None else found.method,
-        "systematic_sigma": None if found is None else found.sigma,
-    }
-
-
-def _log_dict(found: LogError) -> dict[str, Any]:
-    return {
-        "log": found.log,
-        "samples": found.samples,
-        "relative_error": found.relative_error,
-        "by_unit": dict(found.by_unit),
-        "joints": dict(found.joints),
-    }
+        "systematic": parts and parts.systematic,
+        "floor": parts and parts.floor,
+        "method": parts and parts.method,
+        "systematic_sigma": parts and parts.sigma,
+        "scale": item.scale,
+        "orders": item.orders and order_lines(item.orders, item.joint.unit),
+    }  # fmt: skip

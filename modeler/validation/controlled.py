@@ -32,8 +32,13 @@ def controlled(
     """
     robot = DirectModel(model, observation)
     if not robot.commanded:
-        _check_commanded(observation, gains)
-        return None, ""
+        if gains is None:
+            return None, ""
+        raise DataError(
+            f"--controller: {observation.logs[0]}: no complete columns "
+            f"qc{observation.joints[0].name} ...; expected commanded positions of all joints, "
+            "which the controller is to follow; log them, or leave --controller out"
+        )
     if gains is None and not all(joint.actuated for joint in model.spec.joints):
         return None, "a joint has no motor, so no controller is looked for"
     try:
@@ -54,15 +59,6 @@ def controlled(
         return None, _LOST
 
 
-def _check_commanded(observation: Observation, gains: Gains | None) -> None:
-    if gains is not None:
-        raise DataError(
-            f"--controller: {observation.logs[0]}: no complete columns "
-            f"qc{observation.joints[0].name} ...; expected commanded positions of all joints, "
-            "which the controller is to follow; log them, or leave --controller out"
-        )
-
-
 def _measured(
     observation: Observation,
     robot: DirectModel,
@@ -76,9 +72,7 @@ def _measured(
     simulated = np.concatenate([m[0][own] for m, own in zip(motions, kept, strict=True)])
     wanted = np.concatenate([r[0][own] for r, own in zip(robot.references, kept, strict=True)])
     rows, torque = observation.row_joint, robot.columns(motions) @ beta
-    fit: dict[str, float | None] = {}
-    tracking: dict[str, float | None] = {}
-    effort: dict[str, float | None] = {}
+    fit, tracking, effort = (dict[str, float | None]() for _ in range(3))
     for j, joint in enumerate(observation.joints):
         fit[joint.name] = fit_percentage(q[:, j], simulated[:, j])
         left = float(np.linalg.norm(q[:, j] - wanted[:, j]))

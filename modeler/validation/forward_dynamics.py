@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.core.table import percent
 from modeler.observation.low_speed import shafts
 from modeler.runtime.model import CompiledModel
 
@@ -88,7 +89,7 @@ class FittedPlant:
             light = int(np.argmax(np.abs(vectors[np.argmin(values[:, 0]), :, 0])))
             raise DataError(
                 f"{self.model.spec.robot}: with the fitted values the inertia matrix is not "
-                f"positive definite in {100 * float(np.mean(bad)):.3g} % of the postures, most at "
+                f"positive definite in {percent(float(np.mean(bad)))} of the postures, most at "
                 f"joint {self.model.spec.joints[light].name}, so no motion follows from a torque; "
                 "expected the inertia of a body; fit with `--method consistent`, or record more "
                 "motion of that joint"
@@ -146,7 +147,10 @@ class FittedPlant:
             return s
         s = s.copy()
         for place, joint, distance in self._slips:
-            s[:, place] = _turned(s[:, place], step[:, joint], distance)
+            # bristles z after a travel `step`: s + (z - s) exp(-|step|/distance), s its sign
+            way = np.sign(step[:, joint])
+            left = np.exp(-np.abs(step[:, joint]) / distance)
+            s[:, place] = way + (s[:, place] - way) * left
         return s
 
     @property
@@ -155,12 +159,7 @@ class FittedPlant:
         return [place for place, _, _ in self._slips]
 
     def _rest(
-        self,
-        M: np.ndarray,
-        q: np.ndarray,
-        qd: np.ndarray,
-        qdd: np.ndarray,
-        s: np.ndarray | None,
+        self, M: np.ndarray, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
     ) -> np.ndarray:
         tau = self.model.inverse_dynamics(q, qd, qdd, self.beta, s)
         return np.asarray(tau - np.einsum("bij,bj->bi", M, qdd))
@@ -194,12 +193,6 @@ class FittedPlant:
         squared = np.einsum("bkn,bkn->bk", C, C)
         along = np.einsum("bkn,bkn->bk", C, half) / np.where(squared > 0.0, squared, 1.0)
         return np.maximum(along, 0.0)  # below 0: no friction, but a fault of the fit; it stays in h
-
-
-def _turned(z: np.ndarray, step: np.ndarray, distance: float) -> np.ndarray:
-    """(b,) bristles z after a travel `step`: s + (z - s) exp(-|step|/distance), s its sign."""
-    way = np.sign(step)
-    return np.asarray(way + (z - way) * np.exp(-np.abs(step) / distance))
 
 
 def _speeds(C: np.ndarray, qd: np.ndarray) -> np.ndarray:

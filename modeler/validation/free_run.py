@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.core.table import percent
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.low_speed import signals_of
@@ -78,7 +79,10 @@ def walk(
     """
     samples, b, n = lanes.tau.shape
     path = np.full((samples, b, n), np.nan)
-    state = _State.at(plant, lanes)
+    state = _State(
+        lanes.q.copy(), lanes.qd.copy(), np.zeros((b, n)), np.full((b, n), np.nan),
+        np.zeros((b, plant.shafts)), None if lanes.signals is None else lanes.signals[0].copy(),
+    )  # fmt: skip
     ended = np.full(b, samples - 1) if ended is None else ended
     live = np.arange(b)
     for k in range(samples):
@@ -111,15 +115,6 @@ class _State:
     smooth: np.ndarray  # the acceleration without dry friction one step before
     pull: np.ndarray  # dry friction as a share of its bounds
     s: np.ndarray | None
-
-    @classmethod
-    def at(cls, plant: FittedPlant, lanes: Lanes) -> "_State":
-        b, n = lanes.q.shape
-        signals = None if lanes.signals is None else lanes.signals[0].copy()
-        return cls(
-            lanes.q.copy(), lanes.qd.copy(), np.zeros((b, n)), np.full((b, n), np.nan),
-            np.zeros((b, plant.shafts)), signals,
-        )  # fmt: skip
 
     def read(self, plant: FittedPlant, signals: np.ndarray | None, k: int) -> None:
         """Signals of sample k; bristles are part of the state and stay."""
@@ -266,8 +261,10 @@ def free_run(
         DataError: a number out of its range, logs shorter than a window, or values with which the
             robot has no inertia.
     """
-    asked = asked or FreeRunSettings()
-    _check(asked)
+    asked, tell = asked or FreeRunSettings(), progress or (lambda share: None)
+    for name, value in (("--window", asked.window), ("--bound", asked.bound)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise DataError(f"{name}: got {value:g}; expected a number above 0")
     observation = observe(compiled, logs, model.processing)
     segments = [part.segment for part in observation.stretches]
     starts = _starts(segments, asked.window)
@@ -276,49 +273,32 @@ def free_run(
     plant.check_inertia(every[:: max(1, len(every) // 500)])
     nature = stability(plant, _along(observation, segments, compiled))
     ranges = ranges_of(every, [joint.unit for joint in observation.joints])
-    field = _MotionField(plant, segments, nature.fastest, ranges, compiled)
-    return _run(model, compiled, observation, field, starts, nature, asked, progress)
-
-
-def _run(
-    model: IdentifiedModel,
-    compiled: CompiledModel,
-    observation: Observation,
-    field: "_MotionField",
-    starts: Sequence[_Start],
-    nature: Stability,
-    asked: FreeRunSettings,
-    progress: Callable[[float], None] | None,
-) -> FreeRun:
-    tell = progress or (lambda share: None)
+    finest = min(_LONGEST, _STABLE / nature.fastest if nature.fastest > 0.0 else _LONGEST)
+    signals = [signals_of(compiled.spec, segment) for segment in segments]
+    field = _MotionField(plant, segments, signals, ranges, finest)
     tell(0.1)
-    runs, numerical = _windows(field, starts, asked, tell)
+    runs = _windows(field, starts, asked, tell)
     whole = _whole(field, lambda share: tell(0.5 + 0.3 * share))
     tell(0.8)
     under, doubt = controlled(compiled, model.beta, observation, asked.gains)
     tell(1.0)
-    every = range(len(field.ranges))
     return FreeRun(
         robot=observation.robot,
         logs=observation.logs,
         window=asked.window,
         bound=asked.bound,
-        ranges=field.ranges,
+        ranges=ranges,
         windows=len(runs.paths),
         longest=_FOLLOWED * asked.window,
-        joints=tuple(_joint(j, observation, runs, whole, asked, field.ranges) for j in every),
+        joints=tuple(
+            _joint(j, observation, runs, whole, asked, ranges) for j in range(len(ranges))
+        ),
         stability=nature,
-        numerical=numerical,
+        numerical=runs.numerical,
         controlled=under,
         paths=runs.paths,
-        doubts=tuple(_doubts(numerical, field.segments, starts, asked, nature, doubt)),
+        doubts=tuple(_doubts(runs.numerical, segments, starts, asked, nature, doubt)),
     )
-
-
-def _check(asked: FreeRunSettings) -> None:
-    for name, value in (("--window", asked.window), ("--bound", asked.bound)):
-        if not (math.isfinite(value) and value > 0.0):
-            raise DataError(f"{name}: got {value:g}; expected a number above 0")
 
 
 def _seconds(segment: Segment) -> float:
@@ -368,21 +348,15 @@ def _along(
     return found
 
 
+@dataclass(frozen=True, eq=False)
 class _MotionField:
     """Where robots run: the logged torques, and how finely."""
 
-    def __init__(
-        self,
-        plant: FittedPlant,
-        segments: Sequence[Segment],
-        fastest: float,
-        ranges: np.ndarray,
-        compiled: CompiledModel,
-    ) -> None:
-        self.plant, self.segments, self.ranges = plant, segments, ranges
-        self.finest = min(_LONGEST, _STABLE / fastest if fastest > 0.0 else _LONGEST)
-        self.far = _LOST * np.where(np.isfinite(ranges), ranges, np.inf)
-        self.signals = [signals_of(compiled.spec, segment) for segment in segments]
+    plant: FittedPlant
+    segments: Sequence[Segment]
+    signals: Sequence[np.ndarray | None]  # of each segment
+    ranges: np.ndarray
+    finest: float  # s, of a step
 
     def run(
         self,
@@ -410,28 +384,19 @@ class _MotionField:
 
     def _lanes(self, starts: Sequence[_Start], length: int, step: float) -> Lanes:
         def stacked(of: Callable[[int], np.ndarray]) -> np.ndarray:
-            return np.stack(
-                [
-                    of(start.segment)[np.minimum(start.first + np.arange(length), start.stop - 1)]
-                    for start in starts
-                ],
-                axis=1,
-            )
+            rows = np.arange(length)
+            parts = [of(s.segment)[np.minimum(s.first + rows, s.stop - 1)] for s in starts]
+            return np.stack(parts, axis=1)
 
         signals = None
         if self.signals and self.signals[0] is not None:
-            signals = stacked(self._signals)
+            signals = stacked(lambda i: np.asarray(self.signals[i]))
         around = stacked(lambda i: self.segments[i].q)
         speeds = np.stack([self.segments[s.segment].qd[s.first] for s in starts])
         return Lanes(
             around[0], speeds, stacked(lambda i: self.segments[i].tau), signals, step,
-            self.far, around,
+            _LOST * np.where(np.isfinite(self.ranges), self.ranges, np.inf), around,
         )  # fmt: skip
-
-    def _signals(self, i: int) -> np.ndarray:
-        signals = self.signals[i]
-        assert signals is not None
-        return signals
 
 
 @dataclass(frozen=True, eq=False)
@@ -442,6 +407,7 @@ class _RunWindows:
     straight: np.ndarray  # (samples, n) over all windows
     longer: tuple[np.ndarray, ...]  # (p, n) errors as long as a start is followed
     steps: tuple[float, ...]
+    numerical: float  # largest change by halving the step, in ranges
 
 
 def _windows(
@@ -449,7 +415,7 @@ def _windows(
     starts: Sequence[_Start],
     asked: FreeRunSettings,
     tell: Callable[[float], None],
-) -> tuple[_RunWindows, float]:
+) -> _RunWindows:
     window, bound = asked.window, asked.bound
     simulated, measured = field.run(
         starts, _FOLLOWED * window, tell=lambda share: tell(0.1 + 0.4 * share)
@@ -458,7 +424,6 @@ def _windows(
     few = [starts[i] for i in np.unique(np.linspace(0, len(starts) - 1, _HALVED).astype(int))]
     coarse, aside = field.run(few, window)
     fine, _ = field.run(few, window, halved=True)
-    numerical = _changed(coarse, fine, aside, bound * field.ranges, field.ranges)
     paths, straight = [], []
     for start, ours, theirs in zip(starts, simulated, measured, strict=True):
         segment = field.segments[start.segment]
@@ -472,7 +437,8 @@ def _windows(
         np.concatenate(straight),
         tuple(a - b for a, b in zip(simulated, measured, strict=True)),
         tuple(field.segments[start.segment].step for start in starts),
-    ), numerical
+        _changed(coarse, fine, aside, bound * field.ranges, field.ranges),
+    )
 
 
 def _changed(
@@ -514,12 +480,8 @@ def _joint(
     if not np.isfinite(ranges[j]):
         return JointFreeRun(joint.name, joint.unit, None, None, None, None, 0, largest)
     bound = asked.bound * ranges[j : j + 1]
-    until = np.array(
-        [
-            float(horizons(e[:, None, j : j + 1], bound, step)[0, 0])
-            for e, step in zip(runs.longer, runs.steps, strict=True)
-        ]
-    )
+    pairs = zip(runs.longer, runs.steps, strict=True)
+    until = np.array([horizons(e[:, None, j : j + 1], bound, step)[0, 0] for e, step in pairs])
     middle = float(np.quantile(until, 0.5, method="higher"))
     return JointFreeRun(
         joint.name,
@@ -545,19 +507,16 @@ def _doubts(
     if numerical > _DOUBTFUL:
         found.append(
             "the integration is not exact: halving its step moves a joint by "
-            f"{100 * numerical:.2g} % of its range within a window"
+            f"{percent(numerical)} of its range within a window"
         )
     if nature.unstable and nature.rate * asked.window > np.log(10.0):
+        shorter = float(f"{1.0 / nature.rate:.1g}")
         found.append(
             f"within a window of {asked.window:g} s an error grows tenfold and more by nature; "
-            f"`--window {_rounded(1.0 / nature.rate)}` judges the model"
+            f"`--window {shorter:g}` judges the model"
         )
     if any(_seconds(segment) > _WHOLE for segment in segments):
         found.append(f"whole runs: the first {_WHOLE:g} s of each log")
     if len(starts) == _MOST_WINDOWS:
         found.append(f"{_MOST_WINDOWS} windows, evenly spread over the logs")
     return found
-
-
-def _rounded(value: float) -> str:
-    return f"{float(f'{value:.1g}'):g}"

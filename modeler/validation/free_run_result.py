@@ -7,19 +7,12 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.core.figure import (
-    BLACK,
-    GREY,
-    ORANGE,
-    VERMILLION,
-    Curve,
-    Panel,
-    Picture,
-    Style,
-    thin_curves,
-)
-from modeler.core.json import nulled
+from modeler.core.figure import Curve, Panel, Picture
+from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
+from modeler.core.style import BLACK, GREY, ORANGE, VERMILLION, Style
+from modeler.core.table import percent
+from modeler.core.thinning import thin_curves
 from modeler.validation.stability import Stability
 
 
@@ -170,37 +163,25 @@ class FreeRun(Presented):
         """Plain data."""
         s = self.stability
         return nulled({
-            "robot": self.robot,
-            "logs": list(self.logs),
-            "window": self.window,
-            "windows": self.windows,
-            "bound": self.bound,
-            "joints": {joint.name: _joint_json(joint) for joint in self.joints},
+            **entries(self, "robot logs window windows bound"),
+            "joints": {
+                joint.name: {name: value for name, value in vars(joint).items() if name != "name"}
+                for joint in self.joints
+            },
             "stability": {
-                "unstable": s.unstable,
-                "rate": s.rate,
-                "doubling_time": s.doubling,
-                "seconds": s.seconds,
+                **entries(s, "unstable rate"), "doubling_time": s.doubling, "seconds": s.seconds,
                 "steepest": {"rate": s.steepest, "log": s.log, "time": s.at},
             },
             "numerical_error": self.numerical,
-            "controller": None if self.controlled is None else vars(self.controlled) | {
-                "fit": dict(self.controlled.fit),
-                "tracking": dict(self.controlled.tracking),
-                "torque": dict(self.controlled.torque),
-            },
-            "doubts": list(self.doubts),
+            "controller": self.controlled,
+            "doubts": self.doubts,
         })  # fmt: skip
-
-
-def _joint_json(joint: JointFreeRun) -> dict[str, Any]:
-    return {name: value for name, value in vars(joint).items() if name != "name"}
 
 
 def _percent(value: float | None) -> str:
     if value is None:
         return "still"
-    return f"{value:.4g} %" if value > -1000.0 else "below -999 %"
+    return percent(0.01 * value) if value > -1000.0 else "below -999 %"
 
 
 # Pictures of a free run: one a joint.
@@ -232,7 +213,6 @@ def free_run_picture(found: FreeRun, j: int) -> Picture:
         ),
         panels=((above,), (below,)),
         heights=(0.58, 0.42),
-        widths=(1.0,),
         height=440,
         shared_time=True,
     )

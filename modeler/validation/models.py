@@ -13,13 +13,11 @@ from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.core.json import nulled
 from modeler.core.result import Presented
-from modeler.core.table import percent
+from modeler.core.table import aligned, percent
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation
-from modeler.observation.processing import Processing
 from modeler.runtime.model import CompiledModel
-from modeler.validation.comparison import aligned
 from modeler.validation.predict import predict
 from modeler.validation.prediction import JointInfo, Prediction, relative_error, unit_errors
 
@@ -84,25 +82,23 @@ class Contest(Presented):
 
     def as_dicts(self) -> list[dict[str, Any]]:
         """The `models` of `compare --json`: errors of each, and where it is the best."""
-        return nulled([
-            {
+        return [
+            nulled({
                 "model": name,
                 "relative_error": self.pooled[k],
                 "by_unit": self.by_unit[k],
                 "joints": {
                     item.joint.name: {
-                        "relative_error": item.errors[k],
-                        "rms": item.rms[k],
-                        "unit": item.joint.effort_unit,
-                        "best": item.best == k,
+                        "relative_error": item.errors[k], "rms": item.rms[k],
+                        "unit": item.joint.effort_unit, "best": item.best == k,
                         "chance": item.chance,
                     }
                     for item in self.joints
                 },
                 "best_on": self.wins(k),
-            }
+            })
             for k, name in enumerate(self.names)
-        ])  # fmt: skip
+        ]  # fmt: skip
 
 
 def contest(names: Sequence[str], predictions: Sequence[Prediction]) -> Contest:
@@ -218,23 +214,12 @@ def predict_together(
     """
     check_joints(models, names)
     first = models[0].processing
-    made = [
-        predict(_processed_as(model, first), read, own)
-        for model, own, read in zip(models, compiled, logs, strict=True)
-    ]
+    made = []
+    for model, own, read in zip(models, compiled, logs, strict=True):
+        processing = dataclasses.replace(first, delay=model.processing.delay)
+        fit = dataclasses.replace(model.fit, processing=processing)
+        made.append(predict(dataclasses.replace(model, fit=fit), read, own))
     predictions = [prediction for prediction, _ in made]
-    used = np.logical_and.reduce(_used_of(predictions, names))
-    if not used.any():
-        raise DataError(
-            f"{', '.join(names)}: no row of these logs counts for every model; compare them one by "
-            "one to see why"
-        )
-    found = [_on(prediction, used) for prediction in predictions]
-    return found, [observation for _, observation in made]
-
-
-def _used_of(predictions: Sequence[Prediction], names: Sequence[str]) -> list[np.ndarray]:
-    """Rows that count for each model, if they are the same rows."""
     for prediction, name in zip(predictions[1:], names[1:], strict=True):
         if not _same_rows(predictions[0], prediction):
             raise DataError(
@@ -242,17 +227,15 @@ def _used_of(predictions: Sequence[Prediction], names: Sequence[str]) -> list[np
                 "set side by side; expected robots that read the same columns; compare them one "
                 "by one"
             )
-    return [prediction.used for prediction in predictions]
-
-
-def _processed_as(model: IdentifiedModel, other: Processing) -> IdentifiedModel:
-    processing = dataclasses.replace(other, delay=model.processing.delay)
-    return dataclasses.replace(model, fit=dataclasses.replace(model.fit, processing=processing))
-
-
-def _on(prediction: Prediction, used: np.ndarray) -> Prediction:
-    """On the rows that count for every model; what counts for this one alone is masked unnamed."""
-    return dataclasses.replace(prediction, used=used, full=None)
+    used = np.logical_and.reduce([prediction.used for prediction in predictions])
+    if not used.any():
+        raise DataError(
+            f"{', '.join(names)}: no row of these logs counts for every model; compare them one by "
+            "one to see why"
+        )
+    # what counts for one model alone is masked unnamed
+    found = [dataclasses.replace(prediction, used=used, full=None) for prediction in predictions]
+    return found, [observation for _, observation in made]
 
 
 def _same_rows(one: Prediction, other: Prediction) -> bool:
@@ -313,11 +296,11 @@ def contest_sentences(found: Contest) -> list[str]:
     for k, name in enumerate(found.names):
         won = found.wins(k)
         if won:
-            said.append(f"{name} predicts {_joints(won)} best, beyond doubt.")
-    open_ = [item for item in found.joints if item.best is None]
-    if open_:
-        told = ", ".join(f"joint {item.joint.name} ({_open(item)})" for item in open_)
-        said.append(f"No model is the best beyond doubt on {told}.")
+            which = " and ".join(filter(None, (", ".join(won[:-1]), won[-1])))
+            said.append(f"{name} predicts joint{'s' * (len(won) > 1)} {which} best, beyond doubt.")
+    doubtful = [f"joint {i.joint.name} ({_doubt(i)})" for i in found.joints if i.best is None]
+    if doubtful:
+        said.append(f"No model is the best beyond doubt on {', '.join(doubtful)}.")
     return said
 
 
@@ -336,13 +319,7 @@ def headline_of(found: Contest) -> tuple[str, str]:
     return count, f"joints that {found.names[top]} predicts best, beyond doubt{rest}"
 
 
-def _open(item: JointContest) -> str:
+def _doubt(item: JointContest) -> str:
     if item.chance >= 1.0 or item.chance < 1e-3:  # too short, or too small a difference
         return "as good as alike" if item.chance < 1e-3 else "cannot be told"
-    return f"chance alone makes such a difference in {100.0 * item.chance:.2g} % of cases"
-
-
-def _joints(names: list[str]) -> str:
-    if len(names) == 1:
-        return f"joint {names[0]}"
-    return f"joints {', '.join(names[:-1])} and {names[-1]}"
+    return f"chance alone makes such a difference in {percent(item.chance)} of cases"

@@ -4,24 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLUE,
-    COLORS,
-    GREY,
-    ORANGE,
-    SLATE,
-    VERMILLION,
-    Bars,
-    Curve,
-    Heat,
-    Means,
-    Panel,
-    Picture,
-    Points,
-    Style,
-    thin_curves,
-    thin_points,
-)
+from modeler.core.figure import Bars, Curve, Heat, Means, Panel, Picture, Points
+from modeler.core.style import BLUE, COLORS, GREY, ORANGE, SLATE, VERMILLION, Style
+from modeler.core.table import percent
+from modeler.core.thinning import thin_curves, thin_points
 from modeler.validation.comparison import METHODS, REGIONS, Comparison, JointComparison
 from modeler.validation.prediction import Prediction, residual
 from modeler.validation.residual_structure import (
@@ -29,10 +15,10 @@ from modeler.validation.residual_structure import (
     coordinate_unit,
     coordinate_values,
     coordinates_of,
-    lines,
+    order_lines,
     waves,
 )
-from modeler.validation.time_picture import broken, masked_spans, running_time, told_masks
+from modeler.validation.time_picture import broken, mask_caption, masked_spans, running_time
 
 _DOTS = 700
 _BINS = 24
@@ -53,26 +39,20 @@ def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
         if coordinate.id != "direction"
     ]
     drawn += [_spectrum_panel(item), _order_panel(item)]
+    heated = any(panel.title.startswith("Temperature") for panel in drawn)
     drawn += [_EMPTY] * (-len(drawn) % _ACROSS)
     rows = [tuple(drawn[k : k + _ACROSS]) for k in range(0, len(drawn), _ACROSS)]
     name = item.joint.name
     return Picture(
         name=f"joint_{name}_residual",
         title=f"Joint {name}: does the residual still have structure?",
-        caption=_residual_caption(any(panel.title.startswith("Temperature") for panel in drawn)),
+        caption=f"{_FIRST}{_HEATED if heated else ''} {_LAST}",
         panels=tuple(rows),
-        heights=tuple(1.0 / len(rows) for _ in rows),
-        widths=(1 / 3, 1 / 3, 1 / 3),
         height=310 * len(rows),
     )
 
 
 _EMPTY = Panel("", "", "", ())
-
-
-def _residual_caption(heated: bool) -> str:
-    """How to read the panels; `heated` where one of them is over temperature."""
-    return f"{_FIRST}{_HEATED if heated else ''} {_LAST}"
 
 
 _FIRST = (
@@ -137,7 +117,7 @@ def _against(prediction: Prediction, item: JointComparison, coordinate: str, lab
     kept = thin_points(x, e, _DOTS)
     title = label[0].upper() + label[1:]
     if item.structure is not None:
-        title = f"{title}: {item.structure.share(coordinate):.0%}"
+        title = f"{title}: {percent(item.structure.share(coordinate))}"
     if coordinate == "temperature":
         means = _by_direction(x, e, prediction.qd[rows, item.index])
     else:
@@ -164,22 +144,15 @@ def _by_direction(x: np.ndarray, e: np.ndarray, qd: np.ndarray) -> tuple[Means, 
 def _spectrum_panel(item: JointComparison) -> Panel:
     unit = item.joint.effort_unit
     colour = item.spectrum
-    nothing = np.array([np.nan])
-    title = "Spectrum"
+    title, shown = "Spectrum", (np.array([np.nan]), np.array([np.nan]))
     if colour is not None:
-        title += f": {colour.peak_share:.0%} of the power near {colour.peak:.3g} Hz"
+        shown = colour.frequency, colour.density
+        title += f": {percent(colour.peak_share)} of the power near {colour.peak:.3g} Hz"
     return Panel(
         title=title,
         x_label="frequency [Hz]",
         y_label=f"density [({unit})^2/Hz]",
-        series=(
-            Curve(
-                "residual",
-                nothing if colour is None else colour.frequency,
-                nothing if colour is None else colour.density,
-                _MEAN,
-            ),
-        ),
+        series=(Curve("residual", *shown, _MEAN),),
         scale="log",
     )
 
@@ -194,7 +167,7 @@ def _order_panel(item: JointComparison) -> Panel:
         y, floor = item.orders.amplitude, item.orders.floor
         kept = thin_curves((y,))
         x, y, floor = x[kept], y[kept], floor[kept]
-        found = lines(item.orders, item.joint.unit)
+        found = order_lines(item.orders, item.joint.unit)
         if found:
             title += f": {found[0].waves:.4g} waves per {per}"
     return Panel(
@@ -235,8 +208,6 @@ def overview_picture(comparison: Comparison) -> Picture:
         title="All joints",
         caption=_overview_caption(comparison),
         panels=panels,
-        heights=(1 / 3, 1 / 3, 1 / 3),
-        widths=(0.5, 0.5),
         height=max(780, 360 + 3 * 44 * len(names)),
     )
 
@@ -259,9 +230,9 @@ def _overview_caption(comparison: Comparison) -> str:
 
 
 def _regions(comparison: Comparison) -> Heat:
-    energy = np.array([[r.energy_share for r in item.regions] for item in comparison.joints])
+    energy = [[r.energy_share for r in item.regions] for item in comparison.joints]
     texts = tuple(
-        tuple(f"{r.energy_share:.0%} ({r.time_share:.0%})" for r in item.regions)
+        tuple(f"{percent(r.energy_share)} ({percent(r.time_share)})" for r in item.regions)
         for item in comparison.joints
     )
     return _heat(comparison, "share of squared residual", REGIONS, energy, texts)
@@ -281,7 +252,7 @@ def _shares(comparison: Comparison) -> Heat:
         else [*(item.structure.share(name) for name in names), item.structure.together]
         for item in comparison.joints
     ]
-    return _heat(comparison, "explained share", columns, np.array(rows), None)
+    return _heat(comparison, "explained share", columns, rows)
 
 
 def _across(comparison: Comparison) -> Heat:
@@ -296,17 +267,18 @@ def _across(comparison: Comparison) -> Heat:
         else [share for _, share in (*item.structure.across, *item.structure.motors)]
         for item in comparison.joints
     ]
-    return _heat(comparison, "explained share", columns, np.array(rows), None)
+    return _heat(comparison, "explained share", columns, rows)
 
 
 def _heat(
     comparison: Comparison,
     label: str,
     columns: tuple[str, ...],
-    values: np.ndarray,
-    texts: tuple[tuple[str, ...], ...] | None,
+    rows: Sequence[Sequence[float]],
+    texts: tuple[tuple[str, ...], ...] = (),
 ) -> Heat:
-    if texts is None:
+    values = np.array(rows)
+    if not texts:
         texts = tuple(
             tuple("" if np.isnan(value) else f"{100 * value:.0f}" for value in row)
             for row in values
@@ -379,14 +351,13 @@ def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: 
     return Picture(
         name=f"joint_{joint.name}_models",
         title=f"Joint {joint.name}: what each model leaves",
-        caption=_overlay_caption(names, styles, told_masks(first, j)),
+        caption=_overlay_caption(names, styles, mask_caption(first, j)),
         panels=(
             (Panel("Residual", label, f"residual [{joint.effort_unit}]", tuple(residuals),
                    marks=marks, zero=True, spans=spans),),
             (Panel("Squared residual so far", label, "sum [%]", tuple(gains), marks=marks),),
         ),
         heights=(0.6, 0.4),
-        widths=(1.0,),
         height=430,
         shared_time=True,
     )  # fmt: skip

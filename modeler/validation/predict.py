@@ -4,11 +4,12 @@ import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Literal, cast
+from typing import Any
 
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.core.json import entries
 from modeler.estimation.long_logs import all_rows, by_threads
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.numerics.filters import LEAST_WEIGHT, moving_means, spacing
@@ -70,26 +71,12 @@ def of_rows(
 
 def on_rows(observation: Observation, predicted: np.ndarray) -> Prediction:
     """Measured and predicted torque (s, joints) on the rows, and nothing besides."""
+    joints: list[Any] = [(j.name, j.unit, j.effort_unit) for j in observation.joints]
     return Prediction(
-        robot=observation.robot,
-        joints=tuple(
-            JointInfo(
-                joint.name,
-                cast(Literal["rad", "m"], joint.unit),
-                cast(Literal["N m", "N"], joint.effort_unit),
-            )
-            for joint in observation.joints
-        ),
-        logs=observation.logs,
-        run=observation.run,
-        segment=observation.segment,
-        time=observation.time,
-        q=observation.q,
-        qd=observation.qd,
-        qdd=observation.qdd,
+        joints=tuple(JointInfo(*joint) for joint in joints),
         measured=observation.torque,
         predicted=predicted,
-        used=observation.used,
+        **entries(observation, "robot logs run segment time q qd qdd used"),
     )
 
 
@@ -98,15 +85,12 @@ def _travel(observation: Observation) -> np.ndarray:
     parts = observation.stretches
     every = np.concatenate([part.segment.q[part.segment.whole] for part in parts])
     least = _TURN * np.ptp(every, axis=0)
-    return np.concatenate(
-        [
-            np.column_stack(
-                [travel_since_reversal(q, turn) for q, turn in zip(part.segment.q.T, least,
-                                                                   strict=True)]
-            )[part.rows.centres]
-            for part in parts
-        ]
-    )  # fmt: skip
+    found = []
+    for part in parts:
+        pairs = zip(part.segment.q.T, least, strict=True)
+        travel = np.column_stack([travel_since_reversal(q, turn) for q, turn in pairs])
+        found.append(travel[part.rows.centres])
+    return np.concatenate(found)
 
 
 def _temperature(observation: Observation) -> np.ndarray | None:
@@ -214,9 +198,12 @@ def compare_long(
 def _part(model: IdentifiedModel, compiled: CompiledModel, chunk: Chunk, chosen: Chosen) -> _Part:
     stretches, facts = seen(compiled, chunk, chosen)
     some = tuple(part for part in stretches if len(part.rows.centres))
+    if not some:
+        return _Part((), facts)
     report = DataReport(chosen.processing, (), (), ())
-    found = stacked(compiled, (chunk.log.name,), some, report) if some else None
-    return _Part(() if found is None else (of_rows(model, found, compiled),), facts)
+    return _Part(
+        (of_rows(model, stacked(compiled, (chunk.log.name,), some, report), compiled),), facts
+    )
 
 
 def _joined(

@@ -1,6 +1,7 @@
 """What the compare stage takes: measured and predicted torque on the same rows."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -131,18 +132,15 @@ def _check_shapes(prediction: Prediction) -> None:
     rows, columns = prediction.time.size, len(prediction.joints)
     if columns == 0:
         raise ShapeError("joints: got none; expected at least one joint to compare")
-    expected = {name: (rows,) for name in ("time", "run", "segment")}
     further = [n for n in _FURTHER if getattr(prediction, n) is not None]
-    matrices = {name: (rows, columns) for name in (*_MATRICES, "used", *further)}
-    for name, shape in {**expected, **matrices}.items():
-        got = np.shape(getattr(prediction, name))
-        if got != shape:
-            raise ShapeError(
-                f"{name}: got shape {got}, expected {shape} ({rows} samples, {columns} joints); "
-                "give one row per sample and one column per joint"
-            )
+    expected: dict[str, tuple[int, ...]] = dict.fromkeys(("time", "run", "segment"), (rows,))
+    expected |= dict.fromkeys((*_MATRICES, "used", *further), (rows, columns))
+    _check_arrays(prediction, expected)
     if prediction.full is not None:
-        _check_full(prediction.full, columns)
+        rows = prediction.full.time.size
+        expected = {"run": (rows,)}
+        expected |= dict.fromkeys(("q", "residual", "filtered"), (rows, columns))
+        _check_arrays(prediction.full, expected, "full.")
     if prediction.used.dtype != np.bool_:
         raise ShapeError(
             f"used: got {prediction.used.dtype}, expected bool; write `used.astype(bool)`"
@@ -155,13 +153,13 @@ def _check_shapes(prediction: Prediction) -> None:
         )
 
 
-def _check_full(full: FullRate, columns: int) -> None:
-    rows = full.time.size
-    for name in ("run", "q", "residual", "filtered"):
-        got, shape = np.shape(getattr(full, name)), (rows,) if name == "run" else (rows, columns)
+def _check_arrays(thing: object, expected: Mapping[str, tuple[int, ...]], head: str = "") -> None:
+    rows, columns = max(expected.values(), key=len)
+    for name, shape in expected.items():
+        got = np.shape(getattr(thing, name))
         if got != shape:
             raise ShapeError(
-                f"full.{name}: got shape {got}, expected {shape} ({rows} samples, {columns} "
+                f"{head}{name}: got shape {got}, expected {shape} ({rows} samples, {columns} "
                 "joints); give one row per sample and one column per joint"
             )
 

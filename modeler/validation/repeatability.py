@@ -252,10 +252,10 @@ def _returning(
         there = np.isfinite(other)
         if not there.any():
             continue
-        own = e[rows][there]
-        if _copies(own, other[there]):
-            continue
-        product = own * other[there]
+        own, other = e[rows][there], other[there]
+        if np.median(np.abs(own - other) > 1e-3 * np.abs(own)) < 0.5:
+            continue  # the same measurements given twice: their noise is alike, too
+        product = own * other
         parts = np.add.reduceat(product, np.arange(0, own.size, _NEIGHBOURS))
         products += float(product.sum())
         squares += float(own @ own)
@@ -267,8 +267,3 @@ def _returning(
     if squares == 0.0:
         return 0.0, 0.0
     return float(np.clip(products / squares, 0.0, 1.0)), float(np.sqrt(scatter)) / squares
-
-
-def _copies(first: np.ndarray, second: np.ndarray) -> bool:
-    """True if these are the same measurements given twice: their noise is alike, too."""
-    return bool(np.median(np.abs(first - second) > 1e-3 * np.abs(first)) < 0.5)

@@ -30,18 +30,23 @@ class Coordinate:
     id: str
     label: str
     phrase: str  # "41 % of that is a repeatable function of <phrase>"
+    unit: str  # on an axis, {unit} that of the position, {effort} that of the torque
 
 
 # In the order in which a simpler explanation is preferred to one that is hardly better.
 COORDINATES = (
-    Coordinate("direction", "direction of motion", "the direction of motion alone"),
-    Coordinate("velocity", "velocity", "velocity"),
-    Coordinate("position", "position", "position"),
-    Coordinate("acceleration", "acceleration", "acceleration"),
-    Coordinate("load", "|predicted| x direction of motion", "load and direction of motion"),
-    Coordinate("travel", "travel x direction of motion", "travel since the last reversal"),
-    Coordinate("temperature", "temperature", "temperature"),
-    Coordinate("time", "time", "time (slow drift)"),
+    Coordinate("direction", "direction of motion", "the direction of motion alone", "-"),
+    Coordinate("velocity", "velocity", "velocity", "{unit}/s"),
+    Coordinate("position", "position", "position", "{unit}"),
+    Coordinate("acceleration", "acceleration", "acceleration", "{unit}/s^2"),
+    Coordinate(
+        "load", "|predicted| x direction of motion", "load and direction of motion", "{effort}"
+    ),
+    Coordinate(
+        "travel", "travel x direction of motion", "travel since the last reversal", "{unit}"
+    ),
+    Coordinate("temperature", "temperature", "temperature", "as logged"),
+    Coordinate("time", "time", "time (slow drift)", "s"),
 )
 
 DRIFTS = ("temperature", "time")
@@ -62,22 +67,15 @@ def coordinates_of(prediction: Prediction, joint: int) -> tuple[Coordinate, ...]
 def coordinate_values(prediction: Prediction, joint: int, coordinate: str) -> np.ndarray:
     """Values of a coordinate of one joint, all rows, (n,); time counts from the log's start."""
     qd = prediction.qd[:, joint]
+    plain = {"position": prediction.q, "velocity": prediction.qd, "acceleration": prediction.qdd,
+             "temperature": prediction.temperature}  # fmt: skip
+    turned = {"load": np.abs(prediction.predicted), "travel": prediction.travel}
     if coordinate == "direction":
         return np.sign(qd)
-    if coordinate == "velocity":
-        return qd
-    if coordinate == "position":
-        return prediction.q[:, joint]
-    if coordinate == "acceleration":
-        return prediction.qdd[:, joint]
-    if coordinate == "load":
-        return np.abs(prediction.predicted[:, joint]) * np.sign(qd)
-    if coordinate == "travel":
-        assert prediction.travel is not None
-        return prediction.travel[:, joint] * np.sign(qd)
-    if coordinate == "temperature":
-        assert prediction.temperature is not None
-        return prediction.temperature[:, joint]
+    if (values := plain.get(coordinate)) is not None:
+        return values[:, joint]
+    if (values := turned.get(coordinate)) is not None:
+        return values[:, joint] * np.sign(qd)
     assert coordinate == "time", coordinate
     starts = [prediction.time[prediction.run == run] for run in range(len(prediction.logs))]
     first = np.array([times[0] if times.size else 0.0 for times in starts])
@@ -87,16 +85,8 @@ def coordinate_values(prediction: Prediction, joint: int, coordinate: str) -> np
 def coordinate_unit(prediction: Prediction, joint: int, coordinate: str) -> str:
     """Unit of a coordinate as it stands on an axis."""
     info = prediction.joints[joint]
-    return {
-        "direction": "-",
-        "velocity": f"{info.unit}/s",
-        "position": info.unit,
-        "acceleration": f"{info.unit}/s^2",
-        "load": info.effort_unit,
-        "travel": info.unit,
-        "temperature": "as logged",
-        "time": "s",
-    }[coordinate]
+    unit = next(own.unit for own in COORDINATES if own.id == coordinate)
+    return unit.format(unit=info.unit, effort=info.effort_unit)
 
 
 ENOUGH = 200  # samples below which nothing is said about structure
@@ -268,7 +258,7 @@ def waves(orders: OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
     return orders.order / (2.0 * np.pi), "m"
 
 
-def lines(orders: OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
+def order_lines(orders: OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
     """What stands out in an order spectrum, the strongest first; see `waves`."""
     if orders is None:
         return ()

@@ -76,14 +76,17 @@ class Stability(Brief):
 
     def sentence(self) -> str:
         """In words."""
+        growth = self.rate * self.seconds
         if self.unstable:
+            tens = f"1e{growth / np.log(10.0):.0f}"
+            times = f"{np.exp(growth):.2g}" if growth < 25.0 else tens
             return (
                 "unstable by nature: along this motion any error doubles every "
-                f"{self.doubling:.2g} s, {_times(self.rate * self.seconds)} in "
+                f"{self.doubling:.2g} s, {times} times in "
                 f"{self.seconds:.3g} s, whatever the model; steepest at {self.at:.4g} s of "
                 f"{self.log}. A long free run says nothing here: judge by the windows"
             )
-        if self.rate * self.seconds < -_FADED:
+        if growth < -_FADED:
             return (
                 "stable by nature: along this motion errors of the start fade, to a half in "
                 f"{np.log(2.0) / -self.rate:.2g} s"
@@ -149,12 +152,6 @@ def _growth(A: np.ndarray, step: float) -> float:
         product, log = product / size, log + np.log(size)
     radius = float(np.abs(np.linalg.eigvals(product)).max())
     return float(log) + float(np.log(max(radius, 1e-300)))
-
-
-def _times(growth: float) -> str:
-    return (
-        f"{np.exp(growth):.2g} times" if growth < 25.0 else f"1e{growth / np.log(10.0):.0f} times"
-    )
 
 
 # How far simulated positions are from measured ones.

@@ -4,29 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLACK,
-    COLOR_NAMES,
-    ORANGE,
-    PALE_BLUE,
-    PALE_BROWN,
-    PALE_GREEN,
-    PALE_ORANGE,
-    PALE_PINK,
-    PALE_YELLOW,
-    SHADE,
-    SKY,
-    VERMILLION,
-    Band,
-    Curve,
-    Panel,
-    Picture,
-    Series,
-    Span,
-    Style,
-    thin_curves,
-)
+from modeler.core.figure import Band, Curve, Panel, Picture, Series, Span
+from modeler.core.style import BLACK, COLOR_NAMES, ORANGE, PALE, SHADE, SKY, VERMILLION, Style
 from modeler.core.table import WORDS
+from modeler.core.thinning import thin_curves
 from modeler.observation.observation import MASKS, WHY
 from modeler.observation.segments import runs
 from modeler.validation.comparison import WINDOW, JointComparison
@@ -38,14 +19,14 @@ from modeler.validation.prediction import DEVIATIONS, Prediction, residual
 GAP = "no rows"
 OTHER = "left out"
 _COLORS = {
-    "low speed": PALE_BLUE,
-    "torque at its limit": PALE_ORANGE,
-    "no good value": PALE_PINK,
-    "impossible derivative": PALE_GREEN,
-    "filter end": PALE_YELLOW,
-    "loops open": PALE_PINK,
-    GAP: PALE_YELLOW,
-    OTHER: PALE_BROWN,
+    "low speed": PALE["blue"],
+    "torque at its limit": PALE["orange"],
+    "no good value": PALE["pink"],
+    "impossible derivative": PALE["green"],
+    "filter end": PALE["yellow"],
+    "loops open": PALE["pink"],
+    GAP: PALE["yellow"],
+    OTHER: PALE["brown"],
 }
 _WHY = WHY | {
     GAP: "a gap in the log, with the start-up of the filter on either side",
@@ -67,7 +48,8 @@ def masked_spans(
     """
     if rows.size < 2:
         return ()
-    half = 0.5 * _spacing(prediction, time)
+    steps = np.diff(time)[np.diff(prediction.segment) == 0]
+    half = 0.5 * float(np.median(steps)) if steps.size else 0.0
     close = _CLOSE * float(np.ptp(time[rows]))
     reasons = _reasons(prediction, j)[rows]
     whole = prediction.segment[rows]
@@ -82,7 +64,7 @@ def masked_spans(
     return tuple(found)
 
 
-def told_masks(prediction: Prediction, j: int) -> str:
+def mask_caption(prediction: Prediction, j: int) -> str:
     """Which colour means what, and how many rows it takes; "" where every row counts."""
     reasons, rows = _reasons(prediction, j), prediction.time.size
     told = [
@@ -121,11 +103,6 @@ def _gaps(
     return [(start, end) for start, end in ends if end > start]
 
 
-def _spacing(prediction: Prediction, time: np.ndarray) -> float:
-    steps = np.diff(time)[np.diff(prediction.segment) == 0]
-    return float(np.median(steps)) if steps.size else 0.0
-
-
 def _joined(ends: np.ndarray, close: float) -> np.ndarray:
     """(k, 2) intervals, those nearer than `close` made one."""
     apart = np.flatnonzero(ends[1:, 0] - ends[:-1, 1] > close) + 1
@@ -148,7 +125,8 @@ def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
     near = own & (time >= window.start - margin) & (time <= window.end + margin)
     running, label, marks = running_time(prediction)
     start = float(running[own & (time == window.start)][0])
-    left = _column(prediction, item, np.arange(time.size), running, _whole_title(prediction), label)
+    title = "All logs" if len(np.unique(prediction.run)) > 1 else "Whole log"
+    left = _column(prediction, item, np.arange(time.size), running, title, label)
     right = _column(
         prediction, item, np.flatnonzero(near), time, f"Worst {WINDOW} s",
         f"time in {window.log} [s]", banded=True,
@@ -184,13 +162,11 @@ def _caption(prediction: Prediction, item: JointComparison) -> list[str]:
             "side, from the covariance of the fitted parameters alone: 95 % where the model is "
             "right; it knows nothing of effects that the model lacks."
         )
-    masks = told_masks(prediction, item.index)
+    masks = mask_caption(prediction, item.index)
     return [*lines, masks] if masks else lines
 
 
-def running_time(
-    prediction: Prediction,
-) -> tuple[np.ndarray, str, tuple[tuple[float, str], ...]]:
+def running_time(prediction: Prediction) -> tuple[np.ndarray, str, tuple[tuple[float, str], ...]]:
     """Time of all rows on one axis, (n,) s, its label, and where each log begins.
 
     One log keeps its own time; several are put one after the other, each starting where the
@@ -207,10 +183,6 @@ def running_time(
         marks.append((offset, prediction.logs[run]))
         offset += float(own.max() - own.min())
     return whole, "time, logs one after the other [s]", tuple(marks)
-
-
-def _whole_title(prediction: Prediction) -> str:
-    return "All logs" if len(np.unique(prediction.run)) > 1 else "Whole log"
 
 
 def broken(segment: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

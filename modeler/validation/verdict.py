@@ -1,8 +1,14 @@
 """The comparison in plain sentences."""
 
-from modeler.core.table import WORDS
+from modeler.core.table import WORDS, percent
 from modeler.validation.comparison import Comparison, JointComparison, Region
-from modeler.validation.residual_structure import COORDINATES, NEARLY, Coordinate, lines, waves
+from modeler.validation.residual_structure import (
+    COORDINATES,
+    NEARLY,
+    Coordinate,
+    order_lines,
+    waves,
+)
 
 NOTICEABLE = 0.05  # share of the residual variance below which a pattern is not mentioned
 _STANDS_OUT = 3.0  # energy share over time share of a region or window worth a remark
@@ -18,20 +24,18 @@ def headline(comparison: Comparison) -> str:
     if not comparison.joints:
         return f"{comparison.prediction.robot}: no joint could be judged."
     ranked = sorted(comparison.joints, key=lambda item: item.relative_error)
-    parts = [
-        f"{rounded_percent(error)} of the {WORDS[unit]}" for unit, error in told_units(comparison)
-    ]
+    parts = [f"{percent(error)} of the {WORDS[unit]}" for unit, error in judged_units(comparison)]
     text = f"{' and '.join(parts)} is unexplained"
     if len(ranked) == 1:
         return f"{text}."
     best, worst = ranked[0], ranked[-1]
     return (
-        f"{text}; joint by joint from {rounded_percent(best.relative_error)} (joint "
-        f"{best.joint.name}) to {rounded_percent(worst.relative_error)} (joint {worst.joint.name})."
+        f"{text}; joint by joint from {percent(best.relative_error)} (joint "
+        f"{best.joint.name}) to {percent(worst.relative_error)} (joint {worst.joint.name})."
     )
 
 
-def told_units(comparison: Comparison) -> list[tuple[str, float]]:
+def judged_units(comparison: Comparison) -> list[tuple[str, float]]:
     """Units of the judged joints, and the error over the joints of each."""
     judged = {item.joint.effort_unit for item in comparison.joints}
     return [(unit, error) for unit, error in comparison.by_unit.items() if unit in judged]
@@ -47,7 +51,7 @@ def verdict(comparison: Comparison) -> tuple[str, ...]:
 def joint_verdict(item: JointComparison) -> str:
     """The line of one joint."""
     return (
-        f"Joint {item.joint.name}: {rounded_percent(item.relative_error)} of the "
+        f"Joint {item.joint.name}: {percent(item.relative_error)} of the "
         f"{WORDS[item.joint.effort_unit]} is unexplained "
         f"({item.rms:.2g} {item.joint.effort_unit} rms); {'; '.join(findings(item))}."
     )
@@ -126,17 +130,14 @@ def best_other(item: JointComparison) -> tuple[str, float] | None:
     if item.structure is None:
         return None
     others = [(f"joint {k}", x) for k, x in item.structure.across if k != item.joint.name]
-    others += [(_motor(k), x) for k, x in item.structure.motors]
+    for name, share in item.structure.motors:
+        first, _, last = name.replace("+", ", ").rpartition(", ")
+        others.append((f"the motor that turns with joints {first} and {last}", share))
     if not others:
         return None
     name, share = max(others, key=lambda entry: entry[1])
     own = max(item.structure.share("velocity"), item.structure.share("direction"))
     return (name, share) if share >= own + NOTICEABLE else None
-
-
-def _motor(name: str) -> str:
-    first, _, last = name.replace("+", ", ").rpartition(", ")
-    return f"the motor that turns with joints {first} and {last}"
 
 
 def kind_of_residual(item: JointComparison) -> str:
@@ -166,14 +167,6 @@ def looks_like_noise(item: JointComparison) -> bool:
     )
 
 
-def rounded_percent(share: float) -> str:
-    """A share as text: two significant digits, none below 0.1 %."""
-    value = 100.0 * share
-    if value >= 10.0:
-        return f"{value:.0f} %"
-    return f"{value:.1f} %" if value >= 0.1 else "under 0.1 %"
-
-
 def _pattern(item: JointComparison) -> str | None:
     found, structure = best_pattern(item), item.structure
     if structure is None:
@@ -182,15 +175,15 @@ def _pattern(item: JointComparison) -> str | None:
         if structure.together < NOTICEABLE:
             return None
         return (
-            f"{rounded_percent(structure.together)} of that is a repeatable function of the "
+            f"{percent(structure.together)} of that is a repeatable function of the "
             "joint's own motion, spread over several coordinates"
         )
     coordinate, share = found
-    text = f"{rounded_percent(share)} of that is a repeatable function of {coordinate.phrase}"
+    text = f"{percent(share)} of that is a repeatable function of {coordinate.phrase}"
     if coordinate.id in ("velocity", "direction"):
         text += _mostly_where(item.regions)
     if coordinate.id != "time" and structure.together > share + 0.1:
-        text += f" ({rounded_percent(structure.together)} with its other coordinates)"
+        text += f" ({percent(structure.together)} with its other coordinates)"
     return text
 
 
@@ -214,9 +207,7 @@ def _other_joint(item: JointComparison) -> str | None:
     found = best_other(item)
     if found is None:
         return None
-    text = (
-        f"{rounded_percent(found[1])} of that follows the velocity of {found[0]} more than its own"
-    )
+    text = f"{percent(found[1])} of that follows the velocity of {found[0]} more than its own"
     if found[0].startswith("joint"):
         text += ", as where one motor turns with both ([coupling] in the robot file)"
     return text
@@ -227,7 +218,8 @@ def _ripple(item: JointComparison) -> str | None:
         return None
     orders, per = waves(item.orders, item.joint.unit)
     # the slowest waves of the spectrum are patterns over position, named elsewhere
-    fast = [line for line in lines(item.orders, item.joint.unit) if line.waves > 2.0 * orders[0]]
+    drawn = order_lines(item.orders, item.joint.unit)
+    fast = [line for line in drawn if line.waves > 2.0 * orders[0]]
     strong = [line for line in fast if line.share >= NOTICEABLE]
     if not strong:
         return None
@@ -249,7 +241,7 @@ def _follows(item: JointComparison) -> str | None:
         return None
     name, coordinate = found.follows.joint, found.follows.coordinate or "motion"
     whose = f"joint {name}" if name else "the joints together"
-    return f"{rounded_percent(found.follows.share)} of that follows the {coordinate} of {whose}"
+    return f"{percent(found.follows.share)} of that follows the {coordinate} of {whose}"
 
 
 def _returns(item: JointComparison) -> str | None:
@@ -263,8 +255,8 @@ def _returns(item: JointComparison) -> str | None:
     ):
         return None
     return {
-        "laps": f"{rounded_percent(share)} of it returns in every lap",
-        "logs": f"{rounded_percent(share)} of it returns in every log of this motion",
+        "laps": f"{percent(share)} of it returns in every lap",
+        "logs": f"{percent(share)} of it returns in every log of this motion",
     }[item.shares.method]
 
 
@@ -281,7 +273,7 @@ def _oscillation(item: JointComparison) -> str | None:
     # the lowest frequencies are slow patterns, named elsewhere, not oscillations
     if colour.peak <= 4 * colour.frequency[0] or 5 / colour.frequency.size > 0.1:
         return None
-    return f"{rounded_percent(colour.peak_share)} of it oscillates near {colour.peak:.3g} Hz"
+    return f"{percent(colour.peak_share)} of it oscillates near {colour.peak:.3g} Hz"
 
 
 def _remembers(item: JointComparison) -> bool:
@@ -305,7 +297,7 @@ def _worst(item: JointComparison) -> str:
     text = f"the worst moment is {window.start:.2f}-{window.end:.2f} s of {window.log}"
     if window.energy_share > _STANDS_OUT * window.time_share and window.energy_share > 0.1:
         text += (
-            f", {rounded_percent(window.energy_share)} of the squared residual in "
-            f"{rounded_percent(window.time_share)} of the time"
+            f", {percent(window.energy_share)} of the squared residual in "
+            f"{percent(window.time_share)} of the time"
         )
     return text

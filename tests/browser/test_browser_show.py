@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from modeler.core.builtin import builtin_text
-from modeler.report.robot import robot_html
 from modeler.report.robot_closing import Posture, gaps_of, home_posture, jacobian, residuals
-from modeler.report.robot_page import page_content
+from modeler.report.robot_page import page_content, robot_html
 from modeler.report.robot_skeleton import Skeleton, poses, skeleton_of
 from modeler.report.showing import show
 from modeler.robot.read import read_robot, robot_from_text

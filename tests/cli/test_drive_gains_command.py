@@ -101,7 +101,7 @@ def test_the_model_file_reads_currents_with_the_gains_that_were_found(cell, caps
         assert joint.drive_gain == pytest.approx(found.value, rel=1e-6)
         assert joint.drive_gain != 2001.0
     assert modeler("compare", cell / "model.json", cell / "bare.parquet") == 0
-    errors = re.findall(r"^1[123] +([\d.]+)%", capsys.readouterr().out, re.MULTILINE)
+    errors = re.findall(r"^1[123] +([\d.]+) %", capsys.readouterr().out, re.MULTILINE)
     assert len(errors) == 3 and all(float(error) < 1.0 for error in errors)
 
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from known_defects import first_joint, prediction
 
-from modeler.core.figure import Band, picture_csv
+from modeler.core.figure import Band
 from modeler.observation.observation import MASKS
 from modeler.report.comparison import all_pictures
 from modeler.report.figure_matplotlib import images
-from modeler.report.figure_page import Numbers, drawn, keys
+from modeler.report.figure_page import Numbers, drawn, keys, picture_csv
 from modeler.validation.comparison import Comparison, compare
 from modeler.validation.pictures import overlay_picture
 from modeler.validation.prediction import Prediction

@@ -8,7 +8,8 @@ import pytest
 from known_defects import NOISE, prediction
 
 from modeler.core.errors import ShapeError
-from modeler.core.figure import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
+from modeler.core.style import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
+from modeler.core.table import percent
 from modeler.numerics.spectra import order_spectrum
 from modeler.observation.motion import travel_since_reversal
 from modeler.report.comparison import all_pictures, report_html
@@ -188,7 +189,7 @@ def test_errors_of_each_log() -> None:
             assert log["joints"][name] == pytest.approx(
                 np.linalg.norm(e[rows, j]) / np.linalg.norm(p.measured[rows, j])
             )
-    assert f"{told[1]['relative_error']:.1%}" in found.summary().splitlines()[-1]
+    assert percent(told[1]["relative_error"]) in found.summary().splitlines()[-1]
     assert "Relative error by log" in report_html(found)
 
 

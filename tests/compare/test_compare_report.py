@@ -18,20 +18,11 @@ from known_defects import first_joint, prediction
 
 from modeler.cli.places import PictureFolder
 from modeler.core.errors import ModelerError
-from modeler.core.figure import (
-    LIMIT,
-    Bars,
-    Curve,
-    Heat,
-    Panel,
-    Picture,
-    picture_csv,
-    thin_curves,
-    thin_points,
-)
+from modeler.core.figure import Bars, Curve, Heat, Panel, Picture
+from modeler.core.thinning import LIMIT, thin_curves, thin_points
 from modeler.report.comparison import all_pictures, report_html, write_pictures, write_report
 from modeler.report.figure_matplotlib import images
-from modeler.report.figure_page import Numbers
+from modeler.report.figure_page import Numbers, picture_csv
 from modeler.validation.comparison import Comparison, compare
 from modeler.validation.pictures import binned_means
 from modeler.validation.prediction import JointInfo
@@ -265,7 +256,7 @@ def test_svg_is_the_same_twice() -> None:
     panel = Panel(
         "t", "x [s]", "y [m]", (Heat("h", ("a",), ("b",), np.ones((1, 1)), (("1",),), 2),)
     )
-    picture = Picture("p", "p", "c", ((panel,),), (1.0,), (1.0,), 200)
+    picture = Picture("p", "p", "c", ((panel,),), 200)
     assert images(picture) == images(picture)
     assert picture_csv(picture).splitlines()[1:] == ["t,h,a / b,1,"]
 

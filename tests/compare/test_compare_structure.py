@@ -1,10 +1,12 @@
 import dataclasses
+import math
 
 import numpy as np
 import pytest
 from known_defects import NOISE, PERIOD, Defect, prediction
 from scipy.signal import lfilter
 
+from modeler.core.table import percent
 from modeler.numerics.splines import curve, flexible
 from modeler.validation.comparison import JointComparison, compare
 from modeler.validation.verdict import (
@@ -13,7 +15,6 @@ from modeler.validation.verdict import (
     joint_verdict,
     kind_of_residual,
     looks_like_noise,
-    rounded_percent,
     verdict,
 )
 
@@ -154,7 +155,9 @@ def test_a_burst_is_told_with_its_moment() -> None:
     text = joint_verdict(
         second_joint(lambda q, qd, qdd, tau, t: 20.0 * (np.abs(t - 41.0) < 0.1)),
     )
-    assert "s of two.parquet, 8" in text and "of the squared residual in 0.8 % of the time" in text
+    assert (
+        "s of two.parquet, 8" in text and "of the squared residual in 0.833 % of the time" in text
+    )
 
 
 def test_too_few_samples_are_admitted() -> None:
@@ -203,7 +206,8 @@ def test_a_joint_that_never_moves() -> None:
 
 
 @pytest.mark.parametrize(
-    ("share", "text"), [(0.033, "3.3 %"), (0.41, "41 %"), (0.0, "under 0.1 %"), (0.1, "10 %")]
+    ("share", "text"),
+    [(0.033, "3.3 %"), (0.4123, "41.2 %"), (1e-9, "0 %"), (15.26, "1526 %"), (math.nan, "-")],
 )
 def test_percent(share: float, text: str) -> None:
-    assert rounded_percent(share) == text
+    assert percent(share) == text

@@ -128,7 +128,7 @@ def test_robust_tells_rows_that_lie_far_off_and_nothing_on_clean_ones():
     assert robust(problem_of(W, y, joint)).sentences == ()
     y[:15] += 30.0
     (said,) = robust(problem_of(W, y, joint)).sentences
-    assert "joint 1: 13 % of its rows" in said
+    assert "joint 1: 13.3 % of its rows" in said
     assert np.all(robust(problem_of(W, W @ BETA, joint)).covariance.diagonal() < 1e-12)
 
 

@@ -16,7 +16,7 @@ from modeler.api.long_logs import by_workers, merged_in_time
 from modeler.cli import main
 from modeler.core import jobs as cluster
 from modeler.core.errors import DataError
-from modeler.core.jobs import Here, open_workers
+from modeler.core.jobs import Workers, open_workers
 from modeler.estimation.long_logs import by_threads, identify_long, merge_all, stream
 from modeler.observation.log import Log
 from modeler.observation.read import source_of
@@ -59,7 +59,7 @@ def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path, ro
     given = sources(place, model)
     chosen = survey(model, given, PROCESSING, KnownFacts(), rows).chosen[0]
     one = merge_all(by_threads(model, given[0], chosen))
-    other = merge_all(by_workers(Here(), emitted())(model, given[0], chosen))
+    other = merge_all(by_workers(Workers(), emitted())(model, given[0], chosen))
     counts = one.facts.tally.sums
     assert counts["chunks"] > 2
     for name, count in counts.items():
@@ -90,7 +90,7 @@ def test_logs_that_cannot_be_read_from_the_middle_are_read_here(place: Path) -> 
     source = source_of(file, model.spec)
     assert source is not None
     chosen = survey(model, [source], PROCESSING, KnownFacts(), ROWS).chosen[0]
-    partials = by_workers(Here(), emitted())(model, source, chosen)
+    partials = by_workers(Workers(), emitted())(model, source, chosen)
     assert merge_all(partials).facts.tally.count("rows") == 4000
 
 
@@ -113,7 +113,7 @@ def workers(address: str) -> Iterator[cluster.Cluster]:
 
 
 def test_a_cluster_gives_what_this_process_gives(workers: cluster.Cluster) -> None:
-    jobs, shares, here = range(9), list[float](), Here()
+    jobs, shares, here = range(9), list[float](), Workers()
     waiting = workers.begun(third, 0.1, jobs, added)
     assert np.array_equal(
         workers.each(third, 0.1, jobs, shares.append), here.each(third, 0.1, jobs)

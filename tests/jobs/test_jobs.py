@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.core.jobs import Here, in_pairs, open_workers, pairs
+from modeler.core.jobs import Workers, in_pairs, open_workers, pairs
 from tests.jobs.work import added, ends_always, refused, third
 
 
@@ -30,13 +30,13 @@ def test_pairs_make_one_of_all_in_order(count: int) -> None:
 
 def test_no_jobs_have_no_result() -> None:
     with pytest.raises(DataError, match="no jobs; expected one at least"):
-        Here().begun(third, 0.1, [], added)()
-    assert Here().each(third, 0.1, []) == []
+        Workers().begun(third, 0.1, [], added)()
+    assert Workers().each(third, 0.1, []) == []
 
 
 def test_processes_give_what_this_one_gives() -> None:
     jobs, shares = range(7), []
-    here = Here()
+    here = Workers()
     with open_workers(processes=2) as others:
         waiting = others.begun(third, 0.1, jobs, added)
         found = others.each(third, 0.1, jobs, shares.append)

@@ -167,7 +167,7 @@ LINES = {
     "zero": r"q2: leaps by 0\.5 rad at 3 s and goes on from there: .* as in run@3:",
     "wrap": r"q2: leaps by whole turns of 2 pi rad .* first at [\d.]+ s; counted on",
     "glitch": (r"tau2: a spike of (49|50)[\d.]* N m at 3 s, far above .* which no other joint "
-               r"feels; 1 sample \(0\.017 % of the rows\) not used; check the wiring"),
+               r"feels; 1 sample \(0\.0167 % of the rows\) not used; check the wiring"),
     "lost": r"q[12]: leaps along its motion by .* at 3 s: rows are missing",
 }  # fmt: skip
 

@@ -43,7 +43,8 @@ def read(node: ET.Element) -> str:
 
 def shown(formula: Formula) -> str:
     """As the template sets it."""
-    from modeler.report.page import FormulaBlock, Page, Section, render
+    from modeler.report.blocks import FormulaBlock
+    from modeler.report.page import Page, Section, render
 
     sheet = Page("t", ("1", "x"), [Section("s", [FormulaBlock([((formula,), "m")])])])
     return str(re.findall(r"<math[^>]*>.*?</math>", render("sheet", sheet=sheet), re.S)[0])

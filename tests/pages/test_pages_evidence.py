@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.core.figure import COLOR_NAMES, Curve, Means, Panel, Picture
+from modeler.core.figure import Curve, Means, Panel, Picture
+from modeler.core.style import COLOR_NAMES
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
 from modeler.effects.catalogue import CATALOGUE

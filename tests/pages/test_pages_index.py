@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from modeler.core.errors import ModelerError
-from modeler.report.page import Origin, Page, Paragraph, Section, entries, write_index, write_page
+from modeler.report.blocks import Paragraph
+from modeler.report.page import Origin, Page, Section, entries, write_index, write_page
 
 
 def sheet(command: str, figure: str = "3 %", held_out: bool | None = None) -> Page:
