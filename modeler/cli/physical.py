@@ -209,7 +209,7 @@ def _sets(subject: Physical, size: int | None, cad: Given | None) -> Json:
             + (", the least error first (1 % in all that is measured gives, median and worst):"
                if ratings else ":"))  # fmt: skip
         lines = [
-            f"  {','.join(r.known)}  {percent(0.01 * r.middle)}, {r.letter} {percent(0.01 * r.worst)}"
+            f"  {','.join(r.known)}  {percent(r.middle / 100)}, {r.letter} {percent(r.worst / 100)}"
             for r in ratings
         ]
         lines = lines or [f"  {','.join(members)}" for members in found.easiest]
