@@ -23,7 +23,7 @@ from modeler.core.manifest import ModuleSpec
 from modeler.estimation.least_squares import Estimate, least_squares
 from modeler.estimation.nearest_body import PREFIXES, Machine, machine_of, scales
 from modeler.estimation.problem import Problem
-from modeler.numerics.least_squares import Rank
+from modeler.numerics.least_squares import Rank, column_lengths
 
 WEIGHT = 0.01
 """gamma where nothing is known of the links: so small that no value which the data tell moves."""
@@ -221,8 +221,7 @@ class _Problem:
         return found, np.maximum(moved, least)
 
     def _scale(self) -> np.ndarray:
-        length = np.linalg.norm(self.A[:, self.others], axis=0)
-        return np.where(length > 0.0, 1.0 / np.where(length > 0.0, length, 1.0), 1.0)
+        return 1.0 / column_lengths(self.A[:, self.others])
 
     def at_zero(self, others: np.ndarray) -> set[int]:
         """Places of the parameters at their bound: less than a millionth of the torque."""

@@ -10,17 +10,23 @@ from modeler.core.errors import DataError, Method
 from modeler.estimation.covariance import autocorrelation, repeated
 from modeler.estimation.essential import Essential, essential_parameters
 from modeler.estimation.identify import (
+    SEEN,
     base_equations,
     dead_joints,
     identify,
     joints_of,
     result_of,
-    solved,
 )
 from modeler.estimation.least_squares import Estimate, condition_numbers
 from modeler.estimation.problem import compressed
 from modeler.estimation.result import SURE, EnergyReport, FitResult, ModelFigures
-from modeler.numerics.least_squares import Rank, compress, independent_columns, triangle
+from modeler.numerics.least_squares import (
+    Rank,
+    compress,
+    independent_columns,
+    scaled_least_squares,
+    triangle,
+)
 from modeler.observation.energy import EnergyRows, energy_rows
 from modeler.observation.observation import Observation
 
@@ -184,8 +190,8 @@ class EnergyFit:
                 near = np.searchsorted(seen.time[own], self.rows.time[windows])
                 touched = held[own][near.clip(0, len(own) - 1)].any(axis=1)
                 free[np.flatnonzero(windows)[touched]] = False
-        rows = np.column_stack([self.rows.W, self.rows.y]) / self.deviation[:, None]
-        return solved(rows[free])
+        W, y = self.rows.W / self.deviation[:, None], self.rows.y / self.deviation
+        return scaled_least_squares(W[free], y[free], SEEN)
 
 
 def identify_energy(
@@ -360,7 +366,7 @@ def _imbalance(rows: EnergyRows, beta: np.ndarray) -> float:
 def _bias(rows: EnergyRows, found: Unequal, beta: np.ndarray) -> float:
     """What the energy that integration misses moves at most, in sigmas."""
     kept = list(found.rank.kept)
-    missed = (rows.balance - rows.W) @ beta
-    weighted = np.column_stack([rows.W[:, kept], missed]) / found.deviation[:, None]
+    missed = (rows.balance - rows.W) @ beta / found.deviation
+    W = rows.W[:, kept] / found.deviation[:, None]
     sigma = np.sqrt(np.diag(found.covariance)[kept])
-    return float(np.max(np.abs(solved(weighted)) / sigma, initial=0.0))
+    return float(np.max(np.abs(scaled_least_squares(W, missed, SEEN)) / sigma, initial=0.0))

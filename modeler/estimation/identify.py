@@ -17,7 +17,7 @@ from modeler.estimation.methods import method_of
 from modeler.estimation.parameter import estimates
 from modeler.estimation.problem import Neighbours, Problem, compressed, residual_of
 from modeler.estimation.result import FitResult, JointFit
-from modeler.numerics.least_squares import Compressed, compress
+from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
 from modeler.observation.observation import Observation
 from modeler.observation.reduce import is_streamed
 
@@ -347,7 +347,8 @@ def sentences_of(estimate: Estimate, essential: Essential) -> list[str]:
 
 FOLDS = 8
 
-_SEEN = 1e-8  # pivot of a scaled column below which a fold does not see a direction
+SEEN = 1e-8
+"""Share of the largest singular value, columns scaled, below which a fold sees no direction."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -404,7 +405,8 @@ def crossed(
     residual = np.zeros(len(equations.y))
     for k, own in enumerate(folds):
         if refit is None:
-            beta = solved(np.vstack([parts[0][:0], *parts[:k], *parts[k + 1 :]]))
+            others = np.vstack([parts[0][:0], *parts[:k], *parts[k + 1 :]])
+            beta = scaled_least_squares(others[:, :-1], others[:, -1], SEEN)
         else:
             beta = refit(np.searchsorted(seen, number) % FOLDS == k)
         residual[own] = equations.residual(beta, own)
@@ -432,11 +434,3 @@ def _stretches(observation: Observation, swing: float) -> np.ndarray:
         number[own] = first + (np.floor(since / swing).astype(int) if swing > 0.0 else 0)
         first = int(number[own].max()) + 1
     return number
-
-
-def solved(whole: np.ndarray) -> np.ndarray:
-    """(c,) least squares of a triangle [W y]; 0 along directions that it does not see."""
-    W, y = whole[:, :-1], whole[:, -1]
-    length = np.linalg.norm(W, axis=0)
-    length[length == 0.0] = 1.0
-    return np.asarray(np.linalg.lstsq(W / length, y, rcond=_SEEN)[0] / length)

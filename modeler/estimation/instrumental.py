@@ -10,7 +10,7 @@ from modeler.core.errors import DataError
 from modeler.estimation.direct_model import ControlLoop, DirectModel, Motion
 from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
 from modeler.estimation.problem import Problem
-from modeler.numerics.least_squares import compress, independent_columns, triangle
+from modeler.numerics.least_squares import column_lengths, compress, independent_columns, triangle
 
 # Instrumental variables: what the noise of the measured motion cannot bias.
 
@@ -75,8 +75,8 @@ def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
 def _solved(W: np.ndarray, Z: np.ndarray, y: np.ndarray, sigma: np.ndarray) -> _Solved:
     lengths = np.linalg.norm(W / sigma[:, None], axis=0)
     X, y = W / sigma[:, None] / lengths, y / sigma
-    far = np.linalg.norm(Z / sigma[:, None], axis=0)
-    Qz, _ = np.linalg.qr(Z / sigma[:, None] / np.where(far > 0.0, far, 1.0))
+    instruments = Z / sigma[:, None]
+    Qz, _ = np.linalg.qr(instruments / column_lengths(instruments))
     Qw, Rw = np.linalg.qr(X)
     across = Qz.T @ Qw
     cosine = float(np.linalg.svd(across, compute_uv=False).min(initial=1.0))

@@ -18,6 +18,7 @@ import numpy as np
 from scipy.sparse import csc_array, diags_array, eye_array, hstack, vstack
 
 from modeler.core.manifest import ModuleSpec, ParameterSpec
+from modeler.numerics.least_squares import column_lengths
 
 PREFIXES = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 _CORNER = {  # upper triangle of P, column after column: {prefix: factor}
@@ -150,7 +151,7 @@ def _solved(
 def scales(machine: Machine, matrix: np.ndarray) -> np.ndarray:
     """(m,) one mass and one length per link: P = D P' D with a diagonal D keeps its sign."""
     length = np.linalg.norm(matrix, axis=0)
-    scale = np.where(length > 0.0, 1.0 / np.where(length > 0.0, length, 1.0), 1.0)
+    scale = 1.0 / column_lengths(matrix)
     for own in machine.links.values():
         inertia, moment = (
             max(length[own[p]] for p in prefixes) for prefixes in (PREFIXES[:6], PREFIXES[6:9])

@@ -10,6 +10,7 @@ import numpy as np
 from modeler.core.errors import DataError, Method
 from modeler.estimation.identify import Equations, base_equations, fit_equations
 from modeler.estimation.result import FitResult
+from modeler.numerics.least_squares import scaled_least_squares
 from modeler.observation.low_speed import signals_of
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
@@ -207,18 +208,14 @@ def _sums(
     base: np.ndarray, columns: np.ndarray, names: Sequence[str], kept: Sequence[int]
 ) -> dict[int, str]:
     """{kept column: the sum that its parameter stands for, "M3 + 11.1*YY3"}, of those that are."""
-    basis = np.column_stack([base, columns[:, kept]])
-    lengths = np.linalg.norm(basis, axis=0)
-    basis = basis / np.where(lengths > 0.0, lengths, 1.0)
+    basis, lengths = np.column_stack([base, columns[:, kept]]), np.linalg.norm(columns, axis=0)
     found: dict[int, str] = {}
     for i, name in enumerate(names):
-        length = float(np.linalg.norm(columns[:, i]))
-        if i in kept or length == 0.0 or not kept:
+        if i in kept or lengths[i] == 0.0 or not kept:
             continue
-        share = np.linalg.lstsq(basis, columns[:, i] / length, rcond=None)[0][-len(kept) :]
-        for k, part in zip(kept, share, strict=True):
-            if abs(part) > _TOLERANCE**0.5:
-                factor = part * length / float(np.linalg.norm(columns[:, k]))
+        factors = scaled_least_squares(basis, columns[:, i])[-len(kept) :]
+        for k, factor in zip(kept, factors, strict=True):
+            if abs(factor) * lengths[k] > _TOLERANCE**0.5 * lengths[i]:
                 term = f"{'-' if factor < 0.0 else '+'} {abs(factor):.4g}*{name}"
                 found[k] = f"{found.get(k, names[k])} {term}"
     return found
