@@ -33,21 +33,13 @@ def method_of(method: str) -> Estimator:
         DataError: there is none.
     """
     if method not in METHODS:
-        raise DataError(f'method is "{method}"; expected {_listed()}')
+        *first, last = METHODS
+        raise DataError(f'method is "{method}"; expected {", ".join(first)} or {last}')
     return METHODS[method]
 
 
-def _listed() -> str:
-    *first, last = METHODS
-    return f"{', '.join(first)} or {last}"
-
-
-def _weighted(problem: Problem) -> Estimate:
-    return least_squares(problem.data, "weighted")
-
-
 _FUNCTIONS: dict[Method, Callable[[Problem], Estimate]] = {
-    "weighted": _weighted,
+    "weighted": lambda problem: least_squares(problem.data, "weighted"),
     "ordinary": ordinary,
     "robust": robust,
     "ridge": ridge,
