@@ -15,6 +15,7 @@ import dataclasses
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -90,8 +91,10 @@ def consistent(
     zero = problem.at_zero(others)
     curvature = problem.covariance(roots)
     beta = machine.K @ chi
+    best = np.linalg.lstsq(R, z, rcond=None)[0]
+    rise = float(np.sum((R @ beta - z) ** 2) - np.sum((R @ best - z) ** 2))
     return Consistent(
-        chi, beta, machine.K @ curvature @ machine.K.T, _rise(R, z, beta), bodies,
+        chi, beta, machine.K @ curvature @ machine.K.T, rise, bodies,
         tuple(name for name, place in machine.positive.items() if place in zero),
     )  # fmt: skip
 
@@ -142,11 +145,16 @@ class _Problem:
     gamma: Mapping[str, float]
     reference: Mapping[str, np.ndarray]  # roots of P0: root root' = P0
 
-    @property
+    @cached_property
     def others(self) -> list[int]:
         """Places in chi of what is no link's: friction, rotor inertias, offsets, loads."""
         inertial = {place for own in self.machine.links.values() for place in own.values()}
         return [i for i in range(self.A.shape[1]) if i not in inertial]
+
+    @cached_property
+    def scale(self) -> np.ndarray:
+        """(others,) of their values, so that their columns have length one."""
+        return 1.0 / column_lengths(self.A[:, self.others])
 
     def chi(self, bodies: Mapping[str, np.ndarray], others: np.ndarray) -> np.ndarray:
         """(m,) all unknowns."""
@@ -190,7 +198,7 @@ class _Problem:
         """
         import cvxpy as cp  # only here: other fits need not wait for it
 
-        scale = self._scale()
+        scale = self.scale
         error = -self.z + self.A[:, self.others] @ others
         step = cp.Variable(len(others))
         total = (self.A[:, self.others] * scale) @ step
@@ -220,12 +228,9 @@ class _Problem:
         least = np.where(np.isin(self.others, list(self.machine.positive.values())), 0.0, -np.inf)
         return found, np.maximum(moved, least)
 
-    def _scale(self) -> np.ndarray:
-        return 1.0 / column_lengths(self.A[:, self.others])
-
     def at_zero(self, others: np.ndarray) -> set[int]:
         """Places of the parameters at their bound: less than a millionth of the torque."""
-        size = _AT_ZERO * max(float(np.linalg.norm(self.z)), 1e-300) * self._scale()
+        size = _AT_ZERO * max(float(np.linalg.norm(self.z)), 1e-300) * self.scale
         positive = set(self.machine.positive.values())
         return {
             place for place, value, least in zip(self.others, others, size, strict=True)
@@ -250,10 +255,8 @@ class _Problem:
                         move[own[prefix]] = value
                     moves.append(move)
                     stiffness.append(self.gamma[name])
-        scale = dict(zip(self.others, self._scale(), strict=True))
-        for place in self.others:
-            moves.append(np.eye(self.A.shape[1])[place] * scale[place])
-            stiffness.append(0.0)
+        moves += [*(np.eye(self.A.shape[1])[self.others] * self.scale[:, None])]
+        stiffness += [0.0] * len(self.others)
         T = np.array(moves).T
         root = np.vstack([self.A @ T, np.diag(np.sqrt(stiffness))])
         inverse = np.linalg.pinv(root, rcond=1e-12)
@@ -283,11 +286,6 @@ def _root(matrix: np.ndarray) -> np.ndarray:
     return np.asarray(np.linalg.cholesky((vectors * values) @ vectors.T))
 
 
-def _rise(R: np.ndarray, z: np.ndarray, beta: np.ndarray) -> float:
-    best = np.linalg.lstsq(R, z, rcond=None)[0]
-    return float(np.sum((R @ beta - z) ** 2) - np.sum((R @ best - z) ** 2))
-
-
 # The physically consistent estimator: from a problem to a machine that could be built.
 
 
@@ -310,12 +308,15 @@ def buildable(problem: Problem) -> Estimate:
     known = references(model.spec)
     found = consistent(machine, problem.data.whole(start.sigma), known)
     told = np.isin(np.arange(len(found.beta)), start.rank.kept)
+    names = {i: parameter.name for i, parameter in enumerate(model.spec.standard)}
+    for link, own in machine.links.items():
+        names |= {place: f"{prefix}{link}" for prefix, place in own.items()}
     return dataclasses.replace(
         start,
         beta=found.beta,
         covariance=found.covariance * np.outer(told, told),
         rank=Rank(start.rank.kept, (), start.rank.last_kept, start.rank.first_dropped),
-        standard=_named(model.spec, machine, found.chi),
+        standard={names[i]: float(value) for i, value in enumerate(found.chi)},
         sentences=tuple(_sentences(model.spec, found, start, known)),
     )
 
@@ -337,13 +338,6 @@ def references(spec: ModuleSpec) -> dict[str, np.ndarray]:
             if size.all() and np.linalg.eigvalsh(body / np.outer(size, size))[0] > 0.0:
                 found[link] = body
     return found
-
-
-def _named(spec: ModuleSpec, machine: Machine, chi: np.ndarray) -> dict[str, float]:
-    names = {i: parameter.name for i, parameter in enumerate(spec.standard)}
-    for link, own in machine.links.items():
-        names |= {place: f"{prefix}{link}" for prefix, place in own.items()}
-    return {names[i]: float(value) for i, value in enumerate(chi)}
 
 
 def _at_zero(spec: ModuleSpec, names: Sequence[str]) -> list[str]:

@@ -10,7 +10,6 @@ from modeler.estimation.doubts import Doubt, not_together
 from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.identify import fit_equations
 from modeler.estimation.payload import Loaded, Payload, loaded_equations
-from modeler.estimation.result import ParameterEstimate
 from modeler.observation.observation import Observation
 
 if TYPE_CHECKING:
@@ -58,7 +57,12 @@ def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[D
     for i, payload in enumerate(loaded.weighed):
         if not loaded.told(i):
             continue
-        factor = _freed(observation, loaded, i)
+        # The factor on its torques that the logs ask for; 1 if its mass is right.
+        column = loaded.torques[:, i]
+        equations = loaded.equations.with_columns(column, ["factor"])
+        equations = dataclasses.replace(equations, y=loaded.equations.y + column)
+        fit = fit_equations(observation, equations, "weighted", noise_only=True)
+        factor = fit.loads[-1]
         if factor.sigma is None or not _contradicts(factor.value, factor.sigma):
             continue
         assert payload.mass is not None
@@ -79,14 +83,6 @@ def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[D
             )
         )
     return found
-
-
-def _freed(observation: Observation, loaded: Loaded, i: int) -> ParameterEstimate:
-    """The factor on the torques of a weighed load that the logs ask for; 1 if its mass is right."""
-    known, y = loaded.torques[:, i], loaded.equations.y
-    equations = loaded.equations.with_columns(known, ["factor"])
-    equations = dataclasses.replace(equations, y=y + known)
-    return fit_equations(observation, equations, "weighted", noise_only=True).loads[-1]
 
 
 def _contradicts(factor: float, sigma: float) -> bool:
