@@ -108,7 +108,7 @@ def coloured(
             )
             extra += repeated(rows, r, sample, observation.segment)
     if isinstance(W, Neighbours):
-        extra = W.repeated(pulls, correlations)
+        extra = W.repeated([*pulls], correlations)
     white = np.diag(estimate.covariance)
     ratio = 1.0 + extra / np.where(white > 0.0, white, 1.0)
     return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory), lasting)

@@ -98,7 +98,17 @@ def identify_gains(
             the gains; says by which figure.
     """
     loaded = loaded_equations(model, observation, payloads)
-    _check_known(observation, loaded)
+    if not loaded.weighed:
+        raise DataError(
+            "--method tls: no load of known mass, and without one all gains and all parameters may "
+            "be larger by one factor; weigh the load of the --payload-log and give --payload-mass"
+        )
+    if dead := dead_joints(observation):
+        names = ", ".join(observation.joints[j].name for j in dead)
+        raise DataError(
+            f"joint {names}: the current is 0 in every row, so no gain can be found; is it "
+            "connected? if the joint has no motor, mark it passive in the robot file (mu = 0)"
+        )
     estimate = _estimate(observation, loaded)
     scaled = dataclasses.replace(observation, torque=observation.torque * estimate.gains)
     equations = dataclasses.replace(loaded.equations, y=scaled.y - loaded.torques.sum(axis=1))
@@ -110,21 +120,6 @@ def identify_gains(
         why = not_together(model, observation, payloads)
         raise DataError("; ".join([str(error), *why])) from None
     return _result(model.spec, fit, estimate, colour, loaded)
-
-
-def _check_known(observation: Observation, loaded: Loaded) -> None:
-    if not loaded.weighed:
-        raise DataError(
-            "--method tls: no load of known mass, and without one all gains and all parameters may "
-            "be larger by one factor; weigh the load of the --payload-log and give --payload-mass"
-        )
-    dead = dead_joints(observation)
-    if dead:
-        names = ", ".join(observation.joints[j].name for j in dead)
-        raise DataError(
-            f"joint {names}: the current is 0 in every row, so no gain can be found; is it "
-            "connected? if the joint has no motor, mark it passive in the robot file (mu = 0)"
-        )
 
 
 def _estimate(observation: Observation, loaded: Loaded) -> GainEstimate:
@@ -213,10 +208,14 @@ def _result(
     d, c = len(driven), len(fit.parameters)
     covariance = estimate.covariance[:-1, :-1] * np.outer(colour.factors, colour.factors)
     sigma = np.sqrt(np.diag(covariance))
+    starts = [1.0 if (gain := spec.joints[j].drive_gain) is None else gain for j in driven]
     gains = tuple(
-        _gain(spec.joints[j], float(estimate.gains[j]), float(s))
-        for j, s in zip(driven, sigma[:d], strict=True)
-    )
+        ParameterEstimate(
+            f"g_tau{spec.joints[j].name}", f"{spec.joints[j].effort_unit}/unit",
+            start * float(estimate.gains[j]), abs(start) * float(s), True, "estimated",
+        )
+        for j, start, s in zip(driven, starts, sigma[:d], strict=True)
+    )  # fmt: skip
     values = [
         p if p.sigma is None else dataclasses.replace(p, sigma=float(s))
         for p, s in zip((*fit.parameters, *fit.loads), sigma[d:], strict=True)
@@ -237,19 +236,6 @@ def _result(
         {name: gain.value for name, gain in zip(names, gains, strict=True)},
         {name: gain.sigma or 0.0 for name, gain in zip(names, gains, strict=True)},
         result,
-    )
-
-
-def _gain(joint: JointSpec, ratio: float, sigma: float) -> ParameterEstimate:
-    """The gain that is `ratio` times the one with which the log was read."""
-    start = 1.0 if joint.drive_gain is None else joint.drive_gain
-    return ParameterEstimate(
-        name=f"g_tau{joint.name}",
-        unit=f"{joint.effort_unit}/unit",
-        value=start * ratio,
-        sigma=abs(start) * sigma,
-        essential=True,
-        status="estimated",
     )
 
 

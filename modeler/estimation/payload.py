@@ -124,7 +124,12 @@ def _with_load(
     equations: Equations, model: "CompiledModel", observation: Observation, payload: Payload
 ) -> Equations:
     """The equations with the columns of a load that can be told apart, beside those there are."""
-    link = payload.link or _last_link(model)
+    # The platform of a parallel robot, whose joints are the coordinates only, or the last link.
+    closure = model.spec.closure
+    last = (
+        model.spec.joints[-1].name if closure is None else closure.carrier or closure.variables[-1]
+    )
+    link = payload.link or last
     columns, labels, units = _load_columns(model, observation, payload, link)
     y = equations.y
     if payload.mass is not None:
@@ -144,14 +149,6 @@ def _with_load(
         sentences=(*equations.sentences, *remarks),
         carried=(*equations.carried, *payload.logs),
     )
-
-
-def _last_link(model: "CompiledModel") -> str:
-    """The platform of a parallel robot, else the link of the last joint."""
-    closure = model.spec.closure
-    if closure is not None:  # whose joints are the coordinates only
-        return closure.carrier or closure.variables[-1]
-    return model.spec.joints[-1].name
 
 
 def _check(model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]) -> None:

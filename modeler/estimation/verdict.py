@@ -29,6 +29,7 @@ from modeler.estimation.identify import (
     all_rows,
     base_equations,
     crossed,
+    errors_on,
 )
 from modeler.estimation.least_squares import solve_by_qr
 from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
@@ -194,7 +195,7 @@ def _predicts(
         return f"{100.0 * float(np.fmax(np.nan_to_num(errors), np.nan_to_num(own)).max()):.2g} %"
 
     told = {
-        name: largest(seen.on(equations, own), result.by_load[name])
+        name: largest(errors_on(equations, seen.residual, own), result.by_load[name])
         for name, own in equations.conditions(rows).items()
         if name in result.by_load
     }
