@@ -108,12 +108,18 @@ def _settled_deviations(
     X: np.ndarray, y: np.ndarray, sources: np.ndarray, method: Method
 ) -> tuple[np.ndarray, bool]:
     """(rows,) standard deviations, and whether they no longer change."""
+    from scipy.optimize import nnls  # it takes long to load
+
     deviation = np.ones(len(y))
+    least = max(_LEAST * float(np.mean(y**2)), np.finfo(float).tiny)
     for _ in range(_ROUNDS):
+        weight = 1.0 / deviation**2
         A = _influence(X, 1.0 / deviation if method == "weighted" else np.ones(len(y)))
         leverage = np.clip(np.einsum("rc,cr->r", X, A), 0.0, 0.99)
         squares = (y - X @ (A @ y)) ** 2 / (1.0 - leverage)
-        updated = _deviations(squares, sources, deviation, y)
+        scale = float(np.mean(squares * weight)) or 1.0
+        found, _ = nnls(sources * weight[:, None], squares * weight / scale)  # a step of scoring
+        updated = np.sqrt(np.maximum(sources @ found * scale, least))
         if np.all(np.abs(updated / deviation - 1.0) < _SETTLED):
             return updated, True
         deviation = updated
@@ -125,19 +131,6 @@ def _influence(X: np.ndarray, weight: np.ndarray) -> np.ndarray:
     lengths = np.linalg.norm(X * weight[:, None], axis=0)
     q, r = np.linalg.qr(X * weight[:, None] / lengths)
     return np.asarray(np.linalg.solve(r, q.T) / lengths[:, None] * weight)
-
-
-def _deviations(
-    squares: np.ndarray, sources: np.ndarray, deviation: np.ndarray, y: np.ndarray
-) -> np.ndarray:
-    """(rows,) from squares of residuals, by one step of scoring."""
-    weight = 1.0 / deviation**2
-    scale = float(np.mean(squares * weight)) or 1.0
-    from scipy.optimize import nnls  # it takes long to load
-
-    found, _ = nnls(sources * weight[:, None], squares * weight / scale)
-    least = max(_LEAST * float(np.mean(y**2)), np.finfo(float).tiny)
-    return np.asarray(np.sqrt(np.maximum(sources @ found * scale, least)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -280,7 +273,13 @@ def _report(
     ):
         missed = np.linalg.norm((part.balance - part.W) @ found.beta) / np.linalg.norm(part.y)
         own = _figures(name, observation, len(part.y), fit)
-        bias = _bias(part, fit, found.beta)
+        # What the energy that integration misses moves at most, in sigmas.
+        kept, weight = list(fit.rank.kept), 1.0 / fit.deviation
+        moved = scaled_least_squares(
+            part.W[:, kept] * weight[:, None], (part.balance - part.W) @ found.beta * weight, SEEN
+        )
+        sigma = np.sqrt(np.diag(fit.covariance)[kept])
+        bias = float(np.max(np.abs(moved) / sigma, initial=0.0))
         figures.append(dataclasses.replace(own, imbalance=float(missed), bias=bias))
     return EnergyReport(
         window=rows.window,
@@ -310,12 +309,3 @@ def _figures(
             if own.any()
         },
     )
-
-
-def _bias(rows: EnergyRows, found: Unequal, beta: np.ndarray) -> float:
-    """What the energy that integration misses moves at most, in sigmas."""
-    kept = list(found.rank.kept)
-    missed = (rows.balance - rows.W) @ beta / found.deviation
-    W = rows.W[:, kept] / found.deviation[:, None]
-    sigma = np.sqrt(np.diag(found.covariance)[kept])
-    return float(np.max(np.abs(scaled_least_squares(W, missed, SEEN)) / sigma, initial=0.0))

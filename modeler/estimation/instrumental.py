@@ -228,7 +228,15 @@ def _repeated(
         beta, settled = found.beta, bool(step.max(initial=0.0) < _NEAR)
         if settled or np.isinf(loop.speed):
             break
-    said = _worse(problem, method, start, beta) + _told(problem, robot, loop, robot.error(motions))
+    said = _told(problem, robot, loop, robot.error(motions))
+    before, after = (_misfit(problem, start, problem.W, own) for own in (start.beta, beta))
+    if after > _WORSE * before:
+        said.insert(
+            0,
+            f"along the logged motion the values leave {after / before:.3g} times the error of "
+            f'"weighted", from which method "{method}" starts: the simulated motion is not that of '
+            'the log; take the values of method "weighted"',
+        )
     if not settled and np.isfinite(loop.speed):
         said.append(
             f"the values still move by up to {step.max():.2g} sigma from one simulation to the "
@@ -239,18 +247,6 @@ def _repeated(
         settled=found.settled and (settled or bool(np.isinf(loop.speed))),
         sentences=(*said, *found.sentences),
     )
-
-
-def _worse(problem: Problem, method: str, start: Estimate, beta: np.ndarray) -> list[str]:
-    """Whether the method ends clearly worse than it started, by its criterion on the log."""
-    before, after = (_misfit(problem, start, problem.W, own) for own in (start.beta, beta))
-    if after <= _WORSE * before:
-        return []
-    return [
-        f"along the logged motion the values leave {after / before:.3g} times the error of "
-        f'"weighted", from which method "{method}" starts: the simulated motion is not that of '
-        'the log; take the values of method "weighted"'
-    ]
 
 
 def _told(problem: Problem, robot: DirectModel, loop: ControlLoop, error: np.ndarray) -> list[str]:

@@ -415,6 +415,7 @@ class FitResult(Presented):
 
     def to_json(self) -> dict[str, Any]:
         """The `fit` object that scripts read; numbers that mean nothing are null."""
+        verdict = self.verdict
         return nulled({
             "robot": self.robot,
             "method": self.method,
@@ -443,7 +444,10 @@ class FitResult(Presented):
             "directions": [item.to_json() for item in self.directions],
             "model": "torque" if self.energy is None else "energy",
             "energy": None if self.energy is None else self.energy.to_json(),
-            **_verdict_to_json(self.verdict),
+            "usable": None if verdict is None else verdict.usable,
+            "usable_for": None if verdict is None else verdict.usable_for,
+            "verdict": None if verdict is None else verdict.line,
+            "doubts": [] if verdict is None else list(verdict.doubts),
             **({"reading": dict(self.reading)} if self.reading else {}),
         })  # fmt: skip
 
@@ -511,17 +515,6 @@ def _joints_to_json(joints: Sequence[JointFit]) -> dict[str, Any]:
 
 def _joints_from_json(raw: Mapping[str, Any]) -> tuple[JointFit, ...]:
     return tuple(JointFit(name=name, **entry) for name, entry in raw.items())
-
-
-def _verdict_to_json(verdict: Verdict | None) -> dict[str, Any]:
-    if verdict is None:
-        return {"usable": None, "usable_for": None, "verdict": None, "doubts": []}
-    return {
-        "usable": verdict.usable,
-        "usable_for": verdict.usable_for,
-        "verdict": verdict.line,
-        "doubts": list(verdict.doubts),
-    }
 
 
 def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:

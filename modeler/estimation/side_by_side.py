@@ -101,6 +101,11 @@ def side_by_side(
         except ModelerError as error:
             refusal = str(error)
         seconds = time.perf_counter() - start
+        apart = [
+            (own.name, abs(own.value - other.value) / max(own.sigma, other.sigma))
+            for own, other in zip(fit.parameters if fit else (), first.parameters, strict=False)
+            if method != FIRST and own.sigma and other.sigma
+        ]
         tried.append(
             Tried(
                 method=method,
@@ -108,7 +113,7 @@ def side_by_side(
                 refusal=refusal,
                 seconds=seconds,
                 held_out=held_out_error(held_out, fit.beta) if fit and held_out else None,
-                farthest=_farthest(fit, first) if fit and method != FIRST else None,
+                farthest=max(apart, key=lambda pair: pair[1]) if apart else None,
                 remarks=fit.own if fit and fit.own else (f"not {ABOUT[method].avoid}",),
             )
         )
@@ -123,12 +128,3 @@ def held_out_error(observation: Observation, beta: np.ndarray) -> float:
     norms = [np.linalg.norm(y[observation.row_joint == j]) for j in range(len(observation.joints))]
     seen = (np.array(norms) > 0.0)[observation.row_joint]
     return float(np.linalg.norm(rest[seen]) / max(float(np.linalg.norm(y)), 1e-300))
-
-
-def _farthest(fit: FitResult, first: FitResult) -> tuple[str, float] | None:
-    pairs = [
-        (own.name, abs(own.value - other.value) / max(own.sigma, other.sigma))
-        for own, other in zip(fit.parameters, first.parameters, strict=True)
-        if own.sigma and other.sigma
-    ]
-    return max(pairs, key=lambda pair: pair[1]) if pairs else None
