@@ -11,16 +11,16 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.codegen.derivation import derive, generate, load
+from modeler.codegen.derivation import derive, load
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
 from modeler.observation.observation import Observation, observe
 from modeler.observation.read import read_log
-from modeler.papers import Paper
 from modeler.papers.method_report import MethodTable, Outcome, Row, figures, judged, recovered
+from modeler.papers.paper import Paper
+from modeler.papers.simulated import compiled_robot
 from modeler.robot.robot import Limits, Robot
 from modeler.runtime.model import CompiledModel
-from modeler.runtime.model import load as load_compiled
 from modeler.simulation import SimulationSettings, simulate, write_log
 
 ROBOT = "orthoglide-2003-similar-legs"
@@ -47,11 +47,16 @@ LETTERS = {
 
 def guegan_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
     """Tables 2 and 3, the condition numbers, and the direction along which Table 2 is noise."""
-    table_2, table_3 = (_ours(figures(paper, place)) for place in ("Table 2", "Table 3"))
+    table_2, table_3 = (
+        {
+            LETTERS.get(word, word.replace("FV", "Fv").replace("FS", "Fs")): values
+            for word, values in figures(paper, place).items()
+        }
+        for place in ("Table 2", "Table 3")
+    )
     truth = {name: values[0] for name, values in table_3.items()}
     derivation = derive(load(ROBOT))
-    emitted = generate(derivation)
-    compiled = load_compiled(emitted.spec, emitted.code)
+    compiled = compiled_robot(derivation)
     observation, exact = _simulated(derivation.robot, truth, compiled, report)
     full, reduced = identify(observation), identify(_chosen(observation, truth))
     return [
@@ -60,13 +65,6 @@ def guegan_methods(paper: Paper, report: Callable[[float], None]) -> list[Method
         _essential(table_3, full, reduced),
         _conditions(paper, full, reduced),
     ]
-
-
-def _ours(printed: Mapping[str, tuple[float, ...]]) -> dict[str, tuple[float, ...]]:
-    names = {
-        word: LETTERS.get(word, word.replace("FV", "Fv").replace("FS", "Fs")) for word in printed
-    }
-    return {names[word]: values for word, values in printed.items()}
 
 
 def _machine(robot: Robot, truth: Mapping[str, float]) -> Robot:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from modeler.core.errors import RobotError
-from modeler.papers import Paper
+from modeler.papers.paper import Paper
 from modeler.papers.quotation import numbers_of
 
 ZMAX = 4.0
