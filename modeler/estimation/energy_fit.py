@@ -18,6 +18,7 @@ from modeler.estimation.identify import (
     result_of,
 )
 from modeler.estimation.least_squares import Estimate, condition_numbers
+from modeler.estimation.methods import method_of
 from modeler.estimation.problem import compressed
 from modeler.estimation.result import SURE, EnergyReport, FitResult, ModelFigures
 from modeler.numerics.least_squares import (
@@ -185,7 +186,14 @@ def identify_energy(
     Raises:
         DataError: a motor without torque, few windows, no such method, or as `energy_rows`.
     """
-    _check(observation, method)
+    method_of(method, "windows")
+    dead = [observation.joints[j].name for j in dead_joints(observation)]
+    if dead:
+        raise DataError(
+            f"{', '.join(observation.logs)}: the torque of joint {', '.join(dead)} is 0 in every "
+            "row; the energy model needs the torque of every motor, for it adds up their work; "
+            "connect it, or take --model torque"
+        )
     rows = energy_rows(model, observation, window)
     if len(rows.y) < len(observation.names):
         raise DataError(
@@ -204,21 +212,6 @@ def identify_energy(
         energy=_report(model, observation, rows, found, window, method),
     )  # fmt: skip
     return EnergyFit(result, rows, found.deviation, observation)
-
-
-def _check(observation: Observation, method: Method) -> None:
-    if method not in ("weighted", "ordinary"):
-        raise DataError(
-            f"--method {method}: the energy model takes weighted or ordinary; leave out --method "
-            "or --model energy"
-        )
-    dead = [observation.joints[j].name for j in dead_joints(observation)]
-    if dead:
-        raise DataError(
-            f"{', '.join(observation.logs)}: the torque of joint {', '.join(dead)} is 0 in every "
-            "row; the energy model needs the torque of every motor, for it adds up their work; "
-            "connect it, or take --model torque"
-        )
 
 
 def _estimate(observation: Observation, rows: EnergyRows, method: Method) -> Unequal:

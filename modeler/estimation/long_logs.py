@@ -17,6 +17,7 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError, Method
 from modeler.estimation.identify import base_equations, dead_joints, fit_equations
+from modeler.estimation.methods import capable, method_of
 from modeler.estimation.result import FitResult
 from modeler.numerics.least_squares import Compressed, merged
 from modeler.observation.chunk import Chunk, chunks
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 PASSES = 3
 """Over the logs, at most: what a pass finds that the windows did not show may ask for another."""
 
-OF_TRIANGLES: tuple[Method, ...] = ("weighted", "ordinary")
+OF_TRIANGLES = capable("triangles")
 """Methods that need no row again once the triangles are there."""
 
 Share = Callable[[float], None]
@@ -167,11 +168,7 @@ def identify_long(
     Raises:
         DataError: another method, fewer rows than parameters, or no torque at all.
     """
-    if method not in OF_TRIANGLES:
-        raise DataError(
-            f"fit: method {method} reads every row again and again, and long logs are not kept in "
-            f"memory; expected {' or '.join(OF_TRIANGLES)}, or a part of the log, FILE@START:END"
-        )
+    method_of(method, "triangles")
     observation, data = streamed.observation, streamed.data
     gone = np.isin(np.arange(len(data.rows)), dead_joints(observation))
     data = dataclasses.replace(

@@ -101,14 +101,13 @@ def loaded_equations(
     """
     _check(model, observation, payloads)
     equations = base_equations(observation)
-    torques = []
+    stacked = np.zeros((len(equations.y), 0))
     for payload in payloads:
         before = equations.y
         equations = _with_load(equations, model, observation, payload)
         if payload.mass is not None:
-            torques.append(before - equations.y)
+            stacked = np.column_stack([stacked, before - equations.y])
     weighed = tuple(payload for payload in payloads if payload.mass is not None)
-    stacked = np.column_stack(torques) if torques else np.zeros((len(equations.y), 0))
     loaded = Loaded(equations, weighed, stacked)
     blind = [
         f"{payload.name}: its mass of {payload.mass:g} kg is taken as given: these logs do not "
@@ -130,7 +129,19 @@ def _with_load(
         model.spec.joints[-1].name if closure is None else closure.carrier or closure.variables[-1]
     )
     link = payload.link or last
-    columns, labels, units = _load_columns(model, observation, payload, link)
+    place = {p.name: i for i, p in enumerate(model.spec.standard) if p.effect == "rigid_body"}
+    labels = [label for label in _ORDER if f"{label}{link}" in place]
+    places = [place[f"{label}{link}"] for label in labels]
+    units = [model.spec.standard[i].unit for i in places]
+
+    def evaluate(s: Segment, w: slice) -> np.ndarray:
+        read = signals_of(model.spec, s)
+        part = None if read is None else read[w]
+        return model.regressor(s.q[w], s.qd[w], s.qdd[w], part)[:, :, places]
+
+    columns = observation.filtered(evaluate)[observation.used]
+    runs = [i for i, name in enumerate(observation.logs) if name in payload.logs]
+    columns[~np.isin(observation.row_run, runs)] = 0.0
     y = equations.y
     if payload.mass is not None:
         y = y - payload.mass * columns[:, labels.index("M")]
@@ -179,26 +190,6 @@ def _check(model: "CompiledModel", observation: Observation, payloads: Sequence[
             "every log carries a load, so it cannot be told from the last link; add a log of the "
             "bare robot"
         )
-
-
-def _load_columns(
-    model: "CompiledModel", observation: Observation, payload: Payload, link: str
-) -> tuple[np.ndarray, list[str], list[str]]:
-    """(rows, 10) columns, zero on the other logs; their letters; their units."""
-    place = {p.name: i for i, p in enumerate(model.spec.standard) if p.effect == "rigid_body"}
-    labels = [label for label in _ORDER if f"{label}{link}" in place]
-    columns = [place[f"{label}{link}"] for label in labels]
-    runs = [i for i, name in enumerate(observation.logs) if name in payload.logs]
-
-    def evaluate(s: Segment, w: slice) -> np.ndarray:
-        read = signals_of(model.spec, s)
-        part = None if read is None else read[w]
-        return model.regressor(s.q[w], s.qd[w], s.qdd[w], part)[:, :, columns]
-
-    everywhere = observation.filtered(evaluate)
-    rows = everywhere[observation.used]
-    rows[~np.isin(observation.row_run, runs)] = 0.0
-    return rows, labels, [model.spec.standard[i].unit for i in columns]
 
 
 def _sums(

@@ -416,15 +416,10 @@ class FitResult(Presented):
     def to_json(self) -> dict[str, Any]:
         """The `fit` object that scripts read; numbers that mean nothing are null."""
         verdict = self.verdict
+        plain = ("robot", "method", "status", "samples", "rows", "condition_number",
+                 "condition_scaled", "relative_error")  # fmt: skip
         return nulled({
-            "robot": self.robot,
-            "method": self.method,
-            "status": self.status,
-            "samples": self.samples,
-            "rows": self.rows,
-            "condition_number": self.condition_number,
-            "condition_scaled": self.condition_scaled,
-            "relative_error": self.relative_error,
+            **{name: getattr(self, name) for name in plain},
             "relative_error_pools": POOLED,
             "by_unit": self.by_unit,
             "essential_error": self.essential_error,

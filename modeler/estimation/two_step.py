@@ -21,6 +21,7 @@ from modeler.estimation.least_squares import Estimate, least_squares
 from modeler.numerics.filters import LEAST_WEIGHT
 from modeler.numerics.least_squares import Compressed, compress
 from modeler.observation.observation import Observation
+from modeler.observation.segments import runs
 from modeler.runtime.model import CompiledModel
 
 # Where one joint moves and the others stand: the pieces of logs that a two-step fit uses.
@@ -110,33 +111,24 @@ def moves_alone(observation: Observation, directions: Directions) -> Moves:
         labels = np.where(segment.whole, labels, _SEVERAL)
         several += segment.step * float(np.sum((labels == _SEVERAL) & segment.whole))
         total += segment.step * float(np.sum(segment.whole))
-        found += [Move(i, number, window) for i, window in _merged(_episodes(labels))]
+        found += [Move(i, number, window) for i, window in _episodes(labels)]
     return Moves(tuple(found), several, total)
 
 
 def _episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
-    """(joint, samples) from standstill to standstill; several where they move at any time of it.
+    """(joint, samples) from standstill to standstill in which one joint moves alone.
 
-    Joints that come to rest together do so one after the other, and the last is not alone.
+    Those of one joint that follow each other are one. Joints that come to rest together do so one
+    after the other, and the last is not alone: where several move at any time, all is left out.
     """
-    moving = np.flatnonzero(labels != _NONE)
-    cuts = np.flatnonzero(np.diff(moving) > 1) + 1
-    found = []
-    for run in np.split(moving, cuts) if moving.size else []:
-        joint = int(labels[run[0]]) if np.ptp(labels[run]) == 0 else _SEVERAL
-        found.append((joint, slice(int(run[0]), int(run[-1]) + 1)))
-    return found
-
-
-def _merged(episodes: list[tuple[int, slice]]) -> list[tuple[int, slice]]:
-    """Episodes of one joint alone, those that follow each other as one."""
     found: list[tuple[int, slice]] = []
     before = _SEVERAL
-    for joint, window in episodes:
+    for start, stop in runs(labels != _NONE):
+        joint = int(labels[start]) if np.ptp(labels[start:stop]) == 0 else _SEVERAL
         if joint != _SEVERAL and joint == before:
-            found[-1] = (joint, slice(found[-1][1].start, window.stop))
+            found[-1] = (joint, slice(found[-1][1].start, stop))
         elif joint != _SEVERAL:
-            found.append((joint, window))
+            found.append((joint, slice(start, stop)))
         before = joint
     return found
 

@@ -9,19 +9,9 @@ from scipy.special import chdtri
 
 from modeler.core.errors import LoopError
 from modeler.core.manifest import ModuleSpec
+from modeler.estimation import doubts
 from modeler.estimation.covariance import autocorrelation
-from modeler.estimation.doubts import (
-    LITTLE,
-    WIDE,
-    Doubt,
-    Told,
-    negative,
-    scarce,
-    systematic,
-    undescribed,
-    undetermined,
-    unshown,
-)
+from modeler.estimation.doubts import LITTLE, WIDE, Doubt, Told
 from modeler.estimation.identify import (
     CrossValidation,
     Equations,
@@ -174,12 +164,12 @@ def with_verdict(
     seen = crossed(equations, rows, np.array([joint.sigma for joint in result.joints]), refit)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)
-    found = _with_poor(found, [*scarce(result, seen), *undescribed(result)])
+    found = _with_poor(found, [*doubts.scarce(result, seen), *doubts.undescribed(result)])
     if part:
-        found += unshown(result, seen, _scale(data, observation, rows))
-    found += systematic(result, _lasting(equations, rows, result))
-    found += undetermined(model.spec, result, _spread(data, result))
-    found += [*_impossible(model.spec, result, data), *negative(model.spec, result)]
+        found += doubts.unshown(result, seen, _scale(data, observation, rows))
+    found += doubts.systematic(result, _lasting(equations, rows, result))
+    found += doubts.undetermined(model.spec, result, _spread(data, result))
+    found += [*_impossible(model.spec, result, data), *doubts.negative(model.spec, result)]
     verdict = _verdict(found, _predicts(equations, rows, result, seen))
     directions = friction_by_direction(model.spec, result)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
@@ -236,7 +226,9 @@ def contradictions(
     """
     data = data or all_rows(observation)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
-    found = _with_poor([*found, *time_doubts(model, observation, result)], undescribed(result))
+    found = _with_poor(
+        [*found, *time_doubts(model, observation, result)], doubts.undescribed(result)
+    )
     found += _impossible(model.spec, result, data)
     return list(dict.fromkeys(doubt.line for doubt in found if doubt.certain))
 
