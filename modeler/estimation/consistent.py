@@ -22,7 +22,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.estimation.least_squares import Estimate, least_squares
-from modeler.estimation.nearest_body import PREFIXES, Machine, machine_of, scales
+from modeler.estimation.nearest_body import CORNER, PREFIXES, Machine, machine_of, scales
 from modeler.estimation.problem import Problem
 from modeler.numerics.least_squares import Rank, column_lengths
 
@@ -37,9 +37,6 @@ _ROUNDS = (1e4, 1e2, 1.0, 1.0)
 """Factors of gamma, one round after the other, each written around the answer before: the first
 rounds need few digits, the last have them."""
 
-_SECOND = {"XX": (1, 2), "YY": (0, 2), "ZZ": (0, 1)}
-_PRODUCT = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2)}
-_MOMENT = {"MX": 0, "MY": 1, "MZ": 2}
 _AT_ZERO = 1e-6  # of its scale: a friction this small is at its bound
 
 
@@ -106,29 +103,21 @@ def parameters_of(body: np.ndarray) -> dict[str, float]:
 
 def pseudo_inertia_of(values: Mapping[str, float]) -> np.ndarray:
     """(4, 4) [[int x x' dm, int x dm], [., M]] of ten standard parameters, by prefix."""
-    half = (values["XX"] + values["YY"] + values["ZZ"]) / 2.0
     body = np.zeros((4, 4))
-    for axis, prefix in enumerate(_SECOND):
-        body[axis, axis] = half - values[prefix]
-    for prefix, (i, j) in _PRODUCT.items():
-        body[i, j] = body[j, i] = -values[prefix]
-    for prefix, i in _MOMENT.items():
-        body[i, 3] = body[3, i] = values[prefix]
-    body[3, 3] = values["M"]
+    for (i, j), terms in CORNER.items():
+        body[i, j] = body[j, i] = sum(factor * values[prefix] for prefix, factor in terms.items())
     return body
 
 
 def _picks() -> dict[str, np.ndarray]:
     """Symmetric matrices: each parameter is their inner product with the pseudo-inertia."""
     found = {prefix: np.zeros((4, 4)) for prefix in PREFIXES}
-    for prefix, axes in _SECOND.items():
-        for axis in axes:
-            found[prefix][axis, axis] = 1.0
-    for prefix, (i, j) in _PRODUCT.items():
-        found[prefix][i, j] = found[prefix][j, i] = -0.5
-    for prefix, i in _MOMENT.items():
-        found[prefix][i, 3] = found[prefix][3, i] = 0.5
-    found["M"][3, 3] = 1.0
+    for (i, j), terms in CORNER.items():
+        for prefix, factor in terms.items():
+            # A second moment is the sum of two others: its factor in them is 1 for both.
+            found[prefix][i, j] = found[prefix][j, i] = (
+                factor / 2.0 if i != j else 1.0 if factor > 0.0 else 0.0
+            )
     return found
 
 

@@ -14,7 +14,7 @@ from modeler.estimation.essential import Essential, essential_parameters, reduce
 from modeler.estimation.halves import Halves, halves
 from modeler.estimation.least_squares import MAX_ITERATIONS, Estimate, least_sigma
 from modeler.estimation.methods import method_of
-from modeler.estimation.parameter import estimates
+from modeler.estimation.parameter import ParameterEstimate
 from modeler.estimation.problem import Neighbours, Problem, compressed, residual_of
 from modeler.estimation.result import FitResult, JointFit
 from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
@@ -233,8 +233,18 @@ def result_of(
     """
     observation, count = equations.observation, len(equations.observation.names)
     labels = list(zip(equations.names, equations.units, strict=True))
-    sigma = np.sqrt(np.diag(estimate.covariance))
-    every = estimates(labels, estimate.beta, sigma, estimate.rank.kept, essential.names)
+    sigma, told = np.sqrt(np.diag(estimate.covariance)), set(estimate.rank.kept)
+    every = tuple(
+        ParameterEstimate(
+            name=name,
+            unit=unit,
+            value=float(estimate.beta[i]),
+            sigma=float(sigma[i]) if i in told else None,
+            essential=name in essential.names,
+            status="estimated" if i in told else "set aside",
+        )
+        for i, (name, unit) in enumerate(labels)
+    )
     return FitResult(
         robot=observation.robot,
         method=method,

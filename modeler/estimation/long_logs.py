@@ -199,10 +199,21 @@ def all_rows(
             f"{sources[0].name}: an effect of {model.spec.robot} remembers its motion without end, "
             "and long logs are read in chunks; fit a part of it, FILE@START:END"
         )
-    known = KnownFacts()
+    known, total = KnownFacts(), max(1, sum(source.rows for source in sources))
     for number in range(1, PASSES + 1):
         found = survey(model, sources, processing or Processing(), known, rows)
-        every = list(_all_logs(model, sources, found, reducer, progress))
+        begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
+        every: list[Any] = []
+        done = 0
+        for source, parts in zip(sources, begun, strict=True):
+            whole: Any = None
+            for part in parts:
+                whole = part if whole is None else whole.over(part)
+                progress(min(1.0, (done + whole.facts.tally.count("rows")) / total))
+            if whole is None:
+                raise DataError(f"{source.name}: no rows; expected a motion; leave it out")
+            done += whole.facts.tally.count("rows")
+            every.append(whole)
         facts = tuple(part.facts for part in every)
         again = _again(facts, found, known)
         if again is None or number == PASSES:
@@ -236,28 +247,6 @@ def by_threads(
         finally:  # an error, or Ctrl-C: what has not begun is not begun
             for future in waiting:
                 future.cancel()
-
-
-def _all_logs(
-    model: "CompiledModel",
-    sources: Sequence[Source],
-    found: Survey,
-    reducer: Reducer,
-    progress: Share,
-) -> Iterator[Any]:
-    """All chunks of each log in one."""
-    total, done = max(1, sum(source.rows for source in sources)), 0
-    begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
-    for source, parts in zip(sources, begun, strict=True):
-        whole: Any = None
-        for part in parts:
-            whole = part if whole is None else whole.over(part)
-            rows = whole.facts.tally.count("rows")
-            progress(min(1.0, (done + rows) / total))
-        if whole is None:
-            raise DataError(f"{source.name}: no rows; expected a motion; leave it out")
-        done += whole.facts.tally.count("rows")
-        yield whole
 
 
 def _again(facts: Sequence[Facts], found: Survey, known: KnownFacts) -> KnownFacts | None:

@@ -21,7 +21,7 @@ from modeler.core.manifest import ModuleSpec, ParameterSpec
 from modeler.numerics.least_squares import column_lengths
 
 PREFIXES = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-_CORNER = {  # upper triangle of P, column after column: {prefix: factor}
+CORNER = {
     (0, 0): {"XX": -0.5, "YY": 0.5, "ZZ": 0.5},
     (0, 1): {"XY": -1.0},
     (1, 1): {"XX": 0.5, "YY": -0.5, "ZZ": 0.5},
@@ -33,6 +33,8 @@ _CORNER = {  # upper triangle of P, column after column: {prefix: factor}
     (2, 3): {"MZ": 1.0},
     (3, 3): {"M": 1.0},
 }
+"""Upper triangle of P, column after column: {prefix: factor}."""
+
 _ANSWERS = ("Solved", "AlmostSolved")
 
 
@@ -176,7 +178,7 @@ def _bounds(machine: Machine, scale: np.ndarray, free: set[str]) -> tuple[csc_ar
         if name in free:
             continue
         kilogram = scale[own["M"]]
-        for (i, j), terms in _CORNER.items():
+        for (i, j), terms in CORNER.items():
             outside = 1.0 if i == j else np.sqrt(2.0)
             power = (i < 3) + (j < 3)
             metre = scale[own["MX"]] / kilogram

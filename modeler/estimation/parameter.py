@@ -4,8 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 LOPSIDED = 2.0
 """Ratio of the sides of an interval above which one standard deviation does not describe it."""
 
@@ -51,36 +49,6 @@ class ParameterEstimate:
             "status": self.status,
             "interval": None if self.interval is None else list(self.interval),
         }
-
-
-def estimates(
-    labels: Sequence[tuple[str, str]],
-    beta: np.ndarray,
-    sigma: np.ndarray,
-    kept: Sequence[int],
-    essential: Sequence[str],
-) -> tuple[ParameterEstimate, ...]:
-    """All parameters of an estimate.
-
-    Args:
-        labels: (c,) name and unit.
-        beta: (c,) values.
-        sigma: (c,) standard deviations.
-        kept: indices of those that were not set aside.
-        essential: names of the essential ones.
-    """
-    told, needed = set(kept), set(essential)
-    return tuple(
-        ParameterEstimate(
-            name=name,
-            unit=unit,
-            value=float(beta[i]),
-            sigma=float(sigma[i]) if i in told else None,
-            essential=name in needed,
-            status="estimated" if i in told else "set aside",
-        )
-        for i, (name, unit) in enumerate(labels)
-    )
 
 
 def read_parameter(entry: Mapping[str, Any]) -> ParameterEstimate:
