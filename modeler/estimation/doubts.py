@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from modeler.estimation.identify import CrossValidation, Equations, base_equatio
 from modeler.estimation.least_squares import least_squares
 from modeler.estimation.payload import Payload, loaded_equations
 from modeler.estimation.result import FitResult
+from modeler.observation.channels import Fault
 from modeler.observation.observation import Observation
 
 if TYPE_CHECKING:
@@ -42,18 +43,6 @@ MOST = 0.5
 _TORQUES = "check units, signs and columns of the log, the table, and the effects in the robot file"
 
 
-class Told(Protocol):
-    """A finding about the logs that another stage makes: a line, and whether it is certain."""
-
-    @property
-    def line(self) -> str:
-        """Where, what, and what to do."""
-
-    @property
-    def certain(self) -> bool:
-        """True if no physics can look like it."""
-
-
 @dataclass(frozen=True)
 class Doubt:
     """Why a fit may not be what it looks like.
@@ -71,6 +60,10 @@ class Doubt:
     certain: bool = False
     values: bool = False
     explains: bool = False
+
+
+Told = Fault | Doubt
+"""A finding about the logs, of this stage or of the one that reads them."""
 
 
 def negative(spec: ModuleSpec, result: FitResult) -> list[Doubt]:

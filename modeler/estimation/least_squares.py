@@ -128,20 +128,16 @@ def solve_by_qr(W: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return root @ (q.T @ y), root
 
 
-def _rms(data: Compressed) -> np.ndarray:
-    return data.torque_norms() / np.sqrt(np.maximum(data.rows, 1))
-
-
 def least_sigma(data: Compressed) -> np.ndarray:
     """(n,) the smallest sigma of each joint: exact data would otherwise divide by zero."""
-    rms = _rms(data)
+    rms = data.torque_rms()
     return np.maximum(_LEAST * rms, max(1e-3 * _LEAST * rms.max(initial=0.0), 1e-300))
 
 
 def _weighed(data: Compressed, spread: np.ndarray, cancelling: np.ndarray) -> np.ndarray:
     """(n,) sigma from the spread of the residuals, kept away from 0."""
     sigma = np.maximum(spread, least_sigma(data))
-    rms = _rms(data)
+    rms = data.torque_rms()
     driven = ~data.free & (rms > 0.0)
     if driven.any():
         error = float(np.sqrt(np.mean((sigma[driven] / rms[driven]) ** 2)))
@@ -168,7 +164,7 @@ def _spread(
     share = np.einsum("jik,kl,jil->j", W, covariance, W, optimize=True) / sigma**2
     degrees = np.maximum(data.rows - share, 0.0)
     spread = data.residual_norms(beta) / np.sqrt(np.maximum(degrees, 1e-12))
-    return np.where(degrees > 0.5, spread, np.maximum(_rms(data), 1e-300))
+    return np.where(degrees > 0.5, spread, np.maximum(data.torque_rms(), 1e-300))
 
 
 def condition_numbers(W: np.ndarray) -> tuple[float, float]:

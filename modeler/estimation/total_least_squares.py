@@ -73,10 +73,10 @@ def mixed_tls(data: Compressed, known: int, value: float = 1.0) -> GainEstimate 
         known: index of that column.
         value: of its parameter.
     """
-    units = np.where(data.free, 1.0, _rms(data))
+    units = np.where(data.free, 1.0, data.torque_rms())
     scaled = _with_torque(data, 1.0 / np.where(units > 0.0, units, 1.0))
     size = np.linalg.norm(data.triangles[:, :, :-1], axis=(1, 2)) + 1e-300
-    sigma = np.where(data.free & (_rms(data) == 0.0), size, 1.0)
+    sigma = np.where(data.free & (data.torque_rms() == 0.0), size, 1.0)
     whole = scaled.whole(sigma)[:, :-1]
     rank = independent_columns(whole, data.names)
     others = [i for i in range(len(data.names)) if i != known]
@@ -176,7 +176,3 @@ def _covariance(
     _, root = solve_by_qr(R, np.zeros(len(R)))
     covariance[np.ix_(places, places)] = root @ root.T
     return covariance
-
-
-def _rms(data: Compressed) -> np.ndarray:
-    return data.torque_norms() / np.sqrt(np.maximum(data.rows, 1))

@@ -158,6 +158,10 @@ class Compressed:
         """(n,) ||y_j||."""
         return np.linalg.norm(self.triangles[:, :, -1], axis=1)
 
+    def torque_rms(self) -> np.ndarray:
+        """(n,) root mean square of y_j."""
+        return self.torque_norms() / np.sqrt(np.maximum(self.rows, 1))
+
     def whole(self, sigma: np.ndarray) -> np.ndarray:
         """Triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j."""
         weighted = self.triangles / sigma[:, None, None]

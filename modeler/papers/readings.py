@@ -428,11 +428,7 @@ def _matrix_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared
     """Rows of G^T, `1 0 0; 0 1 -1`: G = d(all joints of `gives[1]`) / d(those of `gives[0]`)."""
     tied = robots[line.robot].tied
     above, below = line.gives[1].split(), line.gives[0].split()
-    one: Sum = {}
-    derived = [
-        [{(): tied[name][((by, 1),)]} if ((by, 1),) in tied[name] else one for name in above]
-        for by in below
-    ]
+    derived = [[_slope(tied[name], by) for name in above] for by in below]
     printed = [[read_sum(cell, str) for cell in row.split()] for row in line.text.split(";")]
     text = "; ".join(" ".join(map(sum_text, row)) for row in derived)
     return Compared(_entries(printed), _entries(derived), text)
@@ -440,6 +436,11 @@ def _matrix_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared
 
 def _entries(rows: list[list[Sum]]) -> Sum:
     return joined({f"{i}x{j}": cell for i, row in enumerate(rows) for j, cell in enumerate(row)})
+
+
+def _slope(whole: Sum, name: str) -> Sum:
+    key = ((name, 1),)
+    return {(): whole[key]} if key in whole else {}
 
 
 READINGS: Mapping[str, Reading] = {
