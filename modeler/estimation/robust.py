@@ -8,13 +8,13 @@ import numpy as np
 from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
 from modeler.estimation.problem import Problem
 from modeler.numerics.least_squares import triangle
+from modeler.numerics.noise import robust_deviation
 
 HUBER = 1.345
 TUKEY = 4.685
 """Standard deviations from which a row's weight falls (Huber) and is 0 (Tukey): both lose 5 % of
 efficiency on Gaussian noise (Holland and Welsch 1977)."""
 
-_MAD = 1.4826  # median of |u| of Gaussian noise, inverted
 _ITERATIONS = 200
 _SETTLED = 1e-8  # step, in standard deviations of the parameters
 _TOLD = 0.05  # share of a joint's rows with less than half a weight that is told; Gaussian: 1.7 %
@@ -86,11 +86,11 @@ class _Reweighted:
         """To the fixed point of beta and scales; joints without a motor keep theirs."""
 
         def reweigh() -> None:
-            spread = np.abs(self.residual - self.X @ self.step)
+            left = self.residual - self.X @ self.step
             for j in np.flatnonzero(~free):
                 own = self.joint == j
                 if own.any():
-                    self.sigma[j] = max(_MAD * float(np.median(spread[own])), least[j])
+                    self.sigma[j] = max(robust_deviation(left[own]), least[j])
             self.weight = np.minimum(1.0, HUBER / np.maximum(np.abs(self._scaled()), HUBER))
 
         return self._iterate(reweigh)
