@@ -114,11 +114,8 @@ def identify_gains(
     equations = dataclasses.replace(loaded.equations, y=scaled.y - loaded.torques.sum(axis=1))
     fit = fit_equations(scaled, equations, "weighted")
     colour = _colour(scaled, equations, estimate)
-    try:
-        _check_told(observation, estimate, colour)
-    except DataError as error:
-        why = not_together(model, observation, payloads)
-        raise DataError("; ".join([str(error), *why])) from None
+    if why := _untold(observation, estimate, colour):
+        raise DataError("; ".join([why, *not_together(model, observation, payloads)]))
     return _result(model.spec, fit, estimate, colour, loaded)
 
 
@@ -163,12 +160,8 @@ def _colour(observation: Observation, equations: Equations, estimate: GainEstima
     return coloured(observation, J, residual + J @ values, every, white)
 
 
-def _check_told(observation: Observation, estimate: GainEstimate, colour: Colour) -> None:
-    """Refuse gains that the logs do not tell apart.
-
-    Raises:
-        DataError: no gap between the last two singular values, or a sigma that is too large.
-    """
+def _untold(observation: Observation, estimate: GainEstimate, colour: Colour) -> str:
+    """Why the logs do not tell the gains apart: no gap of singular values, or a large sigma."""
     driven = [j for j, joint in enumerate(observation.joints) if joint.actuated]
     d = len(driven)
     sigma = colour.factors[:d] * np.sqrt(np.diag(estimate.covariance)[:d])
@@ -177,18 +170,19 @@ def _check_told(observation: Observation, estimate: GainEstimate, colour: Colour
     noise = 1.0 + _FAR * float(colour.factors[:d].max()) * float(np.sqrt(2.0 / rows.min()))
     if estimate.gap**2 < noise:
         names = _blamed(observation, estimate)
-        raise DataError(
+        return (
             f"--method tls: no gap between the singular values that tell the drive gains: the last "
             f"two are {_listed(estimate.singular[-2:])}, s[-2]/s[-1] = {estimate.gap:.4g}, and "
             f"noise alone makes up to {noise**0.5:.4g}; least told: joint {names}; {_MORE}"
         )
     if not np.all(share <= LOOSE):
         worst = int(np.argmax(np.where(np.isnan(share), np.inf, share)))
-        raise DataError(
+        return (
             f"--method tls: the gain of joint {observation.joints[driven[worst]].name} has a sigma "
             f"of {100.0 * share[worst]:.3g} %, no better than a data sheet; expected at most "
             f"{100.0 * LOOSE:.0f} % (s[-2]/s[-1] = {estimate.gap:.4g}); {_MORE}"
         )
+    return ""
 
 
 def _blamed(observation: Observation, estimate: GainEstimate) -> str:

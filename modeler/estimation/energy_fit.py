@@ -19,7 +19,6 @@ from modeler.estimation.identify import (
 )
 from modeler.estimation.least_squares import Estimate, condition_numbers
 from modeler.estimation.methods import method_of
-from modeler.estimation.problem import compressed
 from modeler.estimation.result import SURE, EnergyReport, FitResult, ModelFigures
 from modeler.numerics.least_squares import (
     compress,
@@ -201,7 +200,7 @@ def identify_energy(
             f"{len(observation.names)} parameters; record more motion, or give a shorter --window"
         )
     found = _estimate(observation, rows, method)
-    torques = compressed(observation, np.ones(len(observation.y), dtype=bool))
+    torques = base_equations(observation).compressed(np.ones(len(observation.y), dtype=bool))
     essential = _essential(rows, observation.names, found, below).judged_on(torques, found.beta)
     result = result_of(
         base_equations(observation), method, found, essential,

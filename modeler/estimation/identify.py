@@ -15,11 +15,11 @@ from modeler.estimation.halves import Halves, halves
 from modeler.estimation.least_squares import MAX_ITERATIONS, Estimate, least_sigma
 from modeler.estimation.methods import method_of
 from modeler.estimation.parameter import ParameterEstimate
-from modeler.estimation.problem import Neighbours, Problem, compressed, residual_of
+from modeler.estimation.problem import Neighbours, Problem, kept_rows, residual_of
 from modeler.estimation.result import FitResult, JointFit
 from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
 from modeler.observation.observation import Observation
-from modeler.observation.reduce import is_streamed
+from modeler.observation.reduce import is_streamed, triangles
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel
@@ -78,11 +78,12 @@ class Equations:
 
     def compressed(self, counted: np.ndarray) -> Compressed:
         """Some rows, compressed."""
-        joints = self.observation.joints
+        joints, own = self.observation.joints, self.observation.row_joint[counted]
         free = [j for j, joint in enumerate(joints) if not joint.actuated]
         if (W := self.kept) is None:
-            return compressed(self.observation, counted, free)
-        own = self.observation.row_joint[counted]
+            found = triangles(self.observation, kept_rows(self.observation, counted))
+            rows, idle = found.rows.astype(np.intp), np.isin(np.arange(len(joints)), free)
+            return Compressed(self.names, found.triangles, rows, idle)
         return compress(W[counted], self.y[counted], own, len(joints), self.names, free)
 
     def residual(self, beta: np.ndarray, counted: np.ndarray) -> np.ndarray:

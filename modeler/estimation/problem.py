@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.numerics.least_squares import Compressed, compress
+from modeler.numerics.least_squares import Compressed
 from modeler.observation.observation import Evaluated, Observation
-from modeler.observation.reduce import blocks, explained, is_streamed, products, triangles
+from modeler.observation.reduce import blocks, explained, is_streamed, products
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel
@@ -19,32 +19,10 @@ _PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows tim
 _ROWS = 64  # that a band matrix is applied to at a time
 
 
-def compressed(
-    observation: Observation, counted: np.ndarray, free: Sequence[int] = ()
-) -> Compressed:
-    """The base parameters' equations of some rows, compressed.
-
-    Args:
-        observation: of the rows.
-        counted: (rows,) True for those to use.
-        free: indices of the joints without a motor.
-    """
-    joints = len(observation.joints)
-    if not is_streamed(observation):
-        own = observation.W[counted], observation.y[counted], observation.row_joint[counted]
-        return compress(*own, joints, observation.names, free)
-    found = triangles(observation, kept_rows(observation, counted))
-    rows = found.rows.astype(np.intp)
-    return Compressed(observation.names, found.triangles, rows, np.isin(np.arange(joints), free))
-
-
 def residual_of(
     observation: Observation, beta: np.ndarray, counted: np.ndarray | None = None
 ) -> np.ndarray:
     """y - W beta of the base parameters, for all rows or those that are counted (rows,)."""
-    own = slice(None) if counted is None else counted
-    if not is_streamed(observation):
-        return np.asarray(observation.y[own] - observation.W[own] @ beta)
     keep = observation.used if counted is None else kept_rows(observation, counted)
     return np.asarray((observation.torque - explained(observation, beta, keep))[keep])
 
