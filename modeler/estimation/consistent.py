@@ -13,7 +13,7 @@ IJRR 33(6)). Convex: solved by cvxpy with Clarabel.
 import contextlib
 import dataclasses
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -329,19 +329,6 @@ def references(spec: ModuleSpec) -> dict[str, np.ndarray]:
     return found
 
 
-def _at_zero(spec: ModuleSpec, names: Sequence[str]) -> list[str]:
-    """Of the parameters at 0: which the data would have below it, and which they do not tell."""
-    sums = [[term.parameter for term in base.terms] for base in spec.base]
-    own = [name for name in names if [name] in sums]
-    said = [f"{', '.join(own)} held at 0, which would be negative"] if own else []
-    for name in names:
-        if name not in own:
-            beside = dict.fromkeys(x for terms in sums if name in terms for x in terms)
-            others = " and ".join(x for x in beside if x != name)
-            said.append(f"{name} cannot be told from {others} and is put at 0")
-    return said
-
-
 def _sentences(
     spec: ModuleSpec, found: Consistent, start: Estimate, known: Mapping[str, np.ndarray]
 ) -> list[str]:
@@ -354,7 +341,16 @@ def _sentences(
             "by one sigma each: these logs hold something that the model does not; see the doubts "
             "of --method weighted"
         )
-    said += _at_zero(spec, found.at_bound)
+    # Of the parameters at 0: which the data would have below it, and which they do not tell.
+    sums = [[term.parameter for term in base.terms] for base in spec.base]
+    own = [name for name in found.at_bound if [name] in sums]
+    if own:
+        said.append(f"{', '.join(own)} held at 0, which would be negative")
+    for name in found.at_bound:
+        if name not in own:
+            beside = dict.fromkeys(x for terms in sums if name in terms for x in terms)
+            others = " and ".join(x for x in beside if x != name)
+            said.append(f"{name} cannot be told from {others} and is put at 0")
     if start.rank.aside:
         names = ", ".join(tangle.name for tangle in start.rank.aside)
         said.append(f"not told by these data, but by what can be built: {names}")

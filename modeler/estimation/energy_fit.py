@@ -202,11 +202,20 @@ def identify_energy(
     found = _estimate(observation, rows, method)
     torques = base_equations(observation).compressed(np.ones(len(observation.y), dtype=bool))
     essential = _essential(rows, observation.names, found, below).judged_on(torques, found.beta)
+    said = [tangle.sentence() for tangle in found.rank.aside]
+    if not found.settled:
+        said.append("the variances of the windows still change; record more rows")
+    if found.memory > 1.2:
+        said.append(
+            "neighbouring windows repeat each other, and the sigmas are raised for it, by up to a "
+            f"factor {found.memory:.2g}"
+        )
+    said.append(essential.sentence())
     result = result_of(
         base_equations(observation), method, found, essential,
         rows=len(rows.y),
         joints=joints_of(observation, torques, found.beta),
-        sentences=_sentences(found, essential),
+        sentences=tuple(said),
         reduced=np.ones(len(essential.names)),
         energy=_report(model, observation, rows, found, window, method),
     )  # fmt: skip
@@ -233,18 +242,6 @@ def _essential(
         essential.reduced, covariance=covariance, condition_number=raw, condition_scaled=scaled
     )
     return dataclasses.replace(essential, reduced=reduced)
-
-
-def _sentences(found: Unequal, essential: Essential) -> tuple[str, ...]:
-    said = [tangle.sentence() for tangle in found.rank.aside]
-    if not found.settled:
-        said.append("the variances of the windows still change; record more rows")
-    if found.memory > 1.2:
-        said.append(
-            "neighbouring windows repeat each other, and the sigmas are raised for it, by up to a "
-            f"factor {found.memory:.2g}"
-        )
-    return (*said, essential.sentence())
 
 
 def _report(

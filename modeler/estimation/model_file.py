@@ -177,16 +177,11 @@ class IdentifiedModel(Presented):
         # Only here: a model file can be read and printed where there is no compiler.
         from modeler.runtime.model import load
 
-        return load(self.spec, self.sources, _log_table(self.robot_text))
-
-
-def _log_table(robot_text: str) -> Mapping[str, Any]:
-    """The [log] of a robot file."""
-    try:
-        table = tomllib.loads(robot_text).get("log", {})
-    except ValueError:
-        return {}
-    return table if isinstance(table, Mapping) else {}
+        try:
+            table = tomllib.loads(self.robot_text).get("log", {})
+        except ValueError:
+            table = {}
+        return load(self.spec, self.sources, table if isinstance(table, Mapping) else {})
 
 
 def provenance(report: DataReport) -> tuple[LogProvenance, ...]:

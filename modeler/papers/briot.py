@@ -130,13 +130,9 @@ def _table_3(table: Mapping[str, tuple[float, ...]], found: GainFit) -> MethodTa
                 printed = f"{values[0]:.5g} ({values[-1]:.3g} %)"
                 rows.append(recovered(word, printed, values[0], p.value, p.sigma or 0.0))
     last = found.result.singular_values[-2:]
-    rows.append(
-        Row(
-            "s[-2]/s[-1]", "-", f"{last[0] / last[1]:.4g}",
-            judged(last[0] > 2 * last[1], Outcome.DERIVED),
-            "singular values of the currents beside the model: a gap, or no gains",
-        )
-    )  # fmt: skip
+    why = "singular values of the currents beside the model: a gap, or no gains"
+    outcome = judged(last[0] > 2 * last[1], Outcome.DERIVED)
+    rows.append(Row("s[-2]/s[-1]", "-", f"{last[0] / last[1]:.4g}", outcome, why))
     return MethodTable("Table 3: drive gains, slides and motors", SETTING, tuple(rows))
 
 
@@ -147,13 +143,9 @@ _SET = ("M11", "M12", "M13", "Ia1", "Fv1", "Fs1")
 def _second_load(paper: Paper, cases: list[tuple[float, float]]) -> MethodTable:
     load, *printed, width = quoted(paper, "a second payload")[:4]
     rows = [Row("weighed", f"{load:g} kg", f"{load:g} kg", Outcome.SHOWN)]
-    for which, theirs, (ours, sigma) in zip(
-        ("case 1: the maker's gains", "case 2: the identified gains"), printed, cases, strict=True
-    ):
-        rows.append(
-            Row(
-                which, f"{theirs:g} kg", f"{ours:.4f} +- {sigma:.2g} kg",
-                judged(abs(ours - theirs) <= width), f"within {width:g} kg, the paper's 2 sigma",
-            )
-        )  # fmt: skip
+    names = ("case 1: the maker's gains", "case 2: the identified gains")
+    why = f"within {width:g} kg, the paper's 2 sigma"
+    for which, theirs, (ours, sigma) in zip(names, printed, cases, strict=True):
+        found, outcome = f"{ours:.4f} +- {sigma:.2g} kg", judged(abs(ours - theirs) <= width)
+        rows.append(Row(which, f"{theirs:g} kg", found, outcome, why))
     return MethodTable("The second load, weighed by the robot", SETTING[:1], tuple(rows))

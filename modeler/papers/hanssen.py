@@ -147,16 +147,13 @@ def _known(paper: Paper, derivation: Derivation) -> MethodTable:
     system = physical_system(derivation.model, derivation.base, "coefficients")
     claim, rest = quoted(paper, "From these, 18")
     found, _ = determined(system, KNOWN)
-    rows = [
-        Row("parameters that follow from " + ", ".join(KNOWN), f"{claim:g}", str(len(found)),
-            judged(len(found) == FOLLOW, Outcome.DERIVED),
-            "the statement is wrong: " + ", ".join(found) + " alone"),
-    ]  # fmt: skip
+    what = "parameters that follow from " + ", ".join(KNOWN)
+    why = "the statement is wrong: " + ", ".join(found) + " alone"
+    outcome = judged(len(found) == FOLLOW, Outcome.DERIVED)
+    rows = [Row(what, f"{claim:g}", str(len(found)), outcome, why)]
     for size, expected in ((int(rest), 0), (smallest_number(system), 61_879)):
         sets = known_sets(system, size)
-        rows.append(
-            Row(f"sets of {size} from which all others follow", "-",
-                f"{sets.count} of {sets.possible}",
-                judged(sets.count == expected, Outcome.DERIVED), "our consequence")
-        )  # fmt: skip
+        what, counted = f"sets of {size} from which all others follow", sets.count == expected
+        outcome = judged(counted, Outcome.DERIVED)
+        rows.append(Row(what, "-", f"{sets.count} of {sets.possible}", outcome, "our consequence"))
     return MethodTable("Physical parameters that must be known", (), tuple(rows))

@@ -125,11 +125,7 @@ def _compared(energy: FitResult) -> MethodTable:
         text = f"condition {model.condition_scaled:.4g}, {model.known} parameters below 10 %"
         rows.append(Row(model.model, "-", f"{model.rows} rows, {text}", Outcome.SHOWN))
     ratio = simpson.torque_sigma / torque.torque_sigma
-    rows.append(
-        Row(
-            "uncertainty of predicted torques, energy over torque", "-", f"{ratio:.3g}",
-            judged(ratio > 1.0, Outcome.DERIVED),
-            "our consequence: at equal data the torque model is the surer",
-        )
-    )  # fmt: skip
+    what = "uncertainty of predicted torques, energy over torque"
+    why = "our consequence: at equal data the torque model is the surer"
+    rows.append(Row(what, "-", f"{ratio:.3g}", judged(ratio > 1.0, Outcome.DERIVED), why))
     return MethodTable("The energy model beside the torque model", (), tuple(rows))
