@@ -263,9 +263,11 @@ def _report(
         missed = np.linalg.norm((part.balance - part.W) @ found.beta) / np.linalg.norm(part.y)
         own = _figures(name, observation, len(part.y), fit)
         # What the energy that integration misses moves at most, in sigmas.
-        kept, weight = list(fit.rank.kept), 1.0 / fit.deviation
+        kept, deviation = list(fit.rank.kept), fit.deviation
         moved = scaled_least_squares(
-            part.W[:, kept] * weight[:, None], (part.balance - part.W) @ found.beta * weight, SEEN
+            part.W[:, kept] / deviation[:, None],
+            (part.balance - part.W) @ found.beta / deviation,
+            SEEN,
         )
         sigma = np.sqrt(np.diag(fit.covariance)[kept])
         bias = float(np.max(np.abs(moved) / sigma, initial=0.0))
