@@ -106,6 +106,8 @@ def pseudo_inertia_of(values: Mapping[str, float]) -> np.ndarray:
     body = np.zeros((4, 4))
     for (i, j), terms in CORNER.items():
         body[i, j] = body[j, i] = sum(factor * values[prefix] for prefix, factor in terms.items())
+    half = (values["XX"] + values["YY"] + values["ZZ"]) / 2.0  # the solver's last digits hang on it
+    body[[0, 1, 2], [0, 1, 2]] = [half - values[prefix] for prefix in ("XX", "YY", "ZZ")]
     return body
 
 
