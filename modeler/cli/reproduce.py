@@ -5,25 +5,23 @@ import enum
 from collections.abc import Sequence
 from dataclasses import asdict
 
-from modeler import papers
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import ModelerError
+from modeler.papers.check import Line, LineVerdict, check_paper
 from modeler.papers.method_report import MethodTable, Outcome
-from modeler.papers.paper import SLIPS
+from modeler.papers.paper import SLIPS, DerivedPaper, Paper, derived_robot, read_paper
 from modeler.papers.run import run_methods
 
 
 def run_reproduce(args: argparse.Namespace) -> Json:
     """Prints the lines; raises if one is different."""
-    paper = papers.read_paper(args.paper)
+    paper = read_paper(args.paper)
     say(paper.title)
     args.after, args.different = after_reproduce, []
     found: dict[str, object] = {"paper": paper.name}
     if args.section != "methods":
         lines = _lines(paper)
-        args.different += [
-            line.printed for line in lines if line.verdict is papers.LineVerdict.DIFFERENT
-        ]
+        args.different += [line.printed for line in lines if line.verdict is LineVerdict.DIFFERENT]
         found["lines"] = [asdict(line) | {"verdict": line.verdict.value} for line in lines]
     if args.section != "print":
         tables = _methods(paper)
@@ -46,38 +44,38 @@ def after_reproduce(args: argparse.Namespace) -> None:
         )
 
 
-def _lines(paper: papers.Paper) -> list[papers.Line]:
-    found: dict[str, papers.DerivedPaper] = {}
+def _lines(paper: Paper) -> list[Line]:
+    found: dict[str, DerivedPaper] = {}
     for name in paper.robots:
         with working(f"deriving {name}"):
-            found[name] = papers.derived_robot(name, paper.variants.get(name))
-    lines = papers.check_paper(paper, found)
+            found[name] = derived_robot(name, paper.variants.get(name))
+    lines = check_paper(paper, found)
     for name in paper.robots:
         _say_robot(name, found[name], [line for line in lines if line.robot == name])
     say()
     for line in lines:
-        if line.verdict is papers.LineVerdict.UNCHECKED:
+        if line.verdict is LineVerdict.UNCHECKED:
             say(f"  [{line.verdict.value}] {line.place}: {line.why}")
     say()
     say(_counted([line.verdict for line in lines]))
     return lines
 
 
-def _say_robot(name: str, derived: papers.DerivedPaper, lines: Sequence[papers.Line]) -> None:
+def _say_robot(name: str, derived: DerivedPaper, lines: Sequence[Line]) -> None:
     say()
     say(f"{name}: {derived.robot.title}")
     for line in lines:
-        slip = f": {SLIPS[line.slip]}" if line.verdict is papers.LineVerdict.MISPRINT else ""
+        slip = f": {SLIPS[line.slip]}" if line.verdict is LineVerdict.MISPRINT else ""
         say(f"  [{line.verdict.value}{slip}] {line.place}: {line.printed}")
-        if line.verdict in (papers.LineVerdict.MEASURED, papers.LineVerdict.CONSISTENT):
+        if line.verdict in (LineVerdict.MEASURED, LineVerdict.CONSISTENT):
             say(f"      must hold: {line.derived}")
-        if line.verdict in (papers.LineVerdict.MISPRINT, papers.LineVerdict.DIFFERENT):
+        if line.verdict in (LineVerdict.MISPRINT, LineVerdict.DIFFERENT):
             say(f"      derived: {line.derived}")
         if line.why:
             say(f"      {line.why}")
 
 
-def _methods(paper: papers.Paper) -> list[MethodTable]:
+def _methods(paper: Paper) -> list[MethodTable]:
     with progress(f"simulating the experiment of {paper.name}") as report:
         tables = run_methods(paper, report)
     for table in tables:

@@ -10,7 +10,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.diagnosis.effect_columns import Columns, Rows
-from modeler.numerics.least_squares import ReducedRows, turn_of
+from modeler.numerics.least_squares import ReducedRows, turn_of, whitening
 from modeler.numerics.spectra import lap
 from modeler.observation.observation import Observation
 
@@ -328,13 +328,10 @@ def _solve(
     """Weighted least squares from the Gram matrices of the joints."""
     if not len(sides[0]):
         return np.zeros(0)
-    gram = sum(g / s**2 for g, s in zip(grams, sigma, strict=True))
+    gram = np.asarray(sum(g / s**2 for g, s in zip(grams, sigma, strict=True)))
     right = sum(u / s**2 for u, s in zip(sides, sigma, strict=True))
-    length = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
-    values, vectors = np.linalg.eigh(gram / np.outer(length, length))
-    kept = values > 1e-11 * values[-1]
-    inverse = (vectors[:, kept] / values[kept]) @ vectors[:, kept].T
-    return np.asarray(inverse @ (right / length) / length)
+    turn = whitening(gram, 1e-11)
+    return np.asarray(turn @ (turn.T @ right))
 
 
 # Blocks of time, and folds that hold out different motion.

@@ -13,17 +13,18 @@ IJRR 33(6)). Convex: solved by cvxpy with Clarabel.
 import contextlib
 import dataclasses
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.estimation.least_squares import Estimate, least_squares
-from modeler.estimation.nearest_body import PREFIXES, Machine, machine_of, scales
+from modeler.estimation.nearest_body import CORNER, PREFIXES, Machine, machine_of, scales
 from modeler.estimation.problem import Problem
-from modeler.numerics.least_squares import Rank
+from modeler.numerics.least_squares import Rank, column_lengths
 
 WEIGHT = 0.01
 """gamma where nothing is known of the links: so small that no value which the data tell moves."""
@@ -36,9 +37,6 @@ _ROUNDS = (1e4, 1e2, 1.0, 1.0)
 """Factors of gamma, one round after the other, each written around the answer before: the first
 rounds need few digits, the last have them."""
 
-_SECOND = {"XX": (1, 2), "YY": (0, 2), "ZZ": (0, 1)}
-_PRODUCT = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2)}
-_MOMENT = {"MX": 0, "MY": 1, "MZ": 2}
 _AT_ZERO = 1e-6  # of its scale: a friction this small is at its bound
 
 
@@ -90,8 +88,10 @@ def consistent(
     zero = problem.at_zero(others)
     curvature = problem.covariance(roots)
     beta = machine.K @ chi
+    best = np.linalg.lstsq(R, z, rcond=None)[0]
+    rise = float(np.sum((R @ beta - z) ** 2) - np.sum((R @ best - z) ** 2))
     return Consistent(
-        chi, beta, machine.K @ curvature @ machine.K.T, _rise(R, z, beta), bodies,
+        chi, beta, machine.K @ curvature @ machine.K.T, rise, bodies,
         tuple(name for name, place in machine.positive.items() if place in zero),
     )  # fmt: skip
 
@@ -103,29 +103,23 @@ def parameters_of(body: np.ndarray) -> dict[str, float]:
 
 def pseudo_inertia_of(values: Mapping[str, float]) -> np.ndarray:
     """(4, 4) [[int x x' dm, int x dm], [., M]] of ten standard parameters, by prefix."""
-    half = (values["XX"] + values["YY"] + values["ZZ"]) / 2.0
     body = np.zeros((4, 4))
-    for axis, prefix in enumerate(_SECOND):
-        body[axis, axis] = half - values[prefix]
-    for prefix, (i, j) in _PRODUCT.items():
-        body[i, j] = body[j, i] = -values[prefix]
-    for prefix, i in _MOMENT.items():
-        body[i, 3] = body[3, i] = values[prefix]
-    body[3, 3] = values["M"]
+    for (i, j), terms in CORNER.items():
+        body[i, j] = body[j, i] = sum(factor * values[prefix] for prefix, factor in terms.items())
+    half = (values["XX"] + values["YY"] + values["ZZ"]) / 2.0  # the solver's last digits hang on it
+    body[[0, 1, 2], [0, 1, 2]] = [half - values[prefix] for prefix in ("XX", "YY", "ZZ")]
     return body
 
 
 def _picks() -> dict[str, np.ndarray]:
     """Symmetric matrices: each parameter is their inner product with the pseudo-inertia."""
     found = {prefix: np.zeros((4, 4)) for prefix in PREFIXES}
-    for prefix, axes in _SECOND.items():
-        for axis in axes:
-            found[prefix][axis, axis] = 1.0
-    for prefix, (i, j) in _PRODUCT.items():
-        found[prefix][i, j] = found[prefix][j, i] = -0.5
-    for prefix, i in _MOMENT.items():
-        found[prefix][i, 3] = found[prefix][3, i] = 0.5
-    found["M"][3, 3] = 1.0
+    for (i, j), terms in CORNER.items():
+        for prefix, factor in terms.items():
+            # A second moment is the sum of two others: its factor in them is 1 for both.
+            found[prefix][i, j] = found[prefix][j, i] = (
+                factor / 2.0 if i != j else 1.0 if factor > 0.0 else 0.0
+            )
     return found
 
 
@@ -142,11 +136,16 @@ class _Problem:
     gamma: Mapping[str, float]
     reference: Mapping[str, np.ndarray]  # roots of P0: root root' = P0
 
-    @property
+    @cached_property
     def others(self) -> list[int]:
         """Places in chi of what is no link's: friction, rotor inertias, offsets, loads."""
         inertial = {place for own in self.machine.links.values() for place in own.values()}
         return [i for i in range(self.A.shape[1]) if i not in inertial]
+
+    @cached_property
+    def scale(self) -> np.ndarray:
+        """(others,) of their values, so that their columns have length one."""
+        return 1.0 / column_lengths(self.A[:, self.others])
 
     def chi(self, bodies: Mapping[str, np.ndarray], others: np.ndarray) -> np.ndarray:
         """(m,) all unknowns."""
@@ -190,7 +189,7 @@ class _Problem:
         """
         import cvxpy as cp  # only here: other fits need not wait for it
 
-        scale = self._scale()
+        scale = self.scale
         error = -self.z + self.A[:, self.others] @ others
         step = cp.Variable(len(others))
         total = (self.A[:, self.others] * scale) @ step
@@ -220,13 +219,9 @@ class _Problem:
         least = np.where(np.isin(self.others, list(self.machine.positive.values())), 0.0, -np.inf)
         return found, np.maximum(moved, least)
 
-    def _scale(self) -> np.ndarray:
-        length = np.linalg.norm(self.A[:, self.others], axis=0)
-        return np.where(length > 0.0, 1.0 / np.where(length > 0.0, length, 1.0), 1.0)
-
     def at_zero(self, others: np.ndarray) -> set[int]:
         """Places of the parameters at their bound: less than a millionth of the torque."""
-        size = _AT_ZERO * max(float(np.linalg.norm(self.z)), 1e-300) * self._scale()
+        size = _AT_ZERO * max(float(np.linalg.norm(self.z)), 1e-300) * self.scale
         positive = set(self.machine.positive.values())
         return {
             place for place, value, least in zip(self.others, others, size, strict=True)
@@ -251,10 +246,8 @@ class _Problem:
                         move[own[prefix]] = value
                     moves.append(move)
                     stiffness.append(self.gamma[name])
-        scale = dict(zip(self.others, self._scale(), strict=True))
-        for place in self.others:
-            moves.append(np.eye(self.A.shape[1])[place] * scale[place])
-            stiffness.append(0.0)
+        moves += [*(np.eye(self.A.shape[1])[self.others] * self.scale[:, None])]
+        stiffness += [0.0] * len(self.others)
         T = np.array(moves).T
         root = np.vstack([self.A @ T, np.diag(np.sqrt(stiffness))])
         inverse = np.linalg.pinv(root, rcond=1e-12)
@@ -284,11 +277,6 @@ def _root(matrix: np.ndarray) -> np.ndarray:
     return np.asarray(np.linalg.cholesky((vectors * values) @ vectors.T))
 
 
-def _rise(R: np.ndarray, z: np.ndarray, beta: np.ndarray) -> float:
-    best = np.linalg.lstsq(R, z, rcond=None)[0]
-    return float(np.sum((R @ beta - z) ** 2) - np.sum((R @ best - z) ** 2))
-
-
 # The physically consistent estimator: from a problem to a machine that could be built.
 
 
@@ -311,12 +299,15 @@ def buildable(problem: Problem) -> Estimate:
     known = references(model.spec)
     found = consistent(machine, problem.data.whole(start.sigma), known)
     told = np.isin(np.arange(len(found.beta)), start.rank.kept)
+    names = {i: parameter.name for i, parameter in enumerate(model.spec.standard)}
+    for link, own in machine.links.items():
+        names |= {place: f"{prefix}{link}" for prefix, place in own.items()}
     return dataclasses.replace(
         start,
         beta=found.beta,
         covariance=found.covariance * np.outer(told, told),
         rank=Rank(start.rank.kept, (), start.rank.last_kept, start.rank.first_dropped),
-        standard=_named(model.spec, machine, found.chi),
+        standard={names[i]: float(value) for i, value in enumerate(found.chi)},
         sentences=tuple(_sentences(model.spec, found, start, known)),
     )
 
@@ -340,26 +331,6 @@ def references(spec: ModuleSpec) -> dict[str, np.ndarray]:
     return found
 
 
-def _named(spec: ModuleSpec, machine: Machine, chi: np.ndarray) -> dict[str, float]:
-    names = {i: parameter.name for i, parameter in enumerate(spec.standard)}
-    for link, own in machine.links.items():
-        names |= {place: f"{prefix}{link}" for prefix, place in own.items()}
-    return {names[i]: float(value) for i, value in enumerate(chi)}
-
-
-def _at_zero(spec: ModuleSpec, names: Sequence[str]) -> list[str]:
-    """Of the parameters at 0: which the data would have below it, and which they do not tell."""
-    sums = [[term.parameter for term in base.terms] for base in spec.base]
-    own = [name for name in names if [name] in sums]
-    said = [f"{', '.join(own)} held at 0, which would be negative"] if own else []
-    for name in names:
-        if name not in own:
-            beside = dict.fromkeys(x for terms in sums if name in terms for x in terms)
-            others = " and ".join(x for x in beside if x != name)
-            said.append(f"{name} cannot be told from {others} and is put at 0")
-    return said
-
-
 def _sentences(
     spec: ModuleSpec, found: Consistent, start: Estimate, known: Mapping[str, np.ndarray]
 ) -> list[str]:
@@ -372,7 +343,16 @@ def _sentences(
             "by one sigma each: these logs hold something that the model does not; see the doubts "
             "of --method weighted"
         )
-    said += _at_zero(spec, found.at_bound)
+    # Of the parameters at 0: which the data would have below it, and which they do not tell.
+    sums = [[term.parameter for term in base.terms] for base in spec.base]
+    own = [name for name in found.at_bound if [name] in sums]
+    if own:
+        said.append(f"{', '.join(own)} held at 0, which would be negative")
+    for name in found.at_bound:
+        if name not in own:
+            beside = dict.fromkeys(x for terms in sums if name in terms for x in terms)
+            others = " and ".join(x for x in beside if x != name)
+            said.append(f"{name} cannot be told from {others} and is put at 0")
     if start.rank.aside:
         names = ", ".join(tangle.name for tangle in start.rank.aside)
         said.append(f"not told by these data, but by what can be built: {names}")

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.estimation.least_squares import Estimate
-from modeler.estimation.problem import Neighbours
+from modeler.estimation.problem import Neighbours, residual_of
 from modeler.numerics.filters import SPREAD
 from modeler.observation.observation import Observation
-from modeler.observation.reduce import explained
 
 _WORTH = 1.2  # a factor above it is said
 _LAGS = 60  # rows; with one row per 1 / (2.5 cut-off), 24 periods of the parallel filter
@@ -73,71 +72,46 @@ def coloured(
         estimate: of those rows; its covariance is for white residuals.
         at: (c,) columns of the observation that W would have, in order; None: all.
     """
+    own_way, c = estimate.influence, len(estimate.beta)
+    places: Sequence[int] | np.ndarray = np.arange(c) if at is None else at
     if isinstance(W, Neighbours):
-        return _passing(W, estimate, at)
-    return _at_once(observation, W, y, counted, estimate)
-
-
-def _at_once(
-    observation: Observation, W: np.ndarray, y: np.ndarray, counted: np.ndarray, estimate: Estimate
-) -> Colour:
-    """As `coloured`, of rows that are there."""
-    own_way = estimate.influence
-    residual = y - W @ estimate.beta if own_way is None else own_way.residual
+        c = len(observation.names)
+        beta = np.zeros(c)
+        beta[places] = estimate.beta
+        residual = residual_of(observation, beta)
+    else:
+        residual = y - W @ estimate.beta if own_way is None else own_way.residual
     extra, memory = np.zeros(len(estimate.beta)), []  # diagonal of C (B - C^-1) C
-    lasting = np.zeros(len(observation.joints))
+    lasting, pull = np.zeros(len(observation.joints)), np.zeros(0)
+    pulls = np.zeros((len(observation.joints), c, len(estimate.beta)))
+    correlations = [np.ones(1) for _ in observation.joints]
     for j, joint in enumerate(observation.joints):
         if not (own := counted & (observation.row_joint == j)).any():
             continue
         sample = observation.row_sample[own]
-        r = remembered(observation, residual[own], sample)
+        correlations[j] = r = remembered(observation, residual[own], sample)
         lasting[j] = r[1] if len(r) > 1 else 0.0
-        pull = estimate.covariance / estimate.sigma[j]
-        rows = W[own] @ pull if own_way is None else own_way.of(W)[own] * _rms(residual[own])
-        extra += repeated(rows, r, sample, observation.segment)
         if told := int(np.sum(r > _TOLD)) - 1:
             memory.append((joint.name, told * _spacing(observation)))
-    return Colour(_factors(estimate.covariance, extra), tuple(memory), lasting)
-
-
-def _rms(values: np.ndarray) -> float:
-    return float(np.sqrt(np.mean(values**2)))
-
-
-def _factors(C: np.ndarray, extra: np.ndarray) -> np.ndarray:
-    white = np.diag(C)
+        size = float(np.sqrt(np.mean(residual[own] ** 2)))
+        if own_way is None:
+            pull = estimate.covariance / estimate.sigma[j]
+        elif own_way.bread is not None:
+            pull = own_way.bread * size
+        if isinstance(W, Neighbours):
+            pulls[j][places] = pull
+        else:
+            rows = (
+                W[own] @ pull
+                if own_way is None or own_way.pull is None
+                else own_way.pull[own] * size
+            )
+            extra += repeated(rows, r, sample, observation.segment)
+    if isinstance(W, Neighbours):
+        extra = W.repeated([*pulls], correlations)
+    white = np.diag(estimate.covariance)
     ratio = 1.0 + extra / np.where(white > 0.0, white, 1.0)
-    return np.sqrt(np.maximum(ratio, 1.0))
-
-
-def _passing(beside: Neighbours, estimate: Estimate, at: Sequence[int] | None) -> Colour:
-    """As `coloured`, while the rows pass."""
-    observation, keep = beside.observation, beside.keep
-    c = len(observation.names)
-    places = np.arange(c) if at is None else np.asarray(at, dtype=int)
-    own_way, beta = estimate.influence, np.zeros(c)
-    beta[places] = estimate.beta
-    residual = observation.torque - explained(observation, beta)
-    matrices, memories, memory = [], [], []
-    lasting = np.zeros(len(observation.joints))
-    for j, joint in enumerate(observation.joints):
-        r, A = np.ones(1), np.zeros((c, len(places)))
-        sample = np.flatnonzero(keep[:, j])
-        if sample.size:
-            left = residual[sample, j]
-            r = remembered(observation, left, sample)
-            lasting[j] = r[1] if len(r) > 1 else 0.0
-            if own_way is None:
-                A[places] = estimate.covariance / estimate.sigma[j]
-            else:
-                assert own_way.bread is not None  # others ask for W
-                A[places] = own_way.bread * _rms(left)
-            if told := int(np.sum(r > _TOLD)) - 1:
-                memory.append((joint.name, told * _spacing(observation)))
-        matrices.append(A)
-        memories.append(r)
-    extra = beside.repeated(matrices, memories)
-    return Colour(_factors(estimate.covariance, extra), tuple(memory), lasting)
+    return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory), lasting)
 
 
 def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> np.ndarray:
@@ -149,7 +123,18 @@ def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> n
         sample: (rows,) its samples, ascending.
     """
     found = autocorrelation(e, sample, observation.segment)
-    return _at_least(found, _of_the_filter(observation))
+    cutoff = observation.report.processing.parallel_cutoff
+    if not cutoff:
+        return found
+    # White noise through the filter: means with Gaussian weights of standard deviation s, d apart,
+    # correlate by exp(-d^2 / 4 s^2), down to 0.01.
+    lags = np.arange(_LAGS) * _spacing(observation) * cutoff / SPREAD
+    floor = np.exp(-(lags**2) / 4.0)
+    floor = floor[: max(1, int(np.argmax(floor < _FADED)))]
+    longer = np.zeros(max(len(found), len(floor)))
+    longer[: len(found)] = found
+    longer[: len(floor)] = np.maximum(longer[: len(floor)], floor)
+    return longer
 
 
 def repeated_whole(
@@ -207,27 +192,6 @@ def _pairs(sample: np.ndarray, segment: np.ndarray, lag: int) -> tuple[np.ndarra
     right = place[sample - sample[0] + lag]
     together = (right >= 0) & (segment[sample[right]] == segment[sample])
     return np.flatnonzero(together), right[together]
-
-
-def _of_the_filter(observation: Observation) -> np.ndarray:
-    """r(0) = 1, r(1), ... of white noise through the parallel filter, down to 0.01.
-
-    Means with Gaussian weights of standard deviation s, d apart, correlate by exp(-d^2 / 4 s^2).
-    """
-    cutoff = observation.report.processing.parallel_cutoff
-    if not cutoff:
-        return np.ones(1)
-    lags = np.arange(_LAGS) * _spacing(observation) * cutoff / SPREAD
-    r = np.exp(-(lags**2) / 4.0)
-    return r[: max(1, int(np.argmax(r < _FADED)))]
-
-
-def _at_least(r: np.ndarray, floor: np.ndarray) -> np.ndarray:
-    """The estimate, where it is not less than what the filter alone makes."""
-    longer = np.zeros(max(len(r), len(floor)))
-    longer[: len(r)] = r
-    longer[: len(floor)] = np.maximum(longer[: len(floor)], floor)
-    return longer
 
 
 def _spacing(observation: Observation) -> float:

@@ -14,7 +14,7 @@ fit best.
 """
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -188,7 +188,7 @@ class DirectModel:
                 )
             motions[piece.segment][:, piece.start : piece.stop] = way
         return [
-            np.stack([self._smooth(segment, signal) for signal in motion])
+            _smoothed(segment, motion, self.cutoff)
             for segment, motion in zip(self.segments, motions, strict=True)
         ]
 
@@ -202,9 +202,6 @@ class DirectModel:
         extent = np.ptp(every, axis=0)
         return np.sqrt(np.mean(away**2, axis=0)) / np.where(extent > 0.0, extent, 1.0)
 
-    def _smooth(self, segment: Segment, signal: np.ndarray) -> np.ndarray:
-        return low_pass(signal, segment.step, min(self.cutoff, HIGHEST / segment.step))
-
     def _reference(self, segment: Segment) -> Motion:
         """Commanded positions with their derivatives, or the motion of the fit smoothed further.
 
@@ -213,9 +210,8 @@ class DirectModel:
         if self.commanded:
             assert segment.commanded is not None
             return differentiated(segment.commanded, segment.step)
-        cutoff = min(_SHARE * self.cutoff, HIGHEST / segment.step)
-        motion = (segment.q, segment.qd, segment.qdd)
-        return np.stack([low_pass(signal, segment.step, cutoff) for signal in motion])
+        motion = np.stack([segment.q, segment.qd, segment.qdd])
+        return _smoothed(segment, motion, _SHARE * self.cutoff)
 
     def _pieces(self) -> list[_Piece]:
         pieces = []
@@ -253,8 +249,10 @@ class DirectModel:
             robot = _Robot(self.model, beta, reference)
             if robot.raised > self.raised:
                 self.raised, self.lightest = robot.raised, robot.lightest
-            start = np.stack([self._logged(pieces[i]) for i in own], axis=1)
-            motion = _walk(robot, start, reference, signals, step, [loops[i] for i in own])
+            # What is simulated begins where the log was.
+            logged = [(self.segments[pieces[i].segment], pieces[i].first) for i in own]
+            start = np.stack([np.stack([s.q[at], s.qd[at]]) for s, at in logged], axis=1)
+            motion = robot.walk(start, reference, signals, step, [loops[i] for i in own])
             for place, i in enumerate(own):
                 piece = pieces[i]
                 kept = slice(piece.start - piece.first, piece.stop - piece.first)
@@ -263,29 +261,14 @@ class DirectModel:
 
     def _stacked(self, pieces: list[_Piece]) -> tuple[np.ndarray, np.ndarray | None]:
         """(3, samples, pieces, joints) references, ends held, and (samples, pieces, m) signals."""
-        longest = max(piece.stop - piece.first for piece in pieces)
+        every = np.arange(max(piece.stop - piece.first for piece in pieces))
+        rows = [(p.segment, np.minimum(p.first + every, p.stop - 1)) for p in pieces]
 
-        def stacked(values: Callable[[int], np.ndarray]) -> np.ndarray:
-            rows = [
-                np.minimum(piece.first + np.arange(longest), piece.stop - 1) for piece in pieces
-            ]
-            return np.stack(
-                [values(p.segment)[..., r, :] for p, r in zip(pieces, rows, strict=True)], axis=-2
-            )
+        def stacked(values: Sequence[np.ndarray]) -> np.ndarray:
+            return np.stack([values[segment][..., own, :] for segment, own in rows], axis=-2)
 
-        if self.signals[0] is None:
-            return stacked(lambda i: self.references[i]), None
-        return stacked(lambda i: self.references[i]), stacked(self._signals)
-
-    def _logged(self, piece: _Piece) -> np.ndarray:
-        """(2, joints) q and qd of the log at the start: what is simulated begins where it was."""
-        segment = self.segments[piece.segment]
-        return np.stack([segment.q[piece.first], segment.qd[piece.first]])
-
-    def _signals(self, i: int) -> np.ndarray:
-        signals = self.signals[i]
-        assert signals is not None
-        return signals
+        signals = [own for own in self.signals if own is not None]  # of all segments, or of none
+        return stacked(self.references), stacked(signals) if signals else None
 
 
 def differentiated(q: np.ndarray, step: float) -> Motion:
@@ -295,6 +278,24 @@ def differentiated(q: np.ndarray, step: float) -> Motion:
     return np.stack([q, np.gradient(q, step, axis=0), qdd])
 
 
+def _smoothed(segment: Segment, motion: Motion, cutoff: float) -> Motion:
+    highest = min(cutoff, HIGHEST / segment.step)
+    return np.stack([low_pass(signal, segment.step, highest) for signal in motion])
+
+
+def scaled_inertia(M: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
+    """How near inertia matrices M (s, n, n) come to none, in units of their median diagonal.
+
+    Returns (n, n) these units, (s,) the least eigenvalue of M in them, and the joint that moves
+    most along the least of all.
+    """
+    diagonal = np.abs(np.median(np.einsum("sjj->sj", M), axis=0))
+    scale = np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+    units = np.outer(scale, scale)
+    values, vectors = np.linalg.eigh(M / units)
+    return units, values[:, 0], int(np.argmax(np.abs(vectors[np.argmin(values[:, 0]), :, 0])))
+
+
 class _Robot:
     """M and tau for many states at once; h = tau(q, qd, qdd_r) - M qdd_r."""
 
@@ -302,78 +303,60 @@ class _Robot:
         self.model, self.beta = model, beta
         q = reference[0].reshape(-1, reference.shape[-1])
         M = model.inertia_matrix(q[:: max(1, len(q) // 500)], beta)
-        diagonal = np.abs(np.median(np.einsum("sjj->sj", M), axis=0))
-        self.scale = np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
-        values, vectors = np.linalg.eigh(M / np.outer(self.scale, self.scale))
-        self.raised = float(np.mean(values[:, 0] < _FLOOR))
-        self.lightest = int(np.argmax(np.abs(vectors[np.argmin(values[:, 0]), :, 0])))
+        self.units, least, self.lightest = scaled_inertia(M)
+        self.raised = float(np.mean(least < _FLOOR))
 
     def inertia(self, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """M of the model, and one that is positive definite: the same if it is."""
         M = self.model.inertia_matrix(q, self.beta)
         if self.raised == 0.0:
             return M, M
-        scale = np.outer(self.scale, self.scale)
-        values, vectors = np.linalg.eigh(M / scale)
+        values, vectors = np.linalg.eigh(M / self.units)
         lifted = np.maximum(values, _FLOOR)[:, None, :] * vectors
-        return M, np.asarray((lifted @ vectors.transpose(0, 2, 1)) * scale)
+        return M, np.asarray((lifted @ vectors.transpose(0, 2, 1)) * self.units)
 
-    def torque(
-        self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
+    def walk(
+        self,
+        start: np.ndarray,
+        reference: np.ndarray,
+        signals: np.ndarray | None,
+        step: float,
+        loops: list[ControlLoop],
     ) -> np.ndarray:
-        return self.model.inverse_dynamics(q, qd, qdd, self.beta, s)
-
-
-def _walk(
-    robot: _Robot,
-    start: np.ndarray,
-    reference: np.ndarray,
-    signals: np.ndarray | None,
-    step: float,
-    loops: list[ControlLoop],
-) -> np.ndarray:
-    """(3, samples, pieces, joints) the motion, by Adams and Bashforth of order 2."""
-    inner = max(1, int(np.ceil(step / _LONGEST)))
-    h, motion = step / inner, np.full(reference.shape, np.nan)
-    far = _LOST * (np.ptp(reference[0], axis=(0, 1)) + 1e-6)
-    kv, ratio, integral, f = _gains(loops)
-    (q, qd), (_, speed, qdd) = start, reference[:, 0]
-    tau = robot.torque(q, qd, qdd, None if signals is None else signals[0])
-    asked = kv * (ratio * kv * (reference[0, 0] - q) + f * speed - qd) + f * qdd
-    effort = integral * (tau - _times(robot.inertia(q)[1], asked))
-    lost = np.zeros(len(q), dtype=bool)
-    for k in range(reference.shape[1]):
-        s = None if signals is None else signals[k]
-        for m in range(inner):
-            wanted, speed, push = _ahead(reference[:, k], m * h)
-            raw, M = robot.inertia(q)
-            error = ratio * kv * (wanted - q) + f * speed - qd
-            effort = effort + h * integral * _INTEGRAL * kv**2 * _times(M, error)
-            rest = robot.torque(q, qd, push, s) - _times(raw, push)
-            before, qdd = (
-                qdd,
-                kv * error + f * push + np.linalg.solve(M, (effort - rest)[:, :, None])[:, :, 0],
-            )
-            if m == 0:
-                motion[:, k] = q, qd, qdd
-                motion[:, k, lost] = np.nan
-            q = q + h * qd + 0.5 * h**2 * qdd
-            qd = qd + h * (1.5 * qdd - 0.5 * before)
-            gone = ~np.all(np.abs(q - wanted) < far, axis=1) | ~np.isfinite(qd).all(axis=1)
-            if gone.any():
-                lost |= gone
-                q[gone], qd[gone], effort[gone], qdd[gone] = wanted[gone], speed[gone], 0.0, 0.0
-    return motion
-
-
-def _gains(loops: list[ControlLoop]) -> np.ndarray:
-    """(4, pieces, 1) speed, ratio, integral, forward."""
-    return np.array([(o.speed, o.ratio, o.integral, o.forward) for o in loops]).T[:, :, None]
-
-
-def _ahead(state: np.ndarray, dt: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    q, qd, qdd = state
-    return q + dt * qd + 0.5 * dt**2 * qdd, qd + dt * qdd, qdd
+        """(3, samples, pieces, joints) the motion, by Adams and Bashforth of order 2."""
+        inner = max(1, int(np.ceil(step / _LONGEST)))
+        h, motion = step / inner, np.full(reference.shape, np.nan)
+        far = _LOST * (np.ptp(reference[0], axis=(0, 1)) + 1e-6)
+        settings = [(o.speed, o.ratio, o.integral, o.forward) for o in loops]
+        kv, ratio, integral, f = np.array(settings).T[:, :, None]
+        torque = self.model.inverse_dynamics
+        (q, qd), (_, speed, qdd) = start, reference[:, 0]
+        tau = torque(q, qd, qdd, self.beta, None if signals is None else signals[0])
+        asked = kv * (ratio * kv * (reference[0, 0] - q) + f * speed - qd) + f * qdd
+        effort = integral * (tau - _times(self.inertia(q)[1], asked))
+        lost = np.zeros(len(q), dtype=bool)
+        for k in range(reference.shape[1]):
+            s = None if signals is None else signals[k]
+            for m in range(inner):
+                wanted, speed, push = reference[:, k]
+                wanted = wanted + m * h * speed + 0.5 * (m * h) ** 2 * push
+                speed = speed + m * h * push
+                raw, M = self.inertia(q)
+                error = ratio * kv * (wanted - q) + f * speed - qd
+                effort = effort + h * integral * _INTEGRAL * kv**2 * _times(M, error)
+                rest = torque(q, qd, push, self.beta, s) - _times(raw, push)
+                moved = np.linalg.solve(M, (effort - rest)[:, :, None])[:, :, 0]
+                before, qdd = qdd, kv * error + f * push + moved
+                if m == 0:
+                    motion[:, k] = q, qd, qdd
+                    motion[:, k, lost] = np.nan
+                q = q + h * qd + 0.5 * h**2 * qdd
+                qd = qd + h * (1.5 * qdd - 0.5 * before)
+                gone = ~np.all(np.abs(q - wanted) < far, axis=1) | ~np.isfinite(qd).all(axis=1)
+                if gone.any():
+                    lost |= gone
+                    q[gone], qd[gone], effort[gone], qdd[gone] = wanted[gone], speed[gone], 0.0, 0.0
+        return motion
 
 
 def _times(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:

@@ -3,16 +3,17 @@
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.manifest import BaseSpec, ModuleSpec
+from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
 from modeler.estimation.identify import CrossValidation, Equations, base_equations, fit_equations
 from modeler.estimation.least_squares import least_squares
 from modeler.estimation.payload import Payload, loaded_equations
-from modeler.estimation.result import FitResult, ParameterEstimate
+from modeler.estimation.result import FitResult
+from modeler.observation.channels import Fault
 from modeler.observation.observation import Observation
 
 if TYPE_CHECKING:
@@ -43,18 +44,6 @@ MOST = 0.5
 _TORQUES = "check units, signs and columns of the log, the table, and the effects in the robot file"
 
 
-class Told(Protocol):
-    """A finding about the logs that another stage makes: a line, and whether it is certain."""
-
-    @property
-    def line(self) -> str:
-        """Where, what, and what to do."""
-
-    @property
-    def certain(self) -> bool:
-        """True if no physics can look like it."""
-
-
 @dataclass(frozen=True)
 class Doubt:
     """Why a fit may not be what it looks like.
@@ -74,6 +63,10 @@ class Doubt:
     explains: bool = False
 
 
+Told = Fault | Doubt
+"""A finding about the logs, of this stage or of the one that reads them."""
+
+
 def negative(spec: ModuleSpec, result: FitResult) -> list[Doubt]:
     """Values below zero that physics does not allow, whatever the other parameters are.
 
@@ -91,12 +84,8 @@ def negative(spec: ModuleSpec, result: FitResult) -> list[Doubt]:
         for base, estimate in zip(spec.base, result.parameters, strict=True)
         if estimate.sigma is not None
         and estimate.value < -_FAR * estimate.sigma
-        and _nonnegative(base, possible)
+        and all(term.value >= 0.0 and term.parameter in possible for term in base.terms)
     ]
-
-
-def _nonnegative(base: BaseSpec, possible: set[str]) -> bool:
-    return all(term.value >= 0.0 and term.parameter in possible for term in base.terms)
 
 
 def undescribed(result: FitResult) -> list[Doubt]:
@@ -280,21 +269,26 @@ def mounted_differently(
     Each of its logs gets a load of its own. Two logs disagree if a first moment MX, MY, MZ differs
     by more than _FAR of its standard deviations and _WORTH of the largest one.
     """
-    return [
-        line
-        for payload in payloads
-        if len(payload.logs) > 1
-        for line in _disagreement(model, observation, payload)
-    ]
+    every = (payload for payload in payloads if len(payload.logs) > 1)
+    return [line for payload in every if (line := _disagreement(model, observation, payload))]
 
 
-def _disagreement(model: "CompiledModel", observation: Observation, payload: Payload) -> list[str]:
+def _disagreement(model: "CompiledModel", observation: Observation, payload: Payload) -> str:
     parts = remounted(payload)
     equations = loaded_equations(model, observation, parts).equations
     fit = fit_equations(observation, equations, "weighted", noise_only=True)
-    found = [_moments(fit.loads, part.name) for part in parts]
+    found = [  # first moments that the logs tell, by name without that of the load
+        {
+            p.name.removesuffix(f"_{part.name}"): p
+            for p in fit.loads
+            if p.name.endswith(f"_{part.name}")
+            and p.sigma is not None
+            and p.name.startswith(_FIRST)
+        }
+        for part in parts
+    ]
     largest = max((abs(p.value) for moments in found for p in moments.values()), default=0.0)
-    worst, line = max(_FAR_APART, 0.0), ""
+    worst, line = _FAR_APART, ""
     for label in sorted(set.intersection(*(set(moments) for moments in found))):
         a, b = (pick(found, key=lambda m: m[label].value)[label] for pick in (max, min))
         apart = (a.value - b.value) / float(np.hypot(a.sigma or np.inf, b.sigma or np.inf))
@@ -305,16 +299,7 @@ def _disagreement(model: "CompiledModel", observation: Observation, payload: Pay
                 f"it sits: {label} is from {b.value:.3g} to {a.value:.3g} {a.unit}; if it was "
                 "taken off in between, give --payload-moved"
             )
-    return [line] if line else []
-
-
-def _moments(loads: Sequence[ParameterEstimate], name: str) -> dict[str, ParameterEstimate]:
-    """First moments that the logs tell, by name without that of the load."""
-    return {
-        p.name.removesuffix(f"_{name}"): p
-        for p in loads
-        if p.name.endswith(f"_{name}") and p.sigma is not None and p.name.startswith(_FIRST)
-    }
+    return line
 
 
 def not_alike(

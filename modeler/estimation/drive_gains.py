@@ -99,33 +99,25 @@ def identify_gains(
             the gains; says by which figure.
     """
     loaded = loaded_equations(model, observation, payloads)
-    _check_known(observation, loaded)
-    estimate = _estimate(observation, loaded)
-    scaled = dataclasses.replace(observation, torque=observation.torque * estimate.gains)
-    equations = dataclasses.replace(loaded.equations, y=scaled.y - loaded.torques.sum(axis=1))
-    fit = fit_equations(scaled, equations, "weighted")
-    colour = _colour(scaled, equations, estimate)
-    try:
-        _check_told(observation, estimate, colour)
-    except DataError as error:
-        why = not_together(model, observation, payloads)
-        raise DataError("; ".join([str(error), *why])) from None
-    return _result(model.spec, fit, estimate, colour, loaded)
-
-
-def _check_known(observation: Observation, loaded: Loaded) -> None:
     if not loaded.weighed:
         raise DataError(
             "--method tls: no load of known mass, and without one all gains and all parameters may "
             "be larger by one factor; weigh the load of the --payload-log and give --payload-mass"
         )
-    dead = dead_joints(observation)
-    if dead:
+    if dead := dead_joints(observation):
         names = ", ".join(observation.joints[j].name for j in dead)
         raise DataError(
             f"joint {names}: the current is 0 in every row, so no gain can be found; is it "
             "connected? if the joint has no motor, mark it passive in the robot file (mu = 0)"
         )
+    estimate = _estimate(observation, loaded)
+    scaled = dataclasses.replace(observation, torque=observation.torque * estimate.gains)
+    equations = dataclasses.replace(loaded.equations, y=scaled.y - loaded.torques.sum(axis=1))
+    fit = fit_equations(scaled, equations, "weighted")
+    colour = _colour(scaled, equations, estimate)
+    if why := _untold(observation, estimate, colour):
+        raise DataError("; ".join([why, *not_together(model, observation, payloads)]))
+    return _result(model.spec, fit, estimate, colour, loaded)
 
 
 def _estimate(observation: Observation, loaded: Loaded) -> GainEstimate:
@@ -169,12 +161,8 @@ def _colour(observation: Observation, equations: Equations, estimate: GainEstima
     return coloured(observation, J, residual + J @ values, every, white)
 
 
-def _check_told(observation: Observation, estimate: GainEstimate, colour: Colour) -> None:
-    """Refuse gains that the logs do not tell apart.
-
-    Raises:
-        DataError: no gap between the last two singular values, or a sigma that is too large.
-    """
+def _untold(observation: Observation, estimate: GainEstimate, colour: Colour) -> str:
+    """Why the logs do not tell the gains apart: no gap of singular values, or a large sigma."""
     driven = [j for j, joint in enumerate(observation.joints) if joint.actuated]
     d = len(driven)
     sigma = colour.factors[:d] * np.sqrt(np.diag(estimate.covariance)[:d])
@@ -183,18 +171,19 @@ def _check_told(observation: Observation, estimate: GainEstimate, colour: Colour
     noise = 1.0 + _FAR * float(colour.factors[:d].max()) * float(np.sqrt(2.0 / rows.min()))
     if estimate.gap**2 < noise:
         names = _blamed(observation, estimate)
-        raise DataError(
+        return (
             f"--method tls: no gap between the singular values that tell the drive gains: the last "
             f"two are {_listed(estimate.singular[-2:])}, s[-2]/s[-1] = {estimate.gap:.4g}, and "
             f"noise alone makes up to {noise**0.5:.4g}; least told: joint {names}; {_MORE}"
         )
     if not np.all(share <= LOOSE):
         worst = int(np.argmax(np.where(np.isnan(share), np.inf, share)))
-        raise DataError(
+        return (
             f"--method tls: the gain of joint {observation.joints[driven[worst]].name} has a sigma "
             f"of {percent(share[worst])}, no better than a data sheet; expected at most "
             f"{percent(LOOSE)} (s[-2]/s[-1] = {estimate.gap:.4g}); {_MORE}"
         )
+    return ""
 
 
 def _blamed(observation: Observation, estimate: GainEstimate) -> str:
@@ -214,10 +203,14 @@ def _result(
     d, c = len(driven), len(fit.parameters)
     covariance = estimate.covariance[:-1, :-1] * np.outer(colour.factors, colour.factors)
     sigma = np.sqrt(np.diag(covariance))
+    starts = [1.0 if (gain := spec.joints[j].drive_gain) is None else gain for j in driven]
     gains = tuple(
-        _gain(spec.joints[j], float(estimate.gains[j]), float(s))
-        for j, s in zip(driven, sigma[:d], strict=True)
-    )
+        ParameterEstimate(
+            f"g_tau{spec.joints[j].name}", f"{spec.joints[j].effort_unit}/unit",
+            start * float(estimate.gains[j]), abs(start) * float(s), True, "estimated",
+        )
+        for j, start, s in zip(driven, starts, sigma[:d], strict=True)
+    )  # fmt: skip
     values = [
         p if p.sigma is None else dataclasses.replace(p, sigma=float(s))
         for p, s in zip((*fit.parameters, *fit.loads), sigma[d:], strict=True)
@@ -238,19 +231,6 @@ def _result(
         {name: gain.value for name, gain in zip(names, gains, strict=True)},
         {name: gain.sigma or 0.0 for name, gain in zip(names, gains, strict=True)},
         result,
-    )
-
-
-def _gain(joint: JointSpec, ratio: float, sigma: float) -> ParameterEstimate:
-    """The gain that is `ratio` times the one with which the log was read."""
-    start = 1.0 if joint.drive_gain is None else joint.drive_gain
-    return ParameterEstimate(
-        name=f"g_tau{joint.name}",
-        unit=f"{joint.effort_unit}/unit",
-        value=start * ratio,
-        sigma=abs(start) * sigma,
-        essential=True,
-        status="estimated",
     )
 
 

@@ -10,17 +10,22 @@ from modeler.core.errors import DataError, Method
 from modeler.estimation.covariance import autocorrelation, repeated
 from modeler.estimation.essential import Essential, essential_parameters
 from modeler.estimation.identify import (
+    SEEN,
     base_equations,
     dead_joints,
     identify,
     joints_of,
     result_of,
-    solved,
 )
 from modeler.estimation.least_squares import Estimate, condition_numbers
-from modeler.estimation.problem import compressed
+from modeler.estimation.methods import method_of
 from modeler.estimation.result import SURE, EnergyReport, FitResult, ModelFigures
-from modeler.numerics.least_squares import Rank, compress, independent_columns, triangle
+from modeler.numerics.least_squares import (
+    compress,
+    independent_columns,
+    scaled_least_squares,
+    triangle,
+)
 from modeler.observation.energy import EnergyRows, energy_rows
 from modeler.observation.observation import Observation
 
@@ -36,28 +41,16 @@ _SETTLED = 1e-6  # relative change of the variances
 _LEAST = 1e-12  # of the mean square of y: a variance is at least this
 
 
-@dataclass(frozen=True, eq=False)
-class Unequal:
-    """The solution; c columns. Columns set aside have value 0 and no variance.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Unequal(Estimate):
+    """The solution; its condition numbers are those of W unweighted, its sigma is 1.
 
     Attributes:
-        beta: (c,).
-        covariance: (c, c).
         deviation: (rows,) modelled standard deviation of each row.
-        rank: columns kept and set aside.
-        settled: the variances reached their fixed point.
-        condition_number: of W, kept columns, unweighted.
-        condition_scaled: with columns of length one.
         memory: largest factor by which neighbours that repeat each other raise a sigma.
     """
 
-    beta: np.ndarray
-    covariance: np.ndarray
     deviation: np.ndarray
-    rank: Rank
-    settled: bool
-    condition_number: float
-    condition_scaled: float
     memory: float
 
 
@@ -91,28 +84,42 @@ def unequal_least_squares(
     rank = independent_columns(triangle(W), names)
     kept = np.asarray(rank.kept, dtype=int)
     X = W[:, kept]
-    deviation, settled = _settled_deviations(X, y, _with_common(shares), method)
+    used = shares[:, shares.max(axis=0) > 0.0]
+    sources = np.column_stack([used / used.mean(axis=0), np.ones(len(y))])  # the last: all alike
+    deviation, settled = _settled_deviations(X, y, sources, method)
     A = _influence(X, 1.0 / deviation if method == "weighted" else np.ones(len(y)))
     beta, covariance = np.zeros(len(names)), np.zeros((len(names),) * 2)
     beta[kept] = A @ y
     C = (A * deviation**2) @ A.T
-    factors = _memory(A * deviation, (y - W @ beta) / deviation, C, stretch)
+    # As in `coloured`; neighbours share the sample between them, so a little is always there.
+    sample, white = np.arange(len(y)), (y - W @ beta) / deviation
+    r = autocorrelation(white, sample, stretch)
+    extra = repeated((A * deviation).T, r, sample, stretch)
+    factors = np.sqrt(np.maximum(1.0 + extra / np.diag(C), 1.0))
     covariance[np.ix_(kept, kept)] = C * np.outer(factors, factors)
     raw, scaled = condition_numbers(X)
-    largest = float(factors.max(initial=1.0))
-    return Unequal(beta, covariance, deviation, rank, settled, raw, scaled, largest)
+    return Unequal(
+        beta, covariance, np.ones(1), rank, 0, settled, raw, scaled, max(1, len(y) - len(kept)),
+        deviation=deviation, memory=float(factors.max(initial=1.0)),
+    )  # fmt: skip
 
 
 def _settled_deviations(
     X: np.ndarray, y: np.ndarray, sources: np.ndarray, method: Method
 ) -> tuple[np.ndarray, bool]:
     """(rows,) standard deviations, and whether they no longer change."""
+    from scipy.optimize import nnls  # it takes long to load
+
     deviation = np.ones(len(y))
+    least = max(_LEAST * float(np.mean(y**2)), np.finfo(float).tiny)
     for _ in range(_ROUNDS):
+        weight = 1.0 / deviation**2
         A = _influence(X, 1.0 / deviation if method == "weighted" else np.ones(len(y)))
         leverage = np.clip(np.einsum("rc,cr->r", X, A), 0.0, 0.99)
         squares = (y - X @ (A @ y)) ** 2 / (1.0 - leverage)
-        updated = _deviations(squares, sources, deviation, y)
+        scale = float(np.mean(squares * weight)) or 1.0
+        found, _ = nnls(sources * weight[:, None], squares * weight / scale)  # a step of scoring
+        updated = np.sqrt(np.maximum(sources @ found * scale, least))
         if np.all(np.abs(updated / deviation - 1.0) < _SETTLED):
             return updated, True
         deviation = updated
@@ -124,35 +131,6 @@ def _influence(X: np.ndarray, weight: np.ndarray) -> np.ndarray:
     lengths = np.linalg.norm(X * weight[:, None], axis=0)
     q, r = np.linalg.qr(X * weight[:, None] / lengths)
     return np.asarray(np.linalg.solve(r, q.T) / lengths[:, None] * weight)
-
-
-def _with_common(shares: np.ndarray) -> np.ndarray:
-    """(rows, sources + 1) shares of mean one, and a source that all rows have alike."""
-    used = shares[:, shares.max(axis=0) > 0.0]
-    return np.column_stack([used / used.mean(axis=0), np.ones(len(shares))])
-
-
-def _deviations(
-    squares: np.ndarray, sources: np.ndarray, deviation: np.ndarray, y: np.ndarray
-) -> np.ndarray:
-    """(rows,) from squares of residuals, by one step of scoring."""
-    weight = 1.0 / deviation**2
-    scale = float(np.mean(squares * weight)) or 1.0
-    from scipy.optimize import nnls  # it takes long to load
-
-    found, _ = nnls(sources * weight[:, None], squares * weight / scale)
-    least = max(_LEAST * float(np.mean(y**2)), np.finfo(float).tiny)
-    return np.asarray(np.sqrt(np.maximum(sources @ found * scale, least)))
-
-
-def _memory(rows: np.ndarray, white: np.ndarray, C: np.ndarray, stretch: np.ndarray) -> np.ndarray:
-    """(c,) factors on the standard deviations, 1 and more, as in `coloured`.
-
-    Neighbours share the sample between them, so a little of it is always there.
-    """
-    sample = np.arange(len(white))
-    extra = repeated(rows.T, autocorrelation(white, sample, stretch), sample, stretch)
-    return np.sqrt(np.maximum(1.0 + extra / np.diag(C), 1.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,8 +162,8 @@ class EnergyFit:
                 near = np.searchsorted(seen.time[own], self.rows.time[windows])
                 touched = held[own][near.clip(0, len(own) - 1)].any(axis=1)
                 free[np.flatnonzero(windows)[touched]] = False
-        rows = np.column_stack([self.rows.W, self.rows.y]) / self.deviation[:, None]
-        return solved(rows[free])
+        W, y = self.rows.W / self.deviation[:, None], self.rows.y / self.deviation
+        return scaled_least_squares(W[free], y[free], SEEN)
 
 
 def identify_energy(
@@ -207,35 +185,7 @@ def identify_energy(
     Raises:
         DataError: a motor without torque, few windows, no such method, or as `energy_rows`.
     """
-    _check(observation, method)
-    rows = energy_rows(model, observation, window)
-    _check_enough(observation, rows)
-    found = _estimate(observation, rows, method)
-    full = Estimate(
-        found.beta, found.covariance, np.ones(1), found.rank, 0, found.settled,
-        found.condition_number, found.condition_scaled,
-        max(1, len(rows.y) - len(found.rank.kept)),
-    )  # fmt: skip
-    torques = compressed(observation, np.ones(len(observation.y), dtype=bool))
-    essential = _essential(rows, observation.names, found, full, below)
-    essential = essential.judged_on(torques, found.beta)
-    result = result_of(
-        base_equations(observation), method, full, essential,
-        rows=len(rows.y),
-        joints=joints_of(observation, torques, found.beta),
-        sentences=_sentences(found, essential),
-        reduced=np.ones(len(essential.names)),
-        energy=_report(model, observation, rows, found, window, method),
-    )  # fmt: skip
-    return EnergyFit(result, rows, found.deviation, observation)
-
-
-def _check(observation: Observation, method: Method) -> None:
-    if method not in ("weighted", "ordinary"):
-        raise DataError(
-            f"--method {method}: the energy model takes weighted or ordinary; leave out --method "
-            "or --model energy"
-        )
+    method_of(method, "windows")
     dead = [observation.joints[j].name for j in dead_joints(observation)]
     if dead:
         raise DataError(
@@ -243,14 +193,33 @@ def _check(observation: Observation, method: Method) -> None:
             "row; the energy model needs the torque of every motor, for it adds up their work; "
             "connect it, or take --model torque"
         )
-
-
-def _check_enough(observation: Observation, rows: EnergyRows) -> None:
+    rows = energy_rows(model, observation, window)
     if len(rows.y) < len(observation.names):
         raise DataError(
             f"{', '.join(observation.logs)}: {len(rows.y)} windows of {rows.window:.4g} s for "
             f"{len(observation.names)} parameters; record more motion, or give a shorter --window"
         )
+    found = _estimate(observation, rows, method)
+    torques = base_equations(observation).compressed(np.ones(len(observation.y), dtype=bool))
+    essential = _essential(rows, observation.names, found, below).judged_on(torques, found.beta)
+    said = [tangle.sentence() for tangle in found.rank.aside]
+    if not found.settled:
+        said.append("the variances of the windows still change; record more rows")
+    if found.memory > 1.2:
+        said.append(
+            "neighbouring windows repeat each other, and the sigmas are raised for it, by up to a "
+            f"factor {found.memory:.2g}"
+        )
+    said.append(essential.sentence())
+    result = result_of(
+        base_equations(observation), method, found, essential,
+        rows=len(rows.y),
+        joints=joints_of(observation, torques, found.beta),
+        sentences=tuple(said),
+        reduced=np.ones(len(essential.names)),
+        energy=_report(model, observation, rows, found, window, method),
+    )  # fmt: skip
+    return EnergyFit(result, rows, found.deviation, observation)
 
 
 def _estimate(observation: Observation, rows: EnergyRows, method: Method) -> Unequal:
@@ -260,12 +229,12 @@ def _estimate(observation: Observation, rows: EnergyRows, method: Method) -> Une
 
 
 def _essential(
-    rows: EnergyRows, names: tuple[str, ...], found: Unequal, full: Estimate, below: float | None
+    rows: EnergyRows, names: tuple[str, ...], found: Unequal, below: float | None
 ) -> Essential:
     """By the F-test of the windows."""
     weight, zeros = 1.0 / found.deviation, np.zeros(len(rows.y), dtype=int)
     data = compress(rows.W * weight[:, None], rows.y * weight, zeros, 1, names)
-    essential = essential_parameters(data, full, "ordinary", below)
+    essential = essential_parameters(data, found, "ordinary", below)
     at = [names.index(name) for name in essential.names]
     raw, scaled = condition_numbers(rows.W[:, at])
     covariance = essential.reduced.covariance * found.memory**2
@@ -273,23 +242,6 @@ def _essential(
         essential.reduced, covariance=covariance, condition_number=raw, condition_scaled=scaled
     )
     return dataclasses.replace(essential, reduced=reduced)
-
-
-def _torque_error(observation: Observation, beta: np.ndarray) -> float:
-    residual = observation.y - observation.W @ beta
-    return float(np.linalg.norm(residual) / np.linalg.norm(observation.y))
-
-
-def _sentences(found: Unequal, essential: Essential) -> tuple[str, ...]:
-    said = [tangle.sentence() for tangle in found.rank.aside]
-    if not found.settled:
-        said.append("the variances of the windows still change; record more rows")
-    if found.memory > 1.2:
-        said.append(
-            "neighbouring windows repeat each other, and the sigmas are raised for it, by up to a "
-            f"factor {found.memory:.2g}"
-        )
-    return (*said, essential.sentence())
 
 
 def _report(
@@ -303,64 +255,48 @@ def _report(
     torque = identify(observation, method)
     coarse_rows = energy_rows(model, observation, window, "trapezoid")
     coarse = _estimate(observation, coarse_rows, method)
-    first = _figures(
-        "torque", observation, torque.rows, torque.condition_scaled, torque.beta, torque.covariance
-    )
-    others = [
-        dataclasses.replace(
-            _figures(name, observation, len(part.y), fit.condition_scaled, fit.beta,
-                     fit.covariance),
-            imbalance=_imbalance(part, found.beta),
-            bias=_bias(part, fit, found.beta),
+    figures = [_figures("torque", observation, torque.rows, torque)]
+    for name, part, fit in (
+        ("energy, Simpson", rows, found),
+        ("energy, trapezoid", coarse_rows, coarse),
+    ):
+        missed = np.linalg.norm((part.balance - part.W) @ found.beta) / np.linalg.norm(part.y)
+        own = _figures(name, observation, len(part.y), fit)
+        # What the energy that integration misses moves at most, in sigmas.
+        kept, deviation = list(fit.rank.kept), fit.deviation
+        moved = scaled_least_squares(
+            part.W[:, kept] / deviation[:, None],
+            (part.balance - part.W) @ found.beta / deviation,
+            SEEN,
         )
-        for name, part, fit in (
-            ("energy, Simpson", rows, found), ("energy, trapezoid", coarse_rows, coarse),
-        )
-    ]  # fmt: skip
+        sigma = np.sqrt(np.diag(fit.covariance)[kept])
+        bias = float(np.max(np.abs(moved) / sigma, initial=0.0))
+        figures.append(dataclasses.replace(own, imbalance=float(missed), bias=bias))
     return EnergyReport(
         window=rows.window,
         relative_error=float(np.linalg.norm(rows.y - rows.W @ found.beta) / np.linalg.norm(rows.y)),
-        figures=(first, *others),
+        figures=tuple(figures),
         parameters=len(found.rank.kept),
     )
 
 
 def _figures(
-    name: str,
-    observation: Observation,
-    rows: int,
-    condition: float,
-    beta: np.ndarray,
-    covariance: np.ndarray,
+    name: str, observation: Observation, rows: int, fit: Estimate | FitResult
 ) -> ModelFigures:
+    W, y, beta, covariance = observation.W, observation.y, fit.beta, fit.covariance
     sigma = np.sqrt(np.diag(covariance))
-    W = observation.W
     squares = np.einsum("rc,cd,rd->r", W, covariance, W, optimize=True)
     owners = [(k, observation.row_joint == k) for k in range(len(observation.joints))]
     return ModelFigures(
         model=name,
         rows=rows,
-        condition_scaled=condition,
+        condition_scaled=fit.condition_scaled,
         known=int(np.sum((sigma > 0.0) & (100.0 * sigma < SURE * np.abs(beta)))),
-        torque_error=_torque_error(observation, beta),
-        torque_sigma=float(np.sqrt(squares.sum()) / np.linalg.norm(observation.y)),
+        torque_error=float(np.linalg.norm(y - W @ beta) / np.linalg.norm(y)),
+        torque_sigma=float(np.sqrt(squares.sum()) / np.linalg.norm(y)),
         joint_sigma={
             observation.joints[k].name: float(np.sqrt(squares[own].mean()))
             for k, own in owners
             if own.any()
         },
     )
-
-
-def _imbalance(rows: EnergyRows, beta: np.ndarray) -> float:
-    missed = np.linalg.norm((rows.balance - rows.W) @ beta)
-    return float(missed / np.linalg.norm(rows.y))
-
-
-def _bias(rows: EnergyRows, found: Unequal, beta: np.ndarray) -> float:
-    """What the energy that integration misses moves at most, in sigmas."""
-    kept = list(found.rank.kept)
-    missed = (rows.balance - rows.W) @ beta
-    weighted = np.column_stack([rows.W[:, kept], missed]) / found.deviation[:, None]
-    sigma = np.sqrt(np.diag(found.covariance)[kept])
-    return float(np.max(np.abs(solved(weighted)) / sigma, initial=0.0))

@@ -137,7 +137,11 @@ def _eliminate(
     def fewer(kept: list[int], dropped: list[int], stays: int = -1) -> tuple[list[int], list[int]]:
         """Without the weakest, one after the other; the first of them is not `stays`."""
         while len(kept) > 1:
-            weakest, share = _weakest(whole, kept, stays)
+            beta, root = solve_by_qr(whole[:, kept], whole[:, -1])
+            with np.errstate(divide="ignore"):  # a value of exactly 0 is the weakest of all
+                shares = np.linalg.norm(root, axis=1) / np.abs(beta)
+            shares[np.array(kept) == stays] = 0.0
+            weakest, share = kept[int(np.argmax(shares))], float(shares.max())
             rest = [i for i in kept if i != weakest]
             ratio, limit = tested(rest)
             if not (ratio < limit if below is None else 100.0 * np.sqrt(noise) * share >= below):
@@ -160,18 +164,6 @@ def _eliminate(
 def _squares(whole: np.ndarray, kept: list[int]) -> float:
     reduced = triangle(whole[:, [*kept, whole.shape[1] - 1]])
     return float(np.sum(reduced[len(kept) :, -1] ** 2))
-
-
-def _weakest(whole: np.ndarray, kept: list[int], stays: int) -> tuple[int, float]:
-    """Column, but `stays`, with the largest sigma / |beta|, in units of the noise, and that.
-
-    A value of exactly 0 is the weakest of all.
-    """
-    beta, root = solve_by_qr(whole[:, kept], whole[:, -1])
-    sigma = np.linalg.norm(root, axis=1)
-    with np.errstate(divide="ignore"):
-        share = np.where(np.array(kept) == stays, 0.0, sigma / np.abs(beta))
-    return kept[int(np.argmax(share))], float(share.max())
 
 
 @dataclass(frozen=True)

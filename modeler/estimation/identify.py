@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -14,12 +14,12 @@ from modeler.estimation.essential import Essential, essential_parameters, reduce
 from modeler.estimation.halves import Halves, halves
 from modeler.estimation.least_squares import MAX_ITERATIONS, Estimate, least_sigma
 from modeler.estimation.methods import method_of
-from modeler.estimation.parameter import estimates
-from modeler.estimation.problem import Neighbours, Problem, compressed, residual_of
+from modeler.estimation.parameter import ParameterEstimate
+from modeler.estimation.problem import Neighbours, Problem, kept_rows, residual_of
 from modeler.estimation.result import FitResult, JointFit
-from modeler.numerics.least_squares import Compressed, compress
+from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
 from modeler.observation.observation import Observation
-from modeler.observation.reduce import is_streamed
+from modeler.observation.reduce import is_streamed, triangles
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel
@@ -78,11 +78,12 @@ class Equations:
 
     def compressed(self, counted: np.ndarray) -> Compressed:
         """Some rows, compressed."""
-        joints = self.observation.joints
+        joints, own = self.observation.joints, self.observation.row_joint[counted]
         free = [j for j, joint in enumerate(joints) if not joint.actuated]
         if (W := self.kept) is None:
-            return compressed(self.observation, counted, free)
-        own = self.observation.row_joint[counted]
+            found = triangles(self.observation, kept_rows(self.observation, counted))
+            rows, idle = found.rows.astype(np.intp), np.isin(np.arange(len(joints)), free)
+            return Compressed(self.names, found.triangles, rows, idle)
         return compress(W[counted], self.y[counted], own, len(joints), self.names, free)
 
     def residual(self, beta: np.ndarray, counted: np.ndarray) -> np.ndarray:
@@ -142,7 +143,12 @@ def fit_equations(
     estimator, windows = method_of(method), data is not None
     dead, alive = dead_joints(observation), alive_rows(observation)
     data = data or equations.compressed(alive)
-    check_enough_rows(observation, len(equations.names), int(data.rows.sum()))
+    columns, count = len(equations.names), int(data.rows.sum())
+    if count < columns:
+        raise DataError(
+            f"{', '.join(observation.logs)}: {count} rows for {columns} parameters; record "
+            "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
+        )
     problem = Problem(
         observation, equations.kept, equations.y, alive, equations.names, equations.units, data,
         model,
@@ -167,10 +173,11 @@ def fit_equations(
         equations, method,
         dataclasses.replace(estimate, covariance=estimate.covariance * np.outer(factors, factors)),
         essential,
-        rows=int(data.rows.sum()),
+        rows=count,
         joints=joints_of(observation, data, estimate.beta, estimate.sigma),
-        sentences=(*equations.sentences, *dead_sentences(observation, dead), *estimate.sentences,
-                   *sentences_of(estimate, essential), *colour.sentences(),
+        sentences=(*equations.sentences, *_not_connected(observation, dead), *estimate.sentences,
+                   *(tangle.sentence() for tangle in estimate.rank.aside), *_unsettled(estimate),
+                   essential.sentence(), *colour.sentences(),
                    *differ.sentences(equations.names, [j.name for j in observation.joints])),
         reduced=raised[at] * alone,
         standard=estimate.standard,
@@ -227,12 +234,26 @@ def result_of(
     """
     observation, count = equations.observation, len(equations.observation.names)
     labels = list(zip(equations.names, equations.units, strict=True))
-    sigma = np.sqrt(np.diag(estimate.covariance))
-    every = estimates(labels, estimate.beta, sigma, estimate.rank.kept, essential.names)
+    sigma, told = np.sqrt(np.diag(estimate.covariance)), set(estimate.rank.kept)
+    every = tuple(
+        ParameterEstimate(
+            name=name,
+            unit=unit,
+            value=float(estimate.beta[i]),
+            sigma=float(sigma[i]) if i in told else None,
+            essential=name in essential.names,
+            status="estimated" if i in told else "set aside",
+        )
+        for i, (name, unit) in enumerate(labels)
+    )
     return FitResult(
         robot=observation.robot,
         method=method,
-        status=status_of(estimate),
+        status="rank deficient"
+        if estimate.rank.aside
+        else "ok"
+        if estimate.settled
+        else "not settled",
         samples=len(observation.time),
         rows=rows,
         condition_number=estimate.condition_number,
@@ -279,26 +300,13 @@ def dead_joints(observation: Observation) -> list[int]:
     return dead
 
 
-def dead_sentences(observation: Observation, dead: Sequence[int]) -> list[str]:
+def _not_connected(observation: Observation, dead: Sequence[int]) -> list[str]:
     """A line on each joint whose torque is not connected."""
     return [
         f"joint {observation.joints[j].name}: its torque is 0 in every row, so none of them is "
         "used; is it connected? if it has no motor, mark it passive in the robot file (mu = 0)"
         for j in dead
     ]
-
-
-def check_enough_rows(observation: Observation, columns: int, rows: int) -> None:
-    """Refuse fewer rows than parameters.
-
-    Raises:
-        DataError: there are.
-    """
-    if rows < columns:
-        raise DataError(
-            f"{', '.join(observation.logs)}: {rows} rows for {columns} parameters; record "
-            "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
-        )
 
 
 def joints_of(
@@ -324,22 +332,13 @@ def joints_of(
     )
 
 
-def status_of(estimate: Estimate) -> str:
-    """In a word."""
-    if estimate.rank.aside:
-        return "rank deficient"
-    return "ok" if estimate.settled else "not settled"
-
-
-def sentences_of(estimate: Estimate, essential: Essential) -> list[str]:
-    """What a reader must know of an estimate."""
-    said = [tangle.sentence() for tangle in estimate.rank.aside]
-    if not estimate.settled and estimate.iterations >= MAX_ITERATIONS:
-        said.append(
-            f"the joint weights still change after {MAX_ITERATIONS} iterations; "
-            'record more rows, or use method "ordinary"'
-        )
-    return [*said, essential.sentence()]
+def _unsettled(estimate: Estimate) -> list[str]:
+    if estimate.settled or estimate.iterations < MAX_ITERATIONS:
+        return []
+    return [
+        f"the joint weights still change after {MAX_ITERATIONS} iterations; "
+        'record more rows, or use method "ordinary"'
+    ]
 
 
 # Does the fit predict motion like that of its logs? What was left out answers.
@@ -347,7 +346,8 @@ def sentences_of(estimate: Estimate, essential: Essential) -> list[str]:
 
 FOLDS = 8
 
-_SEEN = 1e-8  # pivot of a scaled column below which a fold does not see a direction
+SEEN = 1e-8
+"""Share of the largest singular value, columns scaled, below which a fold sees no direction."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -367,12 +367,13 @@ class CrossValidation:
     stretches: int
     residual: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
-    def on(self, equations: Equations, rows: np.ndarray) -> np.ndarray:
-        """(n,) the errors on some of the rows."""
-        joint, count = equations.observation.row_joint[rows], len(equations.observation.joints)
-        left = np.bincount(joint, self.residual[rows] ** 2, count)
-        total = np.bincount(joint, equations.y[rows] ** 2, count)
-        return np.sqrt(np.where(total > 0.0, left / np.where(total > 0.0, total, 1.0), np.nan))
+
+def errors_on(equations: Equations, residual: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """(n,) ||y_j - W_j beta|| / ||y_j|| on some of the rows, of a residual (rows,) of all."""
+    joint, count = equations.observation.row_joint[rows], len(equations.observation.joints)
+    left = np.bincount(joint, residual[rows] ** 2, count)
+    total = np.bincount(joint, equations.y[rows] ** 2, count)
+    return np.sqrt(np.where(total > 0.0, left / np.where(total > 0.0, total, 1.0), np.nan))
 
 
 def crossed(
@@ -395,7 +396,12 @@ def crossed(
             other rows.
     """
     observation = equations.observation
-    swing = _swing(observation)
+    speed, acceleration = (
+        np.sqrt(np.mean(values**2, axis=0)) for values in (observation.qd, observation.qdd)
+    )
+    moving = (speed > 1e-6 * speed.max(initial=0.0)) & (acceleration > 0.0)
+    periods = np.pi * speed[moving] / acceleration[moving]
+    swing = float(np.median(periods)) if moving.any() else 0.0
     number = _stretches(observation, swing)
     seen = np.unique(number[observation.row_sample[rows]])
     fold = np.searchsorted(seen, number[observation.row_sample]) % FOLDS
@@ -404,21 +410,12 @@ def crossed(
     residual = np.zeros(len(equations.y))
     for k, own in enumerate(folds):
         if refit is None:
-            beta = solved(np.vstack([parts[0][:0], *parts[:k], *parts[k + 1 :]]))
+            others = np.vstack([parts[0][:0], *parts[:k], *parts[k + 1 :]])
+            beta = scaled_least_squares(others[:, :-1], others[:, -1], SEEN)
         else:
             beta = refit(np.searchsorted(seen, number) % FOLDS == k)
         residual[own] = equations.residual(beta, own)
-    found = CrossValidation(np.full(len(sigma), np.nan), swing, len(seen), residual)
-    return replace(found, errors=found.on(equations, rows))
-
-
-def _swing(observation: Observation) -> float:
-    """s; that of the joints that move."""
-    speed, acceleration = (
-        np.sqrt(np.mean(values**2, axis=0)) for values in (observation.qd, observation.qdd)
-    )
-    moving = (speed > 1e-6 * speed.max(initial=0.0)) & (acceleration > 0.0)
-    return float(np.median(np.pi * speed[moving] / acceleration[moving])) if moving.any() else 0.0
+    return CrossValidation(errors_on(equations, residual, rows), swing, len(seen), residual)
 
 
 def _stretches(observation: Observation, swing: float) -> np.ndarray:
@@ -432,11 +429,3 @@ def _stretches(observation: Observation, swing: float) -> np.ndarray:
         number[own] = first + (np.floor(since / swing).astype(int) if swing > 0.0 else 0)
         first = int(number[own].max()) + 1
     return number
-
-
-def solved(whole: np.ndarray) -> np.ndarray:
-    """(c,) least squares of a triangle [W y]; 0 along directions that it does not see."""
-    W, y = whole[:, :-1], whole[:, -1]
-    length = np.linalg.norm(W, axis=0)
-    length[length == 0.0] = 1.0
-    return np.asarray(np.linalg.lstsq(W / length, y, rcond=_SEEN)[0] / length)

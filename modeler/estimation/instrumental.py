@@ -8,10 +8,10 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.table import percent
-from modeler.estimation.direct_model import ControlLoop, DirectModel, Motion
+from modeler.estimation.direct_model import ControlLoop, DirectModel
 from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
 from modeler.estimation.problem import Problem
-from modeler.numerics.least_squares import compress, independent_columns, triangle
+from modeler.numerics.least_squares import column_lengths, compress, independent_columns, triangle
 
 # Instrumental variables: what the noise of the measured motion cannot bias.
 
@@ -45,21 +45,39 @@ def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
         Z: (rows, c) the columns of W along a motion that the noise did not touch.
         method: for the refusal, DataError, of instruments that tell nothing of a parameter.
     """
-    counted, joint = problem.counted, problem.joint[problem.counted]
+    data, counted, joint = problem.data, problem.counted, problem.joint[problem.counted]
     start = least_squares(problem.data, "weighted")
     kept = np.asarray(start.rank.kept, dtype=int)
     W, Z, y = problem.W[counted][:, kept], Z[counted][:, kept], problem.y[counted]
-    _check(problem, method, Z, kept)
+    # Instruments that depend on each other where the columns do not.
+    aside = independent_columns(triangle(Z), [problem.names[i] for i in kept]).aside
+    if aside:
+        raise DataError(_refusal(method, aside[0].name))
     sigma, settled, iterations = start.sigma, False, 0
     while not settled and iterations < _ITERATIONS:
         found = _solved(W, Z, y, sigma[joint])
         if found.cosine < _BLIND:
             raise DataError(_refusal(method, problem.names[kept[found.worst]]))
-        before, sigma = sigma, _spread(problem, W, y, found, sigma, start)
+        # sigma_j^2 = |r_j|^2 / (rows_j - h_j), h_j the trace of joint j's part of W P.
+        hat = np.einsum("rk,kr->r", W / sigma[joint][:, None], found.P)
+        squares = np.bincount(joint, (y - W @ found.beta) ** 2, len(data.rows))
+        degrees = data.rows - np.bincount(joint, hat, len(data.rows))
+        spread = np.sqrt(squares / np.maximum(degrees, 0.5))
+        spread = np.where(data.free | (data.rows == 0), start.sigma, spread)
+        before, sigma = sigma, np.maximum(spread, least_sigma(data))
         settled = bool(np.all(np.abs(sigma / before - 1.0) < _SETTLED))
         iterations += 1
     beta, covariance = np.zeros_like(start.beta), np.zeros_like(start.covariance)
     beta[kept], covariance[np.ix_(kept, kept)] = found.beta, found.P @ found.P.T
+    # Qz^T S^-1/2 W beta = Qz^T S^-1/2 y, which beta satisfies, above what it leaves.
+    c = len(problem.names)
+    whole = np.zeros((c + 1, c + 1))
+    whole[np.ix_(np.arange(len(kept)), np.append(kept, c))] = found.whole
+    whole[-1, -1] = np.linalg.norm((y - W @ found.beta) / sigma[joint])
+    weak = (
+        f"the instruments are weak: of one combination of parameters they carry {found.cosine:.2g} "
+        "of its column; noise then biases it as without instruments, and its sigma is too small",
+    )
     return dataclasses.replace(
         start,
         beta=beta,
@@ -67,17 +85,19 @@ def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
         sigma=sigma,
         iterations=iterations,
         settled=settled,
-        sentences=_weak(found.cosine),
-        influence=_influence(problem, kept, found.P / sigma[joint], beta),
-        whole=_whole(problem, kept, found, (y - W @ found.beta) / sigma[joint]),
+        sentences=weak if found.cosine <= _WEAK else (),
+        influence=Influence(
+            problem.scattered(kept, (found.P / sigma[joint]).T), problem.y - problem.W @ beta
+        ),
+        whole=whole,
     )
 
 
 def _solved(W: np.ndarray, Z: np.ndarray, y: np.ndarray, sigma: np.ndarray) -> _Solved:
     lengths = np.linalg.norm(W / sigma[:, None], axis=0)
     X, y = W / sigma[:, None] / lengths, y / sigma
-    far = np.linalg.norm(Z / sigma[:, None], axis=0)
-    Qz, _ = np.linalg.qr(Z / sigma[:, None] / np.where(far > 0.0, far, 1.0))
+    instruments = Z / sigma[:, None]
+    Qz, _ = np.linalg.qr(instruments / column_lengths(instruments))
     Qw, Rw = np.linalg.qr(X)
     across = Qz.T @ Qw
     cosine = float(np.linalg.svd(across, compute_uv=False).min(initial=1.0))
@@ -88,61 +108,10 @@ def _solved(W: np.ndarray, Z: np.ndarray, y: np.ndarray, sigma: np.ndarray) -> _
     return _Solved(P @ y, P, cosine, worst, whole)
 
 
-def _spread(
-    problem: Problem,
-    W: np.ndarray,
-    y: np.ndarray,
-    found: _Solved,
-    sigma: np.ndarray,
-    start: Estimate,
-) -> np.ndarray:
-    """(n,) sigma_j^2 = |r_j|^2 / (rows_j - h_j), h_j the trace of joint j's part of W P."""
-    data, joint = problem.data, problem.joint[problem.counted]
-    n = len(data.rows)
-    scaled = np.einsum("rk,kr->r", W / sigma[joint][:, None], found.P)
-    share = np.bincount(joint, scaled, n)
-    squares = np.bincount(joint, (y - W @ found.beta) ** 2, n)
-    spread = np.sqrt(squares / np.maximum(data.rows - share, 0.5))
-    spread = np.where(data.free | (data.rows == 0), start.sigma, spread)
-    return np.maximum(spread, least_sigma(data))
-
-
-def _influence(problem: Problem, kept: np.ndarray, pull: np.ndarray, beta: np.ndarray) -> Influence:
-    every = np.zeros(problem.W.shape)
-    every[np.ix_(problem.counted, kept)] = pull.T
-    return Influence(every, problem.y - problem.W @ beta)
-
-
-def _whole(problem: Problem, kept: np.ndarray, found: _Solved, residual: np.ndarray) -> np.ndarray:
-    """Equations Qz^T S^-1/2 W beta = Qz^T S^-1/2 y, which beta satisfies, above what it leaves."""
-    c = len(problem.names)
-    whole = np.zeros((c + 1, c + 1))
-    whole[np.ix_(np.arange(len(kept)), np.append(kept, c))] = found.whole
-    whole[-1, -1] = np.linalg.norm(residual)
-    return whole
-
-
-def _check(problem: Problem, method: str, Z: np.ndarray, kept: np.ndarray) -> None:
-    """Refuse instruments that depend on each other where the columns do not."""
-    names = [problem.names[i] for i in kept]
-    aside = independent_columns(triangle(Z), names).aside
-    if aside:
-        raise DataError(_refusal(method, aside[0].name))
-
-
 def _refusal(method: str, name: str) -> str:
     return (
         f'method "{method}": the instruments tell nothing of a parameter; got it for {name}; '
         'expected a commanded motion that moves all joints as the log does; use method "weighted"'
-    )
-
-
-def _weak(cosine: float) -> tuple[str, ...]:
-    if cosine > _WEAK:
-        return ()
-    return (
-        f"the instruments are weak: of one combination of parameters they carry {cosine:.2g} of "
-        "its column; noise then biases it as without instruments, and its sigma is too small",
     )
 
 
@@ -225,25 +194,6 @@ def _misfit(problem: Problem, start: Estimate, W: np.ndarray, beta: np.ndarray) 
     return float(np.sqrt(np.mean(residual**2)))
 
 
-def _loop(problem: Problem, robot: DirectModel, start: Estimate, beta: np.ndarray) -> ControlLoop:
-    if robot.commanded:
-        return robot.chosen(beta)
-    return robot.gentlest(beta, lambda way: _misfit(problem, start, robot.columns(way), beta))
-
-
-def _followed(
-    problem: Problem, robot: DirectModel, start: Estimate, beta: np.ndarray, loop: ControlLoop
-) -> tuple[list[Motion], ControlLoop]:
-    """The simulated motion; where the loop was not in the log, by another one if it must be."""
-    try:
-        return robot.followed(beta, loop), loop
-    except DataError:
-        if robot.commanded:
-            raise
-    loop = _loop(problem, robot, start, beta)
-    return robot.followed(beta, loop), loop
-
-
 def _repeated(
     problem: Problem, method: str, estimate: Callable[[np.ndarray], Estimate]
 ) -> Estimate:
@@ -258,16 +208,36 @@ def _repeated(
     robot = DirectModel(model, problem.observation)
     start = least_squares(problem.data, "weighted")
     beta, settled = start.beta, False
-    loop = _loop(problem, robot, start, beta)
+
+    def chosen() -> ControlLoop:
+        if robot.commanded:
+            return robot.chosen(beta)
+        return robot.gentlest(beta, lambda way: _misfit(problem, start, robot.columns(way), beta))
+
+    loop = chosen()
     for _ in range(_SIMULATIONS):
-        motions, loop = _followed(problem, robot, start, beta, loop)
+        try:
+            motions = robot.followed(beta, loop)
+        except DataError:
+            if robot.commanded:
+                raise
+            loop = chosen()  # this one was not in the log; another one holds the robot
+            motions = robot.followed(beta, loop)
         found = estimate(robot.columns(motions))
         sigma = np.sqrt(np.diag(found.covariance))
         step = np.abs(found.beta - beta) / np.where(sigma > 0.0, sigma, np.inf)
         beta, settled = found.beta, bool(step.max(initial=0.0) < _NEAR)
         if settled or np.isinf(loop.speed):
             break
-    said = _worse(problem, method, start, beta) + _told(problem, robot, loop, robot.error(motions))
+    said = _told(problem, robot, loop, robot.error(motions))
+    before, after = (_misfit(problem, start, problem.W, own) for own in (start.beta, beta))
+    if after > _WORSE * before:
+        said.insert(
+            0,
+            f"along the logged motion the values leave {after / before:.3g} times the error of "
+            f'"weighted", from which method "{method}" starts: the simulated motion is not that of '
+            'the log; take the values of method "weighted"',
+        )
     if not settled and np.isfinite(loop.speed):
         said.append(
             f"the values still move by up to {step.max():.2g} sigma from one simulation to the "
@@ -278,18 +248,6 @@ def _repeated(
         settled=found.settled and (settled or bool(np.isinf(loop.speed))),
         sentences=(*said, *found.sentences),
     )
-
-
-def _worse(problem: Problem, method: str, start: Estimate, beta: np.ndarray) -> list[str]:
-    """Whether the method ends clearly worse than it started, by its criterion on the log."""
-    before, after = (_misfit(problem, start, problem.W, own) for own in (start.beta, beta))
-    if after <= _WORSE * before:
-        return []
-    return [
-        f"along the logged motion the values leave {after / before:.3g} times the error of "
-        f'"weighted", from which method "{method}" starts: the simulated motion is not that of '
-        'the log; take the values of method "weighted"'
-    ]
 
 
 def _told(problem: Problem, robot: DirectModel, loop: ControlLoop, error: np.ndarray) -> list[str]:

@@ -5,13 +5,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from modeler.core.errors import DataError
-from modeler.core.manifest import JointSpec, ModuleSpec
+from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
 from modeler.estimation.doubts import Doubt, not_together
 from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.identify import fit_equations
 from modeler.estimation.payload import Loaded, Payload, loaded_equations
-from modeler.estimation.result import ParameterEstimate
 from modeler.observation.observation import Observation
 
 if TYPE_CHECKING:
@@ -50,7 +49,18 @@ def known_doubts(
         return [Doubt(line, values=True) for line in apart]
     found = _weights(observation, loaded_equations(model, observation, payloads), currents)
     if currents:
-        found += _gains(model, observation, payloads)
+        try:
+            lines = deviations(
+                model.spec, identify_gains(model, observation, payloads), only_doubtful=True
+            )
+        except DataError:
+            lines = []  # logs that do not tell the gains contradict none
+        if lines:
+            line = (
+                "by the weight of the load, the drive gains are not those of the robot file: "
+                f"{'; '.join(lines)}; check them, or let --method tls take the ones found"
+            )
+            found.append(Doubt(line, values=True))
     return found
 
 
@@ -59,7 +69,12 @@ def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[D
     for i, payload in enumerate(loaded.weighed):
         if not loaded.told(i):
             continue
-        factor = _freed(observation, loaded, i)
+        # The factor on its torques that the logs ask for; 1 if its mass is right.
+        column = loaded.torques[:, i]
+        equations = loaded.equations.with_columns(column, ["factor"])
+        equations = dataclasses.replace(equations, y=loaded.equations.y + column)
+        fit = fit_equations(observation, equations, "weighted", noise_only=True)
+        factor = fit.loads[-1]
         if factor.sigma is None or not _contradicts(factor.value, factor.sigma):
             continue
         assert payload.mass is not None
@@ -82,61 +97,35 @@ def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[D
     return found
 
 
-def _freed(observation: Observation, loaded: Loaded, i: int) -> ParameterEstimate:
-    """The factor on the torques of a weighed load that the logs ask for; 1 if its mass is right."""
-    known, y = loaded.torques[:, i], loaded.equations.y
-    equations = loaded.equations.with_columns(known, ["factor"])
-    equations = dataclasses.replace(equations, y=y + known)
-    return fit_equations(observation, equations, "weighted", noise_only=True).loads[-1]
-
-
 def _contradicts(factor: float, sigma: float) -> bool:
     return abs(factor - 1.0) > max(FAR * sigma, WORTH)
 
 
-def _gains(
-    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
-) -> list[Doubt]:
-    try:
-        found = identify_gains(model, observation, payloads)
-    except DataError:
-        return []  # logs that do not tell the gains contradict none
-    lines = deviations(model.spec, found, only_doubtful=True)
-    if not lines:
-        return []
-    return [
-        Doubt(
-            f"by the weight of the load, the drive gains are not those of the robot file: "
-            f"{'; '.join(lines)}; check them, or let --method tls take the ones found",
-            values=True,
-        )
-    ]
-
-
 def deviations(spec: ModuleSpec, found: GainFit, only_doubtful: bool = False) -> list[str]:
     """How far identified gains are from those of the robot file, a phrase for each that has one."""
-    return [
-        _deviation(joint, found.gains[joint.name], found.sigmas[joint.name])
-        for joint in spec.joints
-        if joint.name in found.gains and _told(joint, found, only_doubtful)
-    ]
-
-
-def _told(joint: JointSpec, found: GainFit, only_doubtful: bool) -> bool:
-    gain, stated = found.gains[joint.name], joint.drive_gain
-    if stated is None:
-        return gain < 0.0
-    apart = _contradicts(gain / stated, found.sigmas[joint.name] / abs(stated))
-    return apart or not only_doubtful
-
-
-def _deviation(joint: JointSpec, gain: float, sigma: float) -> str:
-    told, stated = f"joint {joint.name} {gain:.4g} +- {sigma:.1g}", joint.drive_gain
-    if stated is None or gain * stated < 0.0:
-        beside = "negative" if stated is None else f"of the other sign than {stated:.4g}"
-        return (
-            f"{told}, {beside}: current{joint.name} or q{joint.name} is counted the other way "
-            "round; if that is a mistake of the log, give the one that is wrong sign = -1 in [log]"
-        )
-    share = gain / stated - 1.0
-    return f"{told}, {percent(abs(share))} {'above' if share > 0.0 else 'below'} {stated:.4g}"
+    lines = []
+    for joint in spec.joints:
+        if (gain := found.gains.get(joint.name)) is None:
+            continue
+        sigma, stated = found.sigmas[joint.name], joint.drive_gain
+        told = f"joint {joint.name} {gain:.4g} +- {sigma:.1g}"
+        if stated is None and gain >= 0.0:
+            continue
+        if (
+            stated is not None
+            and only_doubtful
+            and not _contradicts(gain / stated, sigma / abs(stated))
+        ):
+            continue
+        if stated is None or gain * stated < 0.0:
+            beside = "negative" if stated is None else f"of the other sign than {stated:.4g}"
+            lines.append(
+                f"{told}, {beside}: current{joint.name} or q{joint.name} is counted the other way "
+                "round; if that is a mistake of the log, give the one that is wrong sign = -1 in "
+                "[log]"
+            )
+        else:
+            share = gain / stated - 1.0
+            side = "above" if share > 0.0 else "below"
+            lines.append(f"{told}, {percent(abs(share))} {side} {stated:.4g}")
+    return lines

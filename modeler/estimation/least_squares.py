@@ -30,13 +30,6 @@ class Influence:
     residual: np.ndarray
     bread: np.ndarray | None = None
 
-    def of(self, W: np.ndarray) -> np.ndarray:
-        """The pull of the rows of W (rows, c)."""
-        if self.pull is not None:
-            return self.pull
-        assert self.bread is not None
-        return np.asarray(W @ self.bread)
-
     def times(self, factor: float) -> "Influence":
         """The same rows, each with a pull so many times as large."""
         pull, bread = (None if x is None else x * factor for x in (self.pull, self.bread))
@@ -109,7 +102,8 @@ def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:
         sigma = np.full(len(data.rows), max(common, least_sigma(data).max()))
         covariance = covariance * sigma[0] ** 2
     else:
-        cancelling = _cancelling(data, beta)
+        terms = np.linalg.norm(data.triangles[:, :, :-1] * beta, axis=(1, 2))
+        cancelling = terms / np.sqrt(np.maximum(data.rows, 1))  # rms of the terms of W_j beta
         sigma = _weighed(data, _spread(data, beta, covariance, sigma), cancelling)
         settled = False
         while not settled and iterations < MAX_ITERATIONS:
@@ -134,26 +128,16 @@ def solve_by_qr(W: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return root @ (q.T @ y), root
 
 
-def _rms(data: Compressed) -> np.ndarray:
-    return data.torque_norms() / np.sqrt(np.maximum(data.rows, 1))
-
-
 def least_sigma(data: Compressed) -> np.ndarray:
     """(n,) the smallest sigma of each joint: exact data would otherwise divide by zero."""
-    rms = _rms(data)
+    rms = data.torque_rms()
     return np.maximum(_LEAST * rms, max(1e-3 * _LEAST * rms.max(initial=0.0), 1e-300))
-
-
-def _cancelling(data: Compressed, beta: np.ndarray) -> np.ndarray:
-    """(n,) rms size of the terms of W_j beta, sqrt(sum_c ||W_jc beta_c||^2 / rows_j)."""
-    terms = np.linalg.norm(data.triangles[:, :, :-1] * beta, axis=(1, 2))
-    return np.asarray(terms / np.sqrt(np.maximum(data.rows, 1)))
 
 
 def _weighed(data: Compressed, spread: np.ndarray, cancelling: np.ndarray) -> np.ndarray:
     """(n,) sigma from the spread of the residuals, kept away from 0."""
     sigma = np.maximum(spread, least_sigma(data))
-    rms = _rms(data)
+    rms = data.torque_rms()
     driven = ~data.free & (rms > 0.0)
     if driven.any():
         error = float(np.sqrt(np.mean((sigma[driven] / rms[driven]) ** 2)))
@@ -180,7 +164,7 @@ def _spread(
     share = np.einsum("jik,kl,jil->j", W, covariance, W, optimize=True) / sigma**2
     degrees = np.maximum(data.rows - share, 0.0)
     spread = data.residual_norms(beta) / np.sqrt(np.maximum(degrees, 1e-12))
-    return np.where(degrees > 0.5, spread, np.maximum(_rms(data), 1e-300))
+    return np.where(degrees > 0.5, spread, np.maximum(data.torque_rms(), 1e-300))
 
 
 def condition_numbers(W: np.ndarray) -> tuple[float, float]:
@@ -212,15 +196,10 @@ def ordinary(problem: Problem) -> Estimate:
     spread = data.residual_norms(found.beta) / np.sqrt(np.maximum(data.rows - share, 0.5))
     spread = np.maximum(spread, least_sigma(data))
     middle = np.einsum("j,jkl->kl", spread**2, squares)
-    return dataclasses.replace(
-        found,
-        covariance=bread @ middle @ bread,
-        influence=_influence(problem, found.beta, bread),
-    )
-
-
-def _influence(problem: Problem, beta: np.ndarray, bread: np.ndarray) -> Influence:
     if problem.streamed:
-        residual = problem.y - problem.observation.y + residual_of(problem.observation, beta)
-        return Influence(None, residual, bread)
-    return Influence(problem.W @ bread * problem.counted[:, None], problem.y - problem.W @ beta)
+        residual = problem.y - problem.observation.y + residual_of(problem.observation, found.beta)
+        influence = Influence(None, residual, bread)
+    else:
+        pull = problem.W @ bread * problem.counted[:, None]
+        influence = Influence(pull, problem.y - problem.W @ found.beta)
+    return dataclasses.replace(found, covariance=bread @ middle @ bread, influence=influence)

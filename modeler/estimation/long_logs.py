@@ -17,8 +17,9 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError, Method
 from modeler.estimation.identify import base_equations, dead_joints, fit_equations
+from modeler.estimation.methods import capable, method_of
 from modeler.estimation.result import FitResult
-from modeler.numerics.least_squares import Compressed, compress, merged
+from modeler.numerics.least_squares import Compressed, merged
 from modeler.observation.chunk import Chunk, chunks
 from modeler.observation.chunked_report import Passes, streamed_report
 from modeler.observation.chunks import Chosen, seen
@@ -27,7 +28,6 @@ from modeler.observation.observation import Evaluated, Observation, no_row_left,
 from modeler.observation.processing import Processing
 from modeler.observation.read import Source
 from modeler.observation.reduce import with_stretch
-from modeler.observation.stretch import Stretch
 from modeler.observation.survey import KnownFacts, Survey, WholeNeeded, survey
 from modeler.observation.tally import Facts
 from modeler.runtime.fused import no_rows
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 PASSES = 3
 """Over the logs, at most: what a pass finds that the windows did not show may ask for another."""
 
-OF_TRIANGLES: tuple[Method, ...] = ("weighted", "ordinary")
+OF_TRIANGLES = capable("triangles")
 """Methods that need no row again once the triangles are there."""
 
 Share = Callable[[float], None]
@@ -77,31 +77,19 @@ def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partia
         DataError: a value that cannot be.
     """
     stretches, facts = seen(model, chunk, chosen)
-    return Partial(_compressed(model, stretches), facts)
+    parts = [part for part in stretches if part.used.any()]
+    regressor, state = Evaluated(model, parts), no_rows(model.pattern)
+    for part in parts:  # W is never there as a whole
+        torque = part.filtered(torque_of(part.segment))
+        state = with_stretch(regressor, part, torque, part.used, state)
+    names, joints = tuple(base.name for base in model.spec.base), model.spec.joints
+    free = np.array([not joint.actuated for joint in joints])
+    return Partial(Compressed(names, state.triangles, state.rows.astype(np.intp), free), facts)
 
 
 def merge_all(parts: Iterable[Partial]) -> Partial:
     """Of all chunks of a log, one after the other."""
     return reduce(Partial.over, parts)
-
-
-def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compressed:
-    """Triangles of some stretches; W is never there as a whole."""
-    parts = [part for part in stretches if part.used.any()]
-    regressor, state = Evaluated(model, parts), no_rows(model.pattern)
-    for part in parts:
-        torque = part.filtered(torque_of(part.segment))
-        state = with_stretch(regressor, part, torque, part.used, state)
-    like = none_of(model)
-    return Compressed(like.names, state.triangles, state.rows.astype(np.intp), like.free)
-
-
-def none_of(model: "CompiledModel") -> Compressed:
-    """The triangles of no rows."""
-    names, joints = [base.name for base in model.spec.base], model.spec.joints
-    free = [j for j, joint in enumerate(joints) if not joint.actuated]
-    nothing = np.empty((0, len(names)))
-    return compress(nothing, np.empty(0), np.empty(0, dtype=int), len(joints), names, free)
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +139,17 @@ def stream(
             choice of the windows fits; no usable row.
     """
     passes, every = all_rows(model, sources, processing, progress, rows, reducer or by_threads)
-    return _streamed(model, sources, passes, [part.data for part in every])
+    data, windows = reduce(merged, [part.data for part in every]), passes.found.observation
+    report = streamed_report(model, sources, passes)
+    if not data.rows.any():
+        raise no_row_left(report)
+    return Streamed(
+        observation=dataclasses.replace(windows, report=report),
+        data=data,
+        share=min(1.0, float(windows.used.sum() / data.rows.sum())),
+        samples=sum(facts.tally.count("samples") for facts in passes.facts),
+        reading=passes.to_json(),
+    )
 
 
 def identify_long(
@@ -170,11 +168,7 @@ def identify_long(
     Raises:
         DataError: another method, fewer rows than parameters, or no torque at all.
     """
-    if method not in OF_TRIANGLES:
-        raise DataError(
-            f"fit: method {method} reads every row again and again, and long logs are not kept in "
-            f"memory; expected {' or '.join(OF_TRIANGLES)}, or a part of the log, FILE@START:END"
-        )
+    method_of(method, "triangles")
     observation, data = streamed.observation, streamed.data
     gone = np.isin(np.arange(len(data.rows)), dead_joints(observation))
     data = dataclasses.replace(
@@ -200,11 +194,26 @@ def all_rows(
     Raises:
         DataError: as `stream`.
     """
-    _check_memory(model, sources)
-    known = KnownFacts()
+    if any(signal.kind == "slip" for signal in model.spec.signals):
+        raise WholeNeeded(
+            f"{sources[0].name}: an effect of {model.spec.robot} remembers its motion without end, "
+            "and long logs are read in chunks; fit a part of it, FILE@START:END"
+        )
+    known, total = KnownFacts(), max(1, sum(source.rows for source in sources))
     for number in range(1, PASSES + 1):
         found = survey(model, sources, processing or Processing(), known, rows)
-        every = list(_all_logs(model, sources, found, reducer, progress))
+        begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
+        every: list[Any] = []
+        done = 0
+        for source, parts in zip(sources, begun, strict=True):
+            whole: Any = None
+            for part in parts:
+                whole = part if whole is None else whole.over(part)
+                progress(min(1.0, (done + whole.facts.tally.count("rows")) / total))
+            if whole is None:
+                raise DataError(f"{source.name}: no rows; expected a motion; leave it out")
+            done += whole.facts.tally.count("rows")
+            every.append(whole)
         facts = tuple(part.facts for part in every)
         again = _again(facts, found, known)
         if again is None or number == PASSES:
@@ -240,28 +249,6 @@ def by_threads(
                 future.cancel()
 
 
-def _all_logs(
-    model: "CompiledModel",
-    sources: Sequence[Source],
-    found: Survey,
-    reducer: Reducer,
-    progress: Share,
-) -> Iterator[Any]:
-    """All chunks of each log in one."""
-    total, done = max(1, sum(source.rows for source in sources)), 0
-    begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
-    for source, parts in zip(sources, begun, strict=True):
-        whole: Any = None
-        for part in parts:
-            whole = part if whole is None else whole.over(part)
-            rows = whole.facts.tally.count("rows")
-            progress(min(1.0, (done + rows) / total))
-        if whole is None:
-            raise DataError(f"{source.name}: no rows; expected a motion; leave it out")
-        done += whole.facts.tally.count("rows")
-        yield whole
-
-
 def _again(facts: Sequence[Facts], found: Survey, known: KnownFacts) -> KnownFacts | None:
     """What another pass is to know; None if this one was given all."""
     low = found.chosen[0].processing.low_speed
@@ -295,15 +282,6 @@ def _check(model: "CompiledModel", sources: Sequence[Source], facts: Sequence[Fa
                 )
 
 
-def _check_memory(model: "CompiledModel", sources: Sequence[Source]) -> None:
-    """Refuse an effect that remembers all motion before."""
-    if any(signal.kind == "slip" for signal in model.spec.signals):
-        raise WholeNeeded(
-            f"{sources[0].name}: an effect of {model.spec.robot} remembers its motion without end, "
-            "and long logs are read in chunks; fit a part of it, FILE@START:END"
-        )
-
-
 def _repeats(model: "CompiledModel", j: int) -> bool:
     """True if a turn of a joint changes nothing in the model."""
     joints, signals = len(model.spec.joints), model.spec.signals
@@ -315,19 +293,3 @@ def _repeats(model: "CompiledModel", j: int) -> bool:
     except LoopError:
         return True
     return bool(np.allclose(here, there, rtol=1e-6, atol=1e-6))
-
-
-def _streamed(
-    model: "CompiledModel", sources: Sequence[Source], passes: Passes, every: Sequence[Compressed]
-) -> Streamed:
-    data, seen = reduce(merged, every), passes.found.observation
-    report = streamed_report(model, sources, passes)
-    if not data.rows.any():
-        raise no_row_left(report)
-    return Streamed(
-        observation=dataclasses.replace(seen, report=report),
-        data=data,
-        share=min(1.0, float(seen.used.sum() / data.rows.sum())),
-        samples=sum(facts.tally.count("samples") for facts in passes.facts),
-        reading=passes.to_json(),
-    )

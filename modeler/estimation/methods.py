@@ -1,4 +1,4 @@
-"""The table of estimators: one row each, from a problem to an estimate."""
+"""The table of estimators: one row each, from a problem to an estimate, and what each works on."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,6 +12,15 @@ from modeler.estimation.problem import Problem
 from modeler.estimation.ridge import ridge
 from modeler.estimation.robust import robust
 
+_REFUSALS = {
+    "rows": 'method is "{method}"; expected {capable}',
+    "triangles": "fit: method {method} reads every row again and again, and long logs are not kept "
+    "in memory; expected {capable}, or a part of the log, FILE@START:END",
+    "windows": "--method {method}: the energy model takes {capable}; leave out --method or --model "
+    "energy",
+}
+"""What an estimator may work on, and the sentence for one that does not."""
+
 
 @dataclass(frozen=True)
 class Estimator:
@@ -20,41 +29,43 @@ class Estimator:
     Attributes:
         about: id, title, law, source, and when not to use it.
         estimate: the function. Raises DataError where the problem gives it nothing to work on.
+        works_on: "rows"; "triangles", if it needs no row again once these are there; "windows" of
+            the energy model.
     """
 
     about: About
     estimate: Callable[[Problem], Estimate]
+    works_on: tuple[str, ...] = ("rows",)
 
 
-def method_of(method: str) -> Estimator:
+_EVERYTHING = tuple(_REFUSALS)
+_ROWS: dict[Method, Callable[[Problem], Estimate]] = {
+    "robust": robust, "ridge": ridge, "iv": iv, "iv-direct": iv_direct, "didim": didim,
+    "consistent": buildable,
+}  # fmt: skip
+METHODS: dict[Method, Estimator] = {
+    "weighted": Estimator(
+        ABOUT["weighted"], lambda problem: least_squares(problem.data, "weighted"), _EVERYTHING
+    ),
+    "ordinary": Estimator(ABOUT["ordinary"], ordinary, _EVERYTHING),
+    **{id: Estimator(ABOUT[id], estimate) for id, estimate in _ROWS.items()},
+}
+"""By id, in the order in which they are told."""
+
+
+def capable(of: str) -> tuple[Method, ...]:
+    """Ids of the estimators that work on such data."""
+    return tuple(id for id, estimator in METHODS.items() if of in estimator.works_on)
+
+
+def method_of(method: str, of: str = "rows") -> Estimator:
     """The estimator of that id.
 
     Raises:
-        DataError: there is none.
+        DataError: there is none, or it does not work on such data.
     """
-    if method not in METHODS:
-        raise DataError(f'method is "{method}"; expected {_listed()}')
-    return METHODS[method]
-
-
-def _listed() -> str:
-    *first, last = METHODS
-    return f"{', '.join(first)} or {last}"
-
-
-def _weighted(problem: Problem) -> Estimate:
-    return least_squares(problem.data, "weighted")
-
-
-_FUNCTIONS: dict[Method, Callable[[Problem], Estimate]] = {
-    "weighted": _weighted,
-    "ordinary": ordinary,
-    "robust": robust,
-    "ridge": ridge,
-    "iv": iv,
-    "iv-direct": iv_direct,
-    "didim": didim,
-    "consistent": buildable,
-}
-METHODS: dict[str, Estimator] = {id: Estimator(ABOUT[id], _FUNCTIONS[id]) for id in _FUNCTIONS}
-"""By id, in the order in which they are told."""
+    for id in capable(of):
+        if id == method:
+            return METHODS[id]
+    *first, last = capable(of)
+    raise DataError(_REFUSALS[of].format(method=method, capable=f"{', '.join(first)} or {last}"))

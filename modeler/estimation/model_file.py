@@ -22,7 +22,6 @@ from modeler.core.json import JsonError, PlainError, check_fields, entries, pars
 from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, module_from_plain
 from modeler.core.result import Presented
 from modeler.core.table import percent
-from modeler.estimation.essential import Reduced
 from modeler.estimation.result import FitResult, fit_from_json
 from modeler.observation.log import LogRows, shared_rows
 from modeler.observation.processing import Processing
@@ -177,16 +176,11 @@ class IdentifiedModel(Presented):
         # Only here: a model file can be read and printed where there is no compiler.
         from modeler.runtime.model import load
 
-        return load(self.spec, self.sources, _log_table(self.robot_text))
-
-
-def _log_table(robot_text: str) -> Mapping[str, Any]:
-    """The [log] of a robot file."""
-    try:
-        table = tomllib.loads(robot_text).get("log", {})
-    except ValueError:
-        return {}
-    return table if isinstance(table, Mapping) else {}
+        try:
+            table = tomllib.loads(self.robot_text).get("log", {})
+        except ValueError:
+            table = {}
+        return load(self.spec, self.sources, table if isinstance(table, Mapping) else {})
 
 
 def provenance(report: DataReport) -> tuple[LogProvenance, ...]:
@@ -285,7 +279,10 @@ def _read(path: Path) -> dict[str, Any]:
         ) from None
     except JsonError as error:
         if _is_robot_file(path):
-            raise _a_robot(path) from None
+            raise ManifestError(
+                f"{path}: is a robot; expected a model: make one with "
+                f"`modeler fit {shlex.quote(str(path))} LOG --out MODEL.json`"
+            ) from None
         raise ManifestError(
             f"{path}: not a model file: it {error}; expected the output of `modeler fit --out`"
         ) from None
@@ -306,13 +303,6 @@ def _is_robot_file(path: Path) -> bool:
         return path.suffix.lower() == ".toml"
 
 
-def _a_robot(path: Path) -> ManifestError:
-    return ManifestError(
-        f"{path}: is a robot; expected a model: make one with "
-        f"`modeler fit {shlex.quote(str(path))} LOG --out MODEL.json`"
-    )
-
-
 def _entry(raw: Mapping[str, Any], name: str, kind: Any, where: str) -> Any:
     if name not in raw:
         raise ManifestError(f"{where}: damaged, {name} is missing; fit the model again")
@@ -324,7 +314,13 @@ def _entry(raw: Mapping[str, Any], name: str, kind: Any, where: str) -> Any:
 
 def checksums(content: Mapping[str, Any]) -> dict[str, str]:
     """{entry: checksum} of every entry of a model file but the checksums themselves."""
-    return {name: _checksum(value) for name, value in content.items() if name != CHECKSUMS}
+    # Entries stay in their order: that of the joints says which torque is whose.
+    texts = {
+        name: json.dumps(value, separators=(",", ":"), allow_nan=False)
+        for name, value in content.items()
+        if name != CHECKSUMS
+    }
+    return {name: hashlib.sha256(text.encode()).hexdigest()[:16] for name, text in texts.items()}
 
 
 def check_checksums(content: Mapping[str, Any], where: str) -> None:
@@ -340,7 +336,12 @@ def check_checksums(content: Mapping[str, Any], where: str) -> None:
             f"{'missing' if CHECKSUMS not in content else 'not as saved'}; fit the model again"
         )
     expected = checksums(content)
-    wrong = [name for name in dict.fromkeys([*expected, *given]) if _differs(name, expected, given)]
+    names = dict.fromkeys([*expected, *given])
+    wrong = [
+        name
+        for name in names
+        if name not in expected or name not in given or given[name] != expected[name]
+    ]
     if wrong:
         told = ", ".join(_MEANING.get(name, shown(name)) for name in wrong[:3])
         more = f" and {len(wrong) - 3} more" if len(wrong) > 3 else ""
@@ -348,16 +349,6 @@ def check_checksums(content: Mapping[str, Any], where: str) -> None:
             f"{where}: changed since it was saved, the checksum does not fit: {told}{more}; "
             f"{_REMEDY}"
         )
-
-
-def _differs(name: str, expected: Mapping[str, str], given: Mapping[str, Any]) -> bool:
-    return name not in expected or name not in given or given[name] != expected[name]
-
-
-def _checksum(value: Any) -> str:
-    # Entries stay in their order: that of the joints says which torque is whose.
-    text = json.dumps(value, separators=(",", ":"), allow_nan=False)
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def check_estimate(fit: FitResult, where: str) -> None:
@@ -426,8 +417,9 @@ def fitted_spec(model: IdentifiedModel) -> FittedSpec:
     Parameters that were set aside are 0. Drive gains, fitted or not, are those of the robot file;
     they are left out unless every joint has one.
     """
-    fit = model.fit
+    fit, joints = model.fit, model.spec.joints
     verdict = fit.verdict
+    gains = tuple(joint.drive_gain for joint in joints if joint.drive_gain is not None)
     return FittedSpec(
         method=fit.method,
         usable=None if verdict is None else verdict.usable,
@@ -437,7 +429,7 @@ def fitted_spec(model: IdentifiedModel) -> FittedSpec:
         parameters=tuple(
             FittedParameter(p.name, p.unit, p.value, p.sigma, p.essential) for p in fit.parameters
         ),
-        gains=_gains(model.spec),
+        gains=gains if len(gains) == len(joints) else (),
     )
 
 
@@ -468,12 +460,6 @@ def _remarks(model: IdentifiedModel) -> list[str]:
     return told
 
 
-def _gains(spec: ModuleSpec) -> tuple[float, ...]:
-    """Torque per drive unit, in the order of the joints; empty unless all are known."""
-    known = [joint.drive_gain for joint in spec.joints if joint.drive_gain is not None]
-    return tuple(known) if len(known) == len(spec.joints) else ()
-
-
 def with_essential_only(model: IdentifiedModel, where: str) -> IdentifiedModel:
     """The model with the values of its reduced model, all others 0.
 
@@ -484,16 +470,12 @@ def with_essential_only(model: IdentifiedModel, where: str) -> IdentifiedModel:
     Raises:
         DataError: the model was saved without one.
     """
-    reduced = model.fit.essential
+    fit, reduced = model.fit, model.fit.essential
     if reduced is None:
         raise DataError(
             f"{where}: holds no reduced model (--essential), it was fitted by an earlier version; "
             "fit it again"
         )
-    return dataclasses.replace(model, fit=_replaced(model.fit, reduced))
-
-
-def _replaced(fit: FitResult, reduced: Reduced) -> FitResult:
     found = {parameter.name: parameter for parameter in reduced.parameters}
     values = tuple(
         found.get(
@@ -502,7 +484,7 @@ def _replaced(fit: FitResult, reduced: Reduced) -> FitResult:
         for p in fit.parameters
     )
     deviations = np.array([p.sigma or 0.0 for p in values])
-    return dataclasses.replace(
+    fit = dataclasses.replace(
         fit,
         parameters=values,
         covariance=np.diag(deviations**2),
@@ -510,3 +492,4 @@ def _replaced(fit: FitResult, reduced: Reduced) -> FitResult:
         condition_number=reduced.condition_number,
         condition_scaled=reduced.condition_scaled,
     )
+    return dataclasses.replace(model, fit=fit)

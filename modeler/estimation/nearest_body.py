@@ -18,9 +18,10 @@ import numpy as np
 from scipy.sparse import csc_array, diags_array, eye_array, hstack, vstack
 
 from modeler.core.manifest import ModuleSpec, ParameterSpec
+from modeler.numerics.least_squares import column_lengths
 
 PREFIXES = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-_CORNER = {  # upper triangle of P, column after column: {prefix: factor}
+CORNER = {
     (0, 0): {"XX": -0.5, "YY": 0.5, "ZZ": 0.5},
     (0, 1): {"XY": -1.0},
     (1, 1): {"XX": 0.5, "YY": -0.5, "ZZ": 0.5},
@@ -32,6 +33,8 @@ _CORNER = {  # upper triangle of P, column after column: {prefix: factor}
     (2, 3): {"MZ": 1.0},
     (3, 3): {"M": 1.0},
 }
+"""Upper triangle of P, column after column: {prefix: factor}."""
+
 _ANSWERS = ("Solved", "AlmostSolved")
 
 
@@ -150,7 +153,7 @@ def _solved(
 def scales(machine: Machine, matrix: np.ndarray) -> np.ndarray:
     """(m,) one mass and one length per link: P = D P' D with a diagonal D keeps its sign."""
     length = np.linalg.norm(matrix, axis=0)
-    scale = np.where(length > 0.0, 1.0 / np.where(length > 0.0, length, 1.0), 1.0)
+    scale = 1.0 / column_lengths(matrix)
     for own in machine.links.values():
         inertia, moment = (
             max(length[own[p]] for p in prefixes) for prefixes in (PREFIXES[:6], PREFIXES[6:9])
@@ -175,7 +178,7 @@ def _bounds(machine: Machine, scale: np.ndarray, free: set[str]) -> tuple[csc_ar
         if name in free:
             continue
         kilogram = scale[own["M"]]
-        for (i, j), terms in _CORNER.items():
+        for (i, j), terms in CORNER.items():
             outside = 1.0 if i == j else np.sqrt(2.0)
             power = (i < 3) + (j < 3)
             metre = scale[own["MX"]] / kilogram

@@ -4,8 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from modeler.core.json import entries
 
 LOPSIDED = 2.0
@@ -46,36 +44,6 @@ class ParameterEstimate:
         names = "name value sigma relative_sigma_percent essential unit status"
         interval = None if self.interval is None else list(self.interval)
         return entries(self, names) | {"interval": interval}
-
-
-def estimates(
-    labels: Sequence[tuple[str, str]],
-    beta: np.ndarray,
-    sigma: np.ndarray,
-    kept: Sequence[int],
-    essential: Sequence[str],
-) -> tuple[ParameterEstimate, ...]:
-    """All parameters of an estimate.
-
-    Args:
-        labels: (c,) name and unit.
-        beta: (c,) values.
-        sigma: (c,) standard deviations.
-        kept: indices of those that were not set aside.
-        essential: names of the essential ones.
-    """
-    told, needed = set(kept), set(essential)
-    return tuple(
-        ParameterEstimate(
-            name=name,
-            unit=unit,
-            value=float(beta[i]),
-            sigma=float(sigma[i]) if i in told else None,
-            essential=name in needed,
-            status="estimated" if i in told else "set aside",
-        )
-        for i, (name, unit) in enumerate(labels)
-    )
 
 
 def read_parameter(entry: Mapping[str, Any]) -> ParameterEstimate:

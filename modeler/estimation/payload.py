@@ -10,6 +10,7 @@ import numpy as np
 from modeler.core.errors import DataError, Method
 from modeler.estimation.identify import Equations, base_equations, fit_equations
 from modeler.estimation.result import FitResult
+from modeler.numerics.least_squares import scaled_least_squares
 from modeler.observation.low_speed import signals_of
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
@@ -100,14 +101,13 @@ def loaded_equations(
     """
     _check(model, observation, payloads)
     equations = base_equations(observation)
-    torques = []
+    stacked = np.zeros((len(equations.y), 0))
     for payload in payloads:
         before = equations.y
         equations = _with_load(equations, model, observation, payload)
         if payload.mass is not None:
-            torques.append(before - equations.y)
+            stacked = np.column_stack([stacked, before - equations.y])
     weighed = tuple(payload for payload in payloads if payload.mass is not None)
-    stacked = np.column_stack(torques) if torques else np.zeros((len(equations.y), 0))
     loaded = Loaded(equations, weighed, stacked)
     blind = [
         f"{payload.name}: its mass of {payload.mass:g} kg is taken as given: these logs do not "
@@ -123,8 +123,25 @@ def _with_load(
     equations: Equations, model: "CompiledModel", observation: Observation, payload: Payload
 ) -> Equations:
     """The equations with the columns of a load that can be told apart, beside those there are."""
-    link = payload.link or _last_link(model)
-    columns, labels, units = _load_columns(model, observation, payload, link)
+    # The platform of a parallel robot, whose joints are the coordinates only, or the last link.
+    closure = model.spec.closure
+    last = (
+        model.spec.joints[-1].name if closure is None else closure.carrier or closure.variables[-1]
+    )
+    link = payload.link or last
+    place = {p.name: i for i, p in enumerate(model.spec.standard) if p.effect == "rigid_body"}
+    labels = [label for label in _ORDER if f"{label}{link}" in place]
+    places = [place[f"{label}{link}"] for label in labels]
+    units = [model.spec.standard[i].unit for i in places]
+
+    def evaluate(s: Segment, w: slice) -> np.ndarray:
+        read = signals_of(model.spec, s)
+        part = None if read is None else read[w]
+        return model.regressor(s.q[w], s.qd[w], s.qdd[w], part)[:, :, places]
+
+    columns = observation.filtered(evaluate)[observation.used]
+    runs = [i for i, name in enumerate(observation.logs) if name in payload.logs]
+    columns[~np.isin(observation.row_run, runs)] = 0.0
     y = equations.y
     if payload.mass is not None:
         y = y - payload.mass * columns[:, labels.index("M")]
@@ -143,14 +160,6 @@ def _with_load(
         sentences=(*equations.sentences, *remarks),
         carried=(*equations.carried, *payload.logs),
     )
-
-
-def _last_link(model: "CompiledModel") -> str:
-    """The platform of a parallel robot, else the link of the last joint."""
-    closure = model.spec.closure
-    if closure is not None:  # whose joints are the coordinates only
-        return closure.carrier or closure.variables[-1]
-    return model.spec.joints[-1].name
 
 
 def _check(model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]) -> None:
@@ -183,42 +192,18 @@ def _check(model: "CompiledModel", observation: Observation, payloads: Sequence[
         )
 
 
-def _load_columns(
-    model: "CompiledModel", observation: Observation, payload: Payload, link: str
-) -> tuple[np.ndarray, list[str], list[str]]:
-    """(rows, 10) columns, zero on the other logs; their letters; their units."""
-    place = {p.name: i for i, p in enumerate(model.spec.standard) if p.effect == "rigid_body"}
-    labels = [label for label in _ORDER if f"{label}{link}" in place]
-    columns = [place[f"{label}{link}"] for label in labels]
-    runs = [i for i, name in enumerate(observation.logs) if name in payload.logs]
-
-    def evaluate(s: Segment, w: slice) -> np.ndarray:
-        read = signals_of(model.spec, s)
-        part = None if read is None else read[w]
-        return model.regressor(s.q[w], s.qd[w], s.qdd[w], part)[:, :, columns]
-
-    everywhere = observation.filtered(evaluate)
-    rows = everywhere[observation.used]
-    rows[~np.isin(observation.row_run, runs)] = 0.0
-    return rows, labels, [model.spec.standard[i].unit for i in columns]
-
-
 def _sums(
     base: np.ndarray, columns: np.ndarray, names: Sequence[str], kept: Sequence[int]
 ) -> dict[int, str]:
     """{kept column: the sum that its parameter stands for, "M3 + 11.1*YY3"}, of those that are."""
-    basis = np.column_stack([base, columns[:, kept]])
-    lengths = np.linalg.norm(basis, axis=0)
-    basis = basis / np.where(lengths > 0.0, lengths, 1.0)
+    basis, lengths = np.column_stack([base, columns[:, kept]]), np.linalg.norm(columns, axis=0)
     found: dict[int, str] = {}
     for i, name in enumerate(names):
-        length = float(np.linalg.norm(columns[:, i]))
-        if i in kept or length == 0.0 or not kept:
+        if i in kept or lengths[i] == 0.0 or not kept:
             continue
-        share = np.linalg.lstsq(basis, columns[:, i] / length, rcond=None)[0][-len(kept) :]
-        for k, part in zip(kept, share, strict=True):
-            if abs(part) > _TOLERANCE**0.5:
-                factor = part * length / float(np.linalg.norm(columns[:, k]))
+        factors = scaled_least_squares(basis, columns[:, i])[-len(kept) :]
+        for k, factor in zip(kept, factors, strict=True):
+            if abs(factor) * lengths[k] > _TOLERANCE**0.5 * lengths[i]:
                 term = f"{'-' if factor < 0.0 else '+'} {abs(factor):.4g}*{name}"
                 found[k] = f"{found.get(k, names[k])} {term}"
     return found

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.numerics.least_squares import Compressed, compress
+from modeler.numerics.least_squares import Compressed
 from modeler.observation.observation import Evaluated, Observation
-from modeler.observation.reduce import blocks, explained, is_streamed, products, triangles
+from modeler.observation.reduce import blocks, explained, is_streamed, products
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel
@@ -19,32 +19,10 @@ _PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows tim
 _ROWS = 64  # that a band matrix is applied to at a time
 
 
-def compressed(
-    observation: Observation, counted: np.ndarray, free: Sequence[int] = ()
-) -> Compressed:
-    """The base parameters' equations of some rows, compressed.
-
-    Args:
-        observation: of the rows.
-        counted: (rows,) True for those to use.
-        free: indices of the joints without a motor.
-    """
-    joints = len(observation.joints)
-    if not is_streamed(observation):
-        own = observation.W[counted], observation.y[counted], observation.row_joint[counted]
-        return compress(*own, joints, observation.names, free)
-    found = triangles(observation, kept_rows(observation, counted))
-    rows = found.rows.astype(np.intp)
-    return Compressed(observation.names, found.triangles, rows, np.isin(np.arange(joints), free))
-
-
 def residual_of(
     observation: Observation, beta: np.ndarray, counted: np.ndarray | None = None
 ) -> np.ndarray:
     """y - W beta of the base parameters, for all rows or those that are counted (rows,)."""
-    own = slice(None) if counted is None else counted
-    if not is_streamed(observation):
-        return np.asarray(observation.y[own] - observation.W[own] @ beta)
     keep = observation.used if counted is None else kept_rows(observation, counted)
     return np.asarray((observation.torque - explained(observation, beta, keep))[keep])
 
@@ -59,6 +37,7 @@ class Neighbours:
 
     def __init__(self, observation: Observation, counted: np.ndarray) -> None:
         self.observation, self.keep = observation, kept_rows(observation, counted)
+        # Of rows up to so far apart; kept, as most fits ask twice.
         self._products: tuple[list[int], list[np.ndarray] | None] | None = None
 
     def repeated(self, matrices: Sequence[np.ndarray], r: Sequence[np.ndarray]) -> np.ndarray:
@@ -70,7 +49,12 @@ class Neighbours:
             matrices: A_j (c, k) of each joint.
             r: r_j(0), r_j(1), ... of each joint; one value and no more for a joint to leave out.
         """
-        found = self._made([len(own) - 1 for own in r])
+        last = [len(own) - 1 for own in r]
+        found = None
+        if max(last) <= _PRODUCTS:
+            if self._products is None or np.any(np.array(last) > self._products[0]):
+                self._products = last, products(self.observation, self.keep, last)
+            found = self._products[1]
         if found is None:
             return _by_blocks(self.observation, self.keep, matrices, r)
         total = np.zeros(matrices[0].shape[1])
@@ -79,14 +63,6 @@ class Neighbours:
             for weight, product in zip(r[j][1:], own, strict=False):
                 total += 2.0 * weight * np.einsum("ak,ak->k", A, product @ A)
         return total
-
-    def _made(self, last: list[int]) -> list[np.ndarray] | None:
-        """Products of rows up to so far apart, or farther; kept, as most fits ask twice."""
-        if max(last) > _PRODUCTS:
-            return None
-        if self._products is None or np.any(np.array(last) > self._products[0]):
-            self._products = last, products(self.observation, self.keep, last)
-        return self._products[1]
 
 
 def kept_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
@@ -180,6 +156,12 @@ class Problem:
     def streamed(self) -> bool:
         """True if W is better not asked for: it is large."""
         return self.given is None and is_streamed(self.observation)
+
+    def scattered(self, kept: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """(rows, c) of values (counted rows, kept columns); 0 elsewhere."""
+        every = np.zeros((len(self.y), len(self.names)))
+        every[np.ix_(self.counted, kept)] = values
+        return every
 
     @property
     def joint(self) -> np.ndarray:

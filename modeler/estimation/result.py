@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, ManifestError
-from modeler.core.json import entries, nulled
+from modeler.core.json import built, entries, nulled
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Presented
 from modeler.core.table import POOLED, errors_by_unit, percent, told_by_unit
@@ -163,14 +163,8 @@ class EnergyReport(Brief):
 
 def energy_report_from_json(raw: Mapping[str, Any] | None) -> EnergyReport | None:
     """Read `EnergyReport.to_json` back; None for a fit of the torque model."""
-    if raw is None:
-        return None
-    return EnergyReport(
-        window=float(raw["window"]),
-        relative_error=float(raw["relative_error"]),
-        figures=tuple(ModelFigures(**entry) for entry in raw["figures"]),
-        parameters=int(raw["parameters"]),
-    )
+    fields = ("window", "relative_error", "figures", "parameters")
+    return None if raw is None else built(EnergyReport, {name: raw[name] for name in fields})
 
 
 # Friction by direction: what viscous, Coulomb, their asymmetry and the offset come to.
@@ -182,18 +176,6 @@ _LAW = (
     ("Fv", "-", (("viscous", 1.0), ("asymmetric_viscous", -1.0))),
     ("Fs", "-", (("coulomb", 1.0), ("offset", -1.0))),
 )
-
-
-class Fitted(Protocol):
-    """What of a fit enters here."""
-
-    @property
-    def parameters(self) -> tuple[ParameterEstimate, ...]:
-        """(c,) base parameters."""
-
-    @property
-    def covariance(self) -> np.ndarray:
-        """(c, c) of their values."""
 
 
 @dataclass(frozen=True)
@@ -225,7 +207,7 @@ def directed_from_json(raw: Mapping[str, Any]) -> Directed:
     return Directed(**{k: v for k, v in raw.items() if k != "relative_sigma_percent"})
 
 
-def friction_by_direction(spec: ModuleSpec, fit: Fitted) -> tuple[Directed, ...]:
+def friction_by_direction(spec: ModuleSpec, fit: "FitResult") -> tuple[Directed, ...]:
     """Friction by direction of the joints whose viscous friction differs between the directions.
 
     The law of the columns qd, |qd|, sign(qd), 1 is that of two slopes and two levels,
@@ -252,29 +234,17 @@ def friction_by_direction(spec: ModuleSpec, fit: Fitted) -> tuple[Directed, ...]
         if ("asymmetric_viscous", joint.name) not in column:
             continue
         for prefix, sign, parts in _LAW:
-            used = [(column[key, joint.name], c) for key, c in parts if (key, joint.name) in column]
             if (parts[0][0], joint.name) not in column:  # another carries it
                 continue
-            found.append(_sum(f"{prefix}{joint.name}{sign}", used, parameters, covariance))
+            used = [(column[key, joint.name], c) for key, c in parts if (key, joint.name) in column]
+            at, c = [i for i, _ in used], np.array([factor for _, factor in used])
+            name = f"{prefix}{joint.name}{sign}"
+            terms = " ".join(f"{'+' if f > 0 else '-'} {parameters[i].name}" for i, f in used)
+            value = float(c @ [parameters[i].value for i in at])
+            sigma = max(float(c @ covariance[np.ix_(at, at)] @ c), 0.0) ** 0.5
+            relation = f"{name} = {terms.removeprefix('+ ')}"
+            found.append(Directed(name, parameters[at[0]].unit, value, sigma, relation))
     return tuple(found)
-
-
-def _sum(
-    name: str,
-    used: list[tuple[int, float]],
-    parameters: tuple[ParameterEstimate, ...],
-    covariance: np.ndarray,
-) -> Directed:
-    at, c = [i for i, _ in used], np.array([factor for _, factor in used])
-    variance = float(c @ covariance[np.ix_(at, at)] @ c)
-    terms = " ".join(f"{'+' if f > 0 else '-'} {parameters[i].name}" for i, f in used)
-    return Directed(
-        name=name,
-        unit=parameters[at[0]].unit,
-        value=float(c @ [parameters[i].value for i in at]),
-        sigma=max(variance, 0.0) ** 0.5,
-        relation=f"{name} = {terms.removeprefix('+ ')}",
-    )
 
 
 def direction_lines(directions: tuple[Directed, ...]) -> list[str]:
@@ -443,6 +413,7 @@ class FitResult(Presented):
 
     def to_json(self) -> dict[str, Any]:
         """The `fit` object that scripts read; numbers that mean nothing are null."""
+        verdict = self.verdict
         return nulled({
             **entries(self, "robot method status samples rows condition_number condition_scaled"),
             "relative_error": self.relative_error,
@@ -459,7 +430,10 @@ class FitResult(Presented):
             "directions": self.directions,
             "model": "torque" if self.energy is None else "energy",
             "energy": self.energy,
-            **_verdict_to_json(self.verdict),
+            "usable": None if verdict is None else verdict.usable,
+            "usable_for": None if verdict is None else verdict.usable_for,
+            "verdict": None if verdict is None else verdict.line,
+            "doubts": [] if verdict is None else verdict.doubts,
             **({"reading": dict(self.reading)} if self.reading else {}),
         })  # fmt: skip
 
@@ -520,17 +494,6 @@ def _joints_from_json(raw: Mapping[str, Any]) -> tuple[JointFit, ...]:
     return tuple(JointFit(name=name, **entry) for name, entry in raw.items())
 
 
-def _verdict_to_json(verdict: Verdict | None) -> dict[str, Any]:
-    if verdict is None:
-        return {"usable": None, "usable_for": None, "verdict": None, "doubts": []}
-    return {
-        "usable": verdict.usable,
-        "usable_for": verdict.usable_for,
-        "verdict": verdict.line,
-        "doubts": list(verdict.doubts),
-    }
-
-
 def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
     """None where nobody has judged the fit, as in files of earlier versions."""
     usable, line, doubts = raw.get("usable"), raw.get("verdict"), raw.get("doubts", [])
@@ -553,27 +516,19 @@ def bodies_told(standard: Mapping[str, float]) -> list[str]:
             out.
     """
     lines = []
-    for link in [
-        name[1:] for name in standard if name.startswith("M") and _is_link(name, standard)
-    ]:
-        mass, centre, moments = _body(link, standard)
+    prefixes = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ")
+    for name, mass in standard.items():
+        link = name[1:]
+        ten = [standard.get(f"{prefix}{link}") for prefix in prefixes]
+        if not name.startswith("M") or mass <= 0.0 or None in ten:
+            continue
+        xx, xy, xz, yy, yz, zz, *first = np.array(ten, dtype=float)
+        centre = np.array(first) / mass
+        origin = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        about = origin - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
+        moments = np.linalg.eigvalsh(about)
         lines.append(
             f"link {link}: {_ROUND(mass)} kg, centre ({', '.join(map(_ROUND, centre))}) m, "
             f"principal moments {', '.join(map(_ROUND, moments))} kg m2"
         )
     return lines
-
-
-def _is_link(name: str, standard: Mapping[str, float]) -> bool:
-    prefixes = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ")
-    return standard[name] > 0.0 and all(f"{p}{name[1:]}" in standard for p in prefixes)
-
-
-def _body(link: str, standard: Mapping[str, float]) -> tuple[float, np.ndarray, np.ndarray]:
-    xx, xy, xz, yy, yz, zz, mx, my, mz, mass = (
-        standard[f"{p}{link}"] for p in ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-    )
-    centre = np.array([mx, my, mz]) / mass
-    origin = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    about = origin - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
-    return mass, centre, np.linalg.eigvalsh(about)

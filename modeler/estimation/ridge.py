@@ -56,6 +56,10 @@ def ridge(problem: Problem) -> Estimate:
     beta[kept] = prior[kept] + found.mean / lengths[kept]
     covariance[np.ix_(kept, kept)] = found.covariance / np.outer(lengths[kept], lengths[kept])
     aside = tuple(tangle for tangle in start.rank.aside if not tangle.into)
+    # The prior as further rows, D / t (beta - beta_0) = 0.
+    rows = np.zeros((len(kept), whole.shape[1]))
+    rows[np.arange(len(kept)), kept] = lengths[kept] / found.width
+    rows[:, -1] = rows[:, :-1] @ prior
     return dataclasses.replace(
         start,
         beta=beta,
@@ -63,7 +67,7 @@ def ridge(problem: Problem) -> Estimate:
         rank=Rank(tuple(map(int, kept)), aside, start.rank.last_kept, start.rank.first_dropped),
         condition_scaled=float(np.sqrt(np.linalg.cond(found.covariance))),
         sentences=_told(problem, start, found, known),
-        whole=_augmented(whole, lengths, prior, kept, found.width),
+        whole=triangle(np.vstack([whole, rows])),
     )
 
 
@@ -108,16 +112,6 @@ def _posterior(X: np.ndarray, y: np.ndarray) -> _Posterior:
         width=float(np.exp(weight @ np.log(widths[near]))),
         told=float(weight @ (s**2 * spread).sum(axis=1)),
     )
-
-
-def _augmented(
-    whole: np.ndarray, lengths: np.ndarray, prior: np.ndarray, kept: np.ndarray, width: float
-) -> np.ndarray:
-    """The triangle of the data with the prior as further rows, D / t (beta - beta_0) = 0."""
-    rows = np.zeros((len(kept), whole.shape[1]))
-    rows[np.arange(len(kept)), kept] = lengths[kept] / width
-    rows[:, -1] = rows[:, :-1] @ prior
-    return triangle(np.vstack([whole, rows]))
 
 
 def _told(

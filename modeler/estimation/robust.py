@@ -1,17 +1,21 @@
 """Iteratively reweighted least squares: rows that do not fit lose their say."""
 
+import dataclasses
+from collections.abc import Callable
+
 import numpy as np
 
 from modeler.core.table import percent
 from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
 from modeler.estimation.problem import Problem
+from modeler.numerics.least_squares import triangle
+from modeler.numerics.noise import robust_deviation
 
 HUBER = 1.345
 TUKEY = 4.685
 """Standard deviations from which a row's weight falls (Huber) and is 0 (Tukey): both lose 5 % of
 efficiency on Gaussian noise (Holland and Welsch 1977)."""
 
-_MAD = 1.4826  # median of |u| of Gaussian noise, inverted
 _ITERATIONS = 200
 _SETTLED = 1e-8  # step, in standard deviations of the parameters
 _TOLD = 0.05  # share of a joint's rows with less than half a weight that is told; Gaussian: 1.7 %
@@ -41,19 +45,19 @@ def robust(problem: Problem) -> Estimate:
     covariance, pull, kept_residual = fit.sandwich()
     whole_covariance = np.zeros((len(beta), len(beta)))
     whole_covariance[np.ix_(kept, kept)] = covariance
-    return Estimate(
+    residual = np.zeros(len(problem.y))
+    residual[problem.counted] = kept_residual
+    rows = np.column_stack([W, y]) * (np.sqrt(fit.weight) / fit.sigma[joint])[:, None]
+    return dataclasses.replace(
+        start,
         beta=beta,
         covariance=whole_covariance,
         sigma=fit.sigma,
-        rank=start.rank,
         iterations=fit.iterations,
         settled=settled,
-        condition_number=start.condition_number,
-        condition_scaled=start.condition_scaled,
-        degrees=start.degrees,
         sentences=_told(problem, fit.weight, joint),
-        influence=_spread_out(problem, kept, pull, kept_residual),
-        whole=_whole(problem, fit.weight, fit.sigma[joint]),
+        influence=Influence(problem.scattered(kept, pull), residual),
+        whole=triangle(rows),
     )
 
 
@@ -83,12 +87,12 @@ class _Reweighted:
         """To the fixed point of beta and scales; joints without a motor keep theirs."""
 
         def reweigh() -> None:
-            spread = np.abs(self._left())
+            left = self.residual - self.X @ self.step
             for j in np.flatnonzero(~free):
                 own = self.joint == j
                 if own.any():
-                    self.sigma[j] = max(_MAD * float(np.median(spread[own])), least[j])
-            self.weight = np.minimum(1.0, HUBER / np.maximum(self._scaled(), HUBER))
+                    self.sigma[j] = max(robust_deviation(left[own]), least[j])
+            self.weight = np.minimum(1.0, HUBER / np.maximum(np.abs(self._scaled()), HUBER))
 
         return self._iterate(reweigh)
 
@@ -96,18 +100,15 @@ class _Reweighted:
         """To the fixed point of beta, scales held."""
 
         def reweigh() -> None:
-            inside = np.minimum(self._scaled() / TUKEY, 1.0)
+            inside = np.minimum(np.abs(self._scaled()) / TUKEY, 1.0)
             self.weight = (1.0 - inside**2) ** 2
 
         return self._iterate(reweigh)
 
-    def _left(self) -> np.ndarray:
-        return np.asarray(self.residual - self.X @ self.step)
-
     def _scaled(self) -> np.ndarray:
-        return np.abs(self._left()) / self.sigma[self.joint]
+        return np.asarray((self.residual - self.X @ self.step) / self.sigma[self.joint])
 
-    def _iterate(self, reweigh) -> bool:  # type: ignore[no-untyped-def]
+    def _iterate(self, reweigh: Callable[[], None]) -> bool:
         for _ in range(_ITERATIONS):
             reweigh()
             weighted = self.X * (self.weight / self.sigma[self.joint] ** 2)[:, None]
@@ -120,7 +121,7 @@ class _Reweighted:
 
     def sandwich(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Covariance (k, k), pull (rows, k) and weighed residual (rows,)."""
-        u = self._left() / self.sigma[self.joint]
+        u = self._scaled()
         slope = np.where(np.abs(u) < TUKEY, (1 - (u / TUKEY) ** 2) * (1 - 5 * (u / TUKEY) ** 2), 0)
         counts = np.bincount(self.joint, minlength=len(self.sigma))
         means = np.bincount(self.joint, slope, len(self.sigma)) / np.maximum(counts, 1)
@@ -133,21 +134,6 @@ class _Reweighted:
         covariance = middle.T @ middle * rows / max(1, rows - columns)
         back = pull @ self.root.T / self.sigma[self.joint][:, None]
         return self.root @ covariance @ self.root.T, back, psi * self.sigma[self.joint]
-
-
-def _spread_out(
-    problem: Problem, kept: np.ndarray, pull: np.ndarray, residual: np.ndarray
-) -> Influence:
-    every = np.zeros(problem.W.shape)
-    every[np.ix_(problem.counted, kept)] = pull
-    left = np.zeros(len(problem.y))
-    left[problem.counted] = residual
-    return Influence(every, left)
-
-
-def _whole(problem: Problem, weight: np.ndarray, sigma: np.ndarray) -> np.ndarray:
-    rows = np.column_stack([problem.W[problem.counted], problem.y[problem.counted]])
-    return np.asarray(np.linalg.qr(rows * (np.sqrt(weight) / sigma)[:, None], mode="r"))
 
 
 def _told(problem: Problem, weight: np.ndarray, joint: np.ndarray) -> tuple[str, ...]:

@@ -1,7 +1,7 @@
 """All estimators on the same rows: values, errors, time, and what each says of itself."""
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -93,7 +93,33 @@ def side_by_side(
         DataError: what the weighted fit raises. What another method refuses stands in its row.
     """
     first = identify(observation, FIRST, model)
-    return tuple(_each(observation, model, held_out, methods, first, progress))
+    tried = []
+    for count, method in enumerate(methods, start=1):
+        start, refusal, fit = time.perf_counter(), "", None
+        try:
+            fit = identify(observation, method, model)
+        except ModelerError as error:
+            refusal = str(error)
+        seconds = time.perf_counter() - start
+        apart = [
+            (own.name, abs(own.value - other.value) / max(own.sigma, other.sigma))
+            for own, other in zip(fit.parameters if fit else (), first.parameters, strict=False)
+            if method != FIRST and own.sigma and other.sigma
+        ]
+        tried.append(
+            Tried(
+                method=method,
+                fit=fit,
+                refusal=refusal,
+                seconds=seconds,
+                held_out=held_out_error(held_out, fit.beta) if fit and held_out else None,
+                farthest=max(apart, key=lambda pair: pair[1]) if apart else None,
+                remarks=fit.own if fit and fit.own else (f"not {ABOUT[method].avoid}",),
+            )
+        )
+        if progress is not None:
+            progress(count / len(methods))
+    return tuple(tried)
 
 
 def held_out_error(observation: Observation, beta: np.ndarray) -> float:
@@ -102,40 +128,3 @@ def held_out_error(observation: Observation, beta: np.ndarray) -> float:
     norms = [np.linalg.norm(y[observation.row_joint == j]) for j in range(len(observation.joints))]
     seen = (np.array(norms) > 0.0)[observation.row_joint]
     return float(np.linalg.norm(rest[seen]) / max(float(np.linalg.norm(y)), 1e-300))
-
-
-def _each(
-    observation: Observation,
-    model: CompiledModel,
-    held_out: Observation | None,
-    methods: Sequence[Method],
-    first: FitResult,
-    progress: Callable[[float], None] | None,
-) -> Iterator[Tried]:
-    for count, method in enumerate(methods, start=1):
-        start, refusal, fit = time.perf_counter(), "", None
-        try:
-            fit = identify(observation, method, model)
-        except ModelerError as error:
-            refusal = str(error)
-        seconds = time.perf_counter() - start
-        yield Tried(
-            method=method,
-            fit=fit,
-            refusal=refusal,
-            seconds=seconds,
-            held_out=held_out_error(held_out, fit.beta) if fit and held_out else None,
-            farthest=_farthest(fit, first) if fit and method != FIRST else None,
-            remarks=fit.own if fit and fit.own else (f"not {ABOUT[method].avoid}",),
-        )
-        if progress is not None:
-            progress(count / len(methods))
-
-
-def _farthest(fit: FitResult, first: FitResult) -> tuple[str, float] | None:
-    pairs = [
-        (own.name, abs(own.value - other.value) / max(own.sigma, other.sigma))
-        for own, other in zip(fit.parameters, first.parameters, strict=True)
-        if own.sigma and other.sigma
-    ]
-    return max(pairs, key=lambda pair: pair[1]) if pairs else None

@@ -73,9 +73,10 @@ def mixed_tls(data: Compressed, known: int, value: float = 1.0) -> GainEstimate 
         known: index of that column.
         value: of its parameter.
     """
-    units = np.where(data.free, 1.0, _rms(data))
+    units = np.where(data.free, 1.0, data.torque_rms())
     scaled = _with_torque(data, 1.0 / np.where(units > 0.0, units, 1.0))
-    sigma = np.where(data.free & (_rms(data) == 0.0), _size(data), 1.0)
+    size = np.linalg.norm(data.triangles[:, :, :-1], axis=(1, 2)) + 1e-300
+    sigma = np.where(data.free & (data.torque_rms() == 0.0), size, 1.0)
     whole = scaled.whole(sigma)[:, :-1]
     rank = independent_columns(whole, data.names)
     others = [i for i in range(len(data.names)) if i != known]
@@ -86,8 +87,7 @@ def mixed_tls(data: Compressed, known: int, value: float = 1.0) -> GainEstimate 
     gains, settled, iterations = np.ones(len(units)), False, 0
     sigma = least_squares(data).sigma
     while not settled and iterations < MAX_ITERATIONS:
-        step = _solve(data, kept, sigma, gains)
-        beta, updated = step.beta, step.gains
+        beta, updated, singular, vague = _solve(data, kept, sigma, gains)
         length = value / beta[known] if beta[known] else 1.0
         beta, updated = length * beta, np.where(data.free, 1.0, length * updated)
         if not (np.isfinite(updated).all() and updated.all()):
@@ -97,31 +97,32 @@ def mixed_tls(data: Compressed, known: int, value: float = 1.0) -> GainEstimate 
         gains, iterations = updated, iterations + 1
         sigma = _spread(data, gains, known, value)
     covariance = _covariance(data, kept, known, gains, beta, sigma)
-    return GainEstimate(gains, beta, covariance, sigma, rank, step.singular, step.vague, settled)
+    return GainEstimate(gains, beta, covariance, sigma, rank, singular, vague, settled)
 
 
-@dataclass(frozen=True, eq=False)
-class _Step:
-    """The null vector, of any length, and what tells how sure it is."""
+def _stacked(
+    data: Compressed, kept: np.ndarray, sigma: np.ndarray, torque: np.ndarray
+) -> np.ndarray:
+    """[W | V] over sigma: kept columns, then one for each drive with its torque (n, c + 1)."""
+    driven, c = np.flatnonzero(~data.free), len(kept)
+    stacked = np.zeros((*data.triangles.shape[:2], c + len(driven)))
+    stacked[:, :, :c] = data.triangles[:, :, kept] / sigma[:, None, None]
+    stacked[driven, :, c + np.arange(len(driven))] = torque[driven]
+    return stacked.reshape(-1, stacked.shape[2])
 
-    gains: np.ndarray
-    beta: np.ndarray
-    singular: np.ndarray
-    vague: np.ndarray
 
+def _solve(
+    data: Compressed, kept: np.ndarray, sigma: np.ndarray, gains: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """One mixed LS-TLS with given weights and given noise of the columns of V.
 
-def _solve(data: Compressed, kept: np.ndarray, sigma: np.ndarray, gains: np.ndarray) -> _Step:
-    """One mixed LS-TLS with given weights and given noise of the columns of V."""
+    Returns the null vector, of any length, beta (c,) and gains (n,); singular (d,); vague (n,).
+    """
     n, c = len(data.rows), len(kept)
     driven = np.flatnonzero(~data.free)
     noise = np.abs(gains) / np.sqrt(np.maximum(data.rows, 1))
-    blocks = []
-    for j in range(n):
-        block = np.zeros((data.triangles.shape[1], c + len(driven)))
-        block[:, :c] = data.triangles[j][:, kept] / sigma[j]
-        block[:, c:][:, driven == j] = -data.triangles[j][:, -1:] * noise[j] / sigma[j]
-        blocks.append(block)
-    stacked = np.vstack(blocks)
+    torque = -data.triangles[:, :, -1] * noise[:, None] / sigma[:, None]
+    stacked = _stacked(data, kept, sigma, torque)
     lengths = np.linalg.norm(stacked[:, :c], axis=0)
     stacked[:, :c] /= lengths
     R = triangle(stacked)
@@ -132,7 +133,7 @@ def _solve(data: Compressed, kept: np.ndarray, sigma: np.ndarray, gains: np.ndar
     beta[kept] = -np.linalg.solve(R[:c, :c], R[:c, c:] @ u) / lengths
     vague = np.zeros(n)
     vague[driven] = np.abs(right[-2]) if len(driven) > 1 else 0.0
-    return _Step(found, beta, singular, vague)
+    return beta, found, singular, vague
 
 
 def _with_torque(data: Compressed, gains: np.ndarray) -> Compressed:
@@ -164,14 +165,8 @@ def _covariance(
     driven = np.flatnonzero(~data.free)
     d = len(driven)
     kept = kept[kept != known]
-    blocks = []
-    for j in range(len(data.rows)):
-        block = np.zeros((data.triangles.shape[1], d + len(kept)))
-        torque = data.triangles[j][:, :-1] @ beta
-        block[:, :d][:, driven == j] = -torque[:, None] / gains[j] / sigma[j]
-        block[:, d:] = data.triangles[j][:, kept] / sigma[j]
-        blocks.append(block)
-    R = triangle(np.vstack(blocks))
+    torque = -(data.triangles[:, :, :-1] @ beta) / gains[:, None] / sigma[:, None]
+    R = triangle(np.roll(_stacked(data, kept, sigma, torque), d, axis=1))
     places = np.concatenate([np.arange(d), d + kept])
     covariance = np.zeros((d + len(beta),) * 2)
     lengths = np.linalg.norm(R, axis=0)  # 0 for the gain of a joint whose torque is noise
@@ -181,11 +176,3 @@ def _covariance(
     _, root = solve_by_qr(R, np.zeros(len(R)))
     covariance[np.ix_(places, places)] = root @ root.T
     return covariance
-
-
-def _rms(data: Compressed) -> np.ndarray:
-    return data.torque_norms() / np.sqrt(np.maximum(data.rows, 1))
-
-
-def _size(data: Compressed) -> np.ndarray:
-    return np.linalg.norm(data.triangles[:, :, :-1], axis=(1, 2)) + 1e-300

@@ -9,20 +9,19 @@ is the least squares of them, weighted by the covariance of step 1 (Hanssen, Hov
 """
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 
 from modeler.core.errors import DataError
-from modeler.estimation.along import Alone, SingleJointMotion, along
 from modeler.estimation.covariance import autocorrelation
 from modeler.estimation.least_squares import Estimate, least_squares
 from modeler.numerics.filters import LEAST_WEIGHT
 from modeler.numerics.least_squares import Compressed, compress
-from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
+from modeler.observation.segments import runs
 from modeler.runtime.model import CompiledModel
 
 # Where one joint moves and the others stand: the pieces of logs that a two-step fit uses.
@@ -98,61 +97,143 @@ def moves_alone(observation: Observation, directions: Directions) -> Moves:
         directions: of its joints.
     """
     segments = [part.segment for part in observation.stretches]
-    floors = _floors(observation, segments, directions)
-    found: list[Move] = []
-    several = total = 0.0
-    for number, segment in enumerate(segments):
-        labels = _labels(segment, floors, directions)
-        several += segment.step * float(np.sum((labels == _SEVERAL) & segment.whole))
-        total += segment.step * float(np.sum(segment.whole))
-        found += [Move(i, number, window) for i, window in _merged(_episodes(labels))]
-    return Moves(tuple(found), several, total)
-
-
-def _episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
-    """(joint, samples) from standstill to standstill; several where they move at any time of it.
-
-    Joints that come to rest together do so one after the other, and the last is not alone.
-    """
-    moving = np.flatnonzero(labels != _NONE)
-    cuts = np.flatnonzero(np.diff(moving) > 1) + 1
-    found = []
-    for run in np.split(moving, cuts) if moving.size else []:
-        joint = int(labels[run[0]]) if np.ptp(labels[run]) == 0 else _SEVERAL
-        found.append((joint, slice(int(run[0]), int(run[-1]) + 1)))
-    return found
-
-
-def _merged(episodes: list[tuple[int, slice]]) -> list[tuple[int, slice]]:
-    """Episodes of one joint alone, those that follow each other as one."""
-    found: list[tuple[int, slice]] = []
-    before = _SEVERAL
-    for joint, window in episodes:
-        if joint != _SEVERAL and joint == before:
-            found[-1] = (joint, slice(found[-1][1].start, window.stop))
-        elif joint != _SEVERAL:
-            found.append((joint, window))
-        before = joint
-    return found
-
-
-def _floors(
-    observation: Observation, segments: list[Segment], directions: Directions
-) -> np.ndarray:
-    """(n,) speed below which each joint stands."""
     speeds = np.concatenate([directions.joints(s.qd[s.whole]) for s in segments])
     tops = np.quantile(np.abs(speeds), _TOP, axis=0) if speeds.size else np.ones(speeds.shape[1])
     main = np.argmax(np.abs(directions.rows), axis=1)
     units = np.array([observation.joints[k].unit for k in main])
-    return STANDS * np.array([tops[units == unit].max() for unit in units])
+    floors = STANDS * np.array([tops[units == unit].max() for unit in units])
+    found: list[Move] = []
+    several = total = 0.0
+    for number, segment in enumerate(segments):
+        moves = np.abs(directions.joints(segment.qd)) > floors
+        count = moves.sum(axis=1)
+        labels = np.where(count > 1, _SEVERAL, np.where(count == 0, _NONE, moves.argmax(axis=1)))
+        labels = np.where(segment.whole, labels, _SEVERAL)
+        several += segment.step * float(np.sum((labels == _SEVERAL) & segment.whole))
+        total += segment.step * float(np.sum(segment.whole))
+        found += [Move(i, number, window) for i, window in _episodes(labels)]
+    return Moves(tuple(found), several, total)
 
 
-def _labels(segment: Segment, floors: np.ndarray, directions: Directions) -> np.ndarray:
-    """(samples,) index of the joint that moves alone, or that none or several do."""
-    moves = np.abs(directions.joints(segment.qd)) > floors
-    count = moves.sum(axis=1)
-    labels = np.where(count == 0, _NONE, np.where(count == 1, np.argmax(moves, axis=1), _SEVERAL))
-    return np.where(segment.whole, labels, _SEVERAL)
+def _episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
+    """(joint, samples) from standstill to standstill in which one joint moves alone.
+
+    Those of one joint that follow each other are one. Joints that come to rest together do so one
+    after the other, and the last is not alone: where several move at any time, all is left out.
+    """
+    found: list[tuple[int, slice]] = []
+    before = _SEVERAL
+    for start, stop in runs(labels != _NONE):
+        joint = int(labels[start]) if np.ptp(labels[start:stop]) == 0 else _SEVERAL
+        if joint != _SEVERAL and joint == before:
+            found[-1] = (joint, slice(found[-1][1].start, stop))
+        elif joint != _SEVERAL:
+            found.append((joint, slice(start, stop)))
+        before = joint
+    return found
+
+
+# What a model says of one joint that moves alone: known functions of its motion, and weights.
+#
+# While joint i moves alone, with position a, speed v and acceleration u, the torque of any joint k
+# is a sum of the functions u, v^2 and 1, each times 1, sin a or cos a, and of friction: what turns
+# about one axis is one rigid body. For joint i itself that is J u + A sin a + B cos a + friction,
+# four or five columns; for the others it holds J_ki and the centrifugal S_kii too (Hanssen, Hovland
+# and Brogardh 2000, sections 2.2 and 5). Their weights are linear in the base parameters.
+
+
+_EXACT = 1e-8  # relative; what is no sum of the functions differs by far more
+_POINTS = 60
+_REACH = 1.5  # rad or m
+_SEED = 1788
+
+_Function = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+
+FUNCTIONS: dict[str, _Function] = {
+    "qdd": lambda a, v, u: u,
+    "qdd sin": lambda a, v, u: u * np.sin(a),
+    "qdd cos": lambda a, v, u: u * np.cos(a),
+    "qd^2": lambda a, v, u: v**2,
+    "qd^2 sin": lambda a, v, u: v**2 * np.sin(a),
+    "qd^2 cos": lambda a, v, u: v**2 * np.cos(a),
+    "sin": lambda a, v, u: np.sin(a),
+    "cos": lambda a, v, u: np.cos(a),
+    "1": lambda a, v, u: np.ones_like(a),
+    "sign qd": lambda a, v, u: np.sign(v),
+    "qd": lambda a, v, u: v,
+    "|qd|": lambda a, v, u: np.abs(v),
+}
+"""Of position, speed and acceleration of the joint that moves; the first is its inertia."""
+
+
+@dataclass(frozen=True, eq=False)
+class SingleJointMotion:
+    """The torque of one joint while one moves alone: sum of theta * function, theta = V beta.
+
+    Attributes:
+        names: (p,) of `FUNCTIONS`, those that occur.
+        weights: (p, c) V.
+    """
+
+    names: tuple[str, ...]
+    weights: np.ndarray
+
+    def columns(self, a: np.ndarray, v: np.ndarray, u: np.ndarray) -> np.ndarray:
+        """(samples, p) of position, speed and acceleration of the joint that moves."""
+        return np.column_stack([FUNCTIONS[name](a, v, u) for name in self.names])
+
+
+def single_joint_motions(
+    model: CompiledModel,
+    q: np.ndarray,
+    a: float,
+    way: np.ndarray,
+    span: tuple[float, float],
+    felt: np.ndarray,
+) -> list[SingleJointMotion | None]:
+    """The torques felt by some joints while one moves alone; None for what is no such sum.
+
+    None also where nothing is felt.
+
+    Args:
+        model: the robot.
+        q: (n,) coordinates at some place of the motion.
+        a: position of the joint there.
+        way: (n,) speed of the coordinates at its speed 1.
+        span: range of its positions, for robots with loops.
+        felt: (k, n) directions of the joints that feel it.
+
+    Raises:
+        DataError: the model has effects that read more than the motion.
+    """
+    if model.spec.signals:
+        raise DataError(
+            f"{model.spec.robot}: the two-step fit knows friction that depends on the speed, and "
+            "some effect of the robot reads time, temperature or travel; use --method weighted"
+        )
+    rng = np.random.default_rng(_SEED)
+    if model.spec.closure is None:
+        span = (a - _REACH, a + _REACH)
+    places = rng.uniform(*span, _POINTS)
+    v, u = rng.uniform(-1.0, 1.0, (2, _POINTS))
+    moved = q + (places - a)[:, None] * way
+    rows = model.base_regressor(moved, v[:, None] * way, u[:, None] * way)
+    matrix = np.column_stack([function(places, v, u) for function in FUNCTIONS.values()])
+    found: list[SingleJointMotion | None] = []
+    for direction in felt:
+        values = np.einsum("tjc,j->tc", rows, direction)
+        weights = np.linalg.lstsq(matrix, values, rcond=None)[0]
+        size = np.abs(values).max()
+        if size == 0.0 or np.abs(matrix @ weights - values).max() > _EXACT * size:
+            found.append(None)
+            continue
+        kept = np.flatnonzero(np.abs(weights).max(axis=1) > _EXACT * size)
+        names = tuple(np.array([*FUNCTIONS])[kept].tolist())
+        found.append(SingleJointMotion(names, weights[kept]))
+    return found
+
+
+# Step 1 and step 2.
 
 
 _ROWS_PER_COLUMN = 3
@@ -263,7 +344,14 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
         else:
             found.append(step)
     if not found:
-        raise DataError(_nothing(observation, moves, left_out))
+        why = "".join(f"; {count} left out: {reason}" for reason, count in left_out.items())
+        raise DataError(
+            f"{', '.join(observation.logs)}: no piece in which one joint moves and the others "
+            f"stand ({moves.several:.3g} of {moves.total:.3g} s are motion of several){why}; "
+            "expected joints that move one after the other, at several configurations of the "
+            "others, as `modeler simulate --motion one-joint` makes them; use --method weighted "
+            "for these logs"
+        )
     configurations, rows, values = [], [], []
     for key in dict.fromkeys(c.key for c in found):
         alike, noise = _with_noise([c for c in found if c.key == key])
@@ -275,16 +363,12 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
     data, estimate = _second_step(observation, configurations, np.vstack(rows), np.hstack(values))
     return TwoStep(
         directions,
-        tuple(sorted(configurations, key=_order)),
+        tuple(sorted(configurations, key=lambda c: (c.joint, c.log, c.start))),
         left_out,
         moves.several,
         data,
         estimate,
     )
-
-
-def _order(configuration: Configuration) -> tuple[int, str, float]:
-    return configuration.joint, configuration.log, configuration.start
 
 
 def _second_step(
@@ -307,16 +391,6 @@ def _second_step(
     return data, dataclasses.replace(estimate, covariance=raised * estimate.covariance)
 
 
-def _nothing(observation: Observation, moves: Moves, left_out: dict[str, int]) -> str:
-    why = "".join(f"; {count} left out: {reason}" for reason, count in left_out.items())
-    return (
-        f"{', '.join(observation.logs)}: no piece in which one joint moves and the others stand "
-        f"({moves.several:.3g} of {moves.total:.3g} s are motion of several){why}; expected joints "
-        "that move one after the other, at several configurations of the others, as `modeler "
-        "simulate --motion one-joint` makes them; use --method weighted for these logs"
-    )
-
-
 def _first_step(
     model: CompiledModel, observation: Observation, directions: Directions, move: Move
 ) -> Configuration | str:
@@ -332,13 +406,16 @@ def _first_step(
         return "too short for the parallel filter"
     a, v, u = (directions.joints(x[window]) for x in (segment.q, segment.qd, segment.qdd))
     pose = np.median(a, axis=0)
-    alone = Alone(pose @ directions.rows, pose[i], way, (a[:, i].min(), a[:, i].max()))
+    span = a[:, i].min(), a[:, i].max()
     rows = part.rows.part(slice(int(numbers[0]), int(numbers[-1]) + 1), window)
     usable, others = _usable(part.usable[window], directions, i)
     used = rows.share(usable[:, None])[:, 0] >= LEAST_WEIGHT
     order = [i, *others]
     felt: list[Felt] = []
-    for k, found in zip(order, along(model, alone, directions.rows[order]), strict=True):
+    motions = single_joint_motions(
+        model, pose @ directions.rows, pose[i], way, span, directions.rows[order]
+    )
+    for k, found in zip(order, motions, strict=True):
         if found is not None:
             columns = found.columns(a[:, i], v[:, i], u[:, i])
             values = np.column_stack([columns, segment.tau[window] @ directions.rows[k]])

@@ -203,28 +203,28 @@ class TwoStepFit:
         )
         return lines
 
-    def _configuration(self, c: Configuration) -> dict[str, Any]:
-        names = self.steps.directions.names
-        return {
-            "log": c.log,
-            "start": c.start,
-            "end": c.end,
-            "joint": names[c.joint],
-            "others": self._others(c),
-            "rows": len(c.felt[0].residual),
-            "torques": {
-                names[f.joint]: {
-                    name: {"value": float(x), "sigma": float(s)}
-                    for name, x, s in zip(f.along.names, f.theta, f.sigma, strict=True)
-                }
-                for f in c.felt
-            },
-        }
-
     def to_json(self) -> dict[str, Any]:
         """The object `two_step` beside that of the fit."""
+        names = self.steps.directions.names
         return {
-            "configurations": [self._configuration(c) for c in self.steps.configurations],
+            "configurations": [
+                {
+                    "log": c.log,
+                    "start": c.start,
+                    "end": c.end,
+                    "joint": names[c.joint],
+                    "others": self._others(c),
+                    "rows": len(c.felt[0].residual),
+                    "torques": {
+                        names[f.joint]: {
+                            name: {"value": float(x), "sigma": float(s)}
+                            for name, x, s in zip(f.along.names, f.theta, f.sigma, strict=True)
+                        }
+                        for f in c.felt
+                    },
+                }
+                for c in self.steps.configurations
+            ],
             "left_out": dict(self.steps.left_out),
             "several_moving": self.steps.several,
             "excitation": [excitation.to_json() for excitation in self.excitation],

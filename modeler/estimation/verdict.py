@@ -2,7 +2,6 @@
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,19 +10,9 @@ from scipy.special import chdtri
 from modeler.core.errors import LoopError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
+from modeler.estimation import doubts
 from modeler.estimation.covariance import autocorrelation
-from modeler.estimation.doubts import (
-    LITTLE,
-    WIDE,
-    Doubt,
-    Told,
-    negative,
-    scarce,
-    systematic,
-    undescribed,
-    undetermined,
-    unshown,
-)
+from modeler.estimation.doubts import LITTLE, WIDE, Doubt, Told
 from modeler.estimation.identify import (
     CrossValidation,
     Equations,
@@ -31,9 +20,10 @@ from modeler.estimation.identify import (
     all_rows,
     base_equations,
     crossed,
+    errors_on,
 )
 from modeler.estimation.least_squares import solve_by_qr
-from modeler.estimation.nearest_body import Nearest, carried_by, machine_of, nearest_possible
+from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
 from modeler.estimation.result import FitResult, JointFit, Verdict, friction_by_direction
 from modeler.numerics.least_squares import Compressed, independent_columns, triangle
 from modeler.observation.observation import Observation
@@ -70,9 +60,17 @@ def time_doubts(model: "CompiledModel", observation: Observation, result: FitRes
     links are, counterweights and rotors included. A hundred times the robot's reach, on all joints
     that gravity loads, is another unit of time.
     """
-    found = [
-        doubt for log in observation.report.logs for doubt in _odd_step(log.name, 1.0 / log.rate)
-    ]
+    found = []
+    for log in observation.report.logs:
+        step = 1.0 / log.rate
+        if step > SLOW or step < 1.0 / _USUAL[1]:
+            what = (
+                "with which neither accelerations nor reversals are seen"
+                if step > SLOW
+                else "faster than robots are logged"
+            )
+            line = f"{log.name}: median time step {step:.3g} s, {what}: {_unit(step)}"
+            found.append(Doubt(line, certain=step > SLOW, values=step <= SLOW))
     ratio = _pendulum(model, observation, result)
     if not found and ratio > ABSURD:
         found.append(
@@ -84,17 +82,6 @@ def time_doubts(model: "CompiledModel", observation: Observation, result: FitRes
             )
         )
     return found
-
-
-def _odd_step(name: str, step: float) -> list[Doubt]:
-    if step > SLOW:
-        what = "with which neither accelerations nor reversals are seen"
-        return [Doubt(f"{name}: median time step {step:.3g} s, {what}: {_unit(step)}", True)]
-    if step < 1.0 / _USUAL[1]:
-        what = "faster than robots are logged"
-        line = f"{name}: median time step {step:.3g} s, {what}: {_unit(step)}"
-        return [Doubt(line, values=True)]
-    return []
 
 
 def _unit(step: float) -> str:
@@ -111,12 +98,15 @@ def _unit(step: float) -> str:
 
 def _pendulum(model: "CompiledModel", observation: Observation, result: FitResult) -> float:
     """Least J g / m over the reach, over the joints that turn and that gravity loads; 0 if none."""
-    q = _poses(model, observation)
+    q = observation.q[:: max(1, len(observation.q) // _POSES)]
+    if model.spec.closure is not None:
+        q = np.array([pose for pose in q if _closes(model, pose)]).reshape(-1, q.shape[1])
     kinds = np.array([base.kind for base in model.spec.base])
     links = np.where(kinds == "inertial", result.beta, 0.0)
     if not len(q):
         return 0.0
-    reach = _reach(model.forward_kinematics(q)[..., 3])
+    origins = model.forward_kinematics(q)[..., 3]
+    reach = float(np.linalg.norm(origins[:, :, None] - origins[:, None], axis=-1).max())  # m
     weight = np.abs(model.gravity(q, links)).max(axis=0)
     inertia = np.median(
         np.abs(np.diagonal(model.inertia_matrix(q, result.beta), axis1=1, axis2=2)), axis=0
@@ -129,25 +119,12 @@ def _pendulum(model: "CompiledModel", observation: Observation, result: FitResul
     return float(np.min(inertia[loaded] * _GRAVITY / weight[loaded]) / reach)
 
 
-def _poses(model: "CompiledModel", observation: Observation) -> np.ndarray:
-    """(n, joints) logged poses, at most 40 of them; those in which the loops close."""
-    q = observation.q[:: max(1, len(observation.q) // _POSES)]
-    if model.spec.closure is None:
-        return q
-    return np.array([pose for pose in q if _closes(model, pose)]).reshape(-1, q.shape[1])
-
-
 def _closes(model: "CompiledModel", pose: np.ndarray) -> bool:
     try:
         model.coupling(pose[None])
     except LoopError:
         return False
     return True
-
-
-def _reach(origins: np.ndarray) -> float:
-    """m; the largest distance of two frames in any of the poses (n, rows, 3)."""
-    return float(np.linalg.norm(origins[:, :, None] - origins[:, None], axis=-1).max())
 
 
 CHANCE = 1e-3
@@ -188,12 +165,12 @@ def with_verdict(
     seen = crossed(equations, rows, np.array([joint.sigma for joint in result.joints]), refit)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found += time_doubts(model, observation, result)
-    found = _with_poor(found, [*scarce(result, seen), *undescribed(result)])
+    found = _with_poor(found, [*doubts.scarce(result, seen), *doubts.undescribed(result)])
     if part:
-        found += unshown(result, seen, _scale(data, observation, rows))
-    found += systematic(result, _lasting(equations, rows, result))
-    found += undetermined(model.spec, result, _spread(data, result))
-    found += [*_impossible(model.spec, result, data), *negative(model.spec, result)]
+        found += doubts.unshown(result, seen, _scale(data, observation, rows))
+    found += doubts.systematic(result, _lasting(equations, rows, result))
+    found += doubts.undetermined(model.spec, result, _spread(data, result))
+    found += [*_impossible(model.spec, result, data), *doubts.negative(model.spec, result)]
     verdict = _verdict(found, _predicts(equations, rows, result, seen))
     directions = friction_by_direction(model.spec, result)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
@@ -209,7 +186,7 @@ def _predicts(
         return percent(float(np.fmax(np.nan_to_num(errors), np.nan_to_num(own)).max()))
 
     told = {
-        name: largest(seen.on(equations, own), result.by_load[name])
+        name: largest(errors_on(equations, seen.residual, own), result.by_load[name])
         for name, own in equations.conditions(rows).items()
         if name in result.by_load
     }
@@ -250,7 +227,9 @@ def contradictions(
     """
     data = data or all_rows(observation)
     found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
-    found = _with_poor([*found, *time_doubts(model, observation, result)], undescribed(result))
+    found = _with_poor(
+        [*found, *time_doubts(model, observation, result)], doubts.undescribed(result)
+    )
     found += _impossible(model.spec, result, data)
     return list(dict.fromkeys(doubt.line for doubt in found if doubt.certain))
 
@@ -297,8 +276,11 @@ def _spread(data: Compressed, result: FitResult) -> np.ndarray:
 
 def _impossible(spec: ModuleSpec, result: FitResult, data: Compressed) -> list[Doubt]:
     """Values that no completion makes those of a machine that could be built."""
-    machine = machine_of(spec)
-    white = _told_of_robot(data, result)
+    machine, c = machine_of(spec), len(result.beta)
+    # A root of what the rows tell of the robot's parameters, whatever those of loads are.
+    whole = data.whole(np.array([joint.sigma for joint in result.joints]))
+    loads = whole.shape[1] - 1 - c
+    white = triangle(np.hstack([whole[:, c:-1], whole[:, :c]]))[loads:, loads:]
     root = white / _colour(white, result)
     nearest = nearest_possible(machine, result.beta, root)
     limit = float(chdtri(max(1, np.linalg.matrix_rank(root)), CHANCE)) ** 0.5
@@ -306,24 +288,31 @@ def _impossible(spec: ModuleSpec, result: FitResult, data: Compressed) -> list[D
         return []
     blamed = carried_by(machine, result.beta, root, nearest.distance)
     names = [name if name in machine.positive else f"the mass of link {name}" for name in blamed]
-    cost = _cost(result, data, nearest)
+    # Relative errors with the fit and with the possible machine, and the joint that it costs most.
+    torque, values = data.torque_norms(), _values(result)
+    driven = np.flatnonzero(torque > 0.0)
+    moved = np.append(nearest.beta, values[len(nearest.beta) :])
+    errors = [data.residual_norms(beta)[driven] / torque[driven] for beta in (values, moved)]
+    worst = int(np.argmax(errors[1] - errors[0]))
+    before, after = (float(error[worst]) for error in errors)
+    cost = (
+        ""
+        if after < _FELT * before
+        else (
+            f"; the nearest possible one leaves {percent(after)} of the torque of joint "
+            f"{result.joints[driven[worst]].name}, not {percent(before)}"
+        )
+    )
     return [
         Doubt(
             f"no machine that could be built has these values: {nearest.distance:.3g} sigmas from "
             f"any, where {limit:.2g} are chance; carried by {', '.join(names) or 'no single link'}"
-            f"{cost.told()}; check signs, order and units of those channels, and let `modeler "
+            f"{cost}; check signs, order and units of those channels, and let `modeler "
             "diagnose` look for an effect that they stand in for",
-            certain=cost.after > max(LITTLE, WIDE * cost.before),
+            certain=after > max(LITTLE, WIDE * before),
             values=True,
         )
     ]
-
-
-def _told_of_robot(data: Compressed, result: FitResult) -> np.ndarray:
-    """(., c) root of what the rows tell of the robot's parameters, whatever those of loads are."""
-    whole, c = data.whole(np.array([joint.sigma for joint in result.joints])), len(result.beta)
-    loads = whole.shape[1] - 1 - c
-    return triangle(np.hstack([whole[:, c:-1], whole[:, :c]]))[loads:, loads:]
 
 
 def _colour(white: np.ndarray, result: FitResult) -> np.ndarray:
@@ -339,35 +328,6 @@ def _colour(white: np.ndarray, result: FitResult) -> np.ndarray:
         _, root = solve_by_qr(white[:, kept], np.zeros(len(white)))
         factors[kept] = np.maximum(raised[kept] / np.linalg.norm(root, axis=1), 1.0)
     return factors if kept.size == len(factors) else np.full(len(factors), factors.max())
-
-
-@dataclass(frozen=True)
-class _Cost:
-    """Relative error of the joint where a possible machine costs most, with the fit and with it."""
-
-    joint: str
-    before: float
-    after: float
-
-    def told(self) -> str:
-        """What goes behind the sentence."""
-        if self.after < _FELT * self.before:
-            return ""
-        return (
-            f"; the nearest possible one leaves {percent(self.after)} of the torque of joint "
-            f"{self.joint}, not {percent(self.before)}"
-        )
-
-
-def _cost(result: FitResult, data: Compressed, nearest: Nearest) -> _Cost:
-    torque = data.torque_norms()
-    driven = np.flatnonzero(torque > 0.0)
-    values = _values(result)
-    moved = np.append(nearest.beta, values[len(nearest.beta) :])
-    after = data.residual_norms(moved)[driven] / torque[driven]
-    before = data.residual_norms(values)[driven] / torque[driven]
-    worst = int(np.argmax(after - before))
-    return _Cost(result.joints[driven[worst]].name, float(before[worst]), float(after[worst]))
 
 
 def _verdict(found: Sequence[Doubt], good: str) -> Verdict:

@@ -94,6 +94,41 @@ def independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
     )
 
 
+# Columns of unlike units: scaled before anything is decomposed.
+
+
+def column_lengths(matrix: np.ndarray) -> np.ndarray:
+    """(c,) norms of the columns; 1 for a column of zeros."""
+    length = np.linalg.norm(matrix, axis=0)
+    return np.where(length > 0.0, length, 1.0)
+
+
+def scaled_least_squares(W: np.ndarray, y: np.ndarray, cutoff: float | None = None) -> np.ndarray:
+    """(c, ...) of least ||y - W beta||; 0 along directions that W does not see.
+
+    Args:
+        W: (rows, c), its columns scaled to length one.
+        y: (rows, ...).
+        cutoff: singular value, over the largest, below which nothing is seen; None: rounding.
+    """
+    length = column_lengths(W)
+    found = np.linalg.lstsq(W / length, y, rcond=cutoff)[0]
+    return np.asarray(found / length.reshape(-1, *(1,) * (found.ndim - 1)))
+
+
+def whitening(gram: np.ndarray, cutoff: float) -> np.ndarray:
+    """(c, r) T with T^T G T = 1 where G sees anything; T T^T is its pseudo-inverse.
+
+    Args:
+        gram: (c, c) G, symmetric, positive semi-definite; scaled to unit diagonal.
+        cutoff: eigenvalue of that, over the largest, below which nothing is seen.
+    """
+    length = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
+    values, vectors = np.linalg.eigh(gram / np.outer(length, length))
+    kept = values > cutoff * float(values.max(initial=1e-300))
+    return np.asarray(vectors[:, kept] / np.sqrt(values[kept]) / length[:, None])
+
+
 # The data of a fit as one small triangle per joint: everything else is computed from these.
 
 
@@ -122,6 +157,10 @@ class Compressed:
     def torque_norms(self) -> np.ndarray:
         """(n,) ||y_j||."""
         return np.linalg.norm(self.triangles[:, :, -1], axis=1)
+
+    def torque_rms(self) -> np.ndarray:
+        """(n,) root mean square of y_j."""
+        return self.torque_norms() / np.sqrt(np.maximum(self.rows, 1))
 
     def whole(self, sigma: np.ndarray) -> np.ndarray:
         """Triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j."""
@@ -279,12 +318,8 @@ def orthonormal(
 
 def turn_of(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
     """(c, r) that makes weighted columns orthonormal: see `orthonormal`."""
-    gram = sum((w.T @ w) / s**2 for w, s in zip(W, sigma, strict=True))
-    length = np.sqrt(np.diag(gram))
-    safe = np.where(length > 0.0, length, 1.0)
-    values, vectors = np.linalg.eigh(gram / np.outer(safe, safe))
-    kept = values > _PARALLEL * float(values.max(initial=1e-300))
-    return np.asarray(vectors[:, kept] / np.sqrt(values[kept]) / safe[:, None])
+    gram = np.asarray(sum((w.T @ w) / s**2 for w, s in zip(W, sigma, strict=True)))
+    return whitening(gram, _PARALLEL)
 
 
 # The median of weighted values.

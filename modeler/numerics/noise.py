@@ -38,6 +38,16 @@ LEAST = 4 * _HALF
 """Values below which nothing can be said."""
 
 
+def robust_deviation(values: np.ndarray) -> float:
+    """1.4826 median |values|: their standard deviation about 0 if most of them are Gaussian."""
+    return 1.4826 * float(np.median(np.abs(values)))
+
+
+def white_noise(values: np.ndarray) -> float:
+    """Standard deviation of white noise on a smooth signal, from its third differences."""
+    return robust_deviation(np.diff(values, 3)) / float(np.sqrt(20.0))
+
+
 def departures(values: np.ndarray) -> np.ndarray:
     """(n,) values less their running median over 11 samples: of a smooth signal all but nothing."""
     return np.asarray(values - running_median(values))
@@ -64,7 +74,7 @@ def threshold(departed: np.ndarray, resolution: float, share: float) -> float:
         return float("inf")
     rare = min(len(size) - 1, max(LEAST_RARE, round(share * len(size))))
     common = float(np.partition(size, len(size) - 1 - rare)[len(size) - 1 - rare])
-    return max(NOISES * 1.4826 * float(np.median(size)), CROWD * common, STEPS * resolution)
+    return max(NOISES * robust_deviation(departed), CROWD * common, STEPS * resolution)
 
 
 def spread(values: np.ndarray) -> np.ndarray:

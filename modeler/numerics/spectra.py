@@ -1,6 +1,5 @@
 """Spectra of motions and residuals, orders of a shaft, laps of a motion that repeats."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -195,30 +194,19 @@ def order_spectrum(q: np.ndarray, r: np.ndarray, unit: str, reached: float) -> O
     order, amplitude = order[kept], amplitude[kept]
     if order.size < 32:
         return None
-    floor = _floor(amplitude)
-    peaks = _peaks(order, amplitude, floor, resolution)
-    return OrderSpectrum(order, amplitude, floor, peaks, float(r @ r) / r.size)
-
-
-def _floor(amplitude: np.ndarray) -> np.ndarray:
-    """Median over a wide neighbourhood."""
+    # The floor is the median over a wide neighbourhood.
     width = max(16, len(amplitude) // 40)
     centres = np.arange(0, len(amplitude), width)
     medians = [np.median(amplitude[max(0, c - 2 * width) : c + 2 * width]) for c in centres]
-    return np.interp(np.arange(len(amplitude)), centres, medians)
-
-
-def _peaks(
-    order: np.ndarray, amplitude: np.ndarray, floor: np.ndarray, resolution: float
-) -> tuple[float, ...]:
+    floor = np.interp(np.arange(len(amplitude)), centres, medians)
     power = (amplitude / np.maximum(floor, 1e-300)) ** 2
-    found: list[float] = []
+    peaks: list[float] = []
     for place in np.argsort(-amplitude * (power > _STANDS_OUT)):
-        if power[place] < _STANDS_OUT or len(found) == _MOST:
+        if power[place] < _STANDS_OUT or len(peaks) == _MOST:
             break
-        if all(abs(order[place] - other) > 2.0 * resolution for other in found):
-            found.append(float(order[place]))
-    return tuple(found)
+        if all(abs(order[place] - other) > 2.0 * resolution for other in peaks):
+            peaks.append(float(order[place]))
+    return OrderSpectrum(order, amplitude, floor, tuple(peaks), float(r @ r) / r.size)
 
 
 # Motion that repeats itself within one log.
@@ -246,15 +234,9 @@ def lap(since: np.ndarray, q: np.ndarray) -> float:
     moved = [np.interp(even, since, q[:, j]) for j in range(q.shape[1]) if np.ptp(q[:, j]) > 0.0]
     if not moved:
         return 0.0
-    spread = [(x - x.mean()) / x.std() for x in moved]
-    return _first_peak(spread, step)
-
-
-def _first_peak(spread: Sequence[np.ndarray], step: float) -> float:
-    count = len(spread[0])
     likeness = np.ones(count // 2 + 1)
-    for x in spread:
-        likeness = np.minimum(likeness, _likeness(x, count // 2 + 1))
+    for x in moved:
+        likeness = np.minimum(likeness, _likeness((x - x.mean()) / x.std(), count // 2 + 1))
     first = int(SHORTEST / step)
     high = np.flatnonzero(likeness[first:] > ALIKE) + first
     low = np.flatnonzero(likeness < 0.8)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler.numerics.least_squares import whitening
 from modeler.observation.channels import SCALE, WRONG, Fault, turns
 from modeler.observation.observation import Observation
 from modeler.observation.thinned import ThinnedRows, thinned
@@ -124,13 +125,9 @@ def _gain(W: np.ndarray, tau: np.ndarray, used: np.ndarray, joints: list[int], f
 
 
 def _solved(X: np.ndarray, y: np.ndarray) -> np.ndarray:
-    length = np.linalg.norm(X, axis=0)
-    scaled = X / np.where(length > 0.0, length, 1.0)
     # Many fits of a few digits: normal equations, without what the data cannot tell.
-    values, vectors = np.linalg.eigh(scaled.T @ scaled)
-    told = values > _TOLD * values[-1]
-    found = vectors[:, told] @ ((vectors[:, told].T @ (scaled.T @ y)) / values[told])
-    return np.asarray(found / np.where(length > 0.0, length, 1.0))
+    turn = whitening(X.T @ X, _TOLD)
+    return np.asarray(turn @ (turn.T @ (X.T @ y)))
 
 
 def _left(X: np.ndarray, y: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.numerics.least_squares import weighted_median
-from modeler.numerics.noise import resolution
+from modeler.numerics.noise import resolution, robust_deviation, white_noise
 from modeler.observation.log import Log
 from modeler.observation.segments import Piece
 
@@ -355,7 +355,7 @@ def _contradicted(
     # A piece too short for the full window has the more noise in its quotients.
     noisier = [full / part.half for part in windows]
     scaled = [part.error[:, j] / n for part, n in zip(windows, noisier, strict=True)]
-    scatter = 1.4826 * float(np.median(np.abs(np.concatenate(scaled))))
+    scatter = robust_deviation(np.concatenate(scaled))
     size = float(size_of(np.concatenate([part.quotient[:, [j]] for part in windows]))[0])
     length = 2 * full * windows[0].step
     random = max(SCATTERS * scatter, STEPS * resolution / length)
@@ -440,11 +440,6 @@ def _misfit(logged: np.ndarray, quotient: np.ndarray, size: float) -> float:
 def _gain(logged: np.ndarray, quotient: np.ndarray) -> float:
     there = quotient != 0.0
     return weighted_median(logged[there] / quotient[there], np.abs(quotient[there]))
-
-
-def white_noise(values: np.ndarray) -> float:
-    """Standard deviation of white noise on a smooth signal, from its third differences."""
-    return 1.4826 * float(np.median(np.abs(np.diff(values, 3)))) / np.sqrt(20.0)
 
 
 def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:

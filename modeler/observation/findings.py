@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler.numerics.least_squares import scaled_least_squares
 from modeler.observation.channel_shift import faults_of_fit
 from modeler.observation.channels import Fault, faults
 from modeler.observation.observation import Observation
@@ -157,10 +158,8 @@ class _Fit:
     def left(self, W: np.ndarray) -> tuple[float, np.ndarray]:
         """The error that a fit leaves, and its solution."""
         X, y = self._stacked(W), self._stacked(self._rows.tau)
-        length = np.linalg.norm(X, axis=0)
-        X = X / np.where(length > 0.0, length, 1.0)
-        found = np.linalg.lstsq(X, y, rcond=1e-6)[0]
-        return float(np.linalg.norm(y - X @ found)), found / np.where(length > 0.0, length, 1.0)
+        beta = scaled_least_squares(X, y, 1e-6)
+        return float(np.linalg.norm(y - X @ beta)), beta
 
     def best(self, what: str, other: str, sign: float, columns: Columns, before: float) -> _Shift:
         """The shift of a channel that leaves least."""

@@ -10,13 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.derivation import derive, generate
+from modeler.codegen.derivation import derive
 from modeler.core.builtin import builtin_text
 from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.payload import Payload, identify_with_payloads
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.papers import Paper
 from modeler.papers.method_report import (
     MethodTable,
     Outcome,
@@ -26,11 +25,12 @@ from modeler.papers.method_report import (
     quoted,
     recovered,
 )
+from modeler.papers.paper import Paper
+from modeler.papers.simulated import compiled_robot, logged
 from modeler.robot.edit import with_drive_gains
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Limits, Robot
 from modeler.runtime.model import CompiledModel
-from modeler.runtime.model import load as load_compiled
 from modeler.simulation import SimulatedLog, SimulationSettings, hidden_from_text, simulate
 
 ROBOT = "orthoglide-2012"
@@ -52,14 +52,22 @@ def briot_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodT
     gains = {f"1{k}": table[f"gtau{k}"][0] for k in "123"}
     (maker,) = quoted(paper, "637pi")[1:]
     mass, second = quoted(paper, "M7 = 1.983kg")[0], quoted(paper, "a second payload")[0]
-    robot = _robot()
+    # The motors' effects only, and gains of 1: logs in drive units.
+    text = re.sub(
+        r"^(rotor_inertia|viscous|coulomb) = .*$", r'\1 = ["1{i}"]', builtin_text(ROBOT), flags=re.M
+    )
+    robot = robot_from_text(with_drive_gains(text, dict.fromkeys(JOINTS, 1.0)), ROBOT)
     derivation = derive(robot)
-    emitted = generate(derivation)
-    compiled = load_compiled(emitted.spec, emitted.code)
+    compiled = compiled_robot(derivation)
     machine = _machine(robot, table, [c.name for c in derivation.base.columns])
     runs = []
     for seed, load in enumerate((0.0, mass, second), 1):
-        runs.append(_run(machine, load, seed))
+        settings = SimulationSettings(
+            duration=SECONDS, rate=RATE, seed=seed, torque_noise=0.0, linear_resolution=1e-6,
+            motion="point-to-point", limits=dict.fromkeys(JOINTS, LIMITS),
+            hidden=(hidden_from_text(f"payload:mass={load}"),) if load else (),
+        )  # fmt: skip
+        runs.append(simulate(machine, settings))
         report(seed / 3)
     rng = np.random.default_rng(2012)
     bare, loaded, other = (_currents(run, gains, rng) for run in runs)
@@ -70,14 +78,6 @@ def briot_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodT
         _weighed(compiled, bare, other, found.gains),
     ]
     return [_table_3(table, found), _second_load(paper, cases)]
-
-
-def _robot() -> Robot:
-    """The robot with motors' effects only, and gains of 1: logs in drive units."""
-    text = re.sub(
-        r"^(rotor_inertia|viscous|coulomb) = .*$", r'\1 = ["1{i}"]', builtin_text(ROBOT), flags=re.M
-    )
-    return robot_from_text(with_drive_gains(text, dict.fromkeys(JOINTS, 1.0)), ROBOT)
 
 
 def _machine(robot: Robot, table: Mapping[str, tuple[float, ...]], names: list[str]) -> Robot:
@@ -103,29 +103,11 @@ def _machine(robot: Robot, table: Mapping[str, tuple[float, ...]], names: list[s
     return replace(robot, parameters=values)
 
 
-def _run(machine: Robot, load: float, seed: int) -> SimulatedLog:
-    settings = SimulationSettings(
-        duration=SECONDS,
-        rate=RATE,
-        seed=seed,
-        torque_noise=0.0,
-        linear_resolution=1e-6,
-        motion="point-to-point",
-        limits=dict.fromkeys(JOINTS, LIMITS),
-        hidden=(hidden_from_text(f"payload:mass={load}"),) if load else (),
-    )
-    return simulate(machine, settings)
-
-
 def _currents(run: SimulatedLog, gains: Mapping[str, float], rng: np.random.Generator) -> Log:
     """What is logged: torque over gain, with noise."""
-    at = [run.joints.index(joint) for joint in JOINTS]
-    tau = run.tau[:, at]
+    tau = run.tau[:, [run.joints.index(joint) for joint in JOINTS]]
     tau = tau + NOISE * np.sqrt(np.mean(tau**2, axis=0)) * rng.normal(size=tau.shape)
-    name = f"run{run.settings.seed}"
-    sources = tuple(f"current{joint} x 1" for joint in JOINTS)
-    current = tau / np.array([gains[joint] for joint in JOINTS])
-    return Log(name, JOINTS, run.time, run.q[:, at], current, torque_source=sources)
+    return logged(run, JOINTS, tau / np.array([gains[j] for j in JOINTS]), "current{} x 1")
 
 
 def _weighed(
@@ -148,15 +130,9 @@ def _table_3(table: Mapping[str, tuple[float, ...]], found: GainFit) -> MethodTa
                 printed = f"{values[0]:.5g} ({values[-1]:.3g} %)"
                 rows.append(recovered(word, printed, values[0], p.value, p.sigma or 0.0))
     last = found.result.singular_values[-2:]
-    rows.append(
-        Row(
-            "s[-2]/s[-1]",
-            "-",
-            f"{last[0] / last[1]:.4g}",
-            judged(last[0] > 2 * last[1], Outcome.DERIVED),
-            "singular values of the currents beside the model: a gap, or no gains",
-        )
-    )
+    why = "singular values of the currents beside the model: a gap, or no gains"
+    outcome = judged(last[0] > 2 * last[1], Outcome.DERIVED)
+    rows.append(Row("s[-2]/s[-1]", "-", f"{last[0] / last[1]:.4g}", outcome, why))
     return MethodTable("Table 3: drive gains, slides and motors", SETTING, tuple(rows))
 
 
@@ -167,16 +143,9 @@ _SET = ("M11", "M12", "M13", "Ia1", "Fv1", "Fs1")
 def _second_load(paper: Paper, cases: list[tuple[float, float]]) -> MethodTable:
     load, *printed, width = quoted(paper, "a second payload")[:4]
     rows = [Row("weighed", f"{load:g} kg", f"{load:g} kg", Outcome.SHOWN)]
-    for which, theirs, (ours, sigma) in zip(
-        ("case 1: the maker's gains", "case 2: the identified gains"), printed, cases, strict=True
-    ):
-        rows.append(
-            Row(
-                which,
-                f"{theirs:g} kg",
-                f"{ours:.4f} +- {sigma:.2g} kg",
-                judged(abs(ours - theirs) <= width),
-                f"within {width:g} kg, the paper's 2 sigma",
-            )
-        )
+    names = ("case 1: the maker's gains", "case 2: the identified gains")
+    why = f"within {width:g} kg, the paper's 2 sigma"
+    for which, theirs, (ours, sigma) in zip(names, printed, cases, strict=True):
+        found, outcome = f"{ours:.4f} +- {sigma:.2g} kg", judged(abs(ours - theirs) <= width)
+        rows.append(Row(which, f"{theirs:g} kg", found, outcome, why))
     return MethodTable("The second load, weighed by the robot", SETTING[:1], tuple(rows))

@@ -1,6 +1,7 @@
 """Two sums, printed and derived, in our names, and the difference that is known between them."""
 
 import re
+import string
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -62,7 +63,9 @@ def same(found: Compared, line: PrintedLine) -> tuple[bool, bool]:
     A coefficient that is printed with a point is compared as a number, to half a unit of its last
     digit; all others exactly.
     """
-    known = {} if found.settled else _difference(line)
+    # Derived minus printed, as the paper's file states it in our names.
+    difference = "" if found.settled else line.difference.replace("{i}", line.legs[0])
+    known = read_sum(difference, str) if difference else {}
     printed = _by_name(added(found.printed, known), found.values)
     derived = _by_name(found.derived, found.values)
     if printed.keys() != derived.keys():
@@ -111,24 +114,12 @@ def renamer(paper: Paper, line: PrintedLine, leg: str = "") -> Callable[[str], s
     def rename(name: str) -> str:
         if name.endswith("i") and name != "pi":
             name = name[:-1] + leg
-        name = name if line.ours else _exchanged(paper, name)
+        if not line.ours:
+            letters = name[: len(name) - len(name.lstrip(string.ascii_letters))]
+            name = paper.names.get(name) or paper.names.get(letters, letters) + name[len(letters) :]
         name = re.sub(r"^([A-Za-z]+\d+)R(\d)$", r"\1\2R", name)
         if line.strip:
             name = re.sub(rf"^([A-Za-z]+\d){line.strip}(R?)$", r"\1\2", name)
         return name
 
     return rename
-
-
-def _exchanged(paper: Paper, name: str) -> str:
-    if name in paper.names:
-        return paper.names[name]
-    letters = re.match(r"[A-Za-z]*", name)
-    assert letters is not None
-    return paper.names.get(letters.group(), letters.group()) + name[letters.end() :]
-
-
-def _difference(line: PrintedLine) -> Sum:
-    """Derived minus printed, as the paper's file states it in our names."""
-    text = line.difference.replace("{i}", line.legs[0])
-    return read_sum(text, str) if text else {}

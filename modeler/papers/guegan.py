@@ -11,16 +11,16 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.codegen.derivation import derive, generate, load
+from modeler.codegen.derivation import derive, load
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
 from modeler.observation.observation import Observation, observe
 from modeler.observation.read import read_log
-from modeler.papers import Paper
 from modeler.papers.method_report import MethodTable, Outcome, Row, figures, judged, recovered
+from modeler.papers.paper import Paper
+from modeler.papers.simulated import compiled_robot
 from modeler.robot.robot import Limits, Robot
 from modeler.runtime.model import CompiledModel
-from modeler.runtime.model import load as load_compiled
 from modeler.simulation import SimulationSettings, simulate, write_log
 
 ROBOT = "orthoglide-2003-similar-legs"
@@ -47,11 +47,16 @@ LETTERS = {
 
 def guegan_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
     """Tables 2 and 3, the condition numbers, and the direction along which Table 2 is noise."""
-    table_2, table_3 = (_ours(figures(paper, place)) for place in ("Table 2", "Table 3"))
+    table_2, table_3 = (
+        {
+            LETTERS.get(word, word.replace("FV", "Fv").replace("FS", "Fs")): values
+            for word, values in figures(paper, place).items()
+        }
+        for place in ("Table 2", "Table 3")
+    )
     truth = {name: values[0] for name, values in table_3.items()}
     derivation = derive(load(ROBOT))
-    emitted = generate(derivation)
-    compiled = load_compiled(emitted.spec, emitted.code)
+    compiled = compiled_robot(derivation)
     observation, exact = _simulated(derivation.robot, truth, compiled, report)
     full, reduced = identify(observation), identify(_chosen(observation, truth))
     return [
@@ -60,13 +65,6 @@ def guegan_methods(paper: Paper, report: Callable[[float], None]) -> list[Method
         _essential(table_3, full, reduced),
         _conditions(paper, full, reduced),
     ]
-
-
-def _ours(printed: Mapping[str, tuple[float, ...]]) -> dict[str, tuple[float, ...]]:
-    names = {
-        word: LETTERS.get(word, word.replace("FV", "Fv").replace("FS", "Fs")) for word in printed
-    }
-    return {names[word]: values for word, values in printed.items()}
 
 
 def _machine(robot: Robot, truth: Mapping[str, float]) -> Robot:
@@ -123,13 +121,9 @@ def _all_parameters(
     rows = _recovered(printed, truth, full)
     theirs = [abs(printed[name][1]) for name in WEAK]
     ours = [p.relative_sigma_percent or 0.0 for p in full.parameters if p.name in WEAK]
-    rows.append(
-        Row(
-            "%sigma of " + ", ".join(WEAK), _range(theirs), _range(ours),
-            judged(min(*theirs, *ours) >= BAD, Outcome.HOLDS),
-            f"{BAD:g} % and more: not well identified",
-        )
-    )  # fmt: skip
+    what, why = "%sigma of " + ", ".join(WEAK), f"{BAD:g} % and more: not well identified"
+    outcome = judged(min(*theirs, *ours) >= BAD, Outcome.HOLDS)
+    rows.append(Row(what, _range(theirs), _range(ours), outcome, why))
     return MethodTable("Table 2: all base parameters", SETTING, tuple(rows))
 
 
@@ -165,9 +159,8 @@ def _weak_direction(
         if name != "MX2"
     ]  # fmt: skip
     rest = max(abs(value) for name, value in ours.items() if name not in WEAK)
-    rows.append(
-        Row("all others", "-", f"{rest:.2g}", judged(rest < 0.1, Outcome.DERIVED), "less than 0.1")
-    )
+    outcome = judged(rest < 0.1, Outcome.DERIVED)
+    rows.append(Row("all others", "-", f"{rest:.2g}", outcome, "less than 0.1"))
     return MethodTable(
         "The direction that noise follows in Table 2",
         ("values of Table 2 divided by its MX2, beside the weakest singular vector of W;",
@@ -182,12 +175,8 @@ def _essential(
     """Table 3, its selection, and both condition numbers."""
     rows = _recovered(printed, {name: value for name, (value, _) in printed.items()}, reduced)
     left = [p.name for p in full.parameters if not p.essential]
-    rows.append(
-        Row(
-            "left out", str(len(full.parameters) - len(printed)), f"{len(left)} by the F-test",
-            Outcome.SHOWN, ", ".join(left),
-        )
-    )  # fmt: skip
+    theirs, ours = str(len(full.parameters) - len(printed)), f"{len(left)} by the F-test"
+    rows.append(Row("left out", theirs, ours, Outcome.SHOWN, ", ".join(left)))
     return MethodTable("Table 3: essential parameters", SETTING[:1], tuple(rows))
 
 
@@ -196,17 +185,9 @@ def _conditions(paper: Paper, full: FitResult, reduced: FitResult) -> MethodTabl
     rows, printed = [], []
     for place, fit in (("Table 2", full), ("Table 3", reduced)):
         printed.append(figures(paper, f"{place}, condition number")["Condition"][0])
-        rows.append(
-            Row(
-                f"{len(fit.parameters)} columns", f"{printed[-1]:g}",
-                f"{fit.condition_number:.4g}", Outcome.SHOWN, "of other motions",
-            )
-        )  # fmt: skip
+        what, number = f"{len(fit.parameters)} columns", f"{fit.condition_number:.4g}"
+        rows.append(Row(what, f"{printed[-1]:g}", number, Outcome.SHOWN, "of other motions"))
     theirs, ours = printed[0] / printed[1], full.condition_number / reduced.condition_number
-    rows.append(
-        Row(
-            "their ratio", f"{theirs:.3g}", f"{ours:.3g}",
-            judged(min(theirs, ours) > FALL, Outcome.HOLDS), f"more than {FALL:g}",
-        )
-    )  # fmt: skip
+    outcome = judged(min(theirs, ours) > FALL, Outcome.HOLDS)
+    rows.append(Row("their ratio", f"{theirs:.3g}", f"{ours:.3g}", outcome, f"more than {FALL:g}"))
     return MethodTable("Condition numbers of W", (), tuple(rows))

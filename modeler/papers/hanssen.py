@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.derivation import Derivation, derive, generate
+from modeler.codegen.derivation import Derivation, derive
 from modeler.core.builtin import builtin_text
 from modeler.core.expression import parse
 from modeler.core.table import percent
@@ -19,15 +19,14 @@ from modeler.estimation.two_step_result import TwoStepFit, identify_in_two_steps
 from modeler.formulas.physical_system import physical_system
 from modeler.formulas.solve import determined
 from modeler.formulas.sufficient_sets import known_sets, smallest_number
-from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.papers import Paper
 from modeler.papers.method_report import MethodTable, Outcome, Row, judged, quoted, recovered
+from modeler.papers.paper import Paper
+from modeler.papers.simulated import compiled_robot, logged
 from modeler.robot.motors import joint_directions
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Limits, Robot
-from modeler.runtime.model import load as load_compiled
-from modeler.simulation import SimulatedLog, SimulationSettings, simulate
+from modeler.simulation import SimulationSettings, simulate
 
 SECONDS, RATE, BANDWIDTH, NOISE = 240.0, 400.0, 60.0, 0.02
 SEED = 11
@@ -52,20 +51,14 @@ def hanssen_methods(paper: Paper, report: Callable[[float], None]) -> list[Metho
     truth = dict(zip(names, quoted(paper, "J11 = 0.0398")[-7:], strict=True))
     robot = robot_from_text(builtin_text("wrist") + '\n[effects]\ncoulomb = "all"\n', "wrist")
     derivation = derive(robot)
-    emitted = generate(derivation)
-    compiled = load_compiled(emitted.spec, emitted.code)
+    compiled = compiled_robot(derivation)
     settings = SimulationSettings(
-        duration=SECONDS,
-        rate=RATE,
-        seed=SEED,
-        bandwidth=BANDWIDTH,
-        torque_noise=NOISE,
-        motion="one-joint",
-        limits=dict.fromkeys("123", LIMITS),
-    )
+        duration=SECONDS, rate=RATE, seed=SEED, bandwidth=BANDWIDTH, torque_noise=NOISE,
+        motion="one-joint", limits=dict.fromkeys("123", LIMITS),
+    )  # fmt: skip
     run = simulate(_machine(robot, derivation, truth), settings)
     report(0.5)
-    observation = observe(compiled, [_log(run)])
+    observation = observe(compiled, [logged(run, run.joints, run.tau)])
     steps = identify_in_two_steps(compiled, observation, Directions(joint_directions(robot)))
     monomials = next(line.quote for line in paper.lines if line.check == "monomials").split(";")
     tables = [*_inertia(paper, truth, steps, monomials), _one_step(steps)]
@@ -92,11 +85,6 @@ def _machine(robot: Robot, derivation: Derivation, truth: Mapping[str, float]) -
     values["ZZ1"] = truth["PJ7"] - values["YY2"] - values["ZZ3"]
     values |= {"XX1": 0.3, "YY1": 0.3}
     return replace(robot, parameters=values | COULOMB)
-
-
-def _log(run: SimulatedLog) -> Log:
-    sources = tuple(f"tau{joint}" for joint in run.joints)
-    return Log("one-joint", run.joints, run.time, run.q, run.tau, torque_source=sources)
 
 
 def _inertia(
@@ -160,16 +148,13 @@ def _known(paper: Paper, derivation: Derivation) -> MethodTable:
     system = physical_system(derivation.model, derivation.base, "coefficients")
     claim, rest = quoted(paper, "From these, 18")
     found, _ = determined(system, KNOWN)
-    rows = [
-        Row("parameters that follow from " + ", ".join(KNOWN), f"{claim:g}", str(len(found)),
-            judged(len(found) == FOLLOW, Outcome.DERIVED),
-            "the statement is wrong: " + ", ".join(found) + " alone"),
-    ]  # fmt: skip
+    what = "parameters that follow from " + ", ".join(KNOWN)
+    why = "the statement is wrong: " + ", ".join(found) + " alone"
+    outcome = judged(len(found) == FOLLOW, Outcome.DERIVED)
+    rows = [Row(what, f"{claim:g}", str(len(found)), outcome, why)]
     for size, expected in ((int(rest), 0), (smallest_number(system), 61_879)):
         sets = known_sets(system, size)
-        rows.append(
-            Row(f"sets of {size} from which all others follow", "-",
-                f"{sets.count} of {sets.possible}",
-                judged(sets.count == expected, Outcome.DERIVED), "our consequence")
-        )  # fmt: skip
+        what, counted = f"sets of {size} from which all others follow", sets.count == expected
+        outcome = judged(counted, Outcome.DERIVED)
+        rows.append(Row(what, "-", f"{sets.count} of {sets.possible}", outcome, "our consequence"))
     return MethodTable("Physical parameters that must be known", (), tuple(rows))

@@ -9,19 +9,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.derivation import derive, generate
+from modeler.codegen.derivation import derive
 from modeler.core.builtin import builtin_text
 from modeler.estimation.energy_fit import identify_energy
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult, friction_by_direction
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.papers import Paper
 from modeler.papers.method_report import MethodTable, Outcome, Row, judged, quoted, recovered
+from modeler.papers.paper import Paper
+from modeler.papers.simulated import compiled_robot, logged
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel
-from modeler.runtime.model import load as load_compiled
 from modeler.simulation import SimulatedLog, SimulationSettings, simulate
 
 RUNS, SECONDS, RATE, NOISE = 6, 10.0, 204.0, 0.02
@@ -47,7 +47,7 @@ def houda_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodT
     for joint, values in friction.items():
         truth |= dict(zip((n.format(joint) for n in FRICTION), values, strict=True))
     machine = _machine(truth, friction)
-    compiled = _model(both_ways=True)
+    compiled = compiled_robot(derive(robot_from_text(_text(both_ways=True), "evra")))
     runs = []
     for seed in range(RUNS):
         settings = SimulationSettings(
@@ -67,11 +67,6 @@ def houda_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodT
 def _text(both_ways: bool) -> str:
     effects = ["viscous", "coulomb", "offset"] + ["asymmetric_viscous"] * both_ways
     return builtin_text("evra") + "\n[effects]\n" + "\n".join(f'{e} = "all"' for e in effects)
-
-
-def _model(both_ways: bool) -> CompiledModel:
-    emitted = generate(derive(robot_from_text(_text(both_ways), "evra")))
-    return load_compiled(emitted.spec, emitted.code)
 
 
 def _machine(truth: Mapping[str, float], friction: Mapping[str, tuple[float, ...]]) -> Robot:
@@ -104,15 +99,12 @@ def _log(
 ) -> Log:
     """What is logged; the part Fva |qd| of friction, which the simulator leaves out, put in."""
     joints = tuple(joint.name for joint in compiled.spec.joints)
-    at = [run.joints.index(joint) for joint in joints]
-    tau = run.tau[:, at].copy()
+    tau = run.tau[:, [run.joints.index(joint) for joint in joints]].copy()
     for joint, (there, _, back, _) in friction.items():
         speed = run.truth.qd[:, run.joints.index(joint)]
         tau[:, joints.index(joint)] += (there - back) / 2 * np.abs(speed)
     tau += NOISE * np.sqrt(np.mean(tau**2, axis=0)) * rng.normal(size=tau.shape)
-    sources = tuple(f"tau{joint}" for joint in joints)
-    name = f"run{run.settings.seed}"
-    return Log(name, joints, run.time, run.q[:, at], tau, torque_source=sources)
+    return logged(run, joints, tau)
 
 
 def _values(
@@ -133,11 +125,7 @@ def _compared(energy: FitResult) -> MethodTable:
         text = f"condition {model.condition_scaled:.4g}, {model.known} parameters below 10 %"
         rows.append(Row(model.model, "-", f"{model.rows} rows, {text}", Outcome.SHOWN))
     ratio = simpson.torque_sigma / torque.torque_sigma
-    rows.append(
-        Row(
-            "uncertainty of predicted torques, energy over torque", "-", f"{ratio:.3g}",
-            judged(ratio > 1.0, Outcome.DERIVED),
-            "our consequence: at equal data the torque model is the surer",
-        )
-    )  # fmt: skip
+    what = "uncertainty of predicted torques, energy over torque"
+    why = "our consequence: at equal data the torque model is the surer"
+    rows.append(Row(what, "-", f"{ratio:.3g}", judged(ratio > 1.0, Outcome.DERIVED), why))
     return MethodTable("The energy model beside the torque model", (), tuple(rows))

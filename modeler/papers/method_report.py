@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from modeler.core.errors import RobotError
 from modeler.core.table import percent
-from modeler.papers import Paper
+from modeler.papers.paper import Paper
 from modeler.papers.quotation import numbers_of
 
 ZMAX = 4.0

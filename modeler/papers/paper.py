@@ -146,9 +146,13 @@ def read_paper(name: str) -> Paper:
     if name not in paper_names():
         raise RobotError(f'there is no paper "{name}"; expected one of {", ".join(paper_names())}')
     document = tomllib.loads((_FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
-    lines = tuple(
-        line for entry in document["line"] for line in _lines({"robot": document["robot"]} | entry)
-    )
+    lines = []
+    for entry in document["line"]:
+        # One line, or one for each of `quotes`: quotation -> its seal, or "" without one.
+        common = {"robot": document["robot"]} | entry
+        quotes = common.pop("quotes", None)
+        seals = [{}] if quotes is None else [{"quote": q, "seal": s} for q, s in quotes.items()]
+        lines += [_line(common | own) for own in seals]
     coefficients = document.get("coefficients", "")
     named = [name for line in lines for name in (line.robot, line.through) if name]
     robots = dict.fromkeys(named + [coefficients] * bool(coefficients))
@@ -159,20 +163,12 @@ def read_paper(name: str) -> Paper:
         variants={
             key: built(Variant, entry) for key, entry in document.get("variants", {}).items()
         },
-        lines=lines,
+        lines=tuple(lines),
         names=document.get("names", {}),
         coefficients=coefficients,
         slips=document.get("slips", {}),
         unchecked=document.get("unchecked", {}),
     )
-
-
-def _lines(entry: dict[str, Any]) -> list[PrintedLine]:
-    """One line, or one for each of `quotes`: quotation -> its seal, or "" without one."""
-    quotes = entry.pop("quotes", None)
-    if quotes is None:
-        return [_line(entry)]
-    return [_line(entry | {"quote": quote, "seal": seal}) for quote, seal in quotes.items()]
 
 
 def _line(entry: Mapping[str, Any]) -> PrintedLine:
@@ -389,6 +385,7 @@ def _coefficients(derived: DerivedPaper) -> dict[str, Any]:
     """Of a robot whose links have a paper's letters."""
     table = derived.table
     known = table.identifiability
+    names = [joint.name for joint in derived.robot.moving]
     return {
         "coefficients": len(table.coefficients),
         "independent": len(table.relations.independent),
@@ -396,13 +393,10 @@ def _coefficients(derived: DerivedPaper) -> dict[str, Any]:
         "appearing": len(known.appearing),
         "vanishing": frozenset(known.vanishing),
         "identifiable": known.jacobian_rank,
-        "missing": lambda letter: _missing(derived, letter),
+        # Functions that are zero: S_ijk with j > k by convention, and those that vanish.
+        "missing": lambda letter: frozenset(
+            {letter + "".join(ijk) for ijk in itertools.product(names, repeat=3)}
+            - set(table.closed.by_name)
+        ),
         "monomials": lambda name: sum(c.function == name for c in table.coefficients),
     }
-
-
-def _missing(derived: DerivedPaper, letter: str) -> frozenset[str]:
-    """Functions that are zero: S_ijk with j > k by convention, and those that vanish."""
-    names = [joint.name for joint in derived.robot.moving]
-    every = {letter + i + j + k for i in names for j in names for k in names}
-    return frozenset(every - set(derived.table.closed.by_name))

@@ -34,7 +34,6 @@ from modeler.papers.quotation import (
     sum_text,
 )
 from modeler.papers.wrist import WRIST_READINGS
-from modeler.robot.robot import Joint
 
 _LEGS = "123456"
 _ONE = Amount(Fraction(1))
@@ -78,20 +77,16 @@ def _assumed(paper: Paper, line: PrintedLine) -> dict[str, Sum]:
 
 def _of_a_leg(leg: DerivedPaper, whole: DerivedPaper) -> dict[str, Sum]:
     """Base parameters of an isolated leg, written for every leg of the robot."""
-    found: dict[str, Sum] = {}
-    for index in _LEGS[:3]:
-        for name, terms in leg.relations.items():
-            if not name.endswith("R"):
-                continue
-            found[f"{name[:-1]}{index}R"] = {
-                tuple(sorted((_indexed(n, index, leg, whole), p) for n, p in m)): value
-                for m, value in terms.items()
-            }
-    return found
-
-
-def _indexed(name: str, index: str, leg: DerivedPaper, whole: DerivedPaper) -> str:
-    return name if name in leg.values and name in whole.values else name + index
+    common = leg.values.keys() & whole.values.keys()
+    return {
+        f"{name[:-1]}{index}R": {
+            tuple(sorted((n if n in common else n + index, p) for n, p in m)): value
+            for m, value in terms.items()
+        }
+        for index in _LEGS[:3]
+        for name, terms in leg.relations.items()
+        if name.endswith("R")
+    }
 
 
 def _numbers_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
@@ -128,6 +123,7 @@ def _arithmetic_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Comp
     """
     text = "; ".join((line.text, *line.given))
     numbers = {chr(ord("a") + i): n for i, n in enumerate(numbers_of(text))}
+    floats: dict[str, Any] = {name: float(number.value) for name, number in numbers.items()}
     known = quantities(robots[line.robot])
     printed: dict[Monomial, Amount] = {}
     derived: dict[Monomial, Amount] = {}
@@ -138,33 +134,21 @@ def _arithmetic_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Comp
             number = numbers.get(letter)
             if number is None:
                 raise QuotationError(f"the quotation has no number {letter}")
-            value = _rounded(formula, numbers, known)
-            half = (number.half or Fraction(1, 2)) + value.half
+            value = Fraction(evaluate(formula, known | floats))
+            half = number.half or Fraction(1, 2)
+            for name, other in numbers.items():  # how far the rounding of each may move it
+                moved = known | floats | {name: float(other.value + other.half)}
+                half += abs(Fraction(evaluate(formula, moved)) - value)
             printed[((letter, 1),)] = Amount(number.value, half)
-            derived[((letter, 1),)] = Amount(value.value)
-            texts.append(f"{letter} = {float(value.value):.4g}")
+            derived[((letter, 1),)] = Amount(value)
+            texts.append(f"{letter} = {float(value):.4g}")
         else:
-            holds = evaluate(entry, known | _floats(numbers))
+            holds = evaluate(entry, known | floats)
             printed[((entry, 1),)] = _ONE
             derived = derived | ({((entry, 1),): _ONE} if holds else {})
             texts.append(f"{entry}: {'yes' if holds else 'no'}")
     weak = any(re.search("[<>]", entry) for entry in line.gives)
     return Compared(printed, derived, ", ".join(texts), weak=weak)
-
-
-def _floats(numbers: Mapping[str, Amount]) -> dict[str, Any]:
-    return {name: float(number.value) for name, number in numbers.items()}
-
-
-def _rounded(formula: str, numbers: Mapping[str, Amount], known: dict[str, Any]) -> Amount:
-    """The formula's value, and how far the rounding of its numbers may move it."""
-    values = _floats(numbers)
-    value = Fraction(evaluate(formula, known | values))
-    half = Fraction(0)
-    for name, number in numbers.items():
-        moved = values | {name: float(number.value + number.half)}
-        half += abs(Fraction(evaluate(formula, known | moved)) - value)
-    return Amount(value, half)
 
 
 def _rotation_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
@@ -340,17 +324,11 @@ def _row_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     found = next((j for j in robots[line.robot].robot.joints if j.name == cells[0]), None)
     if found is None:
         raise QuotationError(f"there is no row {cells[0]}")
-    own = {column: read_sum(text, str) for column, text in _cells(found).items()}
+    cells = [found.name, found.antecedent, str(int(found.actuated)), str(int(found.kind))]
+    cells += [getattr(found, column).text for column in _COLUMNS[4:]]
+    own = {c: read_sum(text, str) for c, text in zip(_COLUMNS, cells, strict=True)}
     text = " | ".join(sum_text(part) for part in own.values())
     return Compared(printed, joined(own), text)
-
-
-def _cells(joint: Joint) -> dict[str, str]:
-    return {
-        "j": joint.name, "a": joint.antecedent, "mu": str(int(joint.actuated)),
-        "sigma": str(int(joint.kind)), "gamma": joint.gamma.text, "b": joint.b.text,
-        "alpha": joint.alpha.text, "d": joint.d.text, "theta": joint.theta.text, "r": joint.r.text,
-    }  # fmt: skip
 
 
 def _tied_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:

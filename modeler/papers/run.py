@@ -2,12 +2,12 @@
 
 from collections.abc import Callable, Mapping
 
-from modeler.papers import Paper
 from modeler.papers.briot import briot_methods
 from modeler.papers.guegan import guegan_methods
 from modeler.papers.hanssen import hanssen_methods
 from modeler.papers.houda import houda_methods
 from modeler.papers.method_report import MethodTable
+from modeler.papers.paper import Paper
 
 Report = Callable[[float], None]
 """Told how much is done, 0 to 1."""

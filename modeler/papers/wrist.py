@@ -78,14 +78,10 @@ def _function(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     printed = _read(text)
     table = _only(robots[line.robot].table, functions={name: printed})
     parts = [f"({v})*{k}" for c in wrong_functions(table) for k, v in c.difference.items()]
-    found = "; ".join(parts + _of_others(table, name, printed))
-    return _stated(line, found, "the same")
-
-
-def _of_others(table: CoefficientTable, name: str, printed: Expression) -> list[str]:
-    """Coefficients that number terms of other functions, equal in value or not."""
+    # Coefficients that number terms of other functions, equal in value or not.
     own = {n: c.function for n, c in table.by_name.items() if n in printed.names}
-    return [f"{n} is of {function}" for n, function in own.items() if function != name]
+    parts += [f"{n} is of {function}" for n, function in own.items() if function != name]
+    return _stated(line, "; ".join(parts), "the same")
 
 
 def _definition(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:

@@ -12,6 +12,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.table import percent
+from modeler.estimation.direct_model import scaled_inertia
 from modeler.observation.low_speed import shafts
 from modeler.runtime.model import CompiledModel
 
@@ -80,13 +81,8 @@ class FittedPlant:
         Raises:
             DataError: says how often, and which joint is lightest.
         """
-        M = self.model.inertia_matrix(q, self.beta)
-        diagonal = np.abs(np.median(np.einsum("sjj->sj", M), axis=0))
-        scale = np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
-        values, vectors = np.linalg.eigh(M / np.outer(scale, scale))
-        bad = values[:, 0] < _FLOOR
-        if bad.any():
-            light = int(np.argmax(np.abs(vectors[np.argmin(values[:, 0]), :, 0])))
+        _, least, light = scaled_inertia(self.model.inertia_matrix(q, self.beta))
+        if (bad := least < _FLOOR).any():
             raise DataError(
                 f"{self.model.spec.robot}: with the fitted values the inertia matrix is not "
                 f"positive definite in {percent(float(np.mean(bad)))} of the postures, most at "

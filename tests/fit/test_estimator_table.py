@@ -7,7 +7,7 @@ import pytest
 
 from modeler.core.errors import DataError, Method
 from modeler.core.estimators import ABOUT, titled
-from modeler.estimation.methods import METHODS, method_of
+from modeler.estimation.methods import METHODS, capable, method_of
 
 
 def test_choices_words_and_functions_are_the_same_list():
@@ -21,6 +21,20 @@ def test_an_unknown_method_is_refused_by_name():
     with pytest.raises(DataError, match='method is "magic"; expected weighted'):
         method_of("magic")
     assert titled("weighted") == "weighted least squares" and titled("magic") == "magic"
+
+
+@pytest.mark.parametrize(
+    "of, sentence",
+    [
+        ("triangles", "method robust reads every row again .* expected weighted or ordinary, or"),
+        ("windows", "--method robust: the energy model takes weighted or ordinary; leave out"),
+    ],
+)
+def test_what_an_estimator_does_not_work_on_is_refused(of: str, sentence: str):
+    assert capable(of) == ("weighted", "ordinary") and capable("rows") == tuple(METHODS)
+    assert method_of("ordinary", of) is METHODS["ordinary"]
+    with pytest.raises(DataError, match=sentence):
+        method_of("robust", of)
 
 
 def test_the_page_says_what_the_table_says():

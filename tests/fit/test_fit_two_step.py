@@ -9,9 +9,8 @@ import pytest
 from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.core.manifest import SignalSpec
-from modeler.estimation.along import Alone, along
 from modeler.estimation.identify import identify
-from modeler.estimation.two_step import Directions, moves_alone, two_steps
+from modeler.estimation.two_step import Directions, moves_alone, single_joint_motions, two_steps
 from modeler.estimation.two_step_result import identify_in_two_steps, inertia_rows
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
@@ -206,9 +205,9 @@ def test_logs_without_such_a_piece_are_refused():
 def test_effects_that_read_more_than_the_motion_are_refused():
     model = compiled("wrist")
     warm = dataclasses.replace(model.spec, signals=(SignalSpec("time", "", "s", 0.0),))
-    alone = Alone(np.zeros(3), 0.0, np.eye(3)[0], (-1.0, 1.0))
+    warm_model = CompiledModel(warm, model._library)
     with pytest.raises(DataError, match="some effect of the robot reads time"):
-        along(CompiledModel(warm, model._library), alone, np.eye(3))
+        single_joint_motions(warm_model, np.zeros(3), 0.0, np.eye(3)[0], (-1.0, 1.0), np.eye(3))
 
 
 def test_a_joint_without_a_motor_says_nothing():

@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from modeler.papers import DerivedPaper, derived_robot, read_paper
+from modeler.papers.paper import DerivedPaper, derived_robot, read_paper
 from modeler.robot.read import read_robot
 from tests.modules import module
 

@@ -10,8 +10,8 @@ from math import prod
 
 import numpy as np
 
-from modeler.papers import read_paper
 from modeler.papers.compared import renamer
+from modeler.papers.paper import read_paper
 from modeler.papers.quotation import numbers_of, read_sum
 from tests.papers import mechanisms as m
 from tests.papers.derived_papers import robots_of

@@ -8,7 +8,9 @@ from itertools import islice
 import pytest
 
 from modeler.core.builtin import paper_names
-from modeler.papers import LineVerdict, check_line, coefficient_quotations, read_paper, written_out
+from modeler.papers.check import LineVerdict, check_line, written_out
+from modeler.papers.paper import read_paper
+from modeler.papers.wrist import coefficient_quotations
 from tests.papers.derived_papers import robots_of
 
 EVERY = 3

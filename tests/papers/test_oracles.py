@@ -5,8 +5,9 @@ from dataclasses import replace
 import pytest
 
 from modeler.core.builtin import paper_names
-from modeler.papers import LineVerdict, check_line, coefficient_quotations, read_paper
-from modeler.papers.check import written_out
+from modeler.papers.check import LineVerdict, check_line, written_out
+from modeler.papers.paper import read_paper
+from modeler.papers.wrist import coefficient_quotations
 from tests.papers.derived_papers import robots_of
 from tests.papers.oracles import holds
 from tests.papers.test_mutations import altered

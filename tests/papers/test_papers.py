@@ -8,16 +8,11 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.builtin import paper_names
-from modeler.papers import (
-    LineVerdict,
-    PrintedLine,
-    check_line,
-    check_paper,
-    coefficient_quotations,
-    read_paper,
-)
+from modeler.papers.check import LineVerdict, check_line, check_paper
+from modeler.papers.paper import PrintedLine, read_paper
 from modeler.papers.quotation import QuotationError, numbers_of, read_sum, sum_text
 from modeler.papers.readings import READINGS
+from modeler.papers.wrist import coefficient_quotations
 from tests.papers.derived_papers import robots_of
 
 CLOSED = "orthoglide-2012"

@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from modeler.core.builtin import paper_names
-from modeler.papers import coefficient_quotations, read_paper
+from modeler.papers.paper import read_paper
+from modeler.papers.wrist import coefficient_quotations
 from tests.papers.derived_papers import robots_of
 
 PAPERS = Path(__file__).resolve().parents[3] / "shared" / "papers"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.numerics.noise import forgotten, outbursts, returning
+from modeler.numerics.noise import forgotten, outbursts, returning, robust_deviation, white_noise
 
 STEP = 0.0125
 TIME = np.arange(3200) * STEP  # 40 s in two logs
@@ -67,3 +67,12 @@ def test_what_returns_in_the_next_lap() -> None:
 
 def test_too_few_rows_say_nothing() -> None:
     assert outbursts(noise()[:50], BLOCK[:50]) == 0.0
+
+
+def test_noise_is_told_from_what_is_far_off_and_from_motion() -> None:
+    noise = 0.2 * np.random.default_rng(6).normal(size=20_000)
+    noise[::50] = 30.0
+    assert robust_deviation(noise) == pytest.approx(0.2, rel=0.05)
+    smooth = np.sin(np.linspace(0.0, 20.0, len(noise)))
+    clean = 0.2 * np.random.default_rng(7).normal(size=len(noise))
+    assert white_noise(smooth + clean) == pytest.approx(0.2, rel=0.05)
