@@ -20,15 +20,22 @@ from modeler.estimation.identify import base_equations, dead_joints, fit_equatio
 from modeler.estimation.result import FitResult
 from modeler.numerics.least_squares import Compressed, compress, merged
 from modeler.observation.chunk import Chunk, chunks
-from modeler.observation.chunked_report import Passes, streamed_report
-from modeler.observation.chunks import Chosen, seen
 from modeler.observation.log import FINGER
 from modeler.observation.observation import Evaluated, Observation, no_row_left, torque_of
 from modeler.observation.processing import Processing
 from modeler.observation.read import Source
 from modeler.observation.reduce import with_stretch
 from modeler.observation.stretch import Stretch
-from modeler.observation.survey import KnownFacts, Survey, WholeNeeded, survey
+from modeler.observation.survey import (
+    Chosen,
+    KnownFacts,
+    Passes,
+    Survey,
+    WholeNeeded,
+    seen,
+    streamed_report,
+    survey,
+)
 from modeler.observation.tally import Facts
 from modeler.runtime.fused import no_rows
 
@@ -269,10 +276,7 @@ def _again(facts: Sequence[Facts], found: Survey, known: KnownFacts) -> KnownFac
     wrong = [k for k, own in enumerate(facts) if own.wrongly_clipped()]
     if not floors and not wrong:
         return None
-    extremes = {
-        k: tuple(zip(own.ranges.low[1].tolist(), own.ranges.high[1].tolist(), strict=True))
-        for k, own in enumerate(facts)
-    }
+    extremes = {k: own.ranges.torques for k, own in enumerate(facts)}
     return KnownFacts({**known.floors, **floors}, extremes)
 
 

@@ -172,10 +172,9 @@ class _Pair:
         q, qd, qdd = (np.tile(part, (self._laps, 1)) for part in self.task.series.motion(x))
         step = self.task.series.duration / len(self.task.series.time)
         time = np.arange(len(q)) * step
-        nothing = np.zeros_like(q)
         segment = Segment(
-            0, time, step, q, qd, qdd, nothing, {},
-            np.ones(len(q), dtype=bool), np.ones(q.shape, dtype=bool), {},
+            0, time, step, q, qd, qdd, 0.0 * q, {},
+            np.ones(len(q), dtype=bool), np.full(q.shape, -1),
         )  # fmt: skip
         return Signals(segment, 1, q, qd, qdd, self._reference)
 

@@ -1,7 +1,7 @@
 """What no robot does, in the channels of a log: found, told, and mended or left out; leaps."""
 
 import dataclasses
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -286,13 +286,6 @@ class Damage:
     line: str
 
 
-@dataclass(frozen=True, eq=False)
-class _Channel:
-    column: str
-    joint: str
-    unit: str
-
-
 @dataclass(frozen=True)
 class Found:
     """A defect of a channel, at rows of the log from `start` to before `stop`.
@@ -344,7 +337,7 @@ def repaired(log: Log, spec: ModuleSpec) -> tuple[Log, tuple[Damage, ...]]:
         spec: the robot's manifest; it names the joints.
     """
     mended, found, _ = defects(log, spec)
-    return mended, damages(log, spec, found)
+    return mended, damages(log, log.rows, spec, found)
 
 
 def defects(log: Log, spec: ModuleSpec, usual: Usual | None = None) -> tuple[Log, Defects, Usual]:
@@ -484,118 +477,57 @@ def _without(values: np.ndarray, found: Sequence[Sequence[Found]]) -> np.ndarray
     return kept
 
 
-@dataclass(frozen=True)
-class Whose:
-    """The log that damages are told of; a `Log` is one.
+def damages(log: Log, rows: int, spec: ModuleSpec, found: Defects) -> tuple[Damage, ...]:
+    """What was found in the rows of a log, in words.
 
-    Attributes:
-        name: of its file.
-        rows: of it.
-        torque_source: where each joint's torque comes from, in words.
+    Args:
+        log: it, or a part of it.
+        rows: of the whole log.
+        spec: the robot's manifest.
+        found: in all rows.
     """
-
-    name: str
-    rows: int
-    torque_source: tuple[str, ...]
-
-
-def damages(log: Log | Whose, spec: ModuleSpec, found: Defects) -> tuple[Damage, ...]:
-    """What was found in a log, in words."""
-    return tuple(_damages(log, spec, found))
-
-
-def _damages(log: Log | Whose, spec: ModuleSpec, found: Defects) -> Iterator[Damage]:
-    units = {"q": "{}", "qd": "{}/s", "qdd": "{}/s^2"}
+    told = []
     for name, by_joint in found.items():
-        for j, own in enumerate(by_joint):
-            joint = spec.joints[j]
+        for joint, own in zip(spec.joints, by_joint, strict=bool(by_joint)):
             column, unit = f"{name}{joint.name}", joint.effort_unit
-            if name in units:
-                unit = units[name].format(joint.unit)
+            if name in _PER:
+                unit = f"{joint.unit}{_PER[name]}"
             elif log.torque_source:
-                column = log.torque_source[j].split()[0]
+                column = log.torque_source[spec.joints.index(joint)].split()[0]
             for kind in dict.fromkeys(one.kind for one in own):
                 same = [one for one in own if one.kind == kind]
-                yield _damage(log, _Channel(column, joint.name, unit), kind, same)
+                size, samples = (
+                    max(abs(one.size) for one in same),
+                    sum(o.stop - o.start for o in same),
+                )
+                first = f"at {same[0].time:.6g} s"
+                words = _WORDS["torque" if kind == "spike" and column[0] != "q" else kind].format(
+                    when=first if len(same) == 1 else f"{len(same)} times, first {first}",
+                    size=f"{'up to ' * (len(same) > 1)}{size:.3g} {unit}",
+                    unused=f"{samples} sample{'s' * (samples > 1)} "
+                    f"({100.0 * samples / rows:.2g} % of the rows) not used",
+                    part=f"{log.name}@{same[0].time:.6g}:",
+                )
+                times = tuple(one.time for one in same)
+                line = f"{column}: {words}"
+                told.append(Damage(column, joint.name, kind, times, samples, size, unit, line))
+    return tuple(told)
 
 
-def _damage(log: Log | Whose, channel: _Channel, kind: str, same: Sequence[Found]) -> Damage:
-    largest = max(same, key=lambda one: abs(one.size))
-    words = _WORDS["torque" if kind == "spike" and channel.column[0] != "q" else kind]
-    return Damage(
-        column=channel.column,
-        joint=channel.joint,
-        kind=kind,
-        times=tuple(one.time for one in same),
-        samples=sum(one.stop - one.start for one in same),
-        size=abs(largest.size),
-        unit=channel.unit,
-        line=f"{channel.column}: {words(log, channel, same)}",
-    )
-
-
-def _when(log: Log | Whose, same: Sequence[Found]) -> str:
-    first = f"at {same[0].time:.6g} s"
-    return first if len(same) == 1 else f"{len(same)} times, first {first}"
-
-
-def _size(channel: _Channel, same: Sequence[Found]) -> str:
-    up_to = "" if len(same) == 1 else "up to "
-    return f"{up_to}{max(abs(one.size) for one in same):.3g} {channel.unit}"
-
-
-def _lost(log: Log | Whose, same: Sequence[Found]) -> str:
-    count = sum(one.stop - one.start for one in same)
-    samples = f"{count} sample{'s' if count > 1 else ''}"
-    return f"{samples} ({100.0 * count / log.rows:.2g} % of the rows) not used"
-
-
-def _wrap(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    return (
-        f"leaps by whole turns of 2 pi rad {_when(log, same)}; counted on from the longest "
-        "stretch between two leaps: only what does not repeat with every turn, as a spring or a "
-        "cable, is not served by that; log positions that do not wrap"
-    )
-
-
-def _position_spike(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    return (
-        f"leaps by {_size(channel, same)} and back {_when(log, same)}, which no joint can; "
-        f"{_lost(log, same)}; check the encoder and its cable"
-    )
-
-
-def _torque_spike(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    return (
-        f"a spike of {_size(channel, same)} {_when(log, same)}, far above the noise, which no "
-        f"other joint feels; {_lost(log, same)}; check the wiring of that channel"
-    )
-
-
-def _frozen(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    return (
-        f"repeats an old value while the joint moves, {_when(log, same)}; {_lost(log, same)}; "
-        "the logger or the bus was late: log fewer columns, or slower"
-    )
-
-
-def _zero(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    at = same[0].time
-    return (
-        f"leaps by {_size(channel, same)} {_when(log, same)} and goes on from there: the encoder "
-        "found another zero; joined to the longest stretch between two leaps, whose zero is kept; "
-        f"if another is right, use that part alone, as in {log.name}@{at:.6g}:"
-    )
-
-
-def _lost_rows(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    return (
-        f"leaps along its motion by {_size(channel, same)} {_when(log, same)}: rows are missing "
-        "there while the clock ran on; no filter runs across; log the true time of each row"
-    )
-
-
-_WORDS: dict[str, Callable[[Log | Whose, _Channel, Sequence[Found]], str]] = {
-    "wrap": _wrap, "spike": _position_spike, "torque": _torque_spike, "frozen": _frozen,
-    "zero": _zero, "lost": _lost_rows,
-}  # fmt: skip
+_PER = {"q": "", "qd": "/s", "qdd": "/s^2"}
+_WORDS: Mapping[str, str] = {
+    "wrap": "leaps by whole turns of 2 pi rad {when}; counted on from the longest stretch between "
+    "two leaps: only what does not repeat with every turn, as a spring or a cable, is not served "
+    "by that; log positions that do not wrap",
+    "spike": "leaps by {size} and back {when}, which no joint can; {unused}; check the encoder and "
+    "its cable",
+    "torque": "a spike of {size} {when}, far above the noise, which no other joint feels; "
+    "{unused}; check the wiring of that channel",
+    "frozen": "repeats an old value while the joint moves, {when}; {unused}; the logger or the bus "
+    "was late: log fewer columns, or slower",
+    "zero": "leaps by {size} {when} and goes on from there: the encoder found another zero; joined "
+    "to the longest stretch between two leaps, whose zero is kept; if another is right, use that "
+    "part alone, as in {part}",
+    "lost": "leaps along its motion by {size} {when}: rows are missing there while the clock ran "
+    "on; no filter runs across; log the true time of each row",
+}

@@ -264,6 +264,11 @@ class Ranges:
         )
         return Ranges(there, low, high)
 
+    @property
+    def torques(self) -> tuple[tuple[float, float], ...]:
+        """(J,) smallest and largest torque."""
+        return tuple(zip(self.low[1].tolist(), self.high[1].tolist(), strict=True))
+
     def over(self, other: "Ranges") -> "Ranges":
         """Of the rows of both."""
         return Ranges(

@@ -7,7 +7,7 @@ from modeler.core.brief import Brief
 from modeler.core.result import Presented
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
 from modeler.observation.outliers import Damage
-from modeler.observation.processing import Processing
+from modeler.observation.processing import ChosenProcessing
 from modeler.observation.segments import JITTER
 
 
@@ -186,7 +186,7 @@ class DataReport(Presented):
         band: Hz of the motion.
     """
 
-    processing: Processing
+    processing: ChosenProcessing
     choices: tuple[str, ...]
     logs: tuple[LogReport, ...]
     joints: tuple[JointReport, ...]

@@ -13,8 +13,6 @@ from modeler.estimation.long_logs import all_rows, by_threads
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.numerics.filters import LEAST_WEIGHT, moving_means, spacing
 from modeler.observation.chunk import Chunk
-from modeler.observation.chunked_report import streamed_report
-from modeler.observation.chunks import Chosen, seen
 from modeler.observation.log import FINGER, Log
 from modeler.observation.low_speed import shafts, signals_of
 from modeler.observation.motion import travel_since_reversal
@@ -23,6 +21,7 @@ from modeler.observation.read import Source
 from modeler.observation.reduce import blocks
 from modeler.observation.report import DataReport
 from modeler.observation.stretch import Stretch
+from modeler.observation.survey import Chosen, seen, streamed_report
 from modeler.observation.tally import Facts
 from modeler.runtime.model import CompiledModel
 from modeler.validation.comparison import Comparison, compare
@@ -124,7 +123,7 @@ def _temperature(observation: Observation) -> np.ndarray | None:
 def full_rate(observation: Observation, compiled: CompiledModel, beta: np.ndarray) -> FullRate:
     """The samples behind the rows of an observation."""
     parts = observation.stretches
-    cutoff = observation.report.processing.parallel_cutoff or 0.0
+    cutoff = observation.report.processing.parallel_cutoff
     left = [_left(part, compiled, beta) for part in parts]
     return FullRate(
         run=np.concatenate([np.full(part.segment.samples, part.segment.run) for part in parts]),
@@ -203,7 +202,7 @@ def compare_long(
     reducer = partial(by_threads, reduce_by=reduced)
     passes, parts = all_rows(compiled, sources, processing, progress, rows, reducer)
     looked = passes.found.observation
-    steps = [own.step * (own.processing.decimation or 1) for own in passes.found.chosen]
+    steps = [own.step * own.decimation for own in passes.found.chosen]
     prediction = _joined([source.name for source in sources], [own.rows for own in parts], steps)
     full = full_rate(looked, compiled, model.beta)
     ripples = dataclasses.replace(on_rows(looked, looked.torque), full=full)

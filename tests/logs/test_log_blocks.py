@@ -12,9 +12,9 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.logs.blocks import blocks_of
 from modeler.logs.mapping import map_from_table
+from modeler.observation.chunk import read_part, window
 from modeler.observation.log import finger, fingerprint, fingerprint_of
 from modeler.observation.read import joined, read_log, source_of
-from modeler.observation.window import read_part, window
 
 SIZE = 150
 
