@@ -401,14 +401,11 @@ def choose_cutoffs(
         )
     if not logged and 0.0 < position < 5.0 * band:
         given = processing.position_cutoff is not None
+        higher, better = "give a higher --cutoff, or leave it out", "sample faster or move slower"
         said.append(
             f"position filter {position:g} Hz is less than 5 x the motion band of joint "
             f"{fastest.name}, {band:.3g} Hz: accelerations are damped; "
-            + (
-                "give a higher --cutoff, or leave it out"
-                if given
-                else "sample faster or move slower"
-            )
+            f"{higher if given else better}"
         )
     parallel = processing.parallel_cutoff
     if parallel is None:
