@@ -21,7 +21,7 @@ from modeler.estimation.result import FitResult
 from modeler.numerics.least_squares import Compressed, compress, merged
 from modeler.observation.chunk import Chunk, chunks
 from modeler.observation.log import FINGER
-from modeler.observation.observation import Evaluated, Observation, no_row_left, torque_of
+from modeler.observation.observation import Evaluated, Observation, no_row_left
 from modeler.observation.processing import Processing
 from modeler.observation.read import Source
 from modeler.observation.reduce import with_stretch
@@ -97,8 +97,7 @@ def _compressed(model: "CompiledModel", stretches: Iterable[Stretch]) -> Compres
     parts = [part for part in stretches if part.used.any()]
     regressor, state = Evaluated(model, parts), no_rows(model.pattern)
     for part in parts:
-        torque = part.filtered(torque_of(part.segment))
-        state = with_stretch(regressor, part, torque, part.used, state)
+        state = with_stretch(regressor, part, part.torque(), part.used, state)
     like = none_of(model)
     return Compressed(like.names, state.triangles, state.rows.astype(np.intp), like.free)
 

@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -235,10 +235,11 @@ def observed(
         pieces, check = prepared.pieces[run], prepared.checks[run]
         whole = tally(whole_log(log), pieces, prepared.splits[run], own, left_out, check)
         apart = [np.diff(part.rows.centres[:2]) for part in own if len(part.rows.centres) > 1]
+        wrong = check.contradictions if check else ()
+        decimation = int(apart[0][0]) if apart else 1
         found = log_report(
-            log, model.spec, prepared, run, whole, prepared.defects[run],
-            check.contradictions if check else (), int(apart[0][0]) if apart else 1,
-        )  # fmt: skip
+            log, model.spec, prepared, run, whole, prepared.defects[run], wrong, decimation
+        )
         tallies.append(whole)
         reports.append(dataclasses.replace(found, open_times=times))
     report = DataReport(
@@ -265,30 +266,28 @@ def no_row_left(report: DataReport, notes: Sequence[str] = ()) -> DataError:
 
 def observed_alike(model: "CompiledModel", like: Observation) -> Observation:
     """What a robot makes of logs that another one has seen, which masks the same samples."""
-    return dataclasses.replace(
-        like,
-        robot=model.spec.robot,
-        joints=model.spec.joints,
-        names=tuple(base.name for base in model.spec.base),
-        units=tuple(base.unit for base in model.spec.base),
-        regressor=Evaluated(model, like.stretches),
-    )
+    return dataclasses.replace(like, **_columns_of(model, like.stretches))
+
+
+def _columns_of(model: "CompiledModel", stretches: Sequence[Stretch]) -> dict[str, Any]:
+    """What an observation has of its robot."""
+    return {
+        "robot": model.spec.robot,
+        "joints": model.spec.joints,
+        "names": tuple(base.name for base in model.spec.base),
+        "units": tuple(base.unit for base in model.spec.base),
+        "regressor": Evaluated(model, stretches),
+    }
 
 
 def stacked(
-    model: "CompiledModel",
-    logs: Sequence[str],
-    stretches: tuple[Stretch, ...],
-    report: DataReport,
+    model: "CompiledModel", logs: Sequence[str], stretches: tuple[Stretch, ...], report: DataReport
 ) -> Observation:
     """The rows of some stretches of logs of these names, with what is told of them."""
     motion = np.concatenate([_motion(part) for part in stretches])
     counts = [len(part.rows.centres) for part in stretches]
     return Observation(
-        robot=model.spec.robot,
-        joints=model.spec.joints,
-        names=tuple(base.name for base in model.spec.base),
-        units=tuple(base.unit for base in model.spec.base),
+        **_columns_of(model, stretches),
         logs=tuple(logs),
         run=np.repeat([part.segment.run for part in stretches], counts),
         segment=np.repeat(np.arange(len(stretches)), counts),
@@ -296,10 +295,9 @@ def stacked(
         q=motion[:, 0],
         qd=motion[:, 1],
         qdd=motion[:, 2],
-        torque=np.concatenate([part.filtered(torque_of(part.segment)) for part in stretches]),
+        torque=np.concatenate([part.torque() for part in stretches]),
         used=np.concatenate([part.used for part in stretches]),
         stretches=stretches,
-        regressor=Evaluated(model, stretches),
         report=report,
     )
 
@@ -315,19 +313,8 @@ def _motion(part: Stretch) -> np.ndarray:
     )
 
 
-def torque_of(segment: Segment) -> Callable[[slice], np.ndarray]:
-    """What is filtered of a segment, a window at a time."""
-    return lambda window: segment.tau[window]
-
-
 # Why a row does not count, for those who draw it.
 
-
-MASKS = (
-    "low speed", "torque at its limit", "no good value", "impossible derivative", "filter end",
-    "loops open",
-)  # fmt: skip
-"""In short, for legends."""
 
 WHY = {
     "low speed": "the joint moves so slowly that the sign of its friction is doubtful",
@@ -337,16 +324,14 @@ WHY = {
     "filter end": "the position filter still starts up there",
     "loops open": "the loops cannot be closed with these positions",
 }
-"""In a sentence."""
+"""In short, for legends, and in a sentence."""
+
+MASKS = tuple(WHY)
 
 _OF = {
-    SATURATED: "torque at its limit",
-    MISSING: "no good value",
-    BRIDGES: "no good value",
-    CONTRADICTED: "impossible derivative",
-    EDGE: "filter end",
-    OPEN: "loops open",
-}
+    EDGE: "filter end", MISSING: "no good value", BRIDGES: "no good value",
+    CONTRADICTED: "impossible derivative", SATURATED: "torque at its limit", OPEN: "loops open",
+}  # fmt: skip
 
 
 def masks_of(observation: Observation) -> np.ndarray:
@@ -355,16 +340,13 @@ def masks_of(observation: Observation) -> np.ndarray:
     Args:
         observation: of logs.
     """
-    return np.concatenate([_masks(part) for part in observation.stretches])
-
-
-def _masks(part: Stretch) -> np.ndarray:
-    """(rows, n)."""
-    cause = part.segment.cause
     of = np.array([MASKS.index(_OF[name]) for name in CAUSES] + [0])  # the last: low speed
-    flags = np.where(part.usable, -1, of[-1] if cause is None else of[cause])
-    shares = np.stack([part.rows.share(flags == k) for k in range(len(MASKS))])
-    return np.where(part.used, -1, np.argmax(shares, axis=0)).astype(np.int8)
+    found = []
+    for part in observation.stretches:
+        flags = np.where(part.usable, -1, of[part.segment.cause])
+        shares = np.stack([part.rows.share(flags == k) for k in range(len(MASKS))])
+        found.append(np.where(part.used, -1, np.argmax(shares, axis=0)).astype(np.int8))
+    return np.concatenate(found)
 
 
 # The torque of a model over the samples of an observation, through the filter of its rows.

@@ -325,23 +325,12 @@ class Usual:
     rates: Mapping[str, np.ndarray]
 
 
-def repaired(log: Log, spec: ModuleSpec) -> tuple[Log, tuple[Damage, ...]]:
-    """The log without the values that no robot can have made, and what was found.
+def defects(log: Log, spec: ModuleSpec, usual: Usual | None = None) -> tuple[Log, Defects, Usual]:
+    """The log without the values that no robot can have made; these; and what is usual in it.
 
     Wraps are counted on, and positions that begin to count from another zero are joined to the
     longest stretch. Spikes and repeated values become missing ones. Where rows are missing and the
     clock ran on, a new piece begins.
-
-    Args:
-        log: as it was read.
-        spec: the robot's manifest; it names the joints.
-    """
-    mended, found, _ = defects(log, spec)
-    return mended, damages(log, log.rows, spec, found)
-
-
-def defects(log: Log, spec: ModuleSpec, usual: Usual | None = None) -> tuple[Log, Defects, Usual]:
-    """The mended log, what was found, and what is usual in it.
 
     Args:
         log: as it was read, or some consecutive rows of one.
@@ -378,11 +367,11 @@ def _positions(
     ):
         return q, segment, positions, steps, usual.leaps
     walks = [walked(log.time[rows], log.q[rows], revolute, steps) for rows in stretches]
-    long = [walk for walk in walks if walk is not None]
-    least = floors(long, steps) if usual is None else floors_here(long, usual.leaps)
-    for rows, walk in zip(stretches, walks, strict=True):
-        for j in range(len(spec.joints) if walk is not None else 0):
-            assert walk is not None
+    long = [(r, walk) for r, walk in zip(stretches, walks, strict=True) if walk is not None]
+    every = [walk for _, walk in long]
+    least = floors(every, steps) if usual is None else floors_here(every, usual.leaps)
+    for rows, walk in long:
+        for j in range(len(spec.joints)):
             leaps = leaps_of(walk, log.time[rows], j, least[j])
             q[rows, j] = _mended(walk, j, leaps)
             positions[j] += [_at(leap, rows, log) for leap in leaps]
@@ -406,10 +395,11 @@ def _stretches(log: Log, there: np.ndarray) -> Iterator[np.ndarray]:
     yield from np.split(rows, np.flatnonzero(cut) + 1)
 
 
-def _at(leap: Leap, rows: np.ndarray, log: Log) -> Found:
-    start = int(rows[leap.start])
-    stop = int(rows[leap.stop - 1]) + 1 if leap.stop > leap.start else start
-    return Found(leap.kind, start, stop, leap.size, float(log.time[start]))
+def _at(found: Leap, rows: np.ndarray, log: Log) -> Found:
+    """What was found in a stretch, at rows (k,) of the log."""
+    start = int(rows[found.start])
+    stop = int(rows[found.stop - 1]) + 1 if found.stop > found.start else start
+    return Found(found.kind, start, stop, found.size, float(log.time[start]))
 
 
 def _mended(walk: LeapWalk, j: int, leaps: Sequence[Leap]) -> np.ndarray:
@@ -435,7 +425,7 @@ def _torques(log: Log, usual: TorqueNoise | None) -> tuple[list[list[Found]], To
         usual,
     )
     return [
-        [_spike(one, rows, log) for own, rows in zip(by_joint, stretches, strict=True)
+        [_at(Leap("spike", *one), rows, log) for own, rows in zip(by_joint, stretches, strict=True)
          for one in own]
         for by_joint in spikes
     ], noise  # fmt: skip
@@ -458,15 +448,14 @@ def _rates(log: Log, usual: Mapping[str, np.ndarray]) -> tuple[Defects, dict[str
             floors_of_name.append(floor)
             spikes = glitches(stretches, departed, floor)
             found.setdefault(name, []).append(
-                [_spike(one, r, log) for own, r in zip(spikes, rows, strict=True) for one in own]
+                [
+                    _at(Leap("spike", *one), r, log)
+                    for own, r in zip(spikes, rows, strict=True)
+                    for one in own
+                ]
             )
         levels[name] = np.array(floors_of_name)
     return found, levels
-
-
-def _spike(spike: tuple[int, int, float], rows: np.ndarray, log: Log) -> Found:
-    start = int(rows[spike[0]])
-    return Found("spike", start, int(rows[spike[1] - 1]) + 1, spike[2], float(log.time[start]))
 
 
 def _without(values: np.ndarray, found: Sequence[Sequence[Found]]) -> np.ndarray:

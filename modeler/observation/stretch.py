@@ -44,6 +44,10 @@ class Stretch(Brief):
         for part, window, rows in self.parts(samples):
             yield rows, self._means(part, evaluate(window), window, self.used[rows])
 
+    def torque(self) -> np.ndarray:
+        """(rows, joints) filtered torque."""
+        return self.filtered(lambda window: self.segment.tau[window])
+
     def parts(self, samples: int = _BLOCK) -> Iterator[tuple[RowFilter, slice, slice]]:
         """Filters of a few rows each, the samples that they reach, and which rows they are."""
         centres = self.rows.centres
