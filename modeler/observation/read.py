@@ -149,8 +149,9 @@ def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.nda
         return joint.drive_gain * table.measured(current), source
     if not joint.actuated:
         return np.zeros(table.rows), "0 (passive)"
+    called = " or ".join(map(table.called, (tau, current)))
     raise DataError(
-        f"{table.path}: no column {table.absent(tau, current)}: joint {joint.name} of "
+        f"{table.path}: no column {called}: joint {joint.name} of "
         f"{spec.robot} is actuated; log its torque, or its current and give the drive gain"
     )
 
