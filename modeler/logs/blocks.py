@@ -55,7 +55,7 @@ class _Arrow:
                 try:
                     float(value if value is not None else "nan")
                 except ValueError:
-                    comma = re.fullmatch(r"\s*[+-]?\d*,\d+\s*", value)
+                    comma = re.fullmatch(r"\s*[+-]?\d*,\d+\s*", value or "")
                     raise NotNumbers(
                         f', row {row}: got "{value}"; expected a number'
                         f"{' with a decimal point' if comma else ''}; correct it, or leave the "

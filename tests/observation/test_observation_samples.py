@@ -16,7 +16,7 @@ from modeler.observation.prepare import (
     what_rings,
     what_trembles,
 )
-from modeler.observation.processing import Processing, processing_from_json
+from modeler.observation.processing import ChosenProcessing, Processing, processing_from_json
 from modeler.observation.segments import saturated, split
 
 W0 = 2 * np.pi * 0.7  # rad/s
@@ -315,7 +315,7 @@ def test_a_motion_with_slow_and_fast_parts_is_motion():
 
 
 def test_processing_survives_json_and_refuses_nonsense():
-    full = Processing(
+    full = ChosenProcessing(
         30.0, 5.0, 4, "log", 0.01, {"1": 0.2, "5+6": float("inf")}, True, 0.1,
         chosen=("parallel_cutoff",),
     )  # fmt: skip
