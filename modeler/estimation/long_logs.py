@@ -32,7 +32,7 @@ from modeler.observation.survey import (
     Passes,
     Survey,
     WholeNeeded,
-    seen,
+    rows_of_chunk,
     streamed_report,
     survey,
 )
@@ -83,7 +83,7 @@ def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partia
     Raises:
         DataError: a value that cannot be.
     """
-    stretches, facts = seen(model, chunk, chosen)
+    stretches, facts = rows_of_chunk(model, chunk, chosen)
     return Partial(_compressed(model, stretches), facts)
 
 

@@ -153,17 +153,12 @@ def look(
         DataError: no rows in that span, or a time column without values.
     """
     values = {name: table.measured(name) for name in table.names if table.is_numeric(name)}
-    blocks: Iterable[dict[str, np.ndarray]] = [values]
-    if every is not None:
-        blocks = (
-            {  # one that turns out to hold text has no values there
-                name: block.measured(name)
-                if block.is_numeric(name)
-                else np.full(block.rows, np.nan)
-                for name in values
-            }
-            for block in every
-        )
+
+    def numbers(block: LogTable) -> dict[str, np.ndarray]:  # what turns out to be text has none
+        none = np.full(block.rows, np.nan)
+        return {name: block.measured(name) if block.is_numeric(name) else none for name in values}
+
+    blocks: Iterable[dict[str, np.ndarray]] = [values] if every is None else map(numbers, every)
     if span != (None, None):
         found = guesses(values, {}, joints)
         values, every = _within(table, found, blocks, span), None

@@ -246,7 +246,9 @@ def _moves(log: Log) -> bool:
 # What a chunk makes of its rows, with every choice given.
 
 
-def seen(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> tuple[tuple[Stretch, ...], Facts]:
+def rows_of_chunk(
+    model: "CompiledModel", chunk: Chunk, chosen: Chosen
+) -> tuple[tuple[Stretch, ...], Facts]:
     """The rows of a chunk: mended, split, filtered and differentiated as those of a whole log.
 
     Its stretches have the rows that are its own and no others.

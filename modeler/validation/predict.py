@@ -21,7 +21,7 @@ from modeler.observation.read import Source
 from modeler.observation.reduce import blocks
 from modeler.observation.report import DataReport
 from modeler.observation.stretch import Stretch
-from modeler.observation.survey import Chosen, seen, streamed_report
+from modeler.observation.survey import Chosen, rows_of_chunk, streamed_report
 from modeler.observation.tally import Facts
 from modeler.runtime.model import CompiledModel
 from modeler.validation.comparison import Comparison, compare
@@ -211,7 +211,7 @@ def compare_long(
 
 
 def _part(model: IdentifiedModel, compiled: CompiledModel, chunk: Chunk, chosen: Chosen) -> _Part:
-    stretches, facts = seen(compiled, chunk, chosen)
+    stretches, facts = rows_of_chunk(compiled, chunk, chosen)
     some = tuple(part for part in stretches if len(part.rows.centres))
     report = DataReport(chosen.processing, (), (), ())
     found = stacked(compiled, (chunk.log.name,), some, report) if some else None
