@@ -40,6 +40,12 @@ class MotionColumns:
         """(n, m) what effects of the model read besides the motion."""
         return signals(self.compiled.spec, q, time)
 
+    def exact(
+        self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
+    ) -> np.ndarray:
+        """(n, J, c) phi as it is."""
+        return self.compiled.base_regressor(q, qd, qdd, s)
+
     def smooth(
         self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None,
         out: np.ndarray | None = None,

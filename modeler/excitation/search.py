@@ -260,8 +260,7 @@ def used(task: Task, x: np.ndarray) -> Used:
     loads = None
     if task.beta is not None:
         s = fine.columns.read(q, fine.series.time)
-        phi = fine.columns.compiled.base_regressor(q, qd, qdd, s)
-        loads = np.abs(phi @ task.beta).max(axis=0)
+        loads = np.abs(fine.columns.exact(q, qd, qdd, s) @ task.beta).max(axis=0)
     posture = fine.posture.shares(q)
     return Used(
         q.min(axis=0), q.max(axis=0), np.abs(qd).max(axis=0), np.abs(qdd).max(axis=0), loads,

@@ -64,7 +64,7 @@ class Task:
     def phi(self, motion: Motion) -> np.ndarray:
         """(n, J, c) the columns of the model, with dry friction as it is."""
         s = self.columns.read(motion[0], self.series.time)
-        return self.columns.compiled.base_regressor(*motion, s)
+        return self.columns.exact(*motion, s)
 
     def weighted(self, phi: np.ndarray) -> np.ndarray:
         """(n J, k) weighted rows of the kept columns."""
@@ -138,8 +138,7 @@ class Task:
         try:
             share = float(np.abs(self.posture.shares(q[:1])).max(initial=0.0))
             read = [self.columns.read(q, np.full(len(q), time)) for time in ends]
-            phi = [self.columns.compiled.base_regressor(q, qd, 0.0 * q, s) for s in read]
-            loads = [self.torques(own) for own in phi]
+            loads = [self.torques(self.columns.exact(q, qd, 0.0 * q, s)) for s in read]
         except LoopError:
             return np.inf
         rest = np.hstack(loads)
