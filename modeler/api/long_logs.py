@@ -17,10 +17,10 @@ from modeler.estimation.result import FitResult
 from modeler.logs.blocks import blocks_of
 from modeler.logs.mapping import LogMap
 from modeler.observation.chunk import chunks_between
-from modeler.observation.chunks import Chosen
 from modeler.observation.log import LONG, MOST_WHOLE, Log, check_apart
 from modeler.observation.processing import Processing
 from modeler.observation.read import FileSource, MemorySource, Source, source_of
+from modeler.observation.survey import Chosen
 from modeler.runtime.model import CompiledModel, compiled_once
 
 

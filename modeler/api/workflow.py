@@ -26,12 +26,12 @@ from modeler.estimation.model_file import (
     with_essential_only,
 )
 from modeler.logs.mapping import LogMap, map_from_table, map_from_words
+from modeler.observation.chunk import read_part, window
 from modeler.observation.log import LONG, Log, check_apart
 from modeler.observation.observation import Observation
 from modeler.observation.observation import observe as observe_logs
 from modeler.observation.processing import Processing
 from modeler.observation.read import read_log, source_of
-from modeler.observation.window import read_part, window
 from modeler.robot.edit import with_own_effect
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.robot.robot import Robot

@@ -63,7 +63,9 @@ def analysed(
     """
     processing = fitted if chosen else analysis_processing(fitted)
     if prepared is not None and all(check is None for check in prepared.checks):
-        wider = dataclasses.replace(prepared, processing=processing)
+        band, every = processing.parallel_cutoff or 0.0, processing.decimation
+        wide = dataclasses.replace(prepared.processing, parallel_cutoff=band, decimation=every)
+        wider = dataclasses.replace(prepared, processing=wide)
         return _whole(observed(compiled, logs, wider, every_joint=True))
     return _whole(observe(compiled, logs, processing, True, mending))
 

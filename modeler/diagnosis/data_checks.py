@@ -132,7 +132,7 @@ def _noisy(state: State) -> list[str]:
             found[joint.name] = model / measured
     if not found:
         return []
-    cutoff = state.data.observation.report.processing.position_cutoff or 0.0
+    cutoff = state.data.observation.report.processing.position_cutoff
     return [
         f"joint{'s' if len(found) > 1 else ''} {', '.join(found)}: the model's torque trembles up "
         f"to {max(found.values()):.0f} times as much as the measured one: noise of the positions; "

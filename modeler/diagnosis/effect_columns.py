@@ -310,7 +310,7 @@ def rows_of(observation: Observation, reference: SignalReference) -> Rows:
         observation: of the analysis.
         reference: where effects are linearised.
     """
-    cutoff = observation.report.processing.parallel_cutoff or 0.0
+    cutoff = observation.report.processing.parallel_cutoff
     signals = tuple(_signals(part, reference, cutoff) for part in observation.stretches)
     joints = len(observation.joints)
     full = [[_filter(part, j) for j in range(joints)] for part in observation.stretches]

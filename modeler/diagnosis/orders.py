@@ -134,7 +134,7 @@ def systematic_share(state: State, j: int) -> float:
     """Share of the variance of joint j's residual that cannot be noise."""
     rows, residual = state.rows, state.residual[j]
     log = rows.time[j], residual, rows.run[j]
-    cutoff = state.data.observation.report.processing.parallel_cutoff or 0.0
+    cutoff = state.data.observation.report.processing.parallel_cutoff
     periods = state.data.blocks.period
     steps = (periods, [forgotten(cutoff)] * len(periods))
     again = [returning(*log, later) or 0.0 for later in steps]

@@ -244,7 +244,7 @@ class Diagnosis(Presented):
     def band(self) -> float:
         """Hz up to which residuals were looked at; values are those of this band too."""
         observation = self.search.start.data.observation
-        return observation.report.processing.parallel_cutoff or 0.0
+        return observation.report.processing.parallel_cutoff
 
     @property
     def changed(self) -> bool:

@@ -88,7 +88,7 @@ class DirectModel:
         self.model, self.observation = model, observation
         self.segments = [part.segment for part in observation.stretches]
         self.commanded = all(segment.commanded is not None for segment in self.segments)
-        self.cutoff = observation.report.processing.position_cutoff or 0.0
+        self.cutoff = observation.report.processing.position_cutoff
         self.references = [self._reference(segment) for segment in self.segments]
         self.signals = [signals_of(model.spec, segment) for segment in self.segments]
         self.raised = 0.0  # share of samples whose inertia matrix was not positive definite

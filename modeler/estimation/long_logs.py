@@ -21,14 +21,21 @@ from modeler.estimation.methods import capable, method_of
 from modeler.estimation.result import FitResult
 from modeler.numerics.least_squares import Compressed, merged
 from modeler.observation.chunk import Chunk, chunks
-from modeler.observation.chunked_report import Passes, streamed_report
-from modeler.observation.chunks import Chosen, seen
 from modeler.observation.log import FINGER
-from modeler.observation.observation import Evaluated, Observation, no_row_left, torque_of
+from modeler.observation.observation import Evaluated, Observation, no_row_left
 from modeler.observation.processing import Processing
 from modeler.observation.read import Source
 from modeler.observation.reduce import with_stretch
-from modeler.observation.survey import KnownFacts, Survey, WholeNeeded, survey
+from modeler.observation.survey import (
+    Chosen,
+    KnownFacts,
+    Passes,
+    Survey,
+    WholeNeeded,
+    rows_of_chunk,
+    streamed_report,
+    survey,
+)
 from modeler.observation.tally import Facts
 from modeler.runtime.fused import no_rows
 
@@ -76,12 +83,11 @@ def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partia
     Raises:
         DataError: a value that cannot be.
     """
-    stretches, facts = seen(model, chunk, chosen)
+    stretches, facts = rows_of_chunk(model, chunk, chosen)
     parts = [part for part in stretches if part.used.any()]
     regressor, state = Evaluated(model, parts), no_rows(model.pattern)
     for part in parts:  # W is never there as a whole
-        torque = part.filtered(torque_of(part.segment))
-        state = with_stretch(regressor, part, torque, part.used, state)
+        state = with_stretch(regressor, part, part.torque(), part.used, state)
     names, joints = tuple(base.name for base in model.spec.base), model.spec.joints
     free = np.array([not joint.actuated for joint in joints])
     return Partial(Compressed(names, state.triangles, state.rows.astype(np.intp), free), facts)
@@ -256,10 +262,7 @@ def _again(facts: Sequence[Facts], found: Survey, known: KnownFacts) -> KnownFac
     wrong = [k for k, own in enumerate(facts) if own.wrongly_clipped()]
     if not floors and not wrong:
         return None
-    extremes = {
-        k: tuple(zip(own.ranges.low[1].tolist(), own.ranges.high[1].tolist(), strict=True))
-        for k, own in enumerate(facts)
-    }
+    extremes = {k: own.ranges.torques for k, own in enumerate(facts)}
     return KnownFacts({**known.floors, **floors}, extremes)
 
 

@@ -47,13 +47,9 @@ class MotionColumns:
         return self.compiled.base_regressor(q, qd, qdd, s)
 
     def smooth(
-        self,
-        q: np.ndarray,
-        qd: np.ndarray,
-        qdd: np.ndarray,
-        s: np.ndarray | None,
+        self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None,
         out: np.ndarray | None = None,
-    ) -> np.ndarray:
+    ) -> np.ndarray:  # fmt: skip
         """(n, J, c) phi with every jump at rest made a slope; in `out`, (n J, c), if given."""
         phi = self.compiled.observation(q, qd, qdd, out, s).reshape(*q.shape, -1)
         for j in np.flatnonzero(self.flips.any(axis=(1, 2))):

@@ -1,7 +1,6 @@
 """A motion as a Fourier series, and what it must keep to: ranges, boxes, loops, torques."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -91,19 +90,12 @@ def check_bounds(bounds: Bounds) -> None:
                 "are closed from home; expected limits around it"
             )
     for box in bounds.boxes:
-        _check_box(box.frame, box.lower, box.upper)
-
-
-def _check_box(frame: str, lower: Sequence[float], upper: Sequence[float]) -> None:
-    if any(not low < high for low, high in zip(lower, upper, strict=True)):
-        raise DataError(
-            f"box of frame {frame}: got {_three(lower)} to {_three(upper)}; expected x, y and z "
-            "each lower < upper, in m"
-        )
-
-
-def _three(values: Sequence[float]) -> str:
-    return "(" + ", ".join(f"{value:g}" for value in values) + ")"
+        if any(not low < high for low, high in zip(box.lower, box.upper, strict=True)):
+            ends = (", ".join(f"{value:g}" for value in end) for end in (box.lower, box.upper))
+            raise DataError(
+                f"box of frame {box.frame}: got ({') to ('.join(ends)}); expected x, y and z each "
+                "lower < upper, in m"
+            )
 
 
 FARTHEST = 2.0

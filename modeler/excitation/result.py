@@ -159,7 +159,7 @@ class Exciting(Presented):
             }
         return {
             "robot": self.robot,
-            **{name: value for name, value in self.wish.items()},
+            **self.wish,
             "condition_number": self.quality.condition_raw,
             "condition_scaled": self.quality.condition,
             "log_det": self.quality.log_det,

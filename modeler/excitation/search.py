@@ -91,8 +91,20 @@ def excite(
     on = Deadline(wish.time_limit)
     task = task_of(compiled, bounds, wish, sigma, kept, beta)
     drawn = drawn_motions(task, np.random.default_rng([wish.seed, 7]), on)
-    found = _improved_best(task, wish.starts, [x for x, _ in drawn], on, progress)
-    return finished(task, min(found, key=lambda y: value_of(task, y)), wish, drawn, on)
+
+    def value(x: np.ndarray) -> float:  # dry friction as it is
+        return task.criterion(task.rows(task.series.motion(x)))[0]
+
+    values = [value(x) for x in on.through(x for x, _ in drawn)]
+    best = sorted(range(len(values)), key=lambda k: values[k])[: wish.starts]
+    found, parts = [], len(best) * len(_STAGES)
+    for n, k in enumerate(best):
+        x, _ = drawn[k]
+        for m, stage in enumerate(_STAGES):
+            x = improved(task, x, stage, on)
+            progress((n * len(_STAGES) + m + 1) / parts)
+        found.append(x)
+    return finished(task, min(found, key=value), wish, drawn, on)
 
 
 class Deadline:
@@ -126,26 +138,6 @@ def drawn_motions(
         x = random_motion(task, rng)
         drawn.append((x, quality(task, x)))
     return drawn
-
-
-def _improved_best(
-    task: Task,
-    starts: int,
-    drawn: list[np.ndarray],
-    on: Deadline,
-    progress: Callable[[float], None],
-) -> list[np.ndarray]:
-    """The best of the motions drawn, each after all stages of descent."""
-    values = [value_of(task, x) for x in on.through(drawn)]
-    best = sorted(range(len(values)), key=lambda k: values[k])[:starts]
-    found, parts = [], len(best) * len(_STAGES)
-    for n, k in enumerate(best):
-        x = drawn[k]
-        for m, stage in enumerate(_STAGES):
-            x = improved(task, x, stage, on)
-            progress((n * len(_STAGES) + m + 1) / parts)
-        found.append(x)
-    return found
 
 
 def finished(
@@ -240,11 +232,6 @@ def improved(
     return x
 
 
-def value_of(task: Task, x: np.ndarray) -> float:
-    """The criterion along a motion, dry friction as it is."""
-    return task.criterion(task.rows(task.series.motion(x)))[0]
-
-
 def usual_harmonics(bounds: Bounds, duration: float) -> int:
     """As many as reach what the slowest joint can swing by an eighth of its range, 5 to 10."""
     part = 0.25 * bounds.half
@@ -262,9 +249,7 @@ def quality(task: Task, x: np.ndarray) -> Quality:
 def finer(task: Task) -> Task:
     """The same with ten times the samples, and nearly all of the limits."""
     old: Series = task.series
-    count = _FINER * len(old.time)
-    times = np.arange(count) * (old.duration / count)
-    finely = series(old.duration, old.harmonics, times)
+    finely = series(old.duration, old.harmonics, dense=_FINER * len(old.time) // old.harmonics)
     return dataclasses.replace(task, series=finely, share=_NEARLY)
 
 

@@ -109,29 +109,21 @@ def tell_apart(
         progress(generation / _GENERATIONS)
         return on()
 
-    motion = finished(task, _evolved(columns, best, rng, proceed), wish, drawn, on)
+    unit = task.bounds.half[:, None]
+
+    def pulled_in(flat: np.ndarray) -> np.ndarray:  # motions beyond limits are drawn back in
+        return task.drawn_in(flat.reshape(best.shape) * unit)
+
+    found = evolve(
+        lambda flat: columns.value(pulled_in(flat)),
+        (best / unit).ravel(), _FIRST, _GENERATIONS, rng, proceed,
+    )  # fmt: skip
+    motion = finished(task, pulled_in(found), wish, drawn, on)
     x = motion.x
     (here, size), (there, before) = columns.left(x), columns.left(best)
     names = tuple(f"{effect.id}@{joint}" for effect, joint in question.effects)
     gain = tuple(a / b if b > 0.0 else float("inf") for a, b in zip(size, before, strict=True))
     return motion, Apart((names[0], names[1]), here, there, (gain[0], gain[1]))
-
-
-def _evolved(
-    columns: "_Pair", x: np.ndarray, rng: np.random.Generator, on: Callable[[int], bool]
-) -> np.ndarray:
-    """The best motion that evolution finds from x; those beyond limits are drawn back in."""
-    task = columns.task
-    unit = task.bounds.half[:, None]
-
-    def pulled_in(flat: np.ndarray) -> np.ndarray:
-        return task.drawn_in(flat.reshape(x.shape) * unit)
-
-    found = evolve(
-        lambda flat: columns.value(pulled_in(flat)),
-        (x / unit).ravel(), _FIRST, _GENERATIONS, rng, on,
-    )  # fmt: skip
-    return pulled_in(found)
 
 
 class _Pair:
@@ -173,10 +165,9 @@ class _Pair:
         q, qd, qdd = (np.tile(part, (self._laps, 1)) for part in self.task.series.motion(x))
         step = self.task.series.duration / len(self.task.series.time)
         time = np.arange(len(q)) * step
-        nothing = np.zeros_like(q)
         segment = Segment(
-            0, time, step, q, qd, qdd, nothing, {},
-            np.ones(len(q), dtype=bool), np.ones(q.shape, dtype=bool), {},
+            0, time, step, q, qd, qdd, 0.0 * q, {},
+            np.ones(len(q), dtype=bool), np.full(q.shape, -1),
         )  # fmt: skip
         return Signals(segment, 1, q, qd, qdd, self._reference)
 
@@ -191,17 +182,13 @@ class _Pair:
             for grid in self._grids
         ]
 
-    def _beyond_model(self, x: np.ndarray) -> tuple[list[list[np.ndarray]], list[list[np.ndarray]]]:
-        """The blocks, and what the model leaves of them."""
+    def _unexplained(self, x: np.ndarray) -> tuple[list[list[np.ndarray]], list[np.ndarray]]:
+        """The blocks; and of each effect and shape, the square that model and other leave."""
         W = self.task.rows(self.task.series.motion(x))
         # Every lap has the same columns of the model: one lap of Q is that of all, scaled.
         Q = np.tile(np.linalg.qr(W)[0], (self._laps, 1)) / np.sqrt(self._laps)
         blocks = self._blocks(x)
-        return blocks, [[block - Q @ (Q.T @ block) for block in own] for own in blocks]
-
-    def _unexplained(self, x: np.ndarray) -> tuple[list[list[np.ndarray]], list[np.ndarray]]:
-        """The blocks; and of each effect and shape, the square that model and other leave."""
-        blocks, beyond = self._beyond_model(x)
+        beyond = [[block - Q @ (Q.T @ block) for block in own] for own in blocks]
         bases = [[np.linalg.qr(block)[0] for block in own] for own in beyond]
         squares = [
             np.array([
@@ -280,7 +267,7 @@ def choose(rows: Sequence[np.ndarray], count: int) -> Choice:
     if exhaustive:
         best = min(itertools.combinations(range(len(rows)), count), key=value)
     else:
-        best = _exchanged(triangles, count)
+        best = _exchanged(triangles, count, value)
     if not math.isfinite(value(best)):
         raise DataError(
             f"choose: no {count} of these {len(rows)} motions excite all parameters; take more, or "
@@ -290,7 +277,9 @@ def choose(rows: Sequence[np.ndarray], count: int) -> Choice:
     return Choice(tuple(best), value(best), value(range(len(rows))), every, exhaustive)
 
 
-def _exchanged(triangles: list[np.ndarray], count: int) -> tuple[int, ...]:
+def _exchanged(
+    triangles: list[np.ndarray], count: int, measured: Callable[[Sequence[int]], float]
+) -> tuple[int, ...]:
     """Greedy, then one for one: by the weakest singular value first, where columns lack."""
     lengths = np.sqrt(sum(np.sum(R**2, axis=0) for R in triangles))
     scaled = [R / np.where(lengths > 0.0, lengths, 1.0) for R in triangles]
@@ -307,12 +296,7 @@ def _exchanged(triangles: list[np.ndarray], count: int) -> tuple[int, ...]:
     while len(chosen) < count:
         chosen.append(min((k for k in left if k not in chosen), key=lambda k: value([*chosen, k])))
     chosen.sort()
-
-    def measured(places: Sequence[int]) -> float:
-        return condition(np.vstack([triangles[k] for k in places]))
-
-    here = measured(chosen)
-    improving = True
+    here, improving = measured(chosen), True
     while improving:
         trials = [
             sorted([*(c for c in chosen if c != out), into])

@@ -61,20 +61,22 @@ class Task:
             )
         return float(left.min())
 
-    def rows(self, motion: Motion, smooth: bool = False) -> np.ndarray:
-        """(n J, k) weighted rows of the kept columns."""
+    def phi(self, motion: Motion) -> np.ndarray:
+        """(n, J, c) the columns of the model, with dry friction as it is."""
         s = self.columns.read(motion[0], self.series.time)
-        phi = (self.columns.smooth if smooth else self.columns.exact)(*motion, s)
+        return self.columns.exact(*motion, s)
+
+    def weighted(self, phi: np.ndarray) -> np.ndarray:
+        """(n J, k) weighted rows of the kept columns."""
         return (phi[:, :, self.kept] * self.weights[:, None]).reshape(-1, len(self.kept))
 
-    @property
-    def limited(self) -> bool:
-        """True if some torque is."""
-        return self.beta is not None and bool(np.isfinite(self.bounds.torque).any())
+    def rows(self, motion: Motion) -> np.ndarray:
+        """(n J, k) the same of a motion."""
+        return self.weighted(self.phi(motion))
 
     def torques(self, phi: np.ndarray) -> np.ndarray:
         """(n, J) as shares of their limits: |.| < share; (n, 0) where none is limited."""
-        if self.beta is None or not self.limited:
+        if self.beta is None or not np.isfinite(self.bounds.torque).any():
             return np.zeros((len(phi), 0))
         return phi @ self.beta / self.bounds.torque
 
@@ -85,9 +87,8 @@ class Task:
             return False
         try:
             parts = [self.posture.shares(motion[0])]
-            if self.limited:
-                s = self.columns.read(motion[0], self.series.time)
-                parts.append(self.torques(self.columns.exact(*motion, s)))
+            if self.beta is not None and np.isfinite(self.bounds.torque).any():
+                parts.append(self.torques(self.phi(motion)))
         except LoopError:
             return False
         return all(np.abs(part).max(initial=0.0) < self.share for part in parts)
@@ -198,8 +199,7 @@ class Walled:
         loads = task.torques(phi) / task.share
         if not np.abs(loads).max(initial=0.0) < 1.0:
             return np.inf
-        W = (phi[:, :, task.kept] * task.weights[:, None]).reshape(-1, len(task.kept))
-        value, pull = task.criterion(W)
+        value, pull = task.criterion(task.weighted(phi))
         if not np.isfinite(value):
             return np.inf
         self._state = (motion, s, phi, pull, shares, posture, loads)

@@ -15,12 +15,12 @@ from modeler.estimation.verdict import contradictions
 from modeler.fleet.naming import Named
 from modeler.logs.mapping import LogMap
 from modeler.numerics.least_squares import Compressed, compress
-from modeler.observation.channel_shift import faults_of_fit
+from modeler.observation.chunk import window
+from modeler.observation.findings import faults_of_fit
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation, observe
 from modeler.observation.processing import Processing
 from modeler.observation.read import read_log
-from modeler.observation.window import window
 from modeler.runtime.model import CompiledModel, compiled_once
 
 TEMPERATURE = "temperature"

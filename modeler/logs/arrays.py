@@ -5,8 +5,9 @@ import os
 import struct
 import zlib
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ LEAST_ROWS = 10
 _SHOWN = 8  # names in a note
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Held:
     """An array of a file; `data` may be on disk still.
 
@@ -44,25 +45,11 @@ class Held:
         return tuple(self.data.shape[::-1] if self.flipped else self.data.shape)
 
 
-class _MatReader:
-    """Reads the arrays of one file; keeps the last, whose columns come one after the other."""
-
-    def __init__(self, path: Path, what: str) -> None:
-        self._path, self._what = path, what
-        self._last: tuple[Any, np.ndarray] | None = None
-
-    def values(self, held: Held) -> np.ndarray:
-        if self._last is None or self._last[0] is not held:
-            with reading(self._path, self._what):
-                self._last = (held, np.asarray(held.data[()]))
-        return self._last[1].T if held.flipped else self._last[1]
-
-
 @dataclass(frozen=True, eq=False)
 class _Slice:
-    """One column of an array."""
+    """One column of an array; `values` reads one, and keeps the last: its columns follow."""
 
-    reader: _MatReader
+    values: Callable[[Held], np.ndarray]
     held: Held
     place: int
     across: bool  # rows of the array are the columns
@@ -76,7 +63,7 @@ class _Slice:
             raise NotNumbers(
                 f" holds {self.held.data.dtype}; expected numbers; write it as floating point"
             )
-        values = self.reader.values(self.held)
+        values = self.values(self.held)
         if values.ndim == 2:
             values = values[self.place] if self.across else values[:, self.place]
         return np.array(values, dtype=float).reshape(-1)
@@ -99,10 +86,17 @@ def columns_of(
             f"{path}: no array of {LEAST_ROWS} rows or more; expected the samples of a motion as "
             f"arrays (n,) or (n, joints); it holds {_listed([_told(a) for a in arrays])}"
         )
-    reader, found = _MatReader(path, what), list[tuple[str, Column]]()
+
+    @lru_cache(maxsize=1)
+    def values(held: Held) -> np.ndarray:
+        with reading(path, what):
+            content = np.asarray(held.data[()])
+        return content.T if held.flipped else content
+
+    found = list[tuple[str, Column]]()
     units, left = dict[str, str](), list[str]()
     for held in arrays:
-        slices = _slices(reader, held, rows)
+        slices = _slices(values, held, rows)
         if not slices:
             left.append(_told(held))
         found += slices
@@ -138,15 +132,17 @@ def _rows(arrays: Sequence[Held]) -> int | None:
     return max(counts, key=lambda n: (counts[n], n), default=None)
 
 
-def _slices(reader: _MatReader, held: Held, rows: int) -> list[tuple[str, Column]]:
+def _slices(
+    values: Callable[[Held], np.ndarray], held: Held, rows: int
+) -> list[tuple[str, Column]]:
     shape = held.shape
     if shape in ((rows,), (rows, 1), (1, rows)):
-        return [(held.name, _Slice(reader, held, 0, shape == (1, rows)))]
+        return [(held.name, _Slice(values, held, 0, shape == (1, rows)))]
     if len(shape) != 2 or rows not in shape:
         return []
     across = shape[0] != rows
     count = shape[0] if across else shape[1]
-    return [(f"{held.name}[{k + 1}]", _Slice(reader, held, k, across)) for k in range(count)]
+    return [(f"{held.name}[{k + 1}]", _Slice(values, held, k, across)) for k in range(count)]
 
 
 def with_fields(name: str, data: Any, **more: Any) -> list[Held]:
@@ -166,16 +162,12 @@ class _MatField:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        return (*self.data.shape, *self._kind.shape)
+        return (*self.data.shape, *self.data.dtype[self.field].shape)
 
     @property
     def dtype(self) -> np.dtype:
-        return self._kind.base
-
-    @property
-    def _kind(self) -> np.dtype:
-        fields: Mapping[str, Any] = self.data.dtype.fields
-        return fields[self.field][0]
+        kind: np.dtype = self.data.dtype[self.field]
+        return kind.base
 
     def __getitem__(self, key: tuple[()]) -> np.ndarray:
         return np.asarray(self.data[self.field])

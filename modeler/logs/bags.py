@@ -153,9 +153,7 @@ def _held(part: Recorded, table: np.ndarray, clock: np.ndarray) -> tuple[np.ndar
 def _stamp(message: Any) -> int:
     """Of the header, ns; 0 without one."""
     stamp = getattr(getattr(message, "header", None), "stamp", None)
-    if stamp is None:
-        return 0
-    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
+    return 0 if stamp is None else int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
 
 
 def _names(message: Any) -> tuple[str, ...]:

@@ -51,31 +51,34 @@ class _Arrow:
 
     def numbers(self) -> np.ndarray:
         if not self.numeric:
-            raise NotNumbers(self._why())
+            for row, value in enumerate(self._texts(), start=self.before + 1):
+                try:
+                    float(value if value is not None else "nan")
+                except ValueError:
+                    comma = re.fullmatch(r"\s*[+-]?\d*,\d+\s*", value or "")
+                    raise NotNumbers(
+                        f', row {row}: got "{value}"; expected a number'
+                        f"{' with a decimal point' if comma else ''}; correct it, or leave the "
+                        "entry empty if the measurement is missing"
+                    ) from None
+            kind = self.column.type
+            raise NotNumbers(f" holds {kind}; expected numbers; write the column as floating point")
         column = pc.cast(self.column, pa.float64(), safe=False)
         if column.null_count or not column.num_chunks:
             return np.array(column.to_numpy(), dtype=float)
         # Arrow's own `to_numpy` loads pandas, where it is installed.
         return np.concatenate([np.from_dlpack(chunk) for chunk in column.chunks])
 
-    def _why(self) -> str:
+    def _texts(self) -> list[str | None]:
         kind = self.column.type
-        if pa.types.is_string(kind) or pa.types.is_large_string(kind):
-            for row, value in enumerate(self.column.to_pylist(), start=self.before + 1):
-                try:
-                    float(value if value is not None else "nan")
-                except ValueError:
-                    return (
-                        f', row {row}: got "{value}"; expected a number{_with_point(value)}; '
-                        "correct it, or leave the entry empty if the measurement is missing"
-                    )
-        return f" holds {kind}; expected numbers; write the column as floating point"
+        text = pa.types.is_string(kind) or pa.types.is_large_string(kind)
+        return list(self.column.to_pylist()) if text else []
 
 
 def read_csv(path: Path, wanted: Wanted) -> Columns:
     """The columns of a CSV file."""
     del wanted  # one table, no parts
-    with told(path, "CSV"):
+    with arrow_errors(path, "CSV"):
         check_csv(path)
         return arrow_columns(_parsed(path))
 
@@ -83,11 +86,11 @@ def read_csv(path: Path, wanted: Wanted) -> Columns:
 def read_parquet(path: Path, wanted: Wanted) -> Columns:
     """The columns of a Parquet file."""
     del wanted
-    with told(path, "PARQUET"):
-        return arrow_columns(opened(path).read())  # read_table refuses equal names
+    with arrow_errors(path, "PARQUET"):
+        return arrow_columns(open_parquet(path).read())  # read_table refuses equal names
 
 
-def opened(path: Path, **how: Any) -> pa.parquet.ParquetFile:
+def open_parquet(path: Path, **how: Any) -> pa.parquet.ParquetFile:
     """A Parquet file whose columns have room.
 
     Raises:
@@ -101,7 +104,7 @@ def opened(path: Path, **how: Any) -> pa.parquet.ParquetFile:
 
 
 @contextmanager
-def told(path: Path, what: str) -> Iterator[None]:
+def arrow_errors(path: Path, what: str) -> Iterator[None]:
     """Errors of Arrow as one line."""
     try:
         yield
@@ -116,13 +119,18 @@ def told(path: Path, what: str) -> Iterator[None]:
         ) from None
 
 
-def _parsed(path: Path) -> pa.Table:
-    """The table of a CSV file; an error of one row names it."""
+def _parsed(source: Any, **options: Any) -> pa.Table:
+    """The table of a CSV file, or of some of its lines; an error of one row names it."""
+    names = options.pop("column_names", None)
+    convert = pa.csv.ConvertOptions(**options)
     try:
-        return pa.csv.read_csv(path)
+        return pa.csv.read_csv(
+            source, pa.csv.ReadOptions(column_names=names), convert_options=convert
+        )
     except pa.ArrowInvalid:
         # Rows are counted only where one thread reads all.
-        return pa.csv.read_csv(path, pa.csv.ReadOptions(use_threads=False))
+        alone = pa.csv.ReadOptions(column_names=names, use_threads=False)
+        return pa.csv.read_csv(source, alone, convert_options=convert)
 
 
 def arrow_columns(table: pa.Table, before: int = 0) -> Columns:
@@ -131,10 +139,6 @@ def arrow_columns(table: pa.Table, before: int = 0) -> Columns:
         (bare(name), _Arrow(table.column(i), before)) for i, name in enumerate(table.column_names)
     ]
     return Columns(tuple(named), table.num_rows)
-
-
-def _with_point(value: str) -> str:
-    return " with a decimal point" if re.fullmatch(r"\s*[+-]?\d*,\d+\s*", value) else ""
 
 
 def bare(name: str) -> str:
@@ -177,23 +181,18 @@ def check_csv(path: Path) -> None:
     if "," not in header:
         for mark, name in _MARKS.items():
             if mark in header:
-                raise DataError(_separated_by(path, mark, name, first))
+                decimals = any(_DECIMAL_COMMA.match(entry) for entry in first.split(mark))
+                also = ", and decimal points for the decimal commas" if decimals else ""
+                raise DataError(
+                    f"{path}: columns separated by {name}; expected columns separated by commas; "
+                    f"write the file again with commas{also}"
+                )
     columns, entries = header.count(",") + 1, first.count(",") + 1
     if entries > columns and '"' not in header + first:
         raise DataError(
             f"{path}: row 1: got {entries} entries for {columns} columns; expected one each; "
             "write decimal points where numbers have decimal commas"
         )
-
-
-def _separated_by(path: Path, mark: str, name: str, first: str) -> str:
-    also = ""
-    if any(_DECIMAL_COMMA.match(entry) for entry in first.split(mark)):
-        also = ", and decimal points for the decimal commas"
-    return (
-        f"{path}: columns separated by {name}; expected columns separated by commas; write the "
-        f"file again with commas{also}"
-    )
 
 
 def _header(path: Path, line: bytes) -> str:
@@ -238,7 +237,7 @@ class CsvBlocks:
 
     def __init__(self, path: Path) -> None:
         self._path, self._state = path, state_of(path)
-        with told(path, "CSV"):
+        with arrow_errors(path, "CSV"):
             check_csv(path)
             with path.open("rb") as file:
                 header = file.readline()
@@ -254,15 +253,10 @@ class CsvBlocks:
         """About as many as the file has."""
         return round((self._state[0] - self._start) / self._line)
 
-    @property
-    def state(self) -> State:
-        """Of the file when it was opened."""
-        return self._state
-
     def blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
         """All rows in their order, about `size` at a time."""
         read, rest = 0, b""
-        with told(self._path, "CSV"), self._path.open("rb") as file:
+        with arrow_errors(self._path, "CSV"), self._path.open("rb") as file:
             file.seek(self._start)
             while True:
                 text = file.read(max(1, int(size * self._line)))
@@ -284,7 +278,7 @@ class CsvBlocks:
         room = int(size * self._line)
         start = max(self._start, min(self._start + int(share * self._state[0]),
                                      self._state[0] - room))  # fmt: skip
-        with told(self._path, "CSV"), self._path.open("rb") as file:
+        with arrow_errors(self._path, "CSV"), self._path.open("rb") as file:
             file.seek(start - 1)
             file.readline()  # the line that begins before
             text = file.read(room)
@@ -294,23 +288,13 @@ class CsvBlocks:
     def _parsed(self, text: bytes, names: Sequence[str], before: int) -> pa.Table:
         """A table of whole lines; an error of one row names its place in the file."""
         wanted = [name for name in self._names if not names or bare(name) in names]
-        convert = pa.csv.ConvertOptions(include_columns=wanted)
         try:
-            return pa.csv.read_csv(
-                pa.py_buffer(text), pa.csv.ReadOptions(column_names=self._names),
-                convert_options=convert,
-            )  # fmt: skip
-        except pa.ArrowInvalid:
-            # Rows are counted only where one thread reads all.
-            options = pa.csv.ReadOptions(column_names=self._names, use_threads=False)
-            try:
-                return pa.csv.read_csv(pa.py_buffer(text), options, convert_options=convert)
-            except pa.ArrowInvalid as error:
-                check_unchanged(self._path, self._state)
-                # As in a file that is read whole, the header is row 1.
-                told_row = re.sub(r"Row #(\d+)", lambda m: f"Row #{int(m[1]) + before + 1}",
-                                  str(error))  # fmt: skip
-                raise pa.ArrowInvalid(told_row) from None
+            return _parsed(pa.py_buffer(text), column_names=self._names, include_columns=wanted)
+        except pa.ArrowInvalid as error:
+            check_unchanged(self._path, self._state)
+            # As in a file that is read whole, the header is row 1.
+            placed = re.sub(r"Row #(\d+)", lambda m: f"Row #{int(m[1]) + before + 1}", str(error))
+            raise pa.ArrowInvalid(placed) from None
 
 
 class Blocks(Protocol):
@@ -381,7 +365,7 @@ class ParquetBlocks:
     def __init__(self, path: Path) -> None:
         self._path, self._state = path, state_of(path)
         self._groups: list[_Group] = []
-        with told(path, "PARQUET"):
+        with arrow_errors(path, "PARQUET"):
             meta = self._open().metadata
             for place in range(meta.num_row_groups):
                 start = self.rows
@@ -391,11 +375,6 @@ class ParquetBlocks:
     def rows(self) -> int:
         """Of the file."""
         return self._groups[-1].stop if self._groups else 0
-
-    @property
-    def state(self) -> State:
-        """Of the file when it was opened."""
-        return self._state
 
     def blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
         """All rows in their order, `size` at a time."""
@@ -420,7 +399,7 @@ class ParquetBlocks:
         return arrow_columns(pa.concat_tables(parts), start)
 
     def _open(self) -> pa.parquet.ParquetFile:
-        return opened(self._path, buffer_size=_BYTES, pre_buffer=False)
+        return open_parquet(self._path, buffer_size=_BYTES, pre_buffer=False)
 
     def _read(
         self, groups: Sequence[_Group], size: int, names: Sequence[str]

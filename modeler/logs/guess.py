@@ -3,7 +3,7 @@
 import dataclasses
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,25 +12,20 @@ from modeler.core.manifest import JointSpec
 from modeler.logs.mapping import ANGLE, CURRENT, FORCE, LENGTH, TIME, TORQUE, Powers, find_unit
 from modeler.logs.rates import Pair, pairs_of, units_of
 
-
-def _words(text: str) -> frozenset[str]:
-    return frozenset(text.split())
-
-
-_WORDS: Mapping[str, frozenset[str]] = {
-    "time": _words("t time timestamp stamp clock zeit temps sec seconds"),
-    "temperature": _words("temp temperature temperatures heat"),
-    "current": _words("strom current currents cur i iq amp amps"),
-    "tau": _words("tau torque torques drehmoment kraft trq effort moment moments load force f"),
-    "qdd": _words("qdd ddq acc accel acceleration accelerations"),
-    "qd": _words("qd dq qdot geschwindigkeit drehzahl vel velocity velocities speed speeds omega"),
-    "q": _words("q winkel pos position positions angle angles theta enc encoder x"),
+_WORDS: Mapping[str, str] = {
+    "time": "t time timestamp stamp clock zeit temps sec seconds",
+    "temperature": "temp temperature temperatures heat",
+    "current": "strom current currents cur i iq amp amps",
+    "tau": "tau torque torques drehmoment kraft trq effort moment moments load force f",
+    "qdd": "qdd ddq acc accel acceleration accelerations",
+    "qd": "qd dq qdot geschwindigkeit drehzahl vel velocity velocities speed speeds omega",
+    "q": "q winkel pos position positions angle angles theta enc encoder x",
 }
 _KINDS: Mapping[Powers, str] = {
     TIME: "time", ANGLE: "q", LENGTH: "q", (0, 0, -1, 1, 0, 0): "qd", (1, 0, -1, 0, 0, 0): "qd",
     TORQUE: "tau", FORCE: "tau", CURRENT: "current",
 }  # fmt: skip
-_ASKED = _words("qc cmd command commanded desired des target ref reference set setpoint")
+_ASKED = "qc cmd command commanded desired des target ref reference set setpoint"
 _LABEL = re.compile(r"\[([^\[\]]+)\]$|(\d+)(?!.*\d)|(?<=[ _.])([A-Z])$")
 _UNIT = re.compile(r"\s+[\[(]([^\[\]()]+)[\])]$")
 _SPLIT = re.compile(r"[^A-Za-zµ°]+|(?<=[a-z])(?=[A-Z])")
@@ -90,7 +85,8 @@ def guesses(
     found: dict[str, Guess] = {}
     for template, labels in groups.items():
         names = [template.replace("{}", label) for label in labels]
-        own = _role(template) or _by_unit(names, stated)
+        unit = find_unit(stated.get(names[0]) or _named(names[0]) or "?")
+        own = _role(template) or ("" if unit is None else _KINDS.get(unit.powers, ""))
         if own == "time" and not all(_rises(columns[name]) for name in names):
             own = "tau" if template.lower().split()[:1] == ["t"] else ""
         better = own in found and len(labels) > len(found[own].labels)
@@ -99,9 +95,11 @@ def guesses(
     if "time" not in found:
         taken = {name for one in found.values() for name in one.columns}
         free = (name for name in columns if name not in taken)
-        clock = next((name for name in free if _steady(columns[name])), None)
-        if clock is not None:
-            found["time"] = Guess("time", clock, ("",), ("",))
+        for name in free:
+            steps = np.diff(columns[name])  # of a clock they are all about the same
+            if len(steps) and np.isfinite(steps).all() and 0 < steps.max() < 3 * steps.min():
+                found["time"] = Guess("time", name, ("",), ("",))
+                break
     order = ("time", "q", "qd", "qdd", "qc", "tau", "current", "temperature")
     known = [found[own] for own in order if own in found]
     rates = _rates(found, columns, stated)
@@ -130,11 +128,16 @@ def _rates(
         "" if clock in stated else _named(clock) or _ranged("time", time[np.isfinite(time)], False)
     )
     unit = find_unit(named) if named else None
-    speeds = dict(zip(found["qd"].labels, found["qd"].columns, strict=True))
-    positions = zip(found["q"].labels, found["q"].columns, strict=True)
-    names = [(q, speeds[label]) for label, q in positions if label in speeds]
     time = time * (1.0 if unit is None else unit.factor)
-    return {pair.position: pair for pair in pairs_of(names, columns, time)}
+    pairs = pairs_of(speeds_by_position(found.values()), columns, time)
+    return {pair.position: pair for pair in pairs}
+
+
+def speeds_by_position(found: Iterable[Guess]) -> list[tuple[str, str]]:
+    """Columns of position and speed of the joints that have both."""
+    by = {one.own: dict(zip(one.labels, one.columns, strict=True)) for one in found}
+    positions, speeds = by.get("q", {}), by.get("qd", {})
+    return [(q, speeds[label]) for label, q in positions.items() if label in speeds]
 
 
 def template_of(name: str) -> tuple[str, str]:
@@ -151,30 +154,18 @@ def template_of(name: str) -> tuple[str, str]:
 def _role(template: str) -> str:
     """What a template looks like, "" for nothing of ours; the last words say most."""
     words = [word.lower() for word in _SPLIT.split(template.split("[")[0]) if word]
-    asked = any(word in _ASKED for word in words)
+    asked = any(word in _ASKED.split() for word in words)
     for word in reversed(words):
         for own, names in _WORDS.items():
-            if word in names:
+            if word in names.split():
                 return ("qc" if own == "q" else "") if asked and own != "time" else own
     return "qc" if words and words[-1] == "qc" else ""
-
-
-def _steady(values: np.ndarray) -> bool:
-    """True of a column that grows by about the same in every row."""
-    steps = np.diff(values)
-    return bool(len(steps) and np.isfinite(steps).all() and 0 < steps.max() < 3 * steps.min())
 
 
 def _rises(values: np.ndarray) -> bool:
     """True of a column that goes up, as a time does, but for a few rows."""
     steps = np.diff(values[np.isfinite(values)])
     return bool(len(steps) == 0 or np.mean(steps >= 0.0) > 0.9)
-
-
-def _by_unit(names: Sequence[str], stated: Mapping[str, str]) -> str:
-    """What columns are by the unit that their names or the file state, if no word says it."""
-    unit = find_unit(stated.get(names[0]) or _named(names[0]) or "?")
-    return "" if unit is None else _KINDS.get(unit.powers, "")
 
 
 def _with_units(
@@ -186,9 +177,7 @@ def _with_units(
     if any(told):
         return dataclasses.replace(one, units=told, why="stated")
     known = [columns[name][np.isfinite(columns[name])] for name in one.columns]
-    units = [
-        "" if not len(v) else _ranged(one.own, v, s) for v, s in zip(known, slides, strict=True)
-    ]
+    units = [_ranged(one.own, v, slide) for v, slide in zip(known, slides, strict=True)]
     if one.own == "q":
         units = [
             _by_rate(rates.get(name), unit, v)
@@ -261,9 +250,7 @@ _MISSING = {"q": "positions", "tau": "torques"}
 
 def absent_roles(found: Sequence[Guess]) -> list[str]:
     """Quantities that every fit needs and that no column looks like."""
-    there = {one.own for one in found} | (
-        {"tau"} & {"tau" for one in found if one.own == "current"}
-    )
+    there = {"tau" if one.own == "current" else one.own for one in found}
     lacking = [words for own, words in _MISSING.items() if own not in there]
     if not lacking:
         return []
@@ -276,9 +263,7 @@ def absent_roles(found: Sequence[Guess]) -> list[str]:
 def unlike_si(found: Sequence[Guess]) -> list[str]:
     """Columns whose range looks like another unit than SI, where nobody states one."""
     lines = []
-    for one in found:
-        if one.why != "by its range":
-            continue
+    for one in (one for one in found if one.why == "by its range"):
         for unit in dict.fromkeys(filter(None, one.units)):
             own = [c for c, u in zip(one.columns, one.units, strict=True) if u == unit]
             every = len(own) == len(one.columns) > 1
@@ -340,25 +325,16 @@ def _lines_of(one: Guess, own: Sequence[str], named: bool) -> list[str]:
         pattern = one.template.replace("{}", mark)
         written = _quoted(f"{pattern}{_once(one.columns[0], unit)}")
         lines.append(f'"{one.own}<j>" = {written}{told * bool(unit)}')
-    if not unit:
-        lines += [
-            f"{_key(one.own + joint)} = {_column(column, one_unit)}{told}"
-            for joint, column, one_unit in _by_joint(one, own, mark)
-            if one_unit
-        ]
-    return lines
-
-
-def _by_joint(one: Guess, own: Sequence[str], mark: str) -> list[tuple[str, str, str]]:
-    """Joint, column and unit of each column that a joint has."""
-    if mark == "{j}":
-        places = {joint: label for joint, label in zip(own, own, strict=True)}
-    elif mark == "{name}":
-        places = dict(zip(own, one.labels, strict=False))
-    else:
-        places = {j: str(k + (mark == "{n}")) for k, j in enumerate(own)}
+    if unit:
+        return lines
+    counted = [str(k + (mark == "{n}")) for k in range(len(own))]
+    labels = {"{j}": own, "{name}": one.labels}.get(mark, counted)
     by = dict(zip(one.labels, zip(one.columns, one.units, strict=True), strict=True))
-    return [(joint, *by[label]) for joint, label in places.items() if label in by]
+    for joint, label in zip(own, labels, strict=False):
+        column, own_unit = by.get(label, ("", ""))
+        if own_unit:
+            lines.append(f"{_key(one.own + joint)} = {_column(column, own_unit)}{told}")
+    return lines
 
 
 def _column(name: str, unit: str) -> str:
@@ -377,7 +353,7 @@ def _quoted(text: str) -> str:
 
 def _once(column: str, unit: str) -> str:
     """The unit in brackets, unless the column's name has it already."""
-    return "" if not unit or column.endswith((f" [{unit}]",)) else f" [{unit}]"
+    return "" if not unit or column.endswith(f" [{unit}]") else f" [{unit}]"
 
 
 def _mark(labels: Sequence[str], own: Sequence[str]) -> str:

@@ -13,10 +13,10 @@ from modeler.core.manifest import JointSpec
 from modeler.core.result import Presented
 from modeler.core.table import percent
 from modeler.logs.columns import Stream
-from modeler.logs.guess import Guess, absent_roles, guesses, log_text, unlike_si
+from modeler.logs.guess import Guess, absent_roles, guesses, log_text, speeds_by_position, unlike_si
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap, unit_named
-from modeler.logs.rates import moves, rate_doubts
+from modeler.logs.rates import moves, on_grid, rate_doubts
 
 _GAP = 1.5  # of the median step
 _HELD = 3  # rows in a row at the extreme value that make it a limit
@@ -154,9 +154,12 @@ def look(
         DataError: no rows in that span, or a time column without values.
     """
     values = {name: table.measured(name) for name in table.names if table.is_numeric(name)}
-    blocks: Iterable[dict[str, np.ndarray]] = [values]
-    if every is not None:
-        blocks = (_numbers(block, values) for block in every)
+
+    def numbers(block: LogTable) -> dict[str, np.ndarray]:  # what turns out to be text has none
+        none = np.full(block.rows, np.nan)
+        return {name: block.measured(name) if block.is_numeric(name) else none for name in values}
+
+    blocks: Iterable[dict[str, np.ndarray]] = [values] if every is None else map(numbers, every)
     if span != (None, None):
         found = guesses(values, {}, joints)
         values, every = _within(table, found, blocks, span), None
@@ -166,49 +169,45 @@ def look(
     time, clock = _clock(table, values, found)
     shown = {name: table.in_unit(name, v) for name, v in values.items()}
     rows, clock, extents, drawn = _all_rows(table, blocks, found, clock, every is None)
-    channels = tuple(
-        _channel(table, name, v, units.get(name, ""), extents[name], rows)
-        for name, v in shown.items()
-    )
-    notes, pairs = table.notes, _pairs(found)
+    channels = []
+    for name, v in shown.items():
+        stated, missing = table.unit(name), sum(own.missing for own in extents[name])
+        ends = np.stack([own.ends for own in extents[name]])
+        held = np.stack([own.held for own in extents[name]])
+        low, high = float(np.fmin.reduce(ends[:, 1])), float(np.fmax.reduce(ends[:, 2]))
+        limits = _limits(ends.ravel()[1:-1], held.ravel()[1:-1], (low, high), rows - missing)
+        channels.append(
+            Channel(
+                name=table.called(name),
+                unit=stated or units.get(name, ""),
+                guessed=not stated and name in units,
+                low=low,
+                high=high,
+                missing=missing,
+                resolution=_resolution(v[np.isfinite(v)]),
+                limits=limits,
+                constant=low == high,
+            )
+        )
+    notes, pairs = table.notes, speeds_by_position(found)
     if every is not None:
         notes = (*notes, _TOLD.format(rows, len(time)))
     doubts = [*_of_clock(clock), *absent_roles(found), *unlike_si(found)]
-    doubts += [*rate_doubts(pairs, values, time), *_dead(channels, shown, values, pairs)]
+    rest = {speed for position, speed in pairs if not moves(values[position])}
+    doubts += rate_doubts(pairs, values, time)
+    doubts += [
+        f"{channel.name} never changes: is it connected?"
+        for channel, name in zip(channels, shown, strict=True)
+        if channel.constant and not (name in rest and channel.low == 0.0)
+    ]
     bare = [one.without_range() if one.own in ("q", "qc") else one for one in found]
     suggested, plain = ("" if mapping.layers else log_text(f, joints, tuple(values))
                         for f in (found, bare))  # fmt: skip
     ranged = tuple(line for line in unlike_si(found) if line not in unlike_si(bare))
     return Look(
-        table.path.name, rows, clock, channels, table.found.streams, notes,
-        tuple(doubts), suggested, plain, ranged, *drawn,
+        table.path.name, rows, clock, tuple(channels), table.found.streams, notes, tuple(doubts),
+        suggested, plain, ranged, *drawn,
     )  # fmt: skip
-
-
-def _pairs(found: Sequence[Guess]) -> list[tuple[str, str]]:
-    """Columns of position and speed of the joints that have both."""
-    by = {one.own: dict(zip(one.labels, one.columns, strict=True)) for one in found}
-    positions, speeds = by.get("q", {}), by.get("qd", {})
-    return [(q, speeds[label]) for label, q in positions.items() if label in speeds]
-
-
-def _dead(
-    channels: Sequence[Channel], names: Iterable[str],
-    values: Mapping[str, np.ndarray], pairs: Sequence[tuple[str, str]],
-) -> list[str]:  # fmt: skip
-    """Channels that never change, but for the speed 0 of a joint that rests."""
-    rest = {speed for position, speed in pairs if not moves(values[position])}
-    return [
-        f"{channel.name} never changes: is it connected?"
-        for channel, name in zip(channels, names, strict=True)
-        if channel.constant and not (name in rest and channel.low == 0.0)
-    ]
-
-
-def _numbers(block: LogTable, names: Iterable[str]) -> dict[str, np.ndarray]:
-    """Columns of a block; one that turns out to hold text has no values there."""
-    none = np.full(block.rows, np.nan)
-    return {name: block.measured(name) if block.is_numeric(name) else none for name in names}
 
 
 def _within(
@@ -351,32 +350,7 @@ def _tick(steps: np.ndarray, step: float) -> float:
     if not off.size:
         return 0.0
     tick = float(off.min())
-    return tick if np.quantile(np.abs(off / tick - np.round(off / tick)), 0.9) < 0.05 else 0.0
-
-
-def _channel(
-    table: LogTable,
-    name: str,
-    values: np.ndarray,
-    guessed: str,
-    parts: Sequence[_Extent],
-    rows: int,
-) -> Channel:
-    """Of values in windows, and extents of all rows."""
-    stated, missing = table.unit(name), sum(own.missing for own in parts)
-    ends, held = np.stack([own.ends for own in parts]), np.stack([own.held for own in parts])
-    low, high = float(np.fmin.reduce(ends[:, 1])), float(np.fmax.reduce(ends[:, 2]))
-    return Channel(
-        name=table.called(name),
-        unit=stated or guessed,
-        guessed=not stated and bool(guessed),
-        low=low,
-        high=high,
-        missing=missing,
-        resolution=_resolution(values[np.isfinite(values)]),
-        limits=_limits(ends.ravel()[1:-1], held.ravel()[1:-1], (low, high), rows - missing),
-        constant=low == high,
-    )
+    return tick if on_grid(off, tick) else 0.0
 
 
 def _resolution(values: np.ndarray) -> float:
@@ -387,8 +361,7 @@ def _resolution(values: np.ndarray) -> float:
     steps = np.diff(levels)
     steps = steps[steps > 1e-9 * (levels[-1] - levels[0])]  # what rounding parts is one level
     step = float(np.quantile(steps, 0.01, method="lower"))
-    off = np.abs(steps / step - np.round(steps / step))
-    return step if float(np.quantile(off, 0.9)) < 0.05 else 0.0
+    return step if on_grid(steps, step) else 0.0
 
 
 def _extent(values: np.ndarray) -> _Extent:

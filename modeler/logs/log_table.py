@@ -37,6 +37,9 @@ class LogTable:
     Attributes:
         path: of the file.
         names: our names of mapped columns, and the file's of all others.
+        whole: True if these are all rows of the file.
+        before: rows of the file that stand before these.
+        rated: True if time is counted from the rate, for want of a column.
         rows: of every column.
         notes: what reading left out, one sentence each.
     """
@@ -51,25 +54,28 @@ class LogTable:
     ) -> None:
         self.path = path
         mapping = mapping or LogMap()
-        self._part = part
+        self.whole, self.before = part is None, 0 if part is None else part.before
         self.found: Columns = (
             read_columns(path, Wanted(mapping.topic, any_topic)) if part is None else part.columns
         )
         self.rows: int = self.found.rows
         self._joints = joints
-        self._columns: dict[str, Column] = {}
+        self._columns: dict[str, Column] = dict(self.found.columns)
         self._check()
         self._entries = mapping.entries(joints)
-        self._taken: dict[str, str] = {}
+        self._taken: dict[str, str] = {}  # which an error of the next line reads
         self._taken = self._matched()
-        self._rate = mapping.rate if not self._has_time() else None
-        self._units = {name: self._unit(name) for name in self._own_names()}
-        self.names: tuple[str, ...] = tuple(self._own_names())
+        timed = "time" in self._taken or "time" in self._columns
+        self._rate = None if timed else mapping.rate
+        self.rated = self._rate is not None
+        used = set(self._taken.values())
+        others = [name for name in self._columns if name not in used and name not in self._taken]
+        self.names: tuple[str, ...] = (*self._taken, *(["time"] if self._rate else []), *others)
+        self._units = {name: self._unit(name) for name in self.names}
         self.notes: tuple[str, ...] = (*self.found.notes, *self._told())
 
     def _check(self) -> None:
         names = [name for name, _ in self.found.columns]
-        self._columns = dict(self.found.columns)
         if len(self._columns) < len(names):
             twice = sorted(name for name in self._columns if names.count(name) > 1)
             places = [f"{k}" for k, name in enumerate(names, start=1) if name == twice[0]]
@@ -77,7 +83,7 @@ class LogTable:
                 f"{self.path}: column {twice[0]} appears {len(places)} times (as columns "
                 f"{', '.join(places)}); expected each name once; delete or rename the others"
             )
-        if self.rows < LEAST_ROWS and self._part is None:
+        if self.rows < LEAST_ROWS and self.whole:
             raise DataError(
                 f"{self.path}: {self.rows} rows; expected at least {LEAST_ROWS}; record a "
                 "longer motion"
@@ -107,14 +113,6 @@ class LogTable:
                 if not any(other in found for other in alike):
                     raise DataError(f"{self.path}: {entry.where}: {self._absent(own)}")
         return found
-
-    def _has_time(self) -> bool:
-        return "time" in self._taken or "time" in self._columns
-
-    def _own_names(self) -> list[str]:
-        used = set(self._taken.values())
-        others = [name for name in self._columns if name not in used and name not in self._taken]
-        return [*self._taken, *(["time"] if self._rate else []), *others]
 
     def _unit(self, own: str) -> Unit | None:
         """What a column is converted from; None if it is in SI units."""
@@ -151,21 +149,6 @@ class LogTable:
             lines.append(f"no time column: rows counted at {self._rate:g} Hz")
         return lines
 
-    @property
-    def whole(self) -> bool:
-        """True if these are all rows of the file."""
-        return self._part is None
-
-    @property
-    def before(self) -> int:
-        """Rows of the file that stand before these."""
-        return 0 if self._part is None else self._part.before
-
-    @property
-    def rated(self) -> bool:
-        """True if time is counted from the rate, for want of a column."""
-        return self._rate is not None
-
     def __contains__(self, name: str) -> bool:
         return name in self._units
 
@@ -192,7 +175,7 @@ class LogTable:
 
     def source(self, name: str) -> str:
         """The same, ours first: `tau2`, or `tau2 from moment_b`."""
-        column = self._taken.get(name, name)
+        column = self.column(name)
         return name if column == name else f"{name} from {column}"
 
     def is_numeric(self, name: str) -> bool:
@@ -244,10 +227,6 @@ class LogTable:
                 "it, or leave the entry empty"
             )
         return values
-
-    def absent(self, *names: str) -> str:
-        """Columns that are not there, as the user knows them: `q2`, or `position_2 (q2)`."""
-        return " or ".join(self.called(name) for name in names)
 
     def _absent(self, name: str) -> str:
         there = [column for column, _ in self.found.columns]

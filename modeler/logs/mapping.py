@@ -60,7 +60,22 @@ _FACTOR = re.compile(
 EXAMPLES = "deg, rev, rpm, deg/s, mm, ms, us, N m, mN m, kN, kg cm, lb in, mA, A, rev/8192"
 """Units that a message names."""
 
-_MOTION = {"q": 0, "qc": 0, "qd": 1, "qdd": 2}  # times that time is divided by
+_EFFORTS = {
+    "N m": (TORQUE, "a torque", "N m, mN m, kg cm, lb in"),
+    "N": (FORCE, "a force", "N, kN, kgf, lbf"),
+}
+_MOTION: Mapping[str, Mapping[str, tuple[Powers, str, str]]] = {
+    "rad": {
+        "q": (ANGLE, "a position", "deg, rad, rev"), "qc": (ANGLE, "a position", "deg, rad, rev"),
+        "qd": ((0, 0, -1, 1, 0, 0), "a speed", "deg/s, rad/s, rev/s, rpm"),
+        "qdd": ((0, 0, -2, 1, 0, 0), "an acceleration", "deg/s^2, rad/s^2, rev/s^2"),
+    },
+    "m": {
+        "q": (LENGTH, "a position", "mm, m, in"), "qc": (LENGTH, "a position", "mm, m, in"),
+        "qd": ((1, 0, -1, 0, 0, 0), "a speed", "mm/s, m/s, in/s"),
+        "qdd": ((1, 0, -2, 0, 0, 0), "an acceleration", "mm/s^2, m/s^2, in/s^2"),
+    },
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -205,27 +220,15 @@ def _wanted(own: str, joints: Sequence[JointSpec]) -> tuple[Powers | None, str, 
     if own.startswith("temperature"):
         return HEAT, "a temperature", "degC, K, degF"
     for joint in joints:
-        turns = joint.unit == "rad"
-        kind = f"of joint {joint.name}, which is {joint.kind}"
-        if own == f"current{joint.name}":
-            return CURRENT, f"a current {kind}", "mA, A, V, %"
-        if own == f"tau{joint.name}" and joint.effort_unit == "N m":
-            return TORQUE, f"a torque {kind}", "N m, mN m, kg cm, lb in"
-        if own == f"tau{joint.name}":
-            return FORCE, f"a force {kind}", "N, kN, kgf, lbf"
-        for prefix, over in _MOTION.items():
+        of_joint = {
+            "current": (CURRENT, "a current", "mA, A, V, %"),
+            "tau": _EFFORTS[joint.effort_unit],
+            **_MOTION[joint.unit],
+        }
+        for prefix, (powers, what, example) in of_joint.items():
             if own == f"{prefix}{joint.name}":
-                return _motion(turns, over, kind)
+                return powers, f"{what} of joint {joint.name}, which is {joint.kind}", example
     return None, "", ""
-
-
-def _motion(turns: bool, over: int, kind: str) -> tuple[Powers, str, str]:
-    m, kg, s, rad, A, K = ANGLE if turns else LENGTH
-    what = ("a position", "a speed", "an acceleration")[over]
-    units = ("deg", "rad", "rev") if turns else ("mm", "m", "in")
-    written = ("", "/s", "/s^2")[over]
-    example = ", ".join(unit + written for unit in units) + (", rpm" if turns and over == 1 else "")
-    return (m, kg, s - over, rad, A, K), f"{what} {kind}", example
 
 
 _NONE: Mapping = MappingProxyType({})
@@ -338,8 +341,16 @@ def map_from_table(table: Any, where: str, strict: bool = False) -> LogMap:
         raise DataError(
             f'{where}, topic: got {shown(topic)}; expected a name such as "/joint_states"'
         )
-    layers = (entries,) if entries else ()
-    return LogMap(layers, _names(table.get("names", {}), where), topic, _rate(table, where))
+    names, rate = table.get("names", {}), None
+    if not isinstance(names, Mapping) or not all(isinstance(n, str) for n in names.values()):
+        raise DataError(
+            f"{where}, names: got {shown(names)}; expected a table such as "
+            '{1 = "waist", 2 = "shoulder"}'
+        )
+    if table.get("rate") is not None and (rate := _float(table, "rate", where)) <= 0.0:
+        raise DataError(f"{where}: rate is {rate:g}; expected the samples in a second, such as 500")
+    named = {str(joint): name for joint, name in names.items()}
+    return LogMap((entries,) if entries else (), named, topic, rate)
 
 
 def map_from_words(words: Sequence[str]) -> LogMap:
@@ -357,7 +368,15 @@ def map_from_words(words: Sequence[str]) -> LogMap:
 def _of_word(word: str) -> LogMap:
     where = f"--map {word}"
     if word.endswith(".toml") and "=" not in word:
-        return _of_file(Path(word))
+        path = Path(word)
+        try:
+            document = parse_toml(read_text(path))
+        except OSError as error:
+            why = f"cannot be read ({error.strerror}); check the path"
+            raise DataError(f"--map {path}: {why}") from None
+        except ValueError as error:  # of TOML, or of UTF-8
+            raise DataError(f"--map {path}: not TOML ({error}); correct that line") from None
+        return map_from_table(document.get("log", document), f"{path}: [log]", strict=True)
     key, equals, column = (part.strip() for part in word.partition("="))
     if not (key and equals and column):
         raise DataError(
@@ -365,7 +384,10 @@ def _of_word(word: str) -> LogMap:
             "of a .toml file"
         )
     if key == "rate":
-        return map_from_table({"rate": _number(column, where)}, where)
+        try:
+            return map_from_table({"rate": float(column)}, where)
+        except ValueError:
+            raise DataError(f"{where}: got {column}; expected a number") from None
     if key == "topic":
         return map_from_table({"topic": column}, where)
     if key == "names":
@@ -386,25 +408,6 @@ def _pair(text: str, where: str) -> tuple[str, str]:
     return joint, name
 
 
-def _number(text: str, where: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise DataError(f"{where}: got {text}; expected a number") from None
-
-
-def _of_file(path: Path) -> LogMap:
-    try:
-        document = parse_toml(read_text(path))
-    except OSError as error:
-        raise DataError(
-            f"--map {path}: cannot be read ({error.strerror}); check the path"
-        ) from None
-    except ValueError as error:  # of TOML, or of UTF-8
-        raise DataError(f"--map {path}: not TOML ({error}); correct that line") from None
-    return map_from_table(document.get("log", document), f"{path}: [log]", strict=True)
-
-
 def _entry(value: Any, where: str, key: str) -> MappedColumn:
     if key.count(JOINT) > 1 or not key.strip():
         raise DataError(f"{where}: expected a name such as q2, or a pattern such as q{JOINT}")
@@ -422,31 +425,21 @@ def _entry(value: Any, where: str, key: str) -> MappedColumn:
     column = table.get("column", key.replace(JOINT, "{j}"))
     if not isinstance(column, str) or not column.strip():
         raise DataError(f'{where}: column is {shown(column)}; expected a name such as "position_2"')
-    columns, bracket = _bracket(column)
-    unit = table.get("unit", bracket)
+    columns: tuple[str, ...] = (column.strip(),)
+    stated, unit = table.get("unit"), None
+    match = _BRACKETS.fullmatch(column.strip())
+    if match is not None and find_unit(match[2]) is not None:
+        columns, stated = (column.strip(), match[1]), table.get("unit", match[2])
+    if stated is not None:
+        unit = find_unit(stated) if isinstance(stated, str) else None
     sign, scale, offset = (_float(table, name, where) for name in ("sign", "scale", "offset"))
     if abs(sign) != 1.0:
         raise DataError(f"{where}: sign is {sign:g}; expected 1 or -1; a factor is called scale")
     if scale == 0.0:
         raise DataError(f"{where}: scale is 0; expected what the number is multiplied by")
-    return MappedColumn(columns, _stated_unit(unit, where), sign, scale, offset, where)
-
-
-def _bracket(column: str) -> tuple[tuple[str, ...], str | None]:
-    """`t [ms]`: a column of that name, or `t`; its unit."""
-    match = _BRACKETS.fullmatch(column.strip())
-    if match is None or find_unit(match[2]) is None:
-        return (column.strip(),), None
-    return (column.strip(), match[1]), match[2]
-
-
-def _stated_unit(text: Any, where: str) -> Unit | None:
-    if text is None:
-        return None
-    unit = find_unit(text) if isinstance(text, str) else None
-    if unit is None:
-        raise DataError(f"{where}: got unit {shown(text)}; expected a unit such as {EXAMPLES}")
-    return unit
+    if stated is not None and unit is None:
+        raise DataError(f"{where}: got unit {shown(stated)}; expected a unit such as {EXAMPLES}")
+    return MappedColumn(columns, unit, sign, scale, offset, where)
 
 
 def _float(table: Mapping[str, Any], name: str, where: str) -> float:
@@ -455,25 +448,6 @@ def _float(table: Mapping[str, Any], name: str, where: str) -> float:
     if not number or not -_LARGEST <= value <= _LARGEST:
         raise DataError(f"{where}: {name} is {shown(value)}; expected a number")
     return float(value)
-
-
-def _rate(table: Mapping[str, Any], where: str) -> float | None:
-    rate = table.get("rate")
-    if rate is None:
-        return None
-    rate = _float(table, "rate", where)
-    if rate <= 0.0:
-        raise DataError(f"{where}: rate is {rate:g}; expected the samples in a second, such as 500")
-    return rate
-
-
-def _names(value: Any, where: str) -> dict[str, str]:
-    if isinstance(value, Mapping) and all(isinstance(name, str) for name in value.values()):
-        return {str(joint): name for joint, name in value.items()}
-    raise DataError(
-        f"{where}, names: got {shown(value)}; expected a table such as "
-        '{1 = "waist", 2 = "shoulder"}'
-    )
 
 
 def near(name: str, names: Sequence[str]) -> str:

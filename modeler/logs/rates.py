@@ -61,11 +61,12 @@ def moves(values: np.ndarray) -> bool:
     noise = float(np.median(np.abs(np.diff(known, 3)))) / (0.6745 * np.sqrt(20.0))
     span = float(np.ptp(known))
     least = float(np.min(steps, where=steps > 1e-9 * span, initial=np.inf))
-    grid = least if np.isfinite(least) and _on_grid(steps, least) else 0.0
+    grid = least if np.isfinite(least) and on_grid(steps, least) else 0.0
     return span > _MOVES * max(noise, grid)
 
 
-def _on_grid(steps: np.ndarray, step: float) -> bool:
+def on_grid(steps: np.ndarray, step: float) -> bool:
+    """True if steps, but for a tenth of them, are whole multiples of one."""
     off = np.abs(steps / step - np.round(steps / step))
     return float(np.quantile(off, 0.9)) < 0.05
 

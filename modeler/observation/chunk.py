@@ -1,14 +1,19 @@
-"""Chunks of a long log: rows prepared together, and those beside them that filters need."""
+"""Chunks of a log: rows prepared together, and those beside them that filters need."""
 
+import dataclasses
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 
+from modeler.core.errors import DataError
+from modeler.core.manifest import ModuleSpec
 from modeler.numerics.filters import reach_of
-from modeler.observation.log import FINGER, Log
-from modeler.observation.processing import Processing
-from modeler.observation.read import Source, cut, joined
+from modeler.observation.log import FINGER, Log, finger, fingerprint_of
+from modeler.observation.processing import ChosenProcessing
+from modeler.observation.read import FileSource, Ranges, Source, cut, joined
 
 MEMORY = 12.0
 """Periods of the position filter after which nothing of it is left: its slowest poles fade as
@@ -50,18 +55,45 @@ class Chunk:
         """Of its own."""
         return self.own.stop - self.own.start
 
+    def holds(self, time: np.ndarray) -> np.ndarray:
+        """(n,) True at the times (n,), s, that are its own."""
+        start, stop = self.span
+        return np.asarray((time >= start) & (time < stop))
 
-def margin(processing: Processing, step: float) -> int:
+    def has(self, rows: np.ndarray | int) -> np.ndarray:
+        """True for the rows of `log` that are its own."""
+        return np.asarray((self.own.start <= rows) & (rows < self.own.stop))
+
+    def missing(self) -> dict[str, int]:
+        """Column -> own rows without a value; every column that a fit reads."""
+        log, found = self.log, dict[str, int]()
+        columns = {"q": log.q, "qd": log.qd, "qdd": log.qdd, "qc": log.commanded, "tau": log.tau}
+        for prefix, values in columns.items():
+            for j, name in enumerate(log.joints if values is not None else ()):
+                column = f"{prefix}{name}"
+                if prefix == "tau" and log.torque_source:
+                    column = log.torque_source[j].split()[0]
+                if values is not None and column != "0":  # of a passive joint
+                    found[column] = int(np.isnan(values[self.own, j]).sum())
+        return found
+
+
+def whole_log(log: Log) -> Chunk:
+    """A log as its one chunk."""
+    return Chunk(0, 0, slice(0, log.rows), log, True)
+
+
+def margin(processing: ChosenProcessing, step: float) -> int:
     """Rows beside a chunk that filters and searches of its own rows reach.
 
     Zero-phase filtering of a chunk then differs from that of the whole log by what the position
     filter remembers after `MEMORY` periods, exp(-12 x 2.4) = 3e-13 of the motion within them.
 
     Args:
-        processing: with both cut-offs chosen.
+        processing: of the log.
         step: of the log, s.
     """
-    position, parallel = processing.position_cutoff or 0.0, processing.parallel_cutoff or 0.0
+    position, parallel = processing.position_cutoff, processing.parallel_cutoff
     memory = MEMORY / (position * step) if position > 0.0 else 0.0
     window = 1.0 / (parallel * step) if parallel > 0.0 else 0.0  # in which derivatives are checked
     delay = abs(processing.delay) / step
@@ -127,3 +159,66 @@ def _chunk(log: Log, first: int, number: int, own: int, beside: int, last: bool)
     low, high = max(first, start - beside), min(stop + beside, first + log.rows)
     part = cut(log, slice(low - first, high - first))
     return Chunk(number, start, slice(start - low, stop - low), part, last)
+
+
+# A piece of a log by time.
+
+
+def window(log: Log, start: float | None, end: float | None) -> Log:
+    """The rows of `log` with start <= time < end, s; None leaves that side open.
+
+    Raises:
+        DataError: the window ends before it starts, or no rows are left.
+    """
+    low = -np.inf if start is None else start
+    high = np.inf if end is None else end
+    if high <= low:
+        raise DataError(
+            f"{log.name}: got the window {low:g}:{high:g}, which ends before it starts; expected "
+            "START:END in seconds, START first"
+        )
+    rows = (log.time >= low) & (log.time < high)
+    if not rows.any():
+        raise DataError(
+            f"{log.name}: no rows from {low:g} to {high:g} s; its times go from "
+            f"{log.time[0]:g} to {log.time[-1]:g} s"
+        )
+    sides = ("" if time is None else f"{time:g}" for time in (start, end))
+    return dataclasses.replace(cut(log, rows), name=f"{log.name}@{':'.join(sides)}")
+
+
+def read_part(source: FileSource, spec: ModuleSpec, start: float | None, end: float | None) -> Log:
+    """What `window` makes of the whole log. All rows are read: a piece has the log's fingerprint.
+
+    Args:
+        source: of a log of more than `log.LONG` rows.
+        spec: the robot's manifest.
+        start: s; None leaves that side open.
+        end: the same.
+
+    Raises:
+        DataError: the log is damaged, or has no rows there.
+    """
+    low, high = -np.inf if start is None else start, np.inf if end is None else end
+    kept, fingers, missing = list[Log](), list[bytes](), Counter[str]()
+    ranges, first, last = list[Ranges](), np.inf, -np.inf
+    for chunk in chunks(source, FINGER, 0):
+        log = cut(chunk.log, chunk.own)
+        fingers.append(finger(log.time, log.q, log.tau))
+        missing.update({name: count for name, count in chunk.missing().items() if count})
+        ranges.append(Ranges.of(log))
+        first, last = min(first, float(log.time[0])), float(log.time[-1])
+        if low < high and log.time[0] < high and last >= low:
+            kept.append(log)
+    if low < high and not kept:
+        raise DataError(
+            f"{source.name}: no rows from {low:g} to {high:g} s; its times go from {first:g} to "
+            f"{last:g} s"
+        )
+    seen = reduce(Ranges.over, ranges)
+    seen.check(source.place[0], spec)
+    log = joined(kept) if kept else log
+    notes = (*log.notes, *seen.doubts(log.step, spec))
+    content = fingerprint_of(fingers)
+    whole = dataclasses.replace(log, notes=notes, content=content, missing=dict(missing))
+    return window(whole, start, end)

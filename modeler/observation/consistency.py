@@ -136,18 +136,20 @@ def lateness(
         cutoff: of the parallel filter, Hz.
     """
     errors = _Errors(pieces, column, lower, cutoff)
-    none = np.zeros(len(joints))
+    none, step = np.zeros(len(joints)), pieces[0].step
     before = errors.sums(none)
     common = errors.refined(none, together=True)
     together = errors.sums(common)
-    step = pieces[0].step
-    own = _own(errors, before, step)
-    alone = errors.sums(own)
-    share = before / np.maximum(errors.whole, 1e-300)
+    far = np.any((before > _FAR * errors.whole) & (errors.whole > 0.0))
+    own = errors.refined(errors.scanned(before) if far else none, together=False)
+    left = errors.sums(own)
+    told = (np.abs(own) >= _TOLD * step) & (left <= _BELIEVED * before)
+    own = np.where(told & (left < _LEFT_OF_MEAN * errors.whole), own, 0.0)
     halves = together.sum() <= _BELIEVED * before.sum()
-    if halves and abs(common[0]) >= _TOLD * step and np.all(together <= 2.0 * alone):
+    if halves and abs(common[0]) >= _TOLD * step and np.all(together <= 2.0 * errors.sums(own)):
         mean = float(before.sum() / max(float(errors.whole.sum()), 1e-300))
         return [Late(column, lower, common[0], common[0] / step, mean)], common
+    share = before / np.maximum(errors.whole, 1e-300)
     late = [
         Late(f"{column}{joints[j]}", f"{lower}{joints[j]}", own[j], own[j] / step, float(share[j]))
         for j in map(int, np.flatnonzero(own))
@@ -155,24 +157,12 @@ def lateness(
     return late, own
 
 
-def _own(errors: "_Errors", before: np.ndarray, step: float) -> np.ndarray:
-    """(joints,) the delay of each joint by itself; 0 where it is not to be believed."""
-    start = np.zeros(len(before))
-    if np.any((before > _FAR * errors.whole) & (errors.whole > 0.0)):
-        start = errors.scanned(before)
-    own = errors.refined(start, together=False)
-    left = errors.sums(own)
-    told = (np.abs(own) >= _TOLD * step) & (left <= _BELIEVED * before)
-    return np.where(told & (left < _LEFT_OF_MEAN * errors.whole), own, 0.0)
-
-
 class _Errors:
     """Differences between window means and quotients, by joint, for delays that are taken out."""
 
     def __init__(self, pieces: Sequence[Piece], column: Column, lower: str, cutoff: float) -> None:
         self._pieces, self._levels, self._cutoff = pieces, (column, lower), cutoff
-        joints = getattr(pieces[0], lower).shape[1]
-        quotient, _, _ = self._parts(np.zeros(joints))
+        quotient, _, _ = self._parts(np.zeros(getattr(pieces[0], lower).shape[1]))
         self.size = size_of(quotient)
         self.whole = np.sum(np.abs(quotient), axis=0)
 
@@ -339,11 +329,26 @@ def consistency(
             if refuse:
                 _refuse_wrong(log, (column, lower), j, windows, noise)
             flags, limit = _contradicted(windows, step, j)
-            if any(flag.any() for flag in flags):
-                names = f"{column}{joint}", f"{lower}{joint}"
-                found.append(_contradiction(names, windows, flags, limit, j))
-            for mask, flag, part in zip(bad, flags, windows, strict=True):
-                mask |= np.pad(flag, part.half, mode="edge")
+            masks = [
+                np.pad(flag, part.half, mode="edge")
+                for flag, part in zip(flags, windows, strict=True)
+            ]
+            for mask, own in zip(bad, masks, strict=True):
+                mask |= own
+            if np.any(np.concatenate(flags)):
+                error = np.concatenate([np.abs(part.error[:, j]) for part in windows])
+                worst = int(np.argmax(np.where(np.concatenate(flags), error, 0.0)))
+                time = np.concatenate([part.time for part in windows])
+                found.append(
+                    Contradiction(
+                        column=f"{column}{joint}",
+                        of=f"{lower}{joint}",
+                        samples=sum(int(mask.sum()) for mask in masks),
+                        limit=limit,
+                        largest=float(error[worst]),
+                        time=float(time[worst]),
+                    )
+                )
     return Consistency(tuple(bad), tuple(found), tuple(late))
 
 
@@ -366,29 +371,6 @@ def _contradicted(
     return flags, max(SHARE * size, random)
 
 
-def _contradiction(
-    names: tuple[str, str],
-    windows: Sequence[Windows],
-    flags: Sequence[np.ndarray],
-    limit: float,
-    j: int,
-) -> Contradiction:
-    error = np.concatenate(
-        [np.where(flag, np.abs(part.error[:, j]), 0.0)
-         for part, flag in zip(windows, flags, strict=True)]
-    )  # fmt: skip
-    worst = int(np.argmax(error))
-    return Contradiction(
-        column=names[0],
-        of=names[1],
-        samples=sum(int(np.pad(flag, part.half, mode="edge").sum())
-                    for part, flag in zip(windows, flags, strict=True)),
-        limit=limit,
-        largest=float(error[worst]),
-        time=float(np.concatenate([part.time for part in windows])[worst]),
-    )  # fmt: skip
-
-
 def _refuse_wrong(
     log: Log, levels: tuple[Column, str], j: int, windows: Sequence[Windows], noise: float
 ) -> None:
@@ -407,12 +389,21 @@ def _refuse_wrong(
     misfits = [_misfit(logged, quotients[:, k], size[k]) for k in range(len(joints))]
     if misfits[j] <= WRONG:
         return
-    gain = _gain(logged, quotients[:, j])
+    own = quotients[:, j]
+    there = own != 0.0
+    gain = weighted_median(logged[there] / own[there], np.abs(own[there]))
     other = int(np.argmin(misfits))
     if other != j and misfits[other] < 0.5 * WRONG:
         guess = f"it is that of {lower}{joints[other]}: are columns exchanged?"
-    elif _misfit(logged / gain if gain else logged, quotients[:, j], size[j]) < WRONG:
-        guess = f"it is {gain:.3g} times that: {_cause(gain)}"
+    elif _misfit(logged / gain if gain else logged, own, size[j]) < WRONG:
+        causes = [
+            (-1.0, "is its sign swapped?"),
+            *((sign * _DEGREES, "is it in degrees?") for sign in (1.0, -1.0)),
+            *((sign / _DEGREES, "is it the position in degrees?") for sign in (1.0, -1.0)),
+        ]
+        near = (words for factor, words in causes if abs(gain / factor - 1.0) < 0.1)
+        cause = next(near, "is it in another unit, or on the motor's side of the gear?")
+        guess = f"it is {gain:.3g} times that: {cause}"
     else:
         guess = f"it follows no {lower}"
     raise DataError(
@@ -421,25 +412,11 @@ def _refuse_wrong(
     )
 
 
-def _cause(gain: float) -> str:
-    if abs(gain + 1.0) < 0.1:
-        return "is its sign swapped?"
-    for factor, words in ((_DEGREES, "in degrees"), (1.0 / _DEGREES, "the position in degrees")):
-        if abs(abs(gain) / factor - 1.0) < 0.1:
-            return f"is it {words}?"
-    return "is it in another unit, or on the motor's side of the gear?"
-
-
 def _misfit(logged: np.ndarray, quotient: np.ndarray, size: float) -> float:
     """Mean absolute disagreement as a share of the quotient's, while either moves."""
     moving = np.maximum(np.abs(logged), np.abs(quotient)) > SHARE * size
     total = float(np.sum(np.abs(quotient[moving])))
     return float(np.sum(np.abs(logged - quotient)[moving])) / total if total else float("inf")
-
-
-def _gain(logged: np.ndarray, quotient: np.ndarray) -> float:
-    there = quotient != 0.0
-    return weighted_median(logged[there] / quotient[there], np.abs(quotient[there]))
 
 
 def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
@@ -461,9 +438,8 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
         logged.append([white_noise(column) for column in piece.qd.T])
     if not logged:
         return False
-    return bool(
-        np.mean(np.median(logged, axis=0) > QUIETER * np.median(moved, axis=0)) > 0.5
-    )  # fmt: skip
+    noisier = np.median(logged, axis=0) > QUIETER * np.median(moved, axis=0)
+    return bool(np.mean(noisier) > 0.5)
 
 
 def without_velocities(pieces: Sequence[Piece]) -> tuple[Piece, ...]:

@@ -95,26 +95,31 @@ def energy_rows(
     tiles = _tiles(observation, window)
     count = sum(len(part.starts) for part in tiles)
     if not count:
-        raise DataError(_none(observation))
+        valid = np.concatenate([part.segment.valid for part in observation.stretches])
+        bad = [
+            f"joint {joint.name} has {percent(share)} of its samples"
+            for joint, share in zip(observation.joints, valid.mean(axis=0), strict=True)
+        ]
+        raise DataError(
+            f"{', '.join(observation.logs)}: no window in which every sample of every joint is a "
+            f"measurement ({', '.join(bad)}); the energy is that of the whole machine: mend the "
+            "log, give a shorter --window, or take --model torque"
+        )
     rows = [_rows(model, part, rule) for part in tiles if len(part.starts)]
     W, y, balance, spread, time = (np.concatenate(group) for group in zip(*rows, strict=True))
-    _check_work(observation, W, y)
-    return EnergyRows(
-        W=W, y=y, balance=balance, spread=spread, time=time,
-        stretch=np.concatenate([part.stretch for part in tiles]),
-        run=np.repeat([part.segment.run for part in tiles], [len(part.starts) for part in tiles]),
-        window=tiles[0].intervals * tiles[0].segment.step, rule=rule,
-    )  # fmt: skip
-
-
-def _check_work(observation: Observation, W: np.ndarray, y: np.ndarray) -> None:
-    """Refuse a robot that stands; J are compared with the largest torque over a unit of travel."""
+    # J are compared with the largest torque over a unit of travel:
     least = _STILL * float(np.abs(observation.torque).max(initial=0.0))
     if not np.abs(W).max() > 0.0 or not np.abs(y).max() > least:
         raise DataError(
             f"{', '.join(observation.logs)}: the motors do no work in any window: no joint with a "
             "torque moves; the energy model needs velocity, record a motion of every joint"
         )
+    return EnergyRows(
+        W=W, y=y, balance=balance, spread=spread, time=time,
+        stretch=np.concatenate([part.stretch for part in tiles]),
+        run=np.repeat([part.segment.run for part in tiles], [len(part.starts) for part in tiles]),
+        window=tiles[0].intervals * tiles[0].segment.step, rule=rule,
+    )  # fmt: skip
 
 
 def _tiles(observation: Observation, window: float | None) -> list[_Tiles]:
@@ -159,33 +164,13 @@ def _check_window(observation: Observation, window: float | None) -> None:
         )
 
 
-def _none(observation: Observation) -> str:
-    """Which joints leave no window whole."""
-    bad = [
-        f"joint {joint.name} has {percent(share)} of its samples"
-        for joint, share in zip(observation.joints, _shares(observation), strict=True)
-    ]
-    return (
-        f"{', '.join(observation.logs)}: no window in which every sample of every joint is a "
-        f"measurement ({', '.join(bad)}); the energy is that of the whole machine: mend the log, "
-        "give a shorter --window, or take --model torque"
-    )
-
-
-def _shares(observation: Observation) -> np.ndarray:
-    valid = np.concatenate([part.segment.valid for part in observation.stretches])
-    return np.asarray(valid.mean(axis=0))
-
-
 def weights(intervals: int, step: float, rule: Rule) -> np.ndarray:
     """(intervals + 1,) s, of the samples of a window; intervals is even."""
+    inner, unit = np.where(np.arange(intervals + 1) % 2, 4.0, 2.0), step / 3.0
     if rule == "trapezoid":
-        inner = np.ones(intervals + 1)
-        inner[[0, -1]] = 0.5
-        return inner * step
-    inner = np.where(np.arange(intervals + 1) % 2, 4.0, 2.0)
-    inner[[0, -1]] = 1.0
-    return inner * (step / 3.0)
+        inner, unit = np.ones(intervals + 1), step
+    inner[[0, -1]] *= 0.5
+    return inner * unit
 
 
 def _rows(model: "CompiledModel", tiles: _Tiles, rule: Rule) -> tuple[np.ndarray, ...]:
@@ -219,16 +204,13 @@ def _powers(
     The regressor gives them all: E_c = qd^T (phi_c(q, 0, qd) - phi_c(q, 0, 0)) / 2.
     """
     still = np.zeros_like(qd)
-    total = _work(model.base_regressor(q, qd, qdd, read), qd)
-    gravity = _work(model.base_regressor(q, still, still, read), qd)
-    inertia = _work(model.base_regressor(q, still, qd, read), qd) - gravity
+    total, gravity, moved = (
+        np.einsum("sj,sjc->sc", qd, model.base_regressor(q, v, a, read))
+        for v, a in ((qd, qdd), (still, still), (still, qd))
+    )
     inertial = kinetic_columns(model)
-    power = np.where(inertial, gravity, total)
-    return total, power, np.where(inertial, 0.5 * inertia, 0.0)
-
-
-def _work(phi: np.ndarray, qd: np.ndarray) -> np.ndarray:
-    return np.asarray(np.einsum("sj,sjc->sc", qd, phi))
+    energy = np.where(inertial, 0.5 * (moved - gravity), 0.0)
+    return total, np.where(inertial, gravity, total), energy
 
 
 def kinetic_columns(model: "CompiledModel") -> np.ndarray:

@@ -1,34 +1,27 @@
 """All that contradicts in the data of a fit or of a prediction, the gravest first."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.numerics.least_squares import scaled_least_squares
-from modeler.observation.channel_shift import faults_of_fit
-from modeler.observation.channels import Fault, faults
+from modeler.numerics.least_squares import scaled_least_squares, whitening
+from modeler.observation.channels import SCALE, WRONG, Fault, faults, turns
 from modeler.observation.observation import Observation
 from modeler.observation.thinned import ThinnedRows, thinned
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel
 
-LONGEST = 0.15
-"""s, the largest delay that is looked for: beyond it, channels do not look late but wrong."""
-
 HALF = 0.5
-"""Share of the error of the robot that a shift leaves, to be believed: physics that a model lacks
-(elasticity, friction that lags) looks like a shift of a part of the torque only."""
+"""Share of the error of the robot that one change of a channel, or one shift of it, leaves, to be
+believed: physics that a model lacks (elasticity, friction that lags) looks like a shift of a part
+of the torque only."""
 
-_STARTS = (-0.1, -0.05, 0.05, 0.1)  # s; a step along the slope goes astray from farther away
-_LEAST = 0.02  # relative error of the robot below which nothing is looked for
-_FOR_EACH = 3  # rows for every parameter, at least
-_STEPS = 4  # of Gauss and Newton
-Columns = Callable[[float], np.ndarray]
-"""(m, n, c) columns with a channel taken some seconds later."""
+_LEAST_ROWS = 20  # of a joint whose torque is exchanged
+_FOR_EACH = 3  # rows for every parameter, at least: fewer are described by anything
 
 
 def findings_of_fit(
@@ -44,7 +37,7 @@ def findings_of_fit(
     found = faults_of_fit(compiled, observation, beta)
     if not found:
         found = tuple(Fault(line, False) for line in late_channels(compiled, observation))
-    return (*found, *_of_logs(observation))
+    return (*found, *(Fault(line, False) for line in observation.report.doubts()))
 
 
 def findings_of_prediction(
@@ -57,11 +50,250 @@ def findings_of_prediction(
         observation: of the logs.
         beta: (c,) base parameters of the model.
     """
-    return (*faults(compiled, observation, beta), *_of_logs(observation))
+    doubts = (Fault(line, False) for line in observation.report.doubts())
+    return (*faults(compiled, observation, beta), *doubts)
 
 
-def _of_logs(observation: Observation) -> tuple[Fault, ...]:
-    return tuple(Fault(line, False) for line in observation.report.doubts())
+def _judged(compiled: "CompiledModel", observation: Observation) -> tuple[ThinnedRows, list[int]]:
+    """Some rows, and the joints with a motor and a torque; none of too few rows."""
+    rows = thinned(compiled, observation)
+    joints = [j for j, joint in enumerate(observation.joints) if joint.actuated]
+    joints = [j for j in joints if rows.tau[rows.used[:, j], j].any()]
+    enough = bool(joints) and rows.used[:, joints].sum() >= _FOR_EACH * rows.W.shape[2]
+    return rows, joints if enough else []
+
+
+# Every joint weighs the same: its rows are divided by the size of its torque.
+
+
+def _sizes(tau: np.ndarray, used: np.ndarray, joints: Sequence[int]) -> dict[int, float]:
+    """Of the torques (m, n) of some joints."""
+    return {j: max(float(np.linalg.norm(tau[used[:, j], j])), 1e-300) for j in joints}
+
+
+def _stacked(values: np.ndarray, used: np.ndarray, sizes: Mapping[int, float]) -> np.ndarray:
+    """The used rows (m, n) of values (m, n, ...), joint after joint."""
+    return np.concatenate([values[used[:, j], j] / size for j, size in sizes.items()])
+
+
+# Channels that contradict each other, in logs to which the model itself was fitted.
+
+
+SUSPECT = 0.2
+"""Relative error of a joint from which on its fit is suspected."""
+
+ALSO = 1.3
+"""Times the least error that another change may leave and still explain the logs as well."""
+
+DRIVES = -0.05
+"""Power of the friction over that of the joint's torque and speed, below which friction drives."""
+
+BOTH = 0.1
+"""Least share of a joint's rows of each direction: one way only, friction is an offset."""
+
+FELT = 0.1
+"""Share of a joint's torque from which on its own inertia is felt, and ..."""
+
+BEYOND = 2.0
+"""... times the relative error of that joint: real wrists with cables have, fitted, negative
+inertias as large as what their model lacks."""
+
+_UNITS = 1e9  # units are no farther apart
+_TOLD = 1e-11  # eigenvalue over the largest
+
+
+def faults_of_fit(
+    compiled: "CompiledModel", observation: Observation, beta: np.ndarray
+) -> tuple[Fault, ...]:
+    """Channels with a wrong sign or unit, or in the place of another, although the fit adapts.
+
+    A fit to wrong channels has no prediction to compare with: it bends its parameters. What it
+    cannot bend is that one set of them holds for all joints. So every joint's torque is tried
+    with another sign and scale and in the place of another, every position reversed, in other
+    units and exchanged, each time with a new fit; what alone halves the error of the robot is
+    named. And friction takes energy and inertia resists: where they do not, a sign is wrong.
+
+    Args:
+        compiled: the robot.
+        observation: that was fitted.
+        beta: (c,) base parameters of the fit.
+    """
+    rows, joints = _judged(compiled, observation)
+    if not joints:
+        return ()
+    errors = _errors(rows.W, rows.tau, rows.used, joints)
+    if max(errors) > SUSPECT:
+        changes = _changes(compiled, observation, rows, joints)
+        sizes = [(float(np.linalg.norm(e)), line) for line, e in changes if max(e) < WRONG]
+        least = min((size for size, _ in sizes), default=np.inf)
+        if least <= HALF * float(np.linalg.norm(errors)):
+            likely = sorted(
+                (one for one in sizes if one[0] <= ALSO * least), key=lambda one: one[0]
+            )
+            return (Fault("; or: ".join(line for _, line in likely[:3]), True),)
+    left = dict(zip(joints, errors, strict=True))
+    return _driven(compiled, observation, rows, beta, left)
+
+
+def _errors(
+    W: np.ndarray, tau: np.ndarray, used: np.ndarray, joints: list[int], free: int | None = None
+) -> list[float]:
+    """Relative error of each joint after a fit in which they weigh the same.
+
+    Args:
+        W: (m, n, c).
+        tau: (m, n).
+        used: (m, n).
+        joints: that count.
+        free: a joint whose torque has a scale of its own; its error is that of the scaled torque.
+    """
+    if free is not None:
+        gain = _gain(W, tau, used, joints, free)
+        with np.errstate(over="ignore"):
+            tau = tau * np.where(np.arange(tau.shape[1]) == free, gain, 1.0)
+    if not np.isfinite(tau[used]).all():
+        return [np.inf] * len(joints)
+    sizes = _sizes(tau, used, joints)
+    X, y = (_stacked(values, used, sizes) for values in (W, tau))
+    ends = np.cumsum([used[:, j].sum() for j in joints])[:-1]
+    return [float(np.linalg.norm(part)) for part in np.split(y - X @ _solved(X, y), ends)]
+
+
+def _gain(W: np.ndarray, tau: np.ndarray, used: np.ndarray, joints: list[int], free: int) -> float:
+    """What the torque of a joint is to be multiplied by, from the torques of the others.
+
+    W_j beta - gain y_j = 0 beside W_k beta = y_k: linear in beta and the gain.
+    """
+    sizes = _sizes(tau, used, joints)
+    X, y = (_stacked(values, used, sizes) for values in (W, tau))
+    own = np.repeat(joints, [used[:, j].sum() for j in joints]) == free
+    solved = _solved(np.column_stack([X, np.where(own, -y, 0.0)]), np.where(own, 0.0, y))
+    return float(solved[-1])
+
+
+def _solved(X: np.ndarray, y: np.ndarray) -> np.ndarray:
+    # Many fits of a few digits: normal equations, without what the data cannot tell.
+    turn = whitening(X.T @ X, _TOLD)
+    return np.asarray(turn @ (turn.T @ (X.T @ y)))
+
+
+def _changes(
+    compiled: "CompiledModel", observation: Observation, rows: ThinnedRows, joints: list[int]
+) -> Iterator[tuple[str, list[float]]]:
+    """Changes of the channels, and the error of each joint that each of them leaves."""
+    names = [joint.name for joint in observation.joints]
+    for j in joints if len(joints) > 1 else ():
+        gain = _gain(rows.W, rows.tau, rows.used, joints, j)
+        if 1.0 / SCALE < gain < SCALE or not 1.0 / _UNITS < abs(gain) < _UNITS:
+            continue
+        says = "has the other sign of" if gain < 0.0 else f"is {1.0 / gain:.3g} times"
+        line = (
+            f"joint {names[j]}: the measured torque {says} what the other joints say of it; check "
+            "sign, unit and drive gain of that channel"
+        )
+        yield line, _errors(rows.W, rows.tau, rows.used, joints, free=j)
+    for j, k in ((j, k) for place, j in enumerate(joints) for k in joints[:place]):
+        order = np.arange(len(names))
+        order[[j, k]] = order[[k, j]]
+        both = rows.used & rows.used[:, order]
+        if both[:, [j, k]].sum(axis=0).min() >= _LEAST_ROWS:
+            line = (
+                f"joints {names[k]} and {names[j]}: their torques look exchanged; check the order "
+                "of the columns"
+            )
+            yield line, _errors(rows.W, rows.tau[:, order], both, joints)
+    if compiled.spec.closure is not None:
+        return  # positions that do not close the loops have no torque
+    for turn in turns(observation):
+        used = rows.used & rows.used[:, turn.torque]
+        if used[:, joints].sum(axis=0).min() >= _LEAST_ROWS:
+            W, tau = rows.turned(compiled, turn.motion), rows.tau[:, turn.torque]
+            yield turn.line, _errors(W, tau, used, joints)
+
+
+def _driven(
+    compiled: "CompiledModel", observation: Observation, rows: ThinnedRows, beta: np.ndarray,
+    errors: dict[int, float],
+) -> tuple[Fault, ...]:  # fmt: skip
+    """Joints whose friction, as it was fitted, gives energy, or whose inertia pushes back.
+
+    Where the inertia is felt no more than what the model lacks, noise may take it below 0.
+    """
+    friction, inertia = [], []
+    for j, joint in enumerate(observation.joints):
+        used = rows.used[:, j]
+        speed, tau = rows.speed[used, j], rows.tau[used, j]
+        own = _own_friction(compiled, joint.name)
+        size = float(np.linalg.norm(speed) * np.linalg.norm(tau))
+        both = min(np.mean(speed > 0.0), np.mean(speed < 0.0)) if size > 0.0 else 0.0
+        if own and both > BOTH:
+            power = float(speed @ (rows.W[used, j][:, own] @ beta[own])) / size
+            if power < DRIVES:
+                friction.append(joint.name)
+        if j in errors and _pushes_back(compiled, rows, beta, j) > max(FELT, BEYOND * errors[j]):
+            inertia.append(joint.name)
+    names = list(dict.fromkeys([*friction, *inertia]))
+    if not names:
+        return ()
+    causes = {"friction that drives the motion": friction, "a negative inertia": inertia}
+    what = " and ".join(cause for cause, whose in causes.items() if whose)
+    line = (
+        f"joint{'s' if len(names) > 1 else ''} {', '.join(names)}: the fit has {what}; check the "
+        "signs of torques and positions, their units, and whether columns are exchanged"
+    )
+    return (Fault(line, True),)
+
+
+def _own_friction(compiled: "CompiledModel", joint: str) -> list[int]:
+    """Base parameters that are the viscous or Coulomb friction of a joint, and nothing besides."""
+    own = {
+        p.name for p in compiled.spec.standard
+        if p.effect in ("viscous", "coulomb") and p.joint == joint
+    }  # fmt: skip
+    return [
+        k for k, base in enumerate(compiled.spec.base)
+        if len(base.terms) == 1 and base.terms[0].parameter in own
+    ]  # fmt: skip
+
+
+def _pushes_back(compiled: "CompiledModel", rows: ThinnedRows, beta: np.ndarray, j: int) -> float:
+    """Share of the torque that the inertia M_jj makes, if it is negative wherever the joint was.
+
+    M_jj qdd_j is the torque at rest with that acceleration less the torque at rest. 0 if M_jj is
+    positive somewhere, or if loops tie the accelerations of the joints together.
+    """
+    if compiled.spec.closure is not None:
+        return 0.0
+    felt, seen = 0.0, []
+    for part in rows.parts:
+        s = part.segment
+        q, qdd = s.q[part.samples], s.qdd[part.samples]
+        still, moved = np.zeros_like(q), np.zeros_like(q)
+        moved[:, j] = 1.0
+        columns = compiled.base_regressor(q, still, moved, part.read)[:, j]
+        own = (columns - compiled.base_regressor(q, still, still, part.read)[:, j]) @ beta
+        torque = part.rows.means(own * qdd[:, j], part.usable[:, j], part.used[:, j],
+                                 s.whole[part.samples])  # fmt: skip
+        felt += float(np.sum(torque[part.used[:, j]] ** 2))
+        seen.append(own)
+    inertia = np.concatenate(seen)
+    size = float(np.sum(rows.tau[rows.used[:, j], j] ** 2))
+    if size == 0.0 or np.quantile(inertia, 0.98) >= 0.0:
+        return 0.0
+    return float(np.sqrt(felt / size))
+
+
+# Channels that come late.
+
+
+LONGEST = 0.15
+"""s, the largest delay that is looked for: beyond it, channels do not look late but wrong."""
+
+_STARTS = (-0.1, -0.05, 0.05, 0.1)  # s; a step along the slope goes astray from farther away
+_LEAST = 0.02  # relative error of the robot below which nothing is looked for
+_STEPS = 4  # of Gauss and Newton
+Columns = Callable[[float], np.ndarray]
+"""(m, n, c) columns with a channel taken some seconds later."""
 
 
 @dataclass(frozen=True)
@@ -84,10 +316,8 @@ def late_channels(compiled: "CompiledModel", observation: Observation) -> tuple[
         compiled: the robot.
         observation: that was fitted.
     """
-    rows = thinned(compiled, observation)
-    joints = [j for j, joint in enumerate(observation.joints) if joint.actuated]
-    joints = [j for j in joints if rows.tau[rows.used[:, j], j].any()]
-    if not joints or rows.used[:, joints].sum() < _FOR_EACH * rows.W.shape[2]:
+    rows, joints = _judged(compiled, observation)
+    if not joints:
         return ()
     fit = _Fit(rows, joints, observation)
     before, _ = fit.left(rows.W)
@@ -145,19 +375,12 @@ class _Fit:
     """Fits in which every joint weighs the same."""
 
     def __init__(self, rows: ThinnedRows, joints: Sequence[int], observation: Observation) -> None:
-        self._rows, self._joints = rows, joints
-        self._sizes = {
-            j: max(float(np.linalg.norm(rows.tau[rows.used[:, j], j])), 1e-300) for j in joints
-        }
+        self._rows, self._sizes = rows, _sizes(rows.tau, rows.used, joints)
         self._step = float(np.median([part.segment.step for part in observation.stretches]))
-
-    def _stacked(self, values: np.ndarray) -> np.ndarray:
-        used = self._rows.used
-        return np.concatenate([values[used[:, j], j] / self._sizes[j] for j in self._joints])
 
     def left(self, W: np.ndarray) -> tuple[float, np.ndarray]:
         """The error that a fit leaves, and its solution."""
-        X, y = self._stacked(W), self._stacked(self._rows.tau)
+        X, y = (_stacked(values, self._rows.used, self._sizes) for values in (W, self._rows.tau))
         beta = scaled_least_squares(X, y, 1e-6)
         return float(np.linalg.norm(y - X @ beta)), beta
 

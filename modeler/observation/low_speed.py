@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import ModuleSpec, SignalSpec
 from modeler.observation.motion import Segment
-from modeler.observation.processing import Processing
+from modeler.observation.processing import ChosenProcessing
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel
@@ -107,25 +107,23 @@ def with_every_joint(model: "CompiledModel") -> tuple[FrictionShaft, ...]:
 
 
 def floors_of(
-    processing: Processing, parts: Sequence[FrictionShaft], segments: Sequence[Segment]
+    processing: ChosenProcessing, parts: Sequence[FrictionShaft], segments: Sequence[Segment]
 ) -> dict[str, float]:
     """Speed of each shaft below which its rows are masked; infinite for one that stands still.
 
     `low_speed` times the shaft's top speed over all logs, which is its 98 % quantile: a short
     transient (an axis that slams into its first position) must not mask the motion after it.
     """
-    floors = {}
-    given: Mapping[str, float] = processing.speed_floors or {}
+    floors = dict(processing.speed_floors)
     for part in parts:
-        if part.name in given:
-            floors[part.name] = given[part.name]
+        if part.name in floors:
             continue
         speeds = np.concatenate([np.abs(part.speed(s.qd[s.whole])) for s in segments])
         travel = np.concatenate([part.speed(s.q[s.whole]) for s in segments])
         idle = not travel.size or np.ptp(travel) < IDLE_TRAVEL[part.unit]
         top = float(np.quantile(speeds, TOP)) if speeds.size else 0.0
         floors[part.name] = float("inf") if idle else processing.low_speed * top
-    return floors
+    return {part.name: floors[part.name] for part in parts}
 
 
 def moving(

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -42,11 +43,9 @@ class Segment(Brief):
         tau: (n, joints) torque as measured (missing values bridged).
         extra: further columns of the log, (n,).
         whole: (n,) False within the edge of the position filter.
-        valid: (n, joints) True where the torque is a measurement that counts.
-        lost: why the others do not count, samples (joints,) by cause; the first cause that applies.
+        cause: (n, joints) place in CAUSES of why a sample does not count, the first that applies;
+            -1 where it counts.
         commanded: (n, joints) commanded positions, filtered like q; None where none were logged.
-        cause: (n, joints) place in CAUSES of why a sample does not count, -1 where it counts; None
-            where nobody asked.
     """
 
     run: int
@@ -58,15 +57,18 @@ class Segment(Brief):
     tau: np.ndarray
     extra: Mapping[str, np.ndarray]
     whole: np.ndarray
-    valid: np.ndarray
-    lost: Mapping[str, np.ndarray]
+    cause: np.ndarray
     commanded: np.ndarray | None = None
-    cause: np.ndarray | None = None
 
     @property
     def samples(self) -> int:
         """Number of samples, n."""
         return len(self.time)
+
+    @cached_property
+    def valid(self) -> np.ndarray:
+        """(n, joints) True where the torque is a measurement that counts."""
+        return np.asarray(self.cause < 0)
 
 
 def segment_of(piece: Piece, processing: Processing) -> Segment | None:
@@ -81,8 +83,7 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
         piece: a uniform stretch; its qd, qdd are None where they must come from q.
         processing: with `position_cutoff` chosen.
     """
-    assert processing.position_cutoff is not None, "resolve() comes first"
-    cutoff = min(processing.position_cutoff, HIGHEST / piece.step)
+    cutoff = min(processing.position_cutoff or 0.0, HIGHEST / piece.step)
     edge = edge_of(piece, processing)
     if piece.qd is not None and piece.qdd is not None:
         q, qd, qdd = piece.q, piece.qd, piece.qdd
@@ -101,21 +102,15 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
     if edge:
         whole[:edge] = whole[-edge:] = False
     cause = _causes(piece, whole, edge, cutoff, processing.keep_saturated)
-    lost = {name: np.sum(cause == k, axis=0) for k, name in enumerate(CAUSES)}
-    tau = _later(piece, processing.delay)
-    wanted = None if piece.commanded is None else low_pass(piece.commanded, piece.step, cutoff)
+    tau, wanted = piece.tau, piece.commanded
+    if processing.delay != 0.0:
+        earlier = piece.time - processing.delay
+        tau = np.column_stack([np.interp(earlier, piece.time, own) for own in tau.T])
+    if wanted is not None:
+        wanted = low_pass(wanted, piece.step, cutoff)
     return Segment(
-        piece.run, piece.time, piece.step, q, qd, qdd, tau, piece.extra, whole, cause < 0, lost,
-        wanted, cause,
-    )  # fmt: skip
-
-
-def _later(piece: Piece, delay: float) -> np.ndarray:
-    """(n, joints) torques of the log `delay` seconds before each sample."""
-    if delay == 0.0:
-        return piece.tau
-    moved = piece.time - delay
-    return np.column_stack([np.interp(moved, piece.time, tau) for tau in piece.tau.T])
+        piece.run, piece.time, piece.step, q, qd, qdd, tau, piece.extra, whole, cause, wanted
+    )
 
 
 def _causes(
@@ -126,25 +121,26 @@ def _causes(
     The bend of a bridge, or of a wrong velocity, reaches as far as the start-up of the filter; a
     few missing samples that take less than 0.4 periods of the cut-off leave no bend.
     """
+
+    def near(flags: np.ndarray) -> np.ndarray:
+        if not edge or not flags.any():
+            return flags[:, None]
+        reached = np.convolve(flags, np.ones(2 * edge + 1), mode="full")[edge:-edge] > 0.5
+        return np.asarray(reached[:, None])
+
     few = min(SHORT, int(_SHORT_PERIODS / (cutoff * piece.step)) - 1) if cutoff else 0
     bent = longer_runs(piece.bridged, few) if few > 0 else piece.bridged
     flags = {
         EDGE: ~whole[:, None],
         MISSING: piece.bridged[:, None] | ~piece.valid,
-        BRIDGES: _near(bent, edge)[:, None],
-        CONTRADICTED: _near(piece.contradicted, edge)[:, None],
+        BRIDGES: near(bent),
+        CONTRADICTED: near(piece.contradicted),
         SATURATED: piece.clipped & (not keep_saturated),
     }
     cause = np.full(piece.valid.shape, -1, dtype=np.int8)
     for name, flagged in flags.items():
         cause[(cause < 0) & flagged] = CAUSES.index(name)
     return cause
-
-
-def _near(flags: np.ndarray, edge: int) -> np.ndarray:
-    if not edge or not flags.any():
-        return flags
-    return np.asarray(np.convolve(flags, np.ones(2 * edge + 1), mode="full")[edge:-edge] > 0.5)
 
 
 def edge_of(piece: Piece, processing: Processing) -> int:

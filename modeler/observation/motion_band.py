@@ -63,12 +63,12 @@ def motion_bands(piece: Piece, measured: MotionSpectrum) -> MotionBands:
     ends = _together(frequency, above, ends, moves)
     left = [measured.power[ends[j] :, j].sum() + ends[j] * measured.white[j] for j in joints]
     window = 2.0 / (len(piece.time) * piece.step)
-    band = np.fmin(_bands(frequency, above, ends), _commanded(piece))
-    return MotionBands(
-        band=np.where(moves, _without(window, band), np.nan),
-        shaken=_without(window, _bands(frequency, above, rings)),
-        trembling=np.sqrt(left),
+    bands = (
+        np.fmin(_bands(frequency, above, ends), _commanded(piece)),
+        _bands(frequency, above, rings),
     )
+    band, shaken = (np.sqrt(np.maximum(0.0, own**2 - window**2)) for own in bands)
+    return MotionBands(np.where(moves, band, np.nan), shaken, np.sqrt(left))
 
 
 def _together(
@@ -94,10 +94,6 @@ def _bands(frequency: np.ndarray, power: np.ndarray, ends: Sequence[int]) -> np.
     return np.array([energy_band(frequency[:n], power[:n, j]) for j, n in enumerate(ends)])
 
 
-def _without(window: float, band: np.ndarray) -> np.ndarray:
-    return np.sqrt(np.maximum(0.0, band**2 - window**2))
-
-
 def energy_band(frequency: np.ndarray, power: np.ndarray) -> float:
     """Frequency below which 99 % of the velocity's energy lies, Hz; 0 without any.
 
@@ -114,15 +110,9 @@ def _commanded(piece: Piece) -> np.ndarray:
     if piece.commanded is None:
         return np.full(piece.q.shape[1], np.nan)
     command = motion_spectrum(piece.commanded, piece.step)
-    above = command.above
-    size = np.sqrt(above.sum(axis=0))
-    moves = size > REST * size.max()
-    return np.array(
-        [
-            energy_band(command.frequency, own) if there else np.nan
-            for own, there in zip(above.T, moves, strict=True)
-        ]
-    )
+    size = np.sqrt(command.above.sum(axis=0))
+    band = [energy_band(command.frequency, own) for own in command.above.T]
+    return np.where(size > REST * size.max(), band, np.nan)
 
 
 def _end(frequency: np.ndarray, above: np.ndarray) -> int:

@@ -1,7 +1,7 @@
 """y = W beta: the rows of all logs through the compiled model and the parallel filter."""
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
@@ -11,12 +11,10 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.core.result import Presented
-from modeler.numerics.filters import row_filter
+from modeler.observation.chunk import whole_log
 from modeler.observation.log import Log
 from modeler.observation.low_speed import (
-    FrictionShaft,
     floors_of,
-    moving,
     shafts,
     signals_of,
     with_every_joint,
@@ -31,10 +29,11 @@ from modeler.observation.motion import (
     SATURATED,
     Segment,
 )
-from modeler.observation.prepare import Mending, Prepared, prepare, with_floors, without_open
+from modeler.observation.prepare import Mending, Prepared, prepare, without_open
 from modeler.observation.processing import Processing
-from modeler.observation.report import DataReport, JointReport, LogReport
+from modeler.observation.report import DataReport
 from modeler.observation.stretch import Stretch, stretch
+from modeler.observation.tally import joint_reports, log_report, tally
 
 if TYPE_CHECKING:
     from modeler.runtime.fused import NonzeroPattern, Triangles
@@ -227,18 +226,29 @@ def observed(
     prepared, open_times = without_open(model, logs, prepared)
     parts = with_every_joint(model) if every_joint else shafts(model)
     floors = floors_of(prepared.processing, parts, prepared.segments)
-    chosen = with_floors(prepared.processing, floors)
-    stretches = tuple(_stretch(segment, parts, chosen) for segment in prepared.segments)
+    chosen = dataclasses.replace(prepared.processing, speed_floors=floors)
+    stretches = tuple(stretch(segment, parts, chosen) for segment in prepared.segments)
+    tallies, reports = [], []
+    for run, (log, times) in enumerate(zip(logs, open_times, strict=True)):
+        own = [part for part in stretches if part.segment.run == run]
+        left_out = [piece for piece in prepared.left_out if piece.run == run]
+        pieces, check = prepared.pieces[run], prepared.checks[run]
+        whole = tally(whole_log(log), pieces, prepared.splits[run], own, left_out, check)
+        apart = [np.diff(part.rows.centres[:2]) for part in own if len(part.rows.centres) > 1]
+        wrong = check.contradictions if check else ()
+        decimation = int(apart[0][0]) if apart else 1
+        found = log_report(
+            log, model.spec, prepared, run, whole, prepared.defects[run], wrong, decimation
+        )
+        tallies.append(whole)
+        reports.append(dataclasses.replace(found, open_times=times))
     report = DataReport(
         processing=chosen,
         choices=prepared.choices,
         trembles=prepared.trembles,
         band=prepared.band,
-        logs=tuple(
-            dataclasses.replace(_log_report(log, run, prepared, stretches), open_times=times)
-            for run, (log, times) in enumerate(zip(logs, open_times, strict=True))
-        ),
-        joints=joint_reports(model.spec.joints, parts, floors, _counts(stretches)),
+        logs=tuple(reports),
+        joints=joint_reports(model.spec.joints, parts, floors, tallies),
     )
     if not any(part.used.any() for part in stretches):
         raise no_row_left(report, [f"{log.name}: {note}" for log in logs for note in log.notes])
@@ -256,40 +266,28 @@ def no_row_left(report: DataReport, notes: Sequence[str] = ()) -> DataError:
 
 def observed_alike(model: "CompiledModel", like: Observation) -> Observation:
     """What a robot makes of logs that another one has seen, which masks the same samples."""
-    return dataclasses.replace(
-        like,
-        robot=model.spec.robot,
-        joints=model.spec.joints,
-        names=tuple(base.name for base in model.spec.base),
-        units=tuple(base.unit for base in model.spec.base),
-        regressor=Evaluated(model, like.stretches),
-    )
+    return dataclasses.replace(like, **_columns_of(model, like.stretches))
 
 
-def _stretch(segment: Segment, parts: Sequence[FrictionShaft], processing: Processing) -> Stretch:
-    assert processing.parallel_cutoff is not None
-    assert processing.speed_floors is not None
-    usable = segment.valid & moving(segment, parts, processing.speed_floors)
-    rows = row_filter(
-        segment.whole, segment.step, processing.parallel_cutoff, processing.decimation
-    )
-    return stretch(segment, usable, rows)
+def _columns_of(model: "CompiledModel", stretches: Sequence[Stretch]) -> dict[str, Any]:
+    """What an observation has of its robot."""
+    return {
+        "robot": model.spec.robot,
+        "joints": model.spec.joints,
+        "names": tuple(base.name for base in model.spec.base),
+        "units": tuple(base.unit for base in model.spec.base),
+        "regressor": Evaluated(model, stretches),
+    }
 
 
 def stacked(
-    model: "CompiledModel",
-    logs: Sequence[str],
-    stretches: tuple[Stretch, ...],
-    report: DataReport,
+    model: "CompiledModel", logs: Sequence[str], stretches: tuple[Stretch, ...], report: DataReport
 ) -> Observation:
     """The rows of some stretches of logs of these names, with what is told of them."""
     motion = np.concatenate([_motion(part) for part in stretches])
     counts = [len(part.rows.centres) for part in stretches]
     return Observation(
-        robot=model.spec.robot,
-        joints=model.spec.joints,
-        names=tuple(base.name for base in model.spec.base),
-        units=tuple(base.unit for base in model.spec.base),
+        **_columns_of(model, stretches),
         logs=tuple(logs),
         run=np.repeat([part.segment.run for part in stretches], counts),
         segment=np.repeat(np.arange(len(stretches)), counts),
@@ -297,10 +295,9 @@ def stacked(
         q=motion[:, 0],
         qd=motion[:, 1],
         qdd=motion[:, 2],
-        torque=np.concatenate([part.filtered(torque_of(part.segment)) for part in stretches]),
+        torque=np.concatenate([part.torque() for part in stretches]),
         used=np.concatenate([part.used for part in stretches]),
         stretches=stretches,
-        regressor=Evaluated(model, stretches),
         report=report,
     )
 
@@ -316,96 +313,8 @@ def _motion(part: Stretch) -> np.ndarray:
     )
 
 
-def torque_of(segment: Segment) -> Callable[[slice], np.ndarray]:
-    """What is filtered of a segment, a window at a time."""
-    return lambda window: segment.tau[window]
-
-
-def _log_report(log: Log, run: int, prepared: Prepared, stretches: Sequence[Stretch]) -> LogReport:
-    own = [part for part in stretches if part.segment.run == run]
-    check = prepared.checks[run]
-    pieces, split = prepared.pieces[run], prepared.splits[run]
-    clipped = (
-        np.sum([np.sum(piece.clipped, axis=0) for piece in pieces], axis=0)
-        if pieces
-        else np.zeros(len(log.joints), dtype=int)
-    )
-    spacing = [int(part.rows.centres[1] - part.rows.centres[0]) for part in own
-               if len(part.rows.centres) > 1]  # fmt: skip
-    return LogReport(
-        name=log.name,
-        rows=log.rows,
-        missing=dict(log.missing),
-        saturated={n: int(k) for n, k in zip(log.joints, clipped, strict=True) if k},
-        rate=1.0 / log.step,
-        jitter=split.jitter,
-        gaps=split.gaps,
-        longest_gap=split.longest_gap,
-        pieces=len(pieces),
-        resampled=sum(piece.resampled for piece in pieces),
-        short=split.short + prepared.dropped[run],
-        derivatives=prepared.derivatives[run],
-        decimation=spacing[0] if spacing else 1,
-        samples=sum(len(part.rows.centres) for part in own),
-        notes=log.notes + prepared.rings[run] + (check.notes if check else ()),
-        contradictions=check.contradictions if check else (),
-        contradicted=sum(int(bad.sum()) for bad in check.bad) if check else 0,
-        damages=prepared.damages[run],
-        content=log.content,
-        span=(float(log.time[0]), float(log.time[-1])),
-        torque_source=log.torque_source,
-    )
-
-
-def _counts(stretches: Sequence[Stretch]) -> dict[str, Any]:
-    """Samples of all stretches, by joint, as a `Tally` has them of chunks."""
-    return {
-        "full": sum(part.segment.samples for part in stretches),
-        "valid": sum(np.sum(part.segment.valid, axis=0) for part in stretches),
-        "usable": sum(np.sum(part.usable, axis=0) for part in stretches),
-        "used": sum(np.sum(part.used, axis=0) for part in stretches),
-    } | {cause: sum(part.segment.lost[cause] for part in stretches) for cause in CAUSES}
-
-
-def joint_reports(
-    joints: Sequence[JointSpec],
-    parts: Sequence[FrictionShaft],
-    floors: Mapping[str, float],
-    counts: Mapping[str, Any],
-) -> tuple[JointReport, ...]:
-    """What became of the samples of each joint.
-
-    Args:
-        joints: of the robot.
-        parts: its shafts.
-        floors: speeds below which they do not count.
-        counts: "full" samples, and by joint those "valid", "usable", "used" and lost by each cause.
-    """
-    reports = []
-    for j, joint in enumerate(joints):
-        own = [floors[part.name] for part in parts if j in part.joints]
-        reports.append(
-            JointReport(
-                name=joint.name,
-                used=int(counts["used"][j]),
-                slow=float(1.0 - counts["usable"][j] / max(1, counts["valid"][j])),
-                speed_floor=max(own) if own else None,
-                unit=f"{joint.unit}/s",
-                samples=int(counts["full"]),
-                lost={cause: int(counts[cause][j]) for cause in CAUSES if counts[cause][j]},
-            )
-        )
-    return tuple(reports)
-
-
 # Why a row does not count, for those who draw it.
 
-
-MASKS = (
-    "low speed", "torque at its limit", "no good value", "impossible derivative", "filter end",
-    "loops open",
-)  # fmt: skip
-"""In short, for legends."""
 
 WHY = {
     "low speed": "the joint moves so slowly that the sign of its friction is doubtful",
@@ -415,16 +324,14 @@ WHY = {
     "filter end": "the position filter still starts up there",
     "loops open": "the loops cannot be closed with these positions",
 }
-"""In a sentence."""
+"""In short, for legends, and in a sentence."""
+
+MASKS = tuple(WHY)
 
 _OF = {
-    SATURATED: "torque at its limit",
-    MISSING: "no good value",
-    BRIDGES: "no good value",
-    CONTRADICTED: "impossible derivative",
-    EDGE: "filter end",
-    OPEN: "loops open",
-}
+    EDGE: "filter end", MISSING: "no good value", BRIDGES: "no good value",
+    CONTRADICTED: "impossible derivative", SATURATED: "torque at its limit", OPEN: "loops open",
+}  # fmt: skip
 
 
 def masks_of(observation: Observation) -> np.ndarray:
@@ -433,16 +340,13 @@ def masks_of(observation: Observation) -> np.ndarray:
     Args:
         observation: of logs.
     """
-    return np.concatenate([_masks(part) for part in observation.stretches])
-
-
-def _masks(part: Stretch) -> np.ndarray:
-    """(rows, n)."""
-    cause = part.segment.cause
     of = np.array([MASKS.index(_OF[name]) for name in CAUSES] + [0])  # the last: low speed
-    flags = np.where(part.usable, -1, of[-1] if cause is None else of[cause])
-    shares = np.stack([part.rows.share(flags == k) for k in range(len(MASKS))])
-    return np.where(part.used, -1, np.argmax(shares, axis=0)).astype(np.int8)
+    found = []
+    for part in observation.stretches:
+        flags = np.where(part.usable, -1, of[part.segment.cause])
+        shares = np.stack([part.rows.share(flags == k) for k in range(len(MASKS))])
+        found.append(np.where(part.used, -1, np.argmax(shares, axis=0)).astype(np.int8))
+    return np.concatenate(found)
 
 
 # The torque of a model over the samples of an observation, through the filter of its rows.

@@ -1,7 +1,7 @@
 """What no robot does, in the channels of a log: found, told, and mended or left out; leaps."""
 
 import dataclasses
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -287,13 +287,6 @@ class Damage:
     line: str
 
 
-@dataclass(frozen=True, eq=False)
-class _Channel:
-    column: str
-    joint: str
-    unit: str
-
-
 @dataclass(frozen=True)
 class Found:
     """A defect of a channel, at rows of the log from `start` to before `stop`.
@@ -333,23 +326,12 @@ class Usual:
     rates: Mapping[str, np.ndarray]
 
 
-def repaired(log: Log, spec: ModuleSpec) -> tuple[Log, tuple[Damage, ...]]:
-    """The log without the values that no robot can have made, and what was found.
+def defects(log: Log, spec: ModuleSpec, usual: Usual | None = None) -> tuple[Log, Defects, Usual]:
+    """The log without the values that no robot can have made; these; and what is usual in it.
 
     Wraps are counted on, and positions that begin to count from another zero are joined to the
     longest stretch. Spikes and repeated values become missing ones. Where rows are missing and the
     clock ran on, a new piece begins.
-
-    Args:
-        log: as it was read.
-        spec: the robot's manifest; it names the joints.
-    """
-    mended, found, _ = defects(log, spec)
-    return mended, damages(log, spec, found)
-
-
-def defects(log: Log, spec: ModuleSpec, usual: Usual | None = None) -> tuple[Log, Defects, Usual]:
-    """The mended log, what was found, and what is usual in it.
 
     Args:
         log: as it was read, or some consecutive rows of one.
@@ -386,11 +368,11 @@ def _positions(
     ):
         return q, segment, positions, steps, usual.leaps
     walks = [walked(log.time[rows], log.q[rows], revolute, steps) for rows in stretches]
-    long = [walk for walk in walks if walk is not None]
-    least = floors(long, steps) if usual is None else floors_here(long, usual.leaps)
-    for rows, walk in zip(stretches, walks, strict=True):
-        for j in range(len(spec.joints) if walk is not None else 0):
-            assert walk is not None
+    long = [(r, walk) for r, walk in zip(stretches, walks, strict=True) if walk is not None]
+    every = [walk for _, walk in long]
+    least = floors(every, steps) if usual is None else floors_here(every, usual.leaps)
+    for rows, walk in long:
+        for j in range(len(spec.joints)):
             leaps = leaps_of(walk, log.time[rows], j, least[j])
             q[rows, j] = _mended(walk, j, leaps)
             positions[j] += [_at(leap, rows, log) for leap in leaps]
@@ -414,10 +396,11 @@ def _stretches(log: Log, there: np.ndarray) -> Iterator[np.ndarray]:
     yield from np.split(rows, np.flatnonzero(cut) + 1)
 
 
-def _at(leap: Leap, rows: np.ndarray, log: Log) -> Found:
-    start = int(rows[leap.start])
-    stop = int(rows[leap.stop - 1]) + 1 if leap.stop > leap.start else start
-    return Found(leap.kind, start, stop, leap.size, float(log.time[start]))
+def _at(found: Leap, rows: np.ndarray, log: Log) -> Found:
+    """What was found in a stretch, at rows (k,) of the log."""
+    start = int(rows[found.start])
+    stop = int(rows[found.stop - 1]) + 1 if found.stop > found.start else start
+    return Found(found.kind, start, stop, found.size, float(log.time[start]))
 
 
 def _mended(walk: LeapWalk, j: int, leaps: Sequence[Leap]) -> np.ndarray:
@@ -443,7 +426,7 @@ def _torques(log: Log, usual: TorqueNoise | None) -> tuple[list[list[Found]], To
         usual,
     )
     return [
-        [_spike(one, rows, log) for own, rows in zip(by_joint, stretches, strict=True)
+        [_at(Leap("spike", *one), rows, log) for own, rows in zip(by_joint, stretches, strict=True)
          for one in own]
         for by_joint in spikes
     ], noise  # fmt: skip
@@ -466,15 +449,14 @@ def _rates(log: Log, usual: Mapping[str, np.ndarray]) -> tuple[Defects, dict[str
             floors_of_name.append(floor)
             spikes = glitches(stretches, departed, floor)
             found.setdefault(name, []).append(
-                [_spike(one, r, log) for own, r in zip(spikes, rows, strict=True) for one in own]
+                [
+                    _at(Leap("spike", *one), r, log)
+                    for own, r in zip(spikes, rows, strict=True)
+                    for one in own
+                ]
             )
         levels[name] = np.array(floors_of_name)
     return found, levels
-
-
-def _spike(spike: tuple[int, int, float], rows: np.ndarray, log: Log) -> Found:
-    start = int(rows[spike[0]])
-    return Found("spike", start, int(rows[spike[1] - 1]) + 1, spike[2], float(log.time[start]))
 
 
 def _without(values: np.ndarray, found: Sequence[Sequence[Found]]) -> np.ndarray:
@@ -485,118 +467,57 @@ def _without(values: np.ndarray, found: Sequence[Sequence[Found]]) -> np.ndarray
     return kept
 
 
-@dataclass(frozen=True)
-class Whose:
-    """The log that damages are told of; a `Log` is one.
+def damages(log: Log, rows: int, spec: ModuleSpec, found: Defects) -> tuple[Damage, ...]:
+    """What was found in the rows of a log, in words.
 
-    Attributes:
-        name: of its file.
-        rows: of it.
-        torque_source: where each joint's torque comes from, in words.
+    Args:
+        log: it, or a part of it.
+        rows: of the whole log.
+        spec: the robot's manifest.
+        found: in all rows.
     """
-
-    name: str
-    rows: int
-    torque_source: tuple[str, ...]
-
-
-def damages(log: Log | Whose, spec: ModuleSpec, found: Defects) -> tuple[Damage, ...]:
-    """What was found in a log, in words."""
-    return tuple(_damages(log, spec, found))
-
-
-def _damages(log: Log | Whose, spec: ModuleSpec, found: Defects) -> Iterator[Damage]:
-    units = {"q": "{}", "qd": "{}/s", "qdd": "{}/s^2"}
+    told = []
     for name, by_joint in found.items():
-        for j, own in enumerate(by_joint):
-            joint = spec.joints[j]
+        for joint, own in zip(spec.joints, by_joint, strict=bool(by_joint)):
             column, unit = f"{name}{joint.name}", joint.effort_unit
-            if name in units:
-                unit = units[name].format(joint.unit)
+            if name in _PER:
+                unit = f"{joint.unit}{_PER[name]}"
             elif log.torque_source:
-                column = log.torque_source[j].split()[0]
+                column = log.torque_source[spec.joints.index(joint)].split()[0]
             for kind in dict.fromkeys(one.kind for one in own):
                 same = [one for one in own if one.kind == kind]
-                yield _damage(log, _Channel(column, joint.name, unit), kind, same)
+                size, samples = (
+                    max(abs(one.size) for one in same),
+                    sum(o.stop - o.start for o in same),
+                )
+                first = f"at {same[0].time:.6g} s"
+                words = _WORDS["torque" if kind == "spike" and column[0] != "q" else kind].format(
+                    when=first if len(same) == 1 else f"{len(same)} times, first {first}",
+                    size=f"{'up to ' * (len(same) > 1)}{size:.3g} {unit}",
+                    unused=f"{samples} sample{'s' * (samples > 1)} "
+                    f"({percent(samples / rows)} of the rows) not used",
+                    part=f"{log.name}@{same[0].time:.6g}:",
+                )
+                times = tuple(one.time for one in same)
+                line = f"{column}: {words}"
+                told.append(Damage(column, joint.name, kind, times, samples, size, unit, line))
+    return tuple(told)
 
 
-def _damage(log: Log | Whose, channel: _Channel, kind: str, same: Sequence[Found]) -> Damage:
-    largest = max(same, key=lambda one: abs(one.size))
-    words = _WORDS["torque" if kind == "spike" and channel.column[0] != "q" else kind]
-    return Damage(
-        column=channel.column,
-        joint=channel.joint,
-        kind=kind,
-        times=tuple(one.time for one in same),
-        samples=sum(one.stop - one.start for one in same),
-        size=abs(largest.size),
-        unit=channel.unit,
-        line=f"{channel.column}: {words(log, channel, same)}",
-    )
-
-
-def _when(log: Log | Whose, same: Sequence[Found]) -> str:
-    first = f"at {same[0].time:.6g} s"
-    return first if len(same) == 1 else f"{len(same)} times, first {first}"
-
-
-def _size(channel: _Channel, same: Sequence[Found]) -> str:
-    up_to = "" if len(same) == 1 else "up to "
-    return f"{up_to}{max(abs(one.size) for one in same):.3g} {channel.unit}"
-
-
-def _lost(log: Log | Whose, same: Sequence[Found]) -> str:
-    count = sum(one.stop - one.start for one in same)
-    samples = f"{count} sample{'s' if count > 1 else ''}"
-    return f"{samples} ({percent(count / log.rows)} of the rows) not used"
-
-
-def _wrap(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    return (
-        f"leaps by whole turns of 2 pi rad {_when(log, same)}; counted on from the longest "
-        "stretch between two leaps: only what does not repeat with every turn, as a spring or a "
-        "cable, is not served by that; log positions that do not wrap"
-    )
-
-
-def _position_spike(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    return (
-        f"leaps by {_size(channel, same)} and back {_when(log, same)}, which no joint can; "
-        f"{_lost(log, same)}; check the encoder and its cable"
-    )
-
-
-def _torque_spike(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    return (
-        f"a spike of {_size(channel, same)} {_when(log, same)}, far above the noise, which no "
-        f"other joint feels; {_lost(log, same)}; check the wiring of that channel"
-    )
-
-
-def _frozen(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    return (
-        f"repeats an old value while the joint moves, {_when(log, same)}; {_lost(log, same)}; "
-        "the logger or the bus was late: log fewer columns, or slower"
-    )
-
-
-def _zero(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    at = same[0].time
-    return (
-        f"leaps by {_size(channel, same)} {_when(log, same)} and goes on from there: the encoder "
-        "found another zero; joined to the longest stretch between two leaps, whose zero is kept; "
-        f"if another is right, use that part alone, as in {log.name}@{at:.6g}:"
-    )
-
-
-def _lost_rows(log: Log | Whose, channel: _Channel, same: Sequence[Found]) -> str:
-    return (
-        f"leaps along its motion by {_size(channel, same)} {_when(log, same)}: rows are missing "
-        "there while the clock ran on; no filter runs across; log the true time of each row"
-    )
-
-
-_WORDS: dict[str, Callable[[Log | Whose, _Channel, Sequence[Found]], str]] = {
-    "wrap": _wrap, "spike": _position_spike, "torque": _torque_spike, "frozen": _frozen,
-    "zero": _zero, "lost": _lost_rows,
-}  # fmt: skip
+_PER = {"q": "", "qd": "/s", "qdd": "/s^2"}
+_WORDS: Mapping[str, str] = {
+    "wrap": "leaps by whole turns of 2 pi rad {when}; counted on from the longest stretch between "
+    "two leaps: only what does not repeat with every turn, as a spring or a cable, is not served "
+    "by that; log positions that do not wrap",
+    "spike": "leaps by {size} and back {when}, which no joint can; {unused}; check the encoder and "
+    "its cable",
+    "torque": "a spike of {size} {when}, far above the noise, which no other joint feels; "
+    "{unused}; check the wiring of that channel",
+    "frozen": "repeats an old value while the joint moves, {when}; {unused}; the logger or the bus "
+    "was late: log fewer columns, or slower",
+    "zero": "leaps by {size} {when} and goes on from there: the encoder found another zero; joined "
+    "to the longest stretch between two leaps, whose zero is kept; if another is right, use that "
+    "part alone, as in {part}",
+    "lost": "leaps along its motion by {size} {when}: rows are missing there while the clock ran "
+    "on; no filter runs across; log the true time of each row",
+}

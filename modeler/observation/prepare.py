@@ -23,9 +23,9 @@ from modeler.observation.consistency import (
 from modeler.observation.excitation import Ringing, ringing
 from modeler.observation.log import Log
 from modeler.observation.motion import CAUSES, HIGHEST, OPEN, Segment, edge_of, segment_of
-from modeler.observation.motion_band import MotionBands, motion_bands
-from modeler.observation.outliers import Damage, Defects, Usual, damages, defects
-from modeler.observation.processing import Processing
+from modeler.observation.motion_band import motion_bands
+from modeler.observation.outliers import Defects, Usual, defects
+from modeler.observation.processing import ChosenProcessing, Processing
 from modeler.observation.segments import Piece, SplitReport, split
 
 if TYPE_CHECKING:
@@ -52,27 +52,27 @@ class Prepared:
         choices: a sentence for each.
         segments: in the order of the logs.
         pieces: uniform pieces by log.
-        splits: what splitting did, by log.
+        splits: where splitting cut them, by log.
         derivatives: where qd and qdd come from, by log.
-        dropped: rows in pieces that were all edge, by log.
+        left_out: pieces that were all edge, of all logs.
         checks: of the logged derivatives, by log; None where positions are differentiated.
         rings: sentences on joints that ring, by log.
-        damages: values that no robot can have made, by log.
+        defects: values that no robot can have made, by log.
         trembles: sentences on joints that tremble beside their motion.
         band: Hz of the motion of the fastest joint, or what pieces of that length can show.
         usual: what is usual in the channels, by log.
     """
 
-    processing: Processing
+    processing: ChosenProcessing
     choices: tuple[str, ...]
     segments: tuple[Segment, ...]
     pieces: tuple[tuple[Piece, ...], ...]
     splits: tuple[SplitReport, ...]
     derivatives: tuple[str, ...]
-    dropped: tuple[int, ...]
+    left_out: tuple[Piece, ...]
     checks: tuple[Consistency | None, ...]
     rings: tuple[tuple[str, ...], ...]
-    damages: tuple[tuple[Damage, ...], ...]
+    defects: tuple[Defects, ...]
     trembles: tuple[str, ...]
     band: float
     usual: tuple[Usual, ...]
@@ -112,7 +112,6 @@ def prepare(
             differentiate, or a logged derivative that is none.
     """
     _check(spec, logs, processing)
-    read = list(logs)
     mended = (mending or Mending(logs, spec)).mended
     if not processing.keep_damaged:
         logs = [log for log, _, _ in mended]
@@ -124,34 +123,30 @@ def prepare(
             f"{logs[0].name}: no uninterrupted motion; every piece between two gaps has fewer "
             "than 4 rows; record without interruptions"
         )
-    _check_cutoff(logs, pieces, processing)
+    _check_windows(logs, pieces, processing)
+    _check_nyquist(logs, pieces, processing)
     spectra = spectra_of(pieces)
     motions = joint_motions(spec.joints, pieces, spectra)
     chosen, choices = choose_cutoffs(processing, pieces, motions)
     found = [own for own, _ in split_logs]
+    refuse = not chosen.keep_contradicted
     checks = [
-        _checked(log, own, chosen) if use else None
+        consistency(log, own, chosen.parallel_cutoff, refuse) if use else None
         for log, own, use in zip(logs, found, logged, strict=True)
     ]
     rated = [piece for own, use in zip(found, logged, strict=True) if use for piece in own]
-    if processing.derivatives == "auto" and quieter(rated, chosen.position_cutoff or 0.0):
+    if processing.derivatives == "auto" and quieter(rated, chosen.position_cutoff):
         found = [without_velocities(own) for own in found]
         logged, checks = [False] * len(logs), [None] * len(logs)
-    if processing.derivatives == "auto" and not chosen.keep_contradicted:
-        for run, check in enumerate(checks):
-            if check is not None and check.harmful:
-                found[run], logged[run] = without_velocities(found[run]), False
-                checks[run] = without_late(check, found[run])
-    if not chosen.keep_contradicted:
-        found = [believed(own, check) for own, check in zip(found, checks, strict=True)]
-    segments: list[Segment] = []
-    dropped = [0] * len(logs)
-    for piece in (piece for own in found for piece in own):
-        segment = segment_of(piece, chosen)
-        if segment is None:
-            dropped[piece.run] += len(piece.time)
-        else:
-            segments.append(segment)
+    for run, check in enumerate(checks):
+        if check is None or chosen.keep_contradicted:
+            continue
+        if processing.derivatives == "auto" and check.harmful:
+            found[run], logged[run] = without_velocities(found[run]), False
+            checks[run] = check = without_late(check, found[run])
+        found[run] = believed(found[run], check)
+    filtered = [(piece, segment_of(piece, chosen)) for own in found for piece in own]
+    segments = tuple(segment for _, segment in filtered if segment is not None)
     if not segments:
         rows, piece = max(((len(p.time), p) for own in found for p in own), key=lambda of: of[0])
         raise DataError(
@@ -163,45 +158,37 @@ def prepare(
     return Prepared(
         processing=chosen,
         choices=choices,
-        segments=tuple(segments),
+        segments=segments,
         pieces=tuple(found),
         splits=tuple(report for _, report in split_logs),
         derivatives=tuple(
             _source(log, use, processing.derivatives, check)
             for log, use, check in zip(logs, logged, checks, strict=True)
         ),
-        dropped=tuple(dropped),
+        left_out=tuple(piece for piece, segment in filtered if segment is None),
         checks=tuple(checks),
         rings=tuple(
-            _rings(spec, [s for p, s in zip(pieces, spectra, strict=True) if p.run == run])
+            tuple(
+                ring.sentence(spec.joints[ring.joint].name)
+                for ring in what_rings(
+                    [s for p, s in zip(pieces, spectra, strict=True) if p.run == run]
+                )
+            )
             for run in range(len(logs))
         ),
-        damages=tuple(
-            damages(log, spec, defect) for log, (_, defect, _) in zip(read, mended, strict=True)
-        ),
+        defects=tuple(defect for _, defect, _ in mended),
         usual=tuple(usual for _, _, usual in mended),
         trembles=what_trembles(motions),
         band=shown_band(motions, pieces),
     )
 
 
-def _rings(spec: ModuleSpec, spectra: Sequence[MotionSpectrum]) -> tuple[str, ...]:
-    return tuple(ring.sentence(spec.joints[ring.joint].name) for ring in what_rings(spectra))
-
-
-def _checked(log: Log, pieces: Sequence[Piece], chosen: Processing) -> Consistency:
-    assert chosen.parallel_cutoff is not None
-    return consistency(log, pieces, chosen.parallel_cutoff, not chosen.keep_contradicted)
-
-
-def believed(pieces: Sequence[Piece], check: Consistency | None) -> tuple[Piece, ...]:
+def believed(pieces: Sequence[Piece], check: Consistency) -> tuple[Piece, ...]:
     """The pieces without their contradicted samples: an acceleration enters every torque.
 
     Where accelerations come from the logged velocities, the filter carries a wrong velocity as far
     as its start-up reaches: like a bridge, it takes its surroundings with it.
     """
-    if check is None:
-        return tuple(pieces)
     return tuple(
         dataclasses.replace(piece, contradicted=bad)
         for piece, bad in zip(pieces, check.bad, strict=True)
@@ -226,9 +213,8 @@ def _check(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> Non
             )
 
 
-def _check_cutoff(logs: Sequence[Log], pieces: Sequence[Piece], processing: Processing) -> None:
+def _check_nyquist(logs: Sequence[Log], pieces: Sequence[Piece], processing: Processing) -> None:
     """A filter above half the sampling rate does not exist; one that is not needed may be any."""
-    _check_windows(logs, pieces, processing)
     given = processing.position_cutoff or 0.0
     for piece in pieces:
         rate = 1.0 / piece.step
@@ -296,12 +282,7 @@ def _source(log: Log, logged: bool, asked: str, check: Consistency | None) -> st
     return "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
 
 
-def with_floors(processing: Processing, floors: dict[str, float]) -> Processing:
-    """The processing with its speed floors filled in."""
-    return dataclasses.replace(processing, speed_floors=floors)
-
-
-@dataclasses.dataclass(frozen=True)
+@dataclass(frozen=True)
 class JointMotion:
     """What one joint does in all logs.
 
@@ -343,19 +324,16 @@ def joint_motions(
     """
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
     found = [motion_bands(*pair) for pair in zip(pieces, spectra, strict=True)]
-    return tuple(_joint_motion(joint, j, found, lengths) for j, joint in enumerate(joints))
-
-
-def _joint_motion(
-    joint: JointSpec, j: int, found: Sequence[MotionBands], lengths: np.ndarray
-) -> JointMotion:
-    values = np.array([(own.band[j], own.shaken[j], own.trembling[j]) for own in found])
-    moves = np.isfinite(values[:, 0])
-    kept, weights = (values[moves], lengths[moves]) if moves.any() else (values, lengths)
-    band, shaken, trembling = (weighted_median(column, weights) for column in kept.T)
-    if not moves.any():
-        band = 0.0
-    return JointMotion(joint.name, joint.unit, bool(moves.any()), band, shaken, trembling)
+    motions = []
+    for j, joint in enumerate(joints):
+        values = np.array([(own.band[j], own.shaken[j], own.trembling[j]) for own in found])
+        moved = np.isfinite(values[:, 0])
+        moves = bool(moved.any())
+        kept, weights = (values[moved], lengths[moved]) if moves else (values, lengths)
+        band, shaken, trembling = (weighted_median(column, weights) for column in kept.T)
+        band = band if moves else 0.0
+        motions.append(JointMotion(joint.name, joint.unit, moves, band, shaken, trembling))
+    return tuple(motions)
 
 
 def shown_band(motions: Sequence[JointMotion], pieces: Sequence[Piece]) -> float:
@@ -381,7 +359,7 @@ def what_rings(spectra: Sequence[MotionSpectrum]) -> list[Ringing]:
 
 def choose_cutoffs(
     processing: Processing, pieces: Sequence[Piece], motions: Sequence[JointMotion]
-) -> tuple[Processing, tuple[str, ...]]:
+) -> tuple[ChosenProcessing, tuple[str, ...]]:
     """The processing with both cut-offs chosen, and a sentence for each choice.
 
     The motion band is that of the fastest joint. Position filter: 25 times the motion band within
@@ -403,7 +381,13 @@ def choose_cutoffs(
         f"{band:.3g} Hz" if band else "of less than the pieces of motion are long enough to show"
     )
     said = [f"motion band {shown} (99 % of the velocity's energy), sampled at {rate:.4g} Hz"]
-    said += _at_rest(motions)
+    rest = [motion.name for motion in motions if not motion.moves]
+    if rest and len(rest) < len(motions):
+        one = len(rest) == 1
+        said.append(
+            f"joint{'' if one else 's'} {', '.join(rest)} rest{'s' if one else ''}: not counted in "
+            "the motion band"
+        )
     position = processing.position_cutoff
     logged = all(piece.qdd is not None for piece in pieces)
     unused = " (not needed: accelerations are logged)" if logged else ""
@@ -416,9 +400,12 @@ def choose_cutoffs(
             f"{HIGHEST:g} of the sampling rate"
         )
     if not logged and 0.0 < position < 5.0 * band:
+        given = processing.position_cutoff is not None
+        higher, better = "give a higher --cutoff, or leave it out", "sample faster or move slower"
         said.append(
             f"position filter {position:g} Hz is less than 5 x the motion band of joint "
-            f"{fastest.name}, {band:.3g} Hz: accelerations are damped; {_remedy(processing)}"
+            f"{fastest.name}, {band:.3g} Hz: accelerations are damped; "
+            f"{higher if given else better}"
         )
     parallel = processing.parallel_cutoff
     if parallel is None:
@@ -429,36 +416,19 @@ def choose_cutoffs(
             f"{LEAST_PARALLEL:g} Hz, at most half the position filter"
         )
     own = [n for n in ("position_cutoff", "parallel_cutoff") if getattr(processing, n) is None]
-    chosen = dataclasses.replace(
-        processing,
-        position_cutoff=position,
-        parallel_cutoff=parallel,
-        chosen=(*processing.chosen, *own),
-    )
-    return chosen, tuple(said)
-
-
-def _at_rest(motions: Sequence[JointMotion]) -> list[str]:
-    rest = [motion.name for motion in motions if not motion.moves]
-    if not rest or len(rest) == len(motions):
-        return []
-    some = len(rest) > 1
-    return [
-        f"joint{'s' if some else ''} {', '.join(rest)} rest{'' if some else 's'}: "
-        "not counted in the motion band"
-    ]
+    choices = {
+        "position_cutoff": position,
+        "parallel_cutoff": parallel,
+        "speed_floors": processing.speed_floors or {},
+        "chosen": (*processing.chosen, *own),
+    }
+    return ChosenProcessing(**{**vars(processing), **choices}), tuple(said)
 
 
 def what_trembles(motions: Sequence[JointMotion]) -> tuple[str, ...]:
     """A sentence on each joint that would have made the motion look twice as fast as it is."""
     fast = _TOLD * max(LEAST_PARALLEL / PARALLEL_BANDS, *(motion.band for motion in motions))
     return tuple(motion.trembles() for motion in motions if motion.moves and motion.shaken > fast)
-
-
-def _remedy(processing: Processing) -> str:
-    if processing.position_cutoff is not None:
-        return "give a higher --cutoff, or leave it out"
-    return "sample faster or move slower"
 
 
 def _two_digits(value: float) -> float:
@@ -507,19 +477,26 @@ def without_open(
     Raises:
         LoopError: fewer than a tenth of the samples close; says how many, and where the first.
     """
-    times: list[list[float]] = [[] for _ in logs]
+    times: list[tuple[float, ...]] = [() for _ in logs]
     if model.spec.closure is None:
-        return prepared, tuple(() for _ in logs)
-    segments = []
-    for segment in prepared.segments:
-        mended, open_ = closed(model, segment)
-        segments.append(mended)
-        times[segment.run] += segment.time[open_ & segment.whole].tolist()
-    whole = sum(int(segment.whole.sum()) for segment in segments)
+        return prepared, tuple(times)
+    both = [closed(model, segment) for segment in prepared.segments]
+    for segment, open_ in both:
+        times[segment.run] += tuple(segment.time[open_ & segment.whole].tolist())
+    whole = sum(int(segment.whole.sum()) for segment, _ in both)
     count = sum(len(own) for own in times)
     if count > (1.0 - FEWEST) * whole:
-        raise LoopError(_none(model, logs, prepared, times, whole))
-    return dataclasses.replace(prepared, segments=tuple(segments)), tuple(map(tuple, times))
+        run = next(run for run, own in enumerate(times) if own)
+        first = times[run][0]
+        segment = next(s for s in prepared.segments if s.run == run and first in s.time)
+        where = ", ".join(f"{value:.6g}" for value in segment.q[segment.time == first][0])
+        raise LoopError(
+            f"{logs[run].name}: the loops of {model.spec.robot} cannot be closed at {count} of "
+            f"{whole} samples, first at {first:.6g} s; got ({where}); expected positions that the "
+            "robot reaches from [home], in SI units; check units, zeros and the order of the "
+            "columns"
+        )
+    return dataclasses.replace(prepared, segments=tuple(s for s, _ in both)), tuple(times)
 
 
 def closed(model: "CompiledModel", segment: Segment) -> tuple[Segment, np.ndarray]:
@@ -534,29 +511,6 @@ def closed(model: "CompiledModel", segment: Segment) -> tuple[Segment, np.ndarra
         q, open_ = segment.q[nearest], nearest != np.arange(segment.samples)
     if not open_.any():
         return segment, open_
-    lost, valid, cause = dict(segment.lost), segment.valid & ~open_[:, None], segment.cause
     newly = segment.valid & open_[:, None]
-    lost[OPEN] = lost[OPEN] + np.sum(newly, axis=0)
-    if cause is not None:
-        cause = np.where(newly, np.int8(CAUSES.index(OPEN)), cause)
-    mended = dataclasses.replace(segment, q=q, valid=valid, lost=lost, cause=cause)
-    return mended, open_
-
-
-def _none(
-    model: "CompiledModel",
-    logs: Sequence[Log],
-    prepared: Prepared,
-    times: Sequence[Sequence[float]],
-    whole: int,
-) -> str:
-    run = next(run for run, own in enumerate(times) if own)
-    first = times[run][0]
-    segment = next(s for s in prepared.segments if s.run == run and first in s.time)
-    where = ", ".join(f"{value:.6g}" for value in segment.q[segment.time == first][0])
-    count = sum(len(own) for own in times)
-    return (
-        f"{logs[run].name}: the loops of {model.spec.robot} cannot be closed at {count} of {whole} "
-        f"samples, first at {first:.6g} s; got ({where}); expected positions that the robot "
-        "reaches from [home], in SI units; check units, zeros and the order of the columns"
-    )
+    cause = np.where(newly, np.int8(CAUSES.index(OPEN)), segment.cause)
+    return dataclasses.replace(segment, q=q, cause=cause), open_

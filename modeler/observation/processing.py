@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from modeler.core.brief import Brief
@@ -86,6 +86,15 @@ class Processing(Brief):
         return raw
 
 
+@dataclass(frozen=True)
+class ChosenProcessing(Processing):
+    """A processing with every choice made: both cut-offs, and the speed floors of all shafts."""
+
+    position_cutoff: float = 0.0
+    parallel_cutoff: float = 0.0
+    speed_floors: Mapping[str, float] = field(default_factory=dict)
+
+
 def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
@@ -96,13 +105,13 @@ def processing_from_json(raw: Mapping[str, Any]) -> Processing:
     Raises:
         DataError: an unknown or impossible entry.
     """
-    names = {field.name for field in dataclasses.fields(Processing)}
-    unknown = sorted(set(raw) - names)
+    names = sorted(entry.name for entry in dataclasses.fields(Processing))
+    unknown = sorted(set(raw) - set(names))
     if unknown:
-        raise DataError(
-            f"processing has no setting {unknown[0]}; there are {', '.join(sorted(names))}"
-        )
+        raise DataError(f"processing has no setting {unknown[0]}; there are {', '.join(names)}")
     values = dict(raw)
+    choices = ("position_cutoff", "parallel_cutoff", "speed_floors")
+    open_ = any(values.get(name) is None for name in choices)
     try:
         values["chosen"] = tuple(str(name) for name in values.get("chosen", ()))
         if values.get("speed_floors") is not None:
@@ -110,6 +119,6 @@ def processing_from_json(raw: Mapping[str, Any]) -> Processing:
                 name: float("inf") if floor is None else float(floor)
                 for name, floor in values["speed_floors"].items()
             }
-        return Processing(**values)
+        return Processing(**values) if open_ else ChosenProcessing(**values)
     except (TypeError, ValueError, AttributeError) as error:
         raise DataError(f"processing: {error}; expected numbers") from None

@@ -1,6 +1,7 @@
 """A log of any format as a `Log`, in the columns of the log format."""
 
 import dataclasses
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -36,28 +37,19 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
             missing or not numeric, time does not increase, or no joint has a measured torque.
     """
     path = Path(path)
-    _check_fits(path)
-    table = LogTable(path, mapping, spec.joints)
-    log = log_of(table, spec)
-    ranges = Ranges.of(log)
-    doubts = ranges.doubts(log.step, spec)
-    ranges.check(path, spec)
-    return dataclasses.replace(
-        log,
-        notes=(*log.notes, *doubts),
-        content=fingerprint(log.time, log.q, log.tau),
-    )
-
-
-def _check_fits(path: Path) -> None:
-    """Refuse a file that would not be in memory as a whole, as far as it says before it is read."""
     blocks = blocks_of(path)
-    if blocks is not None and blocks.rows > MOST_WHOLE:
+    if blocks is not None and blocks.rows > MOST_WHOLE:  # as far as it says before it is read
         raise DataError(
             f"{path}: got {blocks.rows} rows; expected at most {MOST_WHOLE} where all are in "
             "memory; give a part of it, FILE@START:END; `modeler log`, `compare` of one model, and "
             "`fit` by weighted or ordinary least squares read logs of any length"
         )
+    log = log_of(LogTable(path, mapping, spec.joints), spec)
+    ranges = Ranges.of(log)
+    notes = (*log.notes, *ranges.doubts(log.step, spec))
+    ranges.check(path, spec)
+    content = fingerprint(log.time, log.q, log.tau)
+    return dataclasses.replace(log, notes=notes, content=content)
 
 
 def log_of(table: LogTable, spec: ModuleSpec) -> Log:
@@ -68,13 +60,21 @@ def log_of(table: LogTable, spec: ModuleSpec) -> Log:
     """
     time = _time(table)
     notes: list[str] = [*table.notes]
-    q = np.column_stack([_position(table, joint, spec) for joint in spec.joints])
+    positions = []
+    for joint in spec.joints:
+        if f"q{joint.name}" not in table and not joint.actuated:
+            raise DataError(
+                f"{table.path}: no column {table.called(f'q{joint.name}')}: joint {joint.name} of "
+                f"{spec.robot} is passive and its position must be logged, or computed from the "
+                "closed loops before; add the column"
+            )
+        positions.append(table.measured(f"q{joint.name}"))
     torques = [_torque(table, joint, spec) for joint in spec.joints]
     return Log(
         name=table.path.name,
         joints=tuple(joint.name for joint in spec.joints),
         time=time,
-        q=q,
+        q=np.column_stack(positions),
         tau=np.column_stack([values for values, _ in torques]),
         qd=_optional(table, "qd", spec, notes),
         qdd=_optional(table, "qdd", spec, notes),
@@ -134,17 +134,6 @@ def check_step(path: Path, name: str, step: float) -> None:
         )
 
 
-def _position(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> np.ndarray:
-    name = f"q{joint.name}"
-    if name not in table and not joint.actuated:
-        raise DataError(
-            f"{table.path}: no column {table.called(name)}: joint {joint.name} of {spec.robot} is "
-            "passive and its position must be logged, or computed from the closed loops before; "
-            "add the column"
-        )
-    return table.measured(name)
-
-
 def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str]:
     tau, current = f"tau{joint.name}", f"current{joint.name}"
     if tau in table:
@@ -160,8 +149,9 @@ def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.nda
         return joint.drive_gain * table.measured(current), source
     if not joint.actuated:
         return np.zeros(table.rows), "0 (passive)"
+    called = " or ".join(map(table.called, (tau, current)))
     raise DataError(
-        f"{table.path}: no column {table.absent(tau, current)}: joint {joint.name} of "
+        f"{table.path}: no column {called}: joint {joint.name} of "
         f"{spec.robot} is actuated; log its torque, or its current and give the drive gain"
     )
 
@@ -183,10 +173,8 @@ def _optional(
 
 
 def _segment(table: LogTable) -> np.ndarray | None:
-    if "segment" not in table:
-        return None
-    values = table.numbers("segment")
-    bad = np.flatnonzero(np.isnan(values))
+    values = table.numbers("segment") if "segment" in table else None
+    bad = np.flatnonzero(np.isnan(values)) if values is not None else np.zeros(0)
     if bad.size:
         raise DataError(
             f"{table.path}: column {table.called('segment')}, row "
@@ -259,10 +247,18 @@ class Ranges:
     @staticmethod
     def of(log: Log) -> "Ranges":
         """Of some rows."""
-        there, low, high = (
-            np.stack(rows) for rows in zip(*map(_range, (log.q, log.tau)), strict=True)
-        )
-        return Ranges(there, low, high)
+        there, low, high = [], [], []
+        for values in (log.q, log.tau):
+            there.append(np.isfinite(values).sum(axis=0))
+            least, most = np.fmin.reduce(values, axis=0), np.fmax.reduce(values, axis=0)
+            low.append(np.where(there[-1] > 0, least, np.inf))
+            high.append(np.where(there[-1] > 0, most, -np.inf))
+        return Ranges(np.stack(there), np.stack(low), np.stack(high))
+
+    @property
+    def torques(self) -> tuple[tuple[float, float], ...]:
+        """(J,) smallest and largest torque."""
+        return tuple(zip(self.low[1].tolist(), self.high[1].tolist(), strict=True))
 
     def over(self, other: "Ranges") -> "Ranges":
         """Of the rows of both."""
@@ -305,19 +301,10 @@ class Ranges:
             )
 
 
-def _range(values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of values (n, J), NaN where missing: how many there are, the least and the largest."""
-    low, high = values.min(axis=0), values.max(axis=0)
-    if np.isfinite(low).all() and np.isfinite(high).all():
-        return np.full(values.shape[1], len(values)), low, high
-    there = np.isfinite(values).sum(axis=0)
-    low, high = np.fmin.reduce(values, axis=0), np.fmax.reduce(values, axis=0)
-    return there, np.where(there > 0, low, np.inf), np.where(there > 0, high, -np.inf)
-
-
 # A log as blocks of rows: a file of any length, or a log that is in memory already.
 
 
+_COLUMNS = ("time", "q", "tau", "qd", "qdd", "commanded")
 _FIRST = 1000  # rows that tell which columns a file has
 
 
@@ -348,7 +335,15 @@ class Source(Protocol):
 
 
 class FileSource:
-    """A Parquet or CSV file."""
+    """A Parquet or CSV file.
+
+    Attributes:
+        name: of the file.
+        place: the file, and whose column is which: what makes this source again elsewhere.
+        exact: True if a window begins at the very row that its share means.
+        rows: of the file.
+        content: "": not known before all rows are read.
+    """
 
     def __init__(
         self, path: Path, blocks: Blocks, spec: ModuleSpec, mapping: LogMap | None = None
@@ -358,35 +353,12 @@ class FileSource:
         Raises:
             DataError: the file is damaged, or lacks a column.
         """
-        self._path, self._blocks, self._spec, self._mapping = path, blocks, spec, mapping
+        self.name, self.place, self.content = path.name, (path, mapping), ""
+        self.rows, self.exact = blocks.rows, isinstance(blocks, ParquetBlocks)
+        self._blocks, self._spec = blocks, spec
         table = self._table(Part(blocks.window(0.0, _FIRST)))
         self._notes = log_of(table, spec).notes
         self._names = needed(table, spec)
-
-    @property
-    def name(self) -> str:
-        """Of the file."""
-        return self._path.name
-
-    @property
-    def place(self) -> tuple[Path, LogMap | None]:
-        """The file, and whose column is which: what makes this source again elsewhere."""
-        return self._path, self._mapping
-
-    @property
-    def exact(self) -> bool:
-        """True if a window begins at the very row that its share means."""
-        return isinstance(self._blocks, ParquetBlocks)
-
-    @property
-    def rows(self) -> int:
-        """Of the file."""
-        return self._blocks.rows
-
-    @property
-    def content(self) -> str:
-        """Not known before all rows are read."""
-        return ""
 
     def blocks(self, size: int) -> Iterator[Log]:
         """All rows in their order."""
@@ -406,7 +378,7 @@ class FileSource:
         return dataclasses.replace(log, notes=self._notes, extra=_carried(log, {}))
 
     def _table(self, part: Part) -> LogTable:
-        return LogTable(self._path, self._mapping, self._spec.joints, part=part)
+        return LogTable(*self.place, self._spec.joints, part=part)
 
 
 def _carried(log: Log, last: dict[str, float]) -> dict[str, np.ndarray]:
@@ -425,26 +397,11 @@ def _carried(log: Log, last: dict[str, float]) -> dict[str, np.ndarray]:
     return found
 
 
-@dataclass(frozen=True, eq=False)
 class MemorySource:
     """A log that is in memory."""
 
-    log: Log
-
-    @property
-    def name(self) -> str:
-        """Of the log."""
-        return self.log.name
-
-    @property
-    def rows(self) -> int:
-        """Of the log."""
-        return self.log.rows
-
-    @property
-    def content(self) -> str:
-        """That of the log."""
-        return self.log.content
+    def __init__(self, log: Log) -> None:
+        self.log, self.name, self.rows, self.content = log, log.name, log.rows, log.content
 
     def blocks(self, size: int) -> Iterator[Log]:
         """All rows in their order."""
@@ -485,12 +442,9 @@ def windows_joined(logs: Sequence[Log]) -> Log:
 
 
 def _joined(logs: Sequence[Log], segment: np.ndarray | None) -> Log:
-    columns = {name: _whole(logs, name) for name in ("time", "q", "tau", "qd", "qdd", "commanded")}
+    columns = {name: _whole(logs, name) for name in _COLUMNS}
     extra = {name: np.concatenate([log.extra[name] for log in logs]) for name in logs[0].extra}
-    missing: dict[str, int] = {}
-    for log in logs:
-        for name, count in log.missing.items():
-            missing[name] = missing.get(name, 0) + count
+    missing = dict(sum((Counter(log.missing) for log in logs), Counter[str]()))
     changed: dict[str, Any] = {**columns, "segment": segment, "extra": extra, "missing": missing}
     return dataclasses.replace(logs[0], **changed)
 
@@ -502,18 +456,7 @@ def _whole(logs: Sequence[Log], name: str) -> np.ndarray | None:
 
 def cut(log: Log, rows: slice | np.ndarray) -> Log:
     """Some rows of a log: consecutive ones, or those of a mask (n,)."""
-
-    def some(values: np.ndarray | None) -> np.ndarray | None:
-        return None if values is None else values[rows]
-
-    return dataclasses.replace(
-        log,
-        time=log.time[rows],
-        q=log.q[rows],
-        tau=log.tau[rows],
-        qd=some(log.qd),
-        qdd=some(log.qdd),
-        commanded=some(log.commanded),
-        segment=some(log.segment),
-        extra={name: values[rows] for name, values in log.extra.items()},
-    )
+    whole = {name: getattr(log, name) for name in (*_COLUMNS, "segment")}
+    parts: dict[str, Any] = {n: v if v is None else v[rows] for n, v in whole.items()}
+    extra = {name: values[rows] for name, values in log.extra.items()}
+    return dataclasses.replace(log, **parts, extra=extra)

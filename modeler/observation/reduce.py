@@ -74,8 +74,9 @@ def explained(
 def triangles(observation: Observation, keep: np.ndarray) -> Triangles:
     """Triangles of [W_j y_j] over the rows keep (s, n) bool."""
     regressor = observation.regressor
-    pattern = regressor.pattern if isinstance(regressor, Evaluated) else _every(observation)
-    state = no_rows(pattern)
+    every = np.arange(len(observation.names), dtype=np.intc)
+    whole = NonzeroPattern((every,) * len(observation.joints), len(every))
+    state = no_rows(regressor.pattern if isinstance(regressor, Evaluated) else whole)
     for part, own in _stretches(observation):
         state = with_stretch(regressor, part, observation.torque[own], keep[own], state)
     return state
@@ -139,8 +140,3 @@ def _stretches(observation: Observation) -> Iterator[tuple[Stretch, slice]]:
         count = len(part.rows.centres)
         yield part, slice(first, first + count)
         first += count
-
-
-def _every(observation: Observation) -> NonzeroPattern:
-    every = np.arange(len(observation.names), dtype=np.intc)
-    return NonzeroPattern((every,) * len(observation.joints), len(every))

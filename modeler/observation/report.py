@@ -8,7 +8,7 @@ from modeler.core.result import Presented
 from modeler.core.table import percent
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
 from modeler.observation.outliers import Damage
-from modeler.observation.processing import Processing
+from modeler.observation.processing import ChosenProcessing
 from modeler.observation.segments import JITTER
 
 
@@ -187,7 +187,7 @@ class DataReport(Presented):
         band: Hz of the motion.
     """
 
-    processing: Processing
+    processing: ChosenProcessing
     choices: tuple[str, ...]
     logs: tuple[LogReport, ...]
     joints: tuple[JointReport, ...]

@@ -1,6 +1,6 @@
 """Pieces of a log on a uniform time grid: filters never run across a gap."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -58,21 +58,21 @@ class Piece:
     commanded: np.ndarray | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SplitReport:
-    """What splitting and resampling did to one log.
+    """Where splitting cut one log.
 
     Attributes:
-        gaps: time gaps longer than 5 steps.
-        longest_gap: s.
+        gaps: (g,) rows that a time gap of more than 5 steps ends at.
+        widths: (g,) of those gaps, s.
         jitter: largest deviation of a step from the median step, as a share of it, gaps apart.
-        short: rows in pieces too short to differentiate, left out.
+        short: (k,) rows in pieces too short to differentiate, left out.
     """
 
-    gaps: int
-    longest_gap: float
+    gaps: np.ndarray
+    widths: np.ndarray
     jitter: float
-    short: int
+    short: np.ndarray
 
 
 def split(
@@ -96,29 +96,24 @@ def split(
     """
     motion = [log.q, *(m for m in (log.qd, log.qdd) if logged_motion and m is not None)]
     rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
-    clipped = _clipped(log, extremes)
-    step = log.step
-    steps = np.diff(log.time[rows])
-    cut = steps > GAP * step
-    gaps = int(cut.sum())
-    stamps = np.diff(log.time)
-    inside = stamps[stamps <= GAP * step]
+    ends = [None] * log.tau.shape[1] if extremes is None else extremes
+    clipped = np.column_stack(
+        [saturated(tau, end) for tau, end in zip(log.tau.T, ends, strict=True)]
+    )
+    steps, stamps = np.diff(log.time[rows]), np.diff(log.time)
+    cut = gap = steps > GAP * log.step
+    inside = stamps[stamps <= GAP * log.step]
     if log.segment is not None:
         cut = cut | (np.diff(log.segment[rows]) != 0)
     groups = np.split(rows, np.flatnonzero(cut) + 1)
     kept = [group for group in groups if len(group) >= _LEAST]
     report = SplitReport(
-        gaps=gaps,
-        longest_gap=float(steps.max()) if gaps else 0.0,
-        jitter=float(np.max(np.abs(inside / step - 1.0))) if inside.size else 0.0,
-        short=sum(len(group) for group in groups if len(group) < _LEAST),
+        gaps=rows[1:][gap],
+        widths=steps[gap],
+        jitter=float(np.max(np.abs(inside / log.step - 1.0))) if inside.size else 0.0,
+        short=np.setdiff1d(rows, np.concatenate([rows[:0], *kept])),
     )
     return tuple(_piece(log, run, group, clipped, logged_motion) for group in kept), report
-
-
-def _clipped(log: Log, extremes: Sequence[tuple[float, float] | None] | None) -> np.ndarray:
-    ends = [None] * log.tau.shape[1] if extremes is None else extremes
-    return np.column_stack([saturated(tau, end) for tau, end in zip(log.tau.T, ends, strict=True)])
 
 
 def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool) -> Piece:
@@ -127,32 +122,36 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     time = np.linspace(measured[0], measured[-1], samples)
     step = float(measured[-1] - measured[0]) / (samples - 1)  # of large times, two are too coarse
     uniform = samples == len(rows) and bool(np.all(np.abs(measured - time) <= JITTER * step))
-    near = np.arange(samples) if uniform else _nearest(measured, time)
+    near = np.arange(samples)  # the measured row nearest to each sample
+    if not uniform:
+        near = np.searchsorted(measured, time).clip(1, len(measured) - 1)
+        near -= time - measured[near - 1] < measured[near] - time
     bridged = np.abs(time - measured[near]) > _NEAR * step
     short = bridged & ~longer_runs(bridged, SHORT)
 
     def on_grid(values: np.ndarray) -> np.ndarray:
         return values[rows] if uniform else _moved(measured, values[rows], time, short)
 
-    def smooth(values: np.ndarray | None) -> np.ndarray | None:
-        return on_grid(values) if values is not None and logged_motion else None
+    def smooth(values: np.ndarray | None, wanted: bool) -> np.ndarray | None:
+        return on_grid(values) if values is not None and wanted else None
 
     tau, valid = _bridge(time, measured, log.tau[rows], bridged, step)
+    asked = log.commanded
     return Piece(
         run=run,
         time=time,
         step=step,
         q=on_grid(log.q),
         tau=tau,
-        qd=smooth(log.qd),
-        qdd=smooth(log.qdd),
+        qd=smooth(log.qd, logged_motion),
+        qdd=smooth(log.qdd, logged_motion),
         extra={name: np.interp(time, measured, v[rows]) for name, v in log.extra.items()},
         valid=valid,
         bridged=bridged,
         contradicted=np.zeros(samples, dtype=bool),
         clipped=clipped[rows][near],
         resampled=not uniform,
-        commanded=_commanded(log, rows, on_grid),
+        commanded=smooth(asked, asked is not None and bool(np.isfinite(asked[rows]).all())),
     )
 
 
@@ -166,20 +165,6 @@ def _moved(
     if short.any():
         moved[short] = CubicSpline(measured, values)(time[short])
     return np.asarray(moved)
-
-
-def _commanded(
-    log: Log, rows: np.ndarray, on_grid: Callable[[np.ndarray], np.ndarray]
-) -> np.ndarray | None:
-    if log.commanded is None or not np.isfinite(log.commanded[rows]).all():
-        return None
-    return on_grid(log.commanded)
-
-
-def _nearest(stamps: np.ndarray, time: np.ndarray) -> np.ndarray:
-    """(n,) place of the nearest of the stamps, two or more, to each time."""
-    near = np.searchsorted(stamps, time).clip(1, len(stamps) - 1)
-    return np.asarray(near - (time - stamps[near - 1] < stamps[near] - time))
 
 
 def longer_runs(flags: np.ndarray, length: int) -> np.ndarray:

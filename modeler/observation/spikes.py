@@ -43,29 +43,30 @@ Spike = tuple[int, int, float]
 
 
 def glitches(
-    stretches: Sequence[np.ndarray],
-    departed: Sequence[np.ndarray] | None = None,
-    floor: float | None = None,
+    stretches: Sequence[np.ndarray], departed: Sequence[np.ndarray], floor: float
 ) -> list[list[Spike]]:
     """By stretch, the lone departures of a channel from its running median, in runs of up to 3.
 
+    Runs are gone as they came; what stays is a step, and no spike.
+
     Args:
         stretches: (n,) of values without gaps, all of one channel.
-        departed: (n,) `departures` of each; None: taken here.
-        floor: `glitch_floor` of the whole channel, of which these are a part; None: they are all.
+        departed: (n,) `departures` of each.
+        floor: `glitch_floor` of the whole channel, of which these may be a part.
     """
-    if not stretches:
-        return []
-    if departed is None:
-        departed = [departures(values) for values in stretches]
-    if floor is None:
-        floor = glitch_floor(stretches, departed)
-    else:
-        floor = floor_here(departed, floor, RARE)
-    return [
-        _runs(values, own, lone(own, floor))
-        for values, own in zip(stretches, departed, strict=True)
-    ]
+    floor, found = floor_here(departed, floor, RARE), []
+    for values, own in zip(stretches, departed, strict=True):
+        places, spikes = lone(own, floor), list[Spike]()
+        for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1):
+            if not 0 < len(run) <= LONGEST:
+                continue
+            size = float(own[run[int(np.argmax(np.abs(own[run])))]])
+            start, stop = int(run[0]), int(run[-1]) + 1
+            beside = values[[k for k in (start - 1, stop) if 0 <= k < len(values)]]
+            if np.ptp(beside) < _BACK * abs(size):
+                spikes.append((start, stop, size))
+        found.append(spikes)
+    return found
 
 
 def glitch_floor(stretches: Sequence[np.ndarray], departed: Sequence[np.ndarray]) -> float:
@@ -77,20 +78,6 @@ def glitch_floor(stretches: Sequence[np.ndarray], departed: Sequence[np.ndarray]
     return max(
         threshold(np.concatenate(departed), resolution(whole), RARE), SHARE * float(high - low)
     )
-
-
-def _runs(values: np.ndarray, departed: np.ndarray, places: np.ndarray) -> list[Spike]:
-    """Runs of lone values that are gone as they came; what stays is a step, and no spike."""
-    found = []
-    for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1):
-        if not 0 < len(run) <= LONGEST:
-            continue
-        size = float(departed[run[int(np.argmax(np.abs(departed[run])))]])
-        start, stop = int(run[0]), int(run[-1]) + 1
-        beside = values[[k for k in (start - 1, stop) if 0 <= k < len(values)]]
-        if np.ptp(beside) < _BACK * abs(size):
-            found.append((start, stop, size))
-    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,19 +93,6 @@ class TorqueNoise:
     floors: np.ndarray
     range: np.ndarray
     top: np.ndarray
-
-
-def torque_noise(
-    stretches: Sequence[np.ndarray], speeds: Sequence[np.ndarray], departed: Sequence[np.ndarray]
-) -> TorqueNoise:
-    """What is usual in torques (n, J) without gaps, with the speeds and `departures` of each."""
-    low, high = np.quantile(np.concatenate(stretches), [0.01, 0.99], axis=0)
-    floors = [
-        glitch_floor([tau[:, j] for tau in stretches], [own[:, j] for own in departed])
-        for j in range(stretches[0].shape[1])
-    ]
-    top = np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0)
-    return TorqueNoise(np.array(floors), high - low, top)
 
 
 def torque_glitches(
@@ -143,40 +117,31 @@ def torque_glitches(
     if not stretches:
         return [], usual
     departed = [_departed(tau, usual) for tau in stretches]
-    speeds = None if usual is not None else speeds_of()
-    if usual is None:
-        assert speeds is not None
-        usual = torque_noise(stretches, speeds, departed)
-    found = [
-        glitches(
-            [tau[:, j] for tau in stretches], [own[:, j] for own in departed],
-            float(usual.floors[j]),
-        )
+    channels = [
+        ([tau[:, j] for tau in stretches], [own[:, j] for own in departed])
         for j in range(stretches[0].shape[1])
-    ]  # fmt: skip
-    if any(spikes for by_joint in found for spikes in by_joint):
-        found = _unexplained(found, departed, speeds or speeds_of(), usual)
-    return found, usual
-
-
-def _unexplained(
-    found: Sequence[Sequence[Sequence[Spike]]],
-    departed: Sequence[np.ndarray],
-    speeds: Sequence[np.ndarray],
-    usual: TorqueNoise,
-) -> list[list[list[Spike]]]:
-    """The spikes that no motion and no blow explains."""
-    sizes = [np.abs(own) for own in departed]
-    return [
-        [
+    ]
+    if usual is None:
+        low, high = np.quantile(np.concatenate(stretches), [0.01, 0.99], axis=0)
+        floors = np.array([glitch_floor(*channel) for channel in channels])
+        top = np.quantile(np.abs(np.concatenate(speeds_of())), 0.98, axis=0)
+        usual = TorqueNoise(floors, high - low, top)
+    found = [
+        glitches(*channel, float(floor))
+        for channel, floor in zip(channels, usual.floors, strict=True)
+    ]
+    if not any(spikes for by_joint in found for spikes in by_joint):
+        return found, usual
+    sizes, speeds = [np.abs(own) for own in departed], speeds_of()
+    for j, by_stretch in enumerate(found):
+        slow = _SLOW * usual.top[j]
+        found[j] = [
             [spike for spike in spikes
              if not _blow(size, j, spike) and not _answered(speed[:, j], spike)
-             and (abs(spike[2]) > usual.range[j]
-                  or _moves(speed[:, j], spike, _SLOW * usual.top[j]))]
-            for spikes, size, speed in zip(own, sizes, speeds, strict=True)
-        ]
-        for j, own in enumerate(found)
-    ]  # fmt: skip
+             and (abs(spike[2]) > usual.range[j] or _moves(speed[:, j], spike, slow))]
+            for spikes, size, speed in zip(by_stretch, sizes, speeds, strict=True)
+        ]  # fmt: skip
+    return found, usual
 
 
 def _departed(tau: np.ndarray, usual: TorqueNoise | None) -> np.ndarray:

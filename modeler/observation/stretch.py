@@ -1,13 +1,15 @@
 """One segment with its parallel filter: anything of the full rate becomes rows through here."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.numerics.filters import LEAST_WEIGHT, RowFilter
+from modeler.numerics.filters import LEAST_WEIGHT, RowFilter, filter_at, spacing
+from modeler.observation.low_speed import FrictionShaft, moving
 from modeler.observation.motion import Segment
+from modeler.observation.processing import ChosenProcessing
 
 _BLOCK = 20_000  # samples evaluated at a time: 20 000 x 7 joints x 60 columns is 67 MB
 
@@ -42,6 +44,10 @@ class Stretch(Brief):
         for part, window, rows in self.parts(samples):
             yield rows, self._means(part, evaluate(window), window, self.used[rows])
 
+    def torque(self) -> np.ndarray:
+        """(rows, joints) filtered torque."""
+        return self.filtered(lambda window: self.segment.tau[window])
+
     def parts(self, samples: int = _BLOCK) -> Iterator[tuple[RowFilter, slice, slice]]:
         """Filters of a few rows each, the samples that they reach, and which rows they are."""
         centres = self.rows.centres
@@ -64,6 +70,27 @@ class Stretch(Brief):
         return result
 
 
-def stretch(segment: Segment, usable: np.ndarray, rows: RowFilter) -> Stretch:
-    """The segment with its filter; rows with half of their weight on usable samples count."""
+def stretch(
+    segment: Segment, shafts: Sequence[FrictionShaft], processing: ChosenProcessing,
+    centres: np.ndarray | None = None,
+) -> Stretch:  # fmt: skip
+    """The segment with its filter; rows with half of their weight on usable samples count.
+
+    Args:
+        segment: of a log, or of a chunk of one.
+        shafts: whose low speeds do not count.
+        processing: of it.
+        centres: (rows,) samples in the middle of the rows; None: as of a whole log.
+    """
+    cutoff = processing.parallel_cutoff
+    usable = segment.valid & moving(segment, shafts, processing.speed_floors)
+    if centres is None:
+        centres = row_centres(segment, spacing(segment.step, cutoff, processing.decimation))
+    rows = filter_at(centres, segment.samples, segment.step, cutoff)
     return Stretch(segment, usable, rows, rows.share(usable) >= LEAST_WEIGHT)
+
+
+def row_centres(segment: Segment, every: int) -> np.ndarray:
+    """(rows,) samples in the middle of the rows of a segment, so many samples apart."""
+    inside = np.flatnonzero(segment.whole)
+    return inside[(len(inside) - 1) % every // 2 :: every]

@@ -1,4 +1,4 @@
-"""A look at windows of long logs, by which all is chosen that must be one choice for all rows."""
+"""Long logs: a look at windows, by which all is chosen; what chunks make of it; their report."""
 
 import dataclasses
 from collections.abc import Mapping, Sequence
@@ -9,14 +9,20 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.numerics.filters import spacing
-from modeler.observation.chunk import chunk_rows, margin
-from modeler.observation.chunks import Chosen
-from modeler.observation.log import FINGER, Log
-from modeler.observation.low_speed import FrictionShaft, shafts
+from modeler.observation.chunk import Chunk, chunk_rows, margin
+from modeler.observation.consistency import consistency
+from modeler.observation.log import FINGER, LONG, Log, finger, fingerprint, fingerprint_of
+from modeler.observation.low_speed import IDLE_TRAVEL, TOP, FrictionShaft, shafts
+from modeler.observation.motion import Segment, segment_of
 from modeler.observation.observation import Observation, observed
-from modeler.observation.prepare import Prepared, prepare, with_floors
-from modeler.observation.processing import Processing
-from modeler.observation.read import Ranges, Source, windows_joined
+from modeler.observation.outliers import Usual, defects
+from modeler.observation.prepare import Prepared, believed, check_size, closed, prepare
+from modeler.observation.processing import ChosenProcessing, Processing
+from modeler.observation.read import Ranges, Source, cut, joined, windows_joined
+from modeler.observation.report import DataReport, LogReport
+from modeler.observation.segments import Piece, split
+from modeler.observation.stretch import Stretch, row_centres, stretch
+from modeler.observation.tally import Facts, joint_reports, log_report, tally
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel
@@ -47,6 +53,35 @@ Extremes = tuple[tuple[float, float], ...]
 
 class WholeNeeded(DataError):
     """Only a log that is in memory as a whole can be fitted."""
+
+
+@dataclass(frozen=True, eq=False)
+class Chosen:
+    """What is one choice for all rows of a log; J joints.
+
+    Attributes:
+        run: index of the log.
+        processing: of all logs.
+        decimation: samples per row.
+        logged: logged velocities are used.
+        usual: what is usual in its channels.
+        extremes: (J,) smallest and largest torque known so far.
+        shafts: of the robot.
+        step: of the log, s.
+        own: rows of a chunk.
+        beside: rows of its margins.
+    """
+
+    run: int
+    processing: ChosenProcessing
+    decimation: int
+    logged: bool
+    usual: Usual
+    extremes: tuple[tuple[float, float], ...]
+    shafts: tuple[FrictionShaft, ...]
+    step: float
+    own: int
+    beside: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,14 +149,35 @@ def survey(
         where = f"the {sum(len(own) for own in windows)} windows"
         raise WholeNeeded(f"{error}; found in {where} by which long logs are judged") from None
     chosen, parts = observation.report.processing, shafts(model)
-    chosen = with_floors(chosen, {**(chosen.speed_floors or {}), **known.floors})
+    chosen = dataclasses.replace(chosen, speed_floors={**chosen.speed_floors, **known.floors})
     places = tuple(looked.index(k) if k in looked else 0 for k in range(len(sources)))
     every = []
     for k, (source, at) in enumerate(zip(sources, places, strict=True)):
         log = logs[k] or source.window(0.5, WINDOW)
-        every.append(_chosen((k, log), (prepared, at), chosen, parts, known.extremes.get(k), rows))
+        if log.rows < 2:
+            raise DataError(
+                f"{log.name}: {log.rows} rows where it was looked at; expected a motion; leave it "
+                "out"
+            )
+        ranges, beside = Ranges.of(log), margin(chosen, log.step)
+        every.append(
+            Chosen(
+                run=k,
+                processing=chosen,
+                decimation=spacing(log.step, chosen.parallel_cutoff, chosen.decimation),
+                logged=prepared.checks[at] is not None,
+                usual=prepared.usual[at],
+                extremes=known.extremes.get(k) or ranges.torques,
+                shafts=parts,
+                step=log.step,
+                own=chunk_rows(beside, rows),
+                beside=beside,
+            )
+        )
     count, rows_seen = sum(len(own) for own in windows), sum(log.rows for log in seen)
-    prepared = dataclasses.replace(prepared, segments=(), pieces=())  # memory for the chunks
+    prepared = dataclasses.replace(
+        prepared, segments=(), pieces=(), left_out=()
+    )  # memory for the chunks
     return Survey(observation, prepared, tuple(every), places, count, rows_seen)
 
 
@@ -187,35 +243,195 @@ def _moves(log: Log) -> bool:
     return bool(len(there) and np.ptp(there, axis=0).max() > _TRAVEL)
 
 
-def _chosen(
-    place: tuple[int, Log],
-    prepared: tuple[Prepared, int],
-    processing: Processing,
-    parts: tuple[FrictionShaft, ...],
-    extremes: Extremes | None,
-    rows: int,
-) -> Chosen:
-    """What is chosen for one log: its place and its windows; what was prepared, and where."""
-    run, log = place
-    whole, at = prepared
-    if log.rows < 2:
-        raise DataError(
-            f"{log.name}: {log.rows} rows where it was looked at; expected a motion; leave it out"
-        )
-    step, cutoff = log.step, processing.parallel_cutoff
-    assert cutoff is not None
-    decimation = spacing(step, cutoff, processing.decimation)
-    ranges = Ranges.of(log)
-    beside = margin(processing, step)
-    seen = tuple(zip(ranges.low[1].tolist(), ranges.high[1].tolist(), strict=True))
-    return Chosen(
-        run=run,
-        processing=dataclasses.replace(processing, decimation=decimation),
-        logged=whole.checks[at] is not None,
-        usual=whole.usual[at],
-        extremes=seen if extremes is None else extremes,
-        shafts=parts,
-        step=step,
-        own=chunk_rows(beside, rows),
-        beside=beside,
+# What a chunk makes of its rows, with every choice given.
+
+
+def rows_of_chunk(
+    model: "CompiledModel", chunk: Chunk, chosen: Chosen
+) -> tuple[tuple[Stretch, ...], Facts]:
+    """The rows of a chunk: mended, split, filtered and differentiated as those of a whole log.
+
+    Its stretches have the rows that are its own and no others.
+
+    Raises:
+        DataError: a value that cannot be.
+    """
+    spec, processing = model.spec, chosen.processing
+    check_size(chunk.log, spec)
+    mended, found, _ = defects(chunk.log, spec, chosen.usual)
+    log = chunk.log if processing.keep_damaged else mended
+    pieces, cuts = split(log, chosen.run, chosen.logged, chosen.extremes)
+    check = None
+    if chosen.logged:
+        check = consistency(log, pieces, processing.parallel_cutoff, refuse=False)
+        if not processing.keep_contradicted:
+            pieces = believed(pieces, check)
+    filtered = [segment_of(piece, processing) for piece in pieces]
+    left_out = [p for p, segment in zip(pieces, filtered, strict=True) if segment is None]
+    both = [closed(model, segment) for segment in filtered if segment is not None]
+    segments = [segment for segment, _ in both]
+    stretches = tuple(
+        stretch(s, chosen.shafts, processing, _centres(s, chunk, chosen)) for s in segments
     )
+    own = cut(chunk.log, chunk.own)
+    (start, stop), fingers = chunk.span, range(0, own.rows, FINGER)
+    return stretches, Facts(
+        tally=tally(chunk, pieces, cuts, stretches, left_out, check),
+        defects={
+            name: [[one for one in some if chunk.has(one.start)] for some in by_joint]
+            for name, by_joint in found.items()
+        },
+        contradictions=tuple(
+            one for one in (check.contradictions if check else ()) if start <= one.time < stop
+        ),
+        ranges=Ranges.of(own),
+        fingers=tuple(
+            finger(*(values[k : k + FINGER] for values in (own.time, own.q, own.tau)))
+            for k in fingers
+        ),
+        clipped=_clipped(chunk.log, pieces),
+        awake=_awake(segments, chosen),
+        open_times=tuple(
+            float(t)
+            for segment, open_ in both
+            for t in segment.time[open_ & segment.whole]
+            if start <= t < stop
+        ),
+        span=(float(own.time[0]), float(own.time[-1])),
+    )
+
+
+def _centres(segment: Segment, chunk: Chunk, chosen: Chosen) -> np.ndarray:
+    """Samples on which the chunk's own rows are centred.
+
+    A segment that begins and ends in the chunk has them where it would have them in a whole log.
+    One that goes on beside it has them at every d-th row of the log, counted from its start, so
+    that two chunks agree.
+    """
+    every, inside = chosen.decimation, np.flatnonzero(segment.whole)
+    if not inside.size:
+        return inside
+    log = chunk.log
+    begins = chunk.number == 0 and chunk.own.start == 0
+    open_before = segment.time[0] <= log.time[0] and not begins
+    open_behind = segment.time[-1] >= log.time[-1] and not chunk.last
+    if open_before or open_behind:
+        first = (every - 1) // 2 - (chunk.start - chunk.own.start)  # row of the chunk's log
+        anchor = float(log.time[first % every]) if log.rows > every else float(log.time[0])
+        phase = round((anchor - segment.time[0]) / segment.step) - int(inside[0])
+        centres = inside[phase % every :: every]
+    else:
+        centres = row_centres(segment, every)
+    return np.asarray(centres[chunk.holds(segment.time[centres])])
+
+
+def _clipped(log: Log, pieces: Sequence[Piece]) -> np.ndarray:
+    """(2, J) the ends of each torque's range that were taken for a limit; NaN of the others."""
+    found = np.full((2, log.tau.shape[1]), np.nan)
+    if not pieces or not any(piece.clipped.any() for piece in pieces):
+        return found
+    low, high = np.fmin.reduce(log.tau, axis=0), np.fmax.reduce(log.tau, axis=0)
+    for row, end in enumerate((low, high)):
+        at = [np.any(piece.clipped & (piece.tau == end), axis=0) for piece in pieces]
+        found[row] = np.where(np.any(at, axis=0), end, np.nan)
+    return found
+
+
+def _awake(segments: Sequence[Segment], chosen: Chosen) -> dict[str, float]:
+    """Top speeds of the shafts that move, and were taken to stand still."""
+    moves: dict[str, float] = {}
+    for part in chosen.shafts:
+        if chosen.processing.speed_floors[part.name] < float("inf"):
+            continue
+        for s in (one for one in segments if one.whole.any()):
+            if np.ptp(part.speed(s.q[s.whole])) >= IDLE_TRAVEL[part.unit]:
+                top = float(np.quantile(np.abs(part.speed(s.qd[s.whole])), TOP))
+                moves[part.name] = max(moves.get(part.name, 0.0), top)
+    return moves
+
+
+# The report of all rows.
+
+
+@dataclass(frozen=True, eq=False)
+class Passes:
+    """What long logs were read for.
+
+    Attributes:
+        found: what the windows showed.
+        facts: of all rows, by log.
+        passes: over the logs.
+    """
+
+    found: Survey
+    facts: tuple[Facts, ...]
+    passes: int
+
+    def sentences(self) -> tuple[str, ...]:
+        """Which rows were read for what."""
+        told = self.to_json()
+        passes = "once" if self.passes == 1 else f"{self.passes} times"
+        return (
+            f"long logs: all {told['rows']} rows are read {passes}, in {told['chunks']} chunks "
+            "that overlap by what the filters remember; "
+            f"{told['rows_in_windows']} of them, in {told['windows']} windows, are looked at for "
+            "the choices below, doubts about channels, and what needs samples side by side",
+        )
+
+    def to_json(self) -> dict[str, int]:
+        """Plain data."""
+        tallies = [facts.tally for facts in self.facts]
+        return {
+            "passes": self.passes,
+            "chunks": sum(tally.count("chunks") for tally in tallies),
+            "rows": sum(tally.count("rows") for tally in tallies),
+            "windows": self.found.windows,
+            "rows_in_windows": self.found.rows,
+        }
+
+
+def streamed_report(
+    model: "CompiledModel", sources: Sequence[Source], passes: Passes
+) -> DataReport:
+    """What happened to all rows of long logs.
+
+    Args:
+        model: the compiled robot.
+        sources: of the logs.
+        passes: over them.
+    """
+    found, facts = passes.found, passes.facts
+    looked, chosen = found.observation.report, found.chosen[0]
+    floors, tallies = chosen.processing.speed_floors, [own.tally for own in facts]
+    return dataclasses.replace(
+        looked,
+        processing=chosen.processing,
+        choices=(*passes.sentences(), *looked.choices),
+        logs=tuple(_log_report(model, source, k, passes) for k, source in enumerate(sources)),
+        joints=joint_reports(model.spec.joints, chosen.shafts, floors, tallies),
+    )
+
+
+def _log_report(model: "CompiledModel", source: Source, k: int, passes: Passes) -> LogReport:
+    facts, chosen, found = passes.facts[k], passes.found.chosen[k], passes.found
+    counts, first, content = facts.tally, source.window(0.0, 2), source.content
+    missing = {
+        name.removeprefix("missing "): int(count)
+        for name, count in counts.sums.items()
+        if name.startswith("missing ") and count
+    }
+    if not content and counts.count("rows") > LONG:
+        content = fingerprint_of(facts.fingers)
+    elif not content:
+        whole = joined(list(source.blocks(LONG)))
+        content = fingerprint(whole.time, whole.q, whole.tau)
+    notes = (*first.notes, *facts.ranges.doubts(chosen.step, model.spec))
+    log = dataclasses.replace(
+        first, name=source.name, notes=notes, missing=missing, content=content
+    )
+    report = log_report(
+        log, model.spec, found.prepared, found.places[k], counts, facts.defects,
+        facts.contradictions, chosen.decimation,
+    )  # fmt: skip
+    rate, times = 1.0 / chosen.step, facts.open_times
+    return dataclasses.replace(report, rate=rate, span=facts.span, open_times=times)

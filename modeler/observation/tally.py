@@ -1,18 +1,23 @@
-"""What the chunks of a log say of its rows: counts that add up, and facts, put together."""
+"""What the rows of a log say: counts that add up over its chunks, facts, and their report."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.observation.chunk import Chunk
 from modeler.observation.consistency import Consistency, Contradiction
 from modeler.observation.log import Log
-from modeler.observation.motion import CAUSES, Segment
-from modeler.observation.outliers import Defects
+from modeler.observation.low_speed import FrictionShaft
+from modeler.observation.motion import CAUSES
+from modeler.observation.outliers import Defects, damages
+from modeler.observation.prepare import Prepared
 from modeler.observation.read import Ranges
-from modeler.observation.segments import GAP, Piece
+from modeler.observation.report import JointReport, LogReport
+from modeler.observation.segments import Piece, SplitReport
 from modeler.observation.stretch import Stretch
 
 
@@ -35,10 +40,6 @@ class Tally:
             {name: np.maximum(self.most[name], other.most[name]) for name in self.most},
         )
 
-    def by_joint(self, name: str) -> np.ndarray:
-        """(J,) a sum."""
-        return np.asarray(self.sums[name])
-
     def count(self, name: str) -> int:
         """A sum that is one number."""
         return int(self.sums[name])
@@ -47,6 +48,7 @@ class Tally:
 def tally(
     chunk: Chunk,
     pieces: Sequence[Piece],
+    cuts: SplitReport,
     stretches: Sequence[Stretch],
     left_out: Sequence[Piece],
     check: Consistency | None,
@@ -56,111 +58,43 @@ def tally(
     Args:
         chunk: of the log.
         pieces: of it and its margins.
+        cuts: where it was cut into them.
         stretches: of the pieces that are long enough, with the rows that are the chunk's own.
         left_out: the other pieces.
         check: of its logged derivatives.
     """
     none = np.zeros(len(chunk.log.joints), dtype=int)
-    own = [_own(chunk, piece) for piece in pieces]
+    own = [chunk.holds(piece.time) for piece in pieces]
+    begun = [piece for piece, rows in zip(pieces, own, strict=True) if rows[0]]
     clipped = [piece.clipped[rows].sum(axis=0) for piece, rows in zip(pieces, own, strict=True)]
     bad = () if check is None else check.bad
+    widths = cuts.widths[chunk.has(cuts.gaps)]
+    short = chunk.has(cuts.short).sum() + sum(chunk.holds(p.time).sum() for p in left_out)
     sums: dict[str, Any] = {
-        **_of_rows(chunk, pieces, left_out),
-        **{f"missing {name}": count for name, count in missing(chunk).items()},
+        "chunks": 1,
+        "rows": chunk.rows,
+        "gaps": len(widths),
+        "pieces": len(begun),
+        "resampled": sum(piece.resampled for piece in begun),
+        "short": short,
+        **{f"missing {name}": count for name, count in chunk.missing().items()},
         "clipped": sum(clipped, none),
         "contradicted": sum(int(flags[rows].sum()) for flags, rows in zip(bad, own, strict=False)),
-        **_of_samples(chunk, stretches, none),
+        "samples": 0,
+        "full": 0,
+        **{name: none for name in ("used", "valid", "usable", *CAUSES)},
     }
-    return Tally(sums, {"jitter": _jitter(chunk.log), "gap": _gaps(chunk)[1]})
-
-
-def _of_samples(chunk: Chunk, stretches: Sequence[Stretch], none: np.ndarray) -> dict[str, Any]:
-    sums: dict[str, Any] = {"samples": 0, "full": 0}
-    sums |= {name: none for name in ("used", "valid", "usable", *CAUSES)}
     for part in stretches:
-        s, rows = part.segment, _slice(_own(chunk, part.segment))
-        valid = s.valid[rows].sum(axis=0)
-        assert s.cause is not None
-        counts = {"valid": valid, "usable": part.usable[rows].sum(axis=0),
-                  "used": part.used.sum(axis=0), "samples": len(part.rows.centres),
-                  "full": rows.stop - rows.start}  # fmt: skip
-        if (valid < counts["full"]).any():
+        s, inside = part.segment, np.flatnonzero(chunk.holds(part.segment.time))
+        rows = slice(inside[0], inside[-1] + 1) if inside.size else slice(0, 0)
+        valid, full = s.valid[rows].sum(axis=0), rows.stop - rows.start
+        counts = {"valid": valid, "usable": part.usable[rows].sum(axis=0), "full": full,
+                  "used": part.used.sum(axis=0), "samples": len(part.rows.centres)}  # fmt: skip
+        if (valid < full).any():
             cause = s.cause[rows]
             counts |= {name: (cause == k).sum(axis=0) for k, name in enumerate(CAUSES)}
         sums |= {name: sums[name] + count for name, count in counts.items()}
-    return sums
-
-
-def _slice(flags: np.ndarray) -> slice:
-    """The one stretch of True."""
-    rows = np.flatnonzero(flags)
-    return slice(int(rows[0]), int(rows[-1]) + 1) if rows.size else slice(0, 0)
-
-
-def _own(chunk: Chunk, part: Piece | Segment) -> np.ndarray:
-    """(n,) samples of a piece that are the chunk's own."""
-    start, stop = chunk.span
-    return np.asarray((part.time >= start) & (part.time < stop))
-
-
-def _of_rows(chunk: Chunk, pieces: Sequence[Piece], left_out: Sequence[Piece]) -> dict[str, int]:
-    start, stop = chunk.span
-    begun = [piece for piece in pieces if start <= piece.time[0] < stop]
-    return {
-        "chunks": 1,
-        "rows": chunk.rows,
-        "gaps": _gaps(chunk)[0],
-        "pieces": len(begun),
-        "resampled": sum(piece.resampled for piece in begun),
-        "short": _rows_outside(chunk, pieces)
-        + sum(int(_own(chunk, piece).sum()) for piece in left_out),
-    }
-
-
-def _moved(log: Log) -> np.ndarray:
-    """(n,) rows with a position of every joint."""
-    return np.asarray(np.isfinite(log.q).all(axis=1))
-
-
-def _gaps(chunk: Chunk) -> tuple[int, float]:
-    """Gaps that end in the chunk's own rows, and the longest, s."""
-    log = chunk.log
-    rows = np.flatnonzero(_moved(log))
-    steps = np.diff(log.time[rows])
-    ends = rows[1:]
-    long = (steps > GAP * log.step) & (ends >= chunk.own.start) & (ends < chunk.own.stop)
-    return int(long.sum()), float(steps[long].max(initial=0.0))
-
-
-def _jitter(log: Log) -> float:
-    stamps, step = np.diff(log.time), log.step
-    inside = stamps[stamps <= GAP * step]
-    return float(np.max(np.abs(inside / step - 1.0))) if inside.size else 0.0
-
-
-def _rows_outside(chunk: Chunk, pieces: Sequence[Piece]) -> int:
-    """Own rows with a position that are in no piece."""
-    time = chunk.log.time[chunk.own]
-    inside = np.zeros(len(time), dtype=bool)
-    for piece in pieces:
-        inside |= (time >= piece.time[0]) & (time <= piece.time[-1])
-    return int((_moved(chunk.log)[chunk.own] & ~inside).sum())
-
-
-def missing(chunk: Chunk) -> dict[str, int]:
-    """Column -> own rows without a value; every column that a fit reads."""
-    log, found = chunk.log, dict[str, int]()
-    columns = {"q": log.q, "qd": log.qd, "qdd": log.qdd, "qc": log.commanded, "tau": log.tau}
-    for prefix, values in columns.items():
-        if values is None:
-            continue
-        for j, name in enumerate(log.joints):
-            column = f"{prefix}{name}"
-            if prefix == "tau" and log.torque_source:
-                column = log.torque_source[j].split()[0]
-            if column != "0":  # of a passive joint
-                found[column] = int(np.isnan(values[chunk.own, j]).sum())
-    return found
+    return Tally(sums, {"jitter": cuts.jitter, "gap": widths.max(initial=0.0)})
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,12 +126,14 @@ class Facts:
 
     def over(self, later: "Facts") -> "Facts":
         """Of these rows, and of those that follow them."""
-        names = list(dict.fromkeys([*self.defects, *later.defects]))
         low, high = np.stack([self.clipped, later.clipped], axis=1)
+        defects = dict(self.defects)
+        for name, more in later.defects.items():
+            before = defects.get(name) or [[] for _ in more]
+            defects[name] = [a + b for a, b in zip(before, more, strict=True)] if more else before
         return Facts(
             tally=self.tally.over(later.tally),
-            defects={name: _both(self.defects.get(name, []), later.defects.get(name, []))
-                     for name in names},
+            defects=defects,
             contradictions=_contradictions(self.contradictions, later.contradictions),
             ranges=self.ranges.over(later.ranges),
             fingers=self.fingers + later.fingers,
@@ -222,25 +158,93 @@ class Facts:
         }
 
 
-def _both(first: list, later: list) -> list:
-    if not first or not later:
-        return first or later
-    return [one + other for one, other in zip(first, later, strict=True)]
-
-
 def _contradictions(
     first: tuple[Contradiction, ...], later: tuple[Contradiction, ...]
 ) -> tuple[Contradiction, ...]:
     """By column, in the order in which they were found."""
-    found: dict[str, Contradiction] = {}
-    for one in (*first, *later):
-        before = found.get(one.column)
-        if before is None:
-            found[one.column] = one
-            continue
+    found = {one.column: one for one in first}
+    for one in later:
+        before = found.get(one.column, one)
         worse = one if one.largest > before.largest else before
-        found[one.column] = Contradiction(
-            one.column, one.of, before.samples + one.samples, max(before.limit, one.limit),
-            worse.largest, worse.time,
-        )  # fmt: skip
+        samples = one.samples + (before.samples if before is not one else 0)
+        limit = max(before.limit, one.limit)
+        found[one.column] = dataclasses.replace(worse, samples=samples, limit=limit)
     return tuple(found.values())
+
+
+# The counts in the words of a report.
+
+
+def log_report(
+    log: Log, spec: ModuleSpec, prepared: Prepared, place: int, facts: Tally,
+    defects: Defects, contradictions: Sequence[Contradiction], decimation: int,
+) -> LogReport:  # fmt: skip
+    """What became of the rows of a log.
+
+    Args:
+        log: it, or some rows of it, with the notes, the missing values and the content of all.
+        spec: the robot's manifest.
+        prepared: the logs by which all was chosen.
+        place: of the one among them that stands for this log.
+        facts: counts of all rows.
+        defects: values that no robot can have made.
+        contradictions: of logged derivatives.
+        decimation: samples per row.
+    """
+    check, rows = prepared.checks[place], facts.count("rows")
+    clipped = zip(log.joints, facts.sums["clipped"], strict=True)
+    return LogReport(
+        name=log.name,
+        rows=rows,
+        missing=dict(log.missing),
+        saturated={name: int(count) for name, count in clipped if count},
+        rate=1.0 / log.step,
+        jitter=float(facts.most["jitter"]),
+        gaps=facts.count("gaps"),
+        longest_gap=float(facts.most["gap"]),
+        pieces=facts.count("pieces"),
+        resampled=facts.count("resampled"),
+        short=facts.count("short"),
+        derivatives=prepared.derivatives[place],
+        decimation=decimation,
+        samples=facts.count("samples"),
+        notes=log.notes + prepared.rings[place] + (check.notes if check else ()),
+        contradictions=tuple(contradictions),
+        contradicted=facts.count("contradicted"),
+        damages=damages(log, rows, spec, defects),
+        content=log.content,
+        span=log.span,
+        torque_source=log.torque_source,
+    )
+
+
+def joint_reports(
+    joints: Sequence[JointSpec],
+    parts: Sequence[FrictionShaft],
+    floors: Mapping[str, float],
+    tallies: Sequence[Tally],
+) -> tuple[JointReport, ...]:
+    """What became of the samples of each joint.
+
+    Args:
+        joints: of the robot.
+        parts: its shafts.
+        floors: speeds below which they do not count.
+        tallies: of all logs.
+    """
+    counted = ("full", "used", "valid", "usable", *CAUSES)
+    reports, sums = [], {name: sum(own.sums[name] for own in tallies) for name in counted}
+    for j, joint in enumerate(joints):
+        own = [floors[part.name] for part in parts if j in part.joints]
+        reports.append(
+            JointReport(
+                name=joint.name,
+                used=int(sums["used"][j]),
+                slow=float(1.0 - sums["usable"][j] / max(1, sums["valid"][j])),
+                speed_floor=max(own) if own else None,
+                unit=f"{joint.unit}/s",
+                samples=int(sums["full"]),
+                lost={cause: int(sums[cause][j]) for cause in CAUSES if sums[cause][j]},
+            )
+        )
+    return tuple(reports)

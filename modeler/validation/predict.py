@@ -14,8 +14,6 @@ from modeler.estimation.long_logs import all_rows, by_threads
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.numerics.filters import LEAST_WEIGHT, moving_means, spacing
 from modeler.observation.chunk import Chunk
-from modeler.observation.chunked_report import streamed_report
-from modeler.observation.chunks import Chosen, seen
 from modeler.observation.log import FINGER, Log
 from modeler.observation.low_speed import shafts, signals_of
 from modeler.observation.motion import travel_since_reversal
@@ -24,6 +22,7 @@ from modeler.observation.read import Source
 from modeler.observation.reduce import blocks
 from modeler.observation.report import DataReport
 from modeler.observation.stretch import Stretch
+from modeler.observation.survey import Chosen, rows_of_chunk, streamed_report
 from modeler.observation.tally import Facts
 from modeler.runtime.model import CompiledModel
 from modeler.validation.comparison import Comparison, compare
@@ -108,7 +107,7 @@ def _temperature(observation: Observation) -> np.ndarray | None:
 def full_rate(observation: Observation, compiled: CompiledModel, beta: np.ndarray) -> FullRate:
     """The samples behind the rows of an observation."""
     parts = observation.stretches
-    cutoff = observation.report.processing.parallel_cutoff or 0.0
+    cutoff = observation.report.processing.parallel_cutoff
     left = [_left(part, compiled, beta) for part in parts]
     return FullRate(
         run=np.concatenate([np.full(part.segment.samples, part.segment.run) for part in parts]),
@@ -187,7 +186,7 @@ def compare_long(
     reducer = partial(by_threads, reduce_by=reduced)
     passes, parts = all_rows(compiled, sources, processing, progress, rows, reducer)
     looked = passes.found.observation
-    steps = [own.step * (own.processing.decimation or 1) for own in passes.found.chosen]
+    steps = [own.step * own.decimation for own in passes.found.chosen]
     prediction = _joined([source.name for source in sources], [own.rows for own in parts], steps)
     full = full_rate(looked, compiled, model.beta)
     ripples = dataclasses.replace(on_rows(looked, looked.torque), full=full)
@@ -196,7 +195,7 @@ def compare_long(
 
 
 def _part(model: IdentifiedModel, compiled: CompiledModel, chunk: Chunk, chosen: Chosen) -> _Part:
-    stretches, facts = seen(compiled, chunk, chosen)
+    stretches, facts = rows_of_chunk(compiled, chunk, chosen)
     some = tuple(part for part in stretches if len(part.rows.centres))
     if not some:
         return _Part((), facts)

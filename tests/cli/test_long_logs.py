@@ -45,10 +45,10 @@ def place(tmp_path_factory):
 def chunked(monkeypatch):
     """Logs of some thousand rows are long."""
     for where in ("modeler.observation.log.LONG", "modeler.api.long_logs.LONG",
-                  "modeler.observation.chunked_report.LONG",
+                  "modeler.observation.survey.LONG",
                   "modeler.api.checks.LONG"):  # fmt: skip
         monkeypatch.setattr(where, 4000)
-    for where in ("observation.log", "observation.chunks", "api.checks"):
+    for where in ("observation.log", "observation.survey", "api.checks"):
         monkeypatch.setattr(f"modeler.{where}.FINGER", 1024)
     monkeypatch.setattr("modeler.api.checks.WINDOW", 900)
     monkeypatch.setattr(

@@ -438,3 +438,12 @@ def test_memory_does_not_grow_with_the_log(tmp_path):
         assert "chunks" in done.stdout
         peaks.append(int(done.stderr.rsplit("peak:", 1)[1]) / 1024)
     assert peaks[1] - peaks[0] < 30.0, peaks
+
+
+def test_logs_of_other_columns_are_reported_together():
+    """One with logged velocities, one without: their samples add up all the same."""
+    logs = [noisy_log(logged=logged, seed=logged) for logged in (True, False)]
+    long = stream(ARM, [MemorySource(log) for log in logs], rows=ROWS)
+    report = long.observation.report
+    assert [one.rows for one in report.logs] == [log.rows for log in logs]
+    assert [joint.samples for joint in report.joints] == [sum(log.rows for log in logs)] * 2

@@ -12,9 +12,9 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.logs.blocks import blocks_of
 from modeler.logs.mapping import map_from_table
+from modeler.observation.chunk import read_part, window
 from modeler.observation.log import finger, fingerprint, fingerprint_of
 from modeler.observation.read import joined, read_log, source_of
-from modeler.observation.window import read_part, window
 
 SIZE = 150
 
@@ -208,7 +208,7 @@ def test_a_piece_of_a_long_log_is_that_of_the_whole(span, tmp_path, case, monkey
     columns["tau2"][100:104] = np.nan
     del columns["note"], columns["temperature"]
     path = written(tmp_path / "run.parquet", columns)
-    for where in ("window", "log"):
+    for where in ("chunk", "log"):
         monkeypatch.setattr(f"modeler.observation.{where}.FINGER", 256)
     monkeypatch.setattr("modeler.observation.log.LONG", 500)
     spec = case.compiled.spec

@@ -14,7 +14,7 @@ from test_observation_rows import exact_log, some_beta
 from modeler.core.manifest import JointSpec
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.observation.outliers import defects, repaired
+from modeler.observation.outliers import damages, defects
 from modeler.observation.processing import Processing, processing_from_json
 from modeler.observation.read import read_log
 
@@ -24,6 +24,12 @@ ARMS = {
     "planar": planar_arm(),
     "four": StandIn([Row(), Row(np.pi / 2), Row(d=0.4), Row(-np.pi / 2)]),
 }
+
+
+def repaired(log, spec):
+    """The mended log, and what was found in words."""
+    mended, found, _ = defects(log, spec)
+    return mended, damages(log, log.rows, spec, found)
 
 
 def drawn(random, name, rate=None, noise=None):

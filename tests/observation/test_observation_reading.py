@@ -9,9 +9,9 @@ import pytest
 from stand_in import planar_arm, slider
 
 from modeler.core.errors import DataError
+from modeler.observation.chunk import window
 from modeler.observation.log import shared_rows
 from modeler.observation.read import read_log
-from modeler.observation.window import window
 
 
 def columns(n=50, joints=2):

@@ -16,7 +16,7 @@ from modeler.observation.prepare import (
     what_rings,
     what_trembles,
 )
-from modeler.observation.processing import Processing, processing_from_json
+from modeler.observation.processing import ChosenProcessing, Processing, processing_from_json
 from modeler.observation.segments import saturated, split
 
 W0 = 2 * np.pi * 0.7  # rad/s
@@ -51,11 +51,11 @@ def test_pieces_end_at_gaps_and_segment_changes():
     time = np.concatenate([np.arange(100), 200 + np.arange(50)]) * 0.01
     pieces, report = split(log_of(time), 0, False)
     assert [len(p.time) for p in pieces] == [100, 50]
-    assert report.gaps == 1 and report.longest_gap == pytest.approx(1.01)
+    assert report.gaps.tolist() == [100] and report.widths == pytest.approx([1.01])
     assert not any(p.resampled for p in pieces) and report.jitter < 1e-9
     marked = log_of(np.arange(100) * 0.01, segment=np.repeat([0, 1, 2], [40, 57, 3]))
     pieces, report = split(marked, 0, False)
-    assert [len(p.time) for p in pieces] == [40, 57] and report.short == 3
+    assert [len(p.time) for p in pieces] == [40, 57] and report.short.tolist() == [97, 98, 99]
 
 
 def test_short_losses_are_bridged_and_marked_long_ones_cut():
@@ -217,7 +217,8 @@ def test_automatic_cutoffs_follow_the_motion(hertz, rate, position, parallel):
     assert chosen.parallel_cutoff == pytest.approx(parallel, rel=0.05)
     assert any("position filter" in s for s in said) and any("parallel filter" in s for s in said)
     given = Processing(position_cutoff=40.0, parallel_cutoff=7.0)
-    assert cutoffs_of(given, piece)[0] == given
+    kept = cutoffs_of(given, piece)[0]
+    assert (kept.position_cutoff, kept.parallel_cutoff, kept.chosen) == (40.0, 7.0, ())
     assert chosen.chosen == ("position_cutoff", "parallel_cutoff")
     assert cutoffs_of(chosen, piece)[0] == chosen
 
@@ -314,7 +315,7 @@ def test_a_motion_with_slow_and_fast_parts_is_motion():
 
 
 def test_processing_survives_json_and_refuses_nonsense():
-    full = Processing(
+    full = ChosenProcessing(
         30.0, 5.0, 4, "log", 0.01, {"1": 0.2, "5+6": float("inf")}, True, 0.1,
         chosen=("parallel_cutoff",),
     )  # fmt: skip
