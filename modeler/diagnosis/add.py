@@ -318,7 +318,7 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
 
 def _best(state: State, effect: Effect, joint: str | None) -> Judged:
     """The effect at its best shapes."""
-    passive = on_passive(state.data.compiled.spec, effect, joint)
+    passive = on_passive(state.spec, effect, joint)
     asked_for = (
         surveyed(state, only=effect.id, joint=joint) if passive is None
         else survey_of(state, [passive])

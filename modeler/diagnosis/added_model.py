@@ -77,7 +77,7 @@ def _candidate(
 
 def _own_columns(model: IdentifiedModel, state: State, pick: Candidate) -> list[int]:
     """Base columns of the effect, in the order of its own; of several ripples, those alike."""
-    found = columns_of(state.rows, pick, state.cache)[pick.index]
+    found = columns_of(state.rows, pick)[pick.index]
     effect = {p.name: (p.effect, p.joint) for p in model.spec.standard}
     free = [i for i, b in enumerate(model.spec.base) if effect[b.column_of] == pick.key]
     if found is None or len(free) < found.shape[1]:
@@ -103,7 +103,7 @@ def _problem(state: State, own: Sequence[int], pick: Candidate) -> ProfileProble
         state.data.observation,
         tuple(np.delete(w, own, axis=1) for w in rows.W),
         rows.y,
-        state.base.sigma,
+        state.sigma,
         state.scales[pick.index],
     )
 

@@ -142,10 +142,7 @@ def _findings(
 def _chain(found: Search) -> list[State]:
     """The states after none, one, two ... of the effects."""
     picks = [step.pick for step in found.steps]
-    middle = [
-        state_of(found.start.data, picks[:k], found.end.beta, found.start.cache)
-        for k in range(1, len(picks))
-    ]
+    middle = [state_of(found.start.data, picks[:k], found.end.beta) for k in range(1, len(picks))]
     return [found.start, *middle, *([found.end] if picks else [])]
 
 
@@ -192,7 +189,7 @@ def _finding(
 
 def _left(found: Search, step: Step, touched: Sequence[int]) -> float:
     """Rms of the residual that stays on some joints over that before the effect."""
-    sigma = step.before.base.sigma
+    sigma = step.before.sigma
     rest = [found.end.residual[j] / sigma[j] for j in touched]
     return float(np.sqrt(np.mean(np.concatenate(rest) ** 2)))
 
@@ -202,7 +199,7 @@ def _same(judged: Judged, found: Search) -> list[Key]:
     pick = judged.candidate
     same: list[Key] = [(other, pick.joint) for other in pick.effect.same_as]
     if pick.effect.acts is Acts.MOTOR and "c" in pick.shapes:
-        same.append((pick.effect.id, found.start.data.compiled.spec.joints[pick.index - 1].name))
+        same.append((pick.effect.id, found.start.spec.joints[pick.index - 1].name))
     return [key for key in same if not ruled_out(*key, found.without)]
 
 
@@ -245,7 +242,7 @@ def _joints(
     found: Search, seen: Sequence[Unseen], systematic: Sequence[float]
 ) -> dict[str, JointState]:
     states, ends = {}, [errors_of(seen[k]) for k in (0, -1)]
-    for j, joint in enumerate(found.start.data.compiled.spec.joints):
+    for j, joint in enumerate(found.start.spec.joints):
         if not found.start.rows.y[j].size:
             continue
         size = mean_square(found.start.rows.y[j])
@@ -286,7 +283,7 @@ def verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: Se
 def blind_spots(found: Search) -> tuple[Key, ...]:
     """Effects that these data cannot show: hidden by the model, or on joints that do not move."""
     ranked = found.steps[0].rivals if found.steps else found.last.ranked
-    spec = found.start.data.compiled.spec
+    spec = found.start.spec
     has = {(p.effect, p.joint) for p in spec.standard}
     judged = [j for j in ranked if j.candidate.key not in has]
     seen = {j.candidate.key for j in judged}

@@ -16,11 +16,10 @@ from typing import Any
 
 from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.drive_gains import all_columns_about, settled
-from modeler.diagnosis.judge import Judged, best_shapes, decide, numbers, tied
+from modeler.diagnosis.judge import Judged, decide, numbers, tied
 from modeler.diagnosis.propose import proposals, ruled_out
-from modeler.diagnosis.search import Search, Step, survey_of
-from modeler.diagnosis.state import Data, State, state_of, visible
+from modeler.diagnosis.search import Search, Step, about_itself, survey_of
+from modeler.diagnosis.state import Data, State, state_of
 from modeler.observation.log import Log
 from modeler.observation.motion import HIGHEST
 from modeler.observation.prepare import Mending
@@ -122,17 +121,17 @@ def _ruled_out(found: Search, step: Step) -> list[CrossCheck]:
     if not barred:
         return []
     asked = survey_of(state, [step.pick, *barred]).judged()
-    own = [j for j in asked.ranked if j.candidate.key == step.pick.key]
-    least = float(own[0].drop.sum()) if own else 0.0
+    own = [j for j in asked.ranked if j.key == step.pick.key]
+    least = own[0].fall if own else 0.0
     alike = (
         j for j in asked.ranked
-        if j not in own and j.significant and float(j.drop.sum()) >= least
+        if j not in own and j.significant and j.fall >= least
         and numbers(j.candidate) <= numbers(step.pick)
     )  # fmt: skip
     best = next(alike, asked.best)
-    if best is None or best.candidate.key == step.pick.key:
+    if best is None or best.key == step.pick.key:
         return []
-    return [CrossCheck("ruled out", best.candidate.key, False)]
+    return [CrossCheck("ruled out", best.key, False)]
 
 
 def _look(what: str, data: Data, found: Search, place: int) -> CrossCheck:
@@ -140,13 +139,14 @@ def _look(what: str, data: Data, found: Search, place: int) -> CrossCheck:
     picks = [s.pick for s in found.steps[: place + 1]]
     if not all(_logged(data, pick) for pick in picks):
         return CrossCheck(what, None, True)
-    state = _beside_earlier(data, picks[:-1], step.before)
+    # the state in which the effect was chosen, from other data
+    state = about_itself(state_of(data, picks[:-1], step.before.beta))
     judged = _asked_again(state, step, found)
     best = decide(state, judged).best
     if best is None:
         return CrossCheck(what, None, True)
-    alike = {best.candidate.key, *(j.candidate.key for j in tied(best, judged))}
-    return CrossCheck(what, best.candidate.key, step.pick.key in alike)
+    alike = {best.key, *(j.key for j in tied(best, judged))}
+    return CrossCheck(what, best.key, step.pick.key in alike)
 
 
 def _logged(data: Data, candidate: Candidate) -> bool:
@@ -155,21 +155,11 @@ def _logged(data: Data, candidate: Candidate) -> bool:
     return "T" not in candidate.form.names or candidate.joint in temperature
 
 
-def _beside_earlier(data: Data, picks: Sequence[Candidate], before: State) -> State:
-    """The state in which the effect was chosen, from other data."""
-    once = state_of(data, picks, before.beta)
-    about = settled(once)
-    return state_of(data, picks, once.beta if about is None else about, once.cache)
-
-
 def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
     """The effect and its nearest rivals, each at the best of its shapes."""
-    refused = {j.candidate.key for j in found.vetoed}
-    rivals = [j.candidate for j in step.rivals if j.candidate.key not in refused][:RIVALS]
+    refused = {j.key for j in found.vetoed}
+    rivals = [j.candidate for j in step.rivals if j.key not in refused][:RIVALS]
     first = [step.pick, *rivals]
     keys = {c.key for c in first}
     again = [c for c in proposals(state, None, found.without, keys) if c.key in keys]
-    every = [c for c in (*first, *again) if _logged(state.data, c)]
-    columns = all_columns_about(state, every)
-    seen = [i for i, c in enumerate(columns) if visible(c)]
-    return best_shapes(state, [every[i] for i in seen], [columns[i] for i in seen])
+    return list(survey_of(state, [c for c in (*first, *again) if _logged(state.data, c)]).best)

@@ -265,7 +265,7 @@ def late_lines(found: Search) -> list[str]:
     than anything in the catalogue.
     """
     state = found.end
-    joints = state.data.compiled.spec.joints
+    joints = state.spec.joints
     driven = [j for j, joint in enumerate(joints) if joint.actuated]
     columns = []
     for j in driven:
@@ -273,12 +273,12 @@ def late_lines(found: Search) -> list[str]:
     shown = [i for i, own in enumerate(columns) if any(c is not None for c in own)]
     if not shown:
         return []
-    _, ranking = state.ranked([columns[i] for i in shown])
+    ranking = state.ranked([columns[i] for i in shown])
     drop = ranking.drop.sum(axis=0)
     best = int(np.argmax(drop))
-    rivals = [float(judged.drop.sum()) for judged in found.last.ranked if judged.possible]
+    rivals = [judged.fall for judged in found.last.ranked if judged.possible]
     step = float(np.median([signals.segment.step for signals in state.rows.signals]))
-    late = float(ranking.value[best])
+    late = float(ranking.value[best][0])
     if (
         drop[best] < LATE_SHARE * float(ranking.before.sum())
         or drop[best] < AHEAD * max(rivals, default=0.0)

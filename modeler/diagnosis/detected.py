@@ -99,7 +99,7 @@ def _knocking(found: Search) -> list[Effect]:
 
 
 def _contact(found: Search, window: Window, errors: Mapping[str, float]) -> Finding:
-    units = {f"tau{j.name}": j.effort_unit for j in found.end.data.compiled.spec.joints}
+    units = {f"tau{j.name}": j.effort_unit for j in found.end.spec.joints}
     torque = {f"tau{name}": value for name, value in window.torque.items()}
     assert window.change is not None, "it lowers the error"
     ends = window.change.before, window.change.after
@@ -115,7 +115,7 @@ def _contact(found: Search, window: Window, errors: Mapping[str, float]) -> Find
 
 def _again(state: State, errors: Mapping[str, float]) -> str:
     """What speaks against a push: held-out motion that is not explained either."""
-    names = [joint.name for joint in state.data.compiled.spec.joints]
+    names = [joint.name for joint in state.spec.joints]
     for name, y, r in zip(names, state.rows.y, state.residual, strict=True):
         least = AGAIN * np.linalg.norm(r) / max(float(np.linalg.norm(y)), 1e-300)
         if y.size and errors.get(name, 0.0) > least:
@@ -126,7 +126,7 @@ def _again(state: State, errors: Mapping[str, float]) -> str:
 def _asked(found: Search) -> list[int]:
     """Joints whose gear may have play."""
     return [
-        j for j, joint in enumerate(found.end.data.compiled.spec.joints)
+        j for j, joint in enumerate(found.end.spec.joints)
         for effect in _knocking(found)
         if joint.actuated and not ruled_out(effect.id, joint.name, found.without)
     ]  # fmt: skip
@@ -183,7 +183,7 @@ def _faint(found: Search, least: float, knocks: bool) -> list[Finding]:
 
 def _backlash(found: Search, bursting: Sequence[int], text: str, objection: str = "") -> Finding:
     """Play on the first of some joints; any of the others may be the one."""
-    names = [joint.name for joint in found.end.data.compiled.spec.joints]
+    names = [joint.name for joint in found.end.spec.joints]
     first = bursting[0]
     (effect,) = _knocking(found)
     others = tuple((effect.id, names[k]) for k in bursting if k != first)
@@ -198,7 +198,7 @@ def _scored(
     falls: Callable[[Candidate], Score],
 ) -> Finding:  # fmt: skip
     """Play with its errors; where its column does not lower them, it is a description at most."""
-    names = [joint.name for joint in found.end.data.compiled.spec.joints]
+    names = [joint.name for joint in found.end.spec.joints]
     column = _columns(found).get(names.index(str(play.joint)))
     score = None if column is None else falls(column.candidate)
     if score is not None and score.better:

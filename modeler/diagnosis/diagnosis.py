@@ -182,12 +182,10 @@ def kept_parameters(
     if any(used.shares_rows(log) for used in model.logs for log in logs):
         return None
     free = state_of(Data(compiled, seen), (), model.beta)
-    pool, ranking = free.ranked([])
-    del pool
-    fitted = float(ranking.before.sum())
+    fitted = float(free.ranked([]).before.sum())
     given = sum(
         float(np.sum(((y - w @ model.beta) / s) ** 2))
-        for y, w, s in zip(free.rows.y, free.rows.W, free.base.sigma, strict=True)
+        for y, w, s in zip(free.rows.y, free.rows.W, free.sigma, strict=True)
     )
     return model.beta if given > CHANGED * fitted else None
 

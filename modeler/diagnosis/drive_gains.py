@@ -42,7 +42,7 @@ def is_gain(candidate: Candidate) -> bool:
 
 def all_columns_about(state: State, candidates: Sequence[Candidate]) -> list[Columns]:
     """The columns of candidates; those of a gain about the model with that gain."""
-    every = all_columns_of(state.rows, candidates, state.cache)
+    every = all_columns_of(state.rows, candidates)
     return [_about(state, c, own) for c, own in zip(candidates, every, strict=True)]
 
 
@@ -331,7 +331,7 @@ def _weighted(state: State) -> list[np.ndarray]:
     found = []
     for j, (base, y) in enumerate(zip(rows.W, rows.y, strict=True)):
         parts = [dense(e, j, len(y)) for e in extra]
-        found.append(np.hstack([base, *parts, y[:, None]]) / state.base.sigma[j])
+        found.append(np.hstack([base, *parts, y[:, None]]) / state.sigma[j])
     return found
 
 
@@ -362,13 +362,13 @@ def _problem(state: State, gains: Sequence[int]) -> _GainProblem:
         grams=grams,
         free=np.array(free, dtype=int), fixed=fixed,
         gains=sorted({*gains, *had.values()}), size=size, given=given, had=had,
-        spread=state.base.sigma,
+        spread=state.sigma,
     )  # fmt: skip
 
 
 def _own_gains(state: State) -> dict[int, int]:
     """Base columns that are gains which the robot has, and their joints."""
-    spec = state.data.compiled.spec
+    spec = state.spec
     owner = {p.name: (p.effect, p.joint) for p in spec.standard}
     place = {joint.name: j for j, joint in enumerate(spec.joints)}
     scales = {e.id for e in state.data.known.catalogue if e.forms[0].names == _SCALES}

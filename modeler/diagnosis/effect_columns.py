@@ -193,6 +193,7 @@ class Rows(Brief):
         blocks: the same in pieces, by stretch.
         signals: by stretch.
         known: what was made of them for this reference, by name.
+        cache: columns that do not depend on the model, shared by all references.
     """
 
     y: tuple[np.ndarray, ...]
@@ -204,6 +205,7 @@ class Rows(Brief):
     blocks: tuple[tuple[RowBlock, ...], ...]
     signals: tuple[Signals, ...]
     known: dict[Any, Any] = field(default_factory=dict)
+    cache: dict[Any, Any] = field(default_factory=dict)
 
     @property
     def joints(self) -> int:
@@ -295,12 +297,15 @@ def _or_none(columns: Sequence[np.ndarray | None]) -> Columns:
     return tuple(None if c is None or not c.any() else c for c in columns)
 
 
+def width(columns: Columns) -> int:
+    """k of columns that are not zero on all joints."""
+    return next(c.shape[1] for c in columns if c is not None)
+
+
 def dense(columns: Columns, j: int, rows: int) -> np.ndarray:
     """(rows, k) columns on joint j; zeros where there are none."""
     here = columns[j]
-    if here is not None:
-        return here
-    return np.zeros((rows, next(c.shape[1] for c in columns if c is not None)))
+    return np.zeros((rows, width(columns))) if here is None else here
 
 
 def rows_of(observation: Observation, reference: SignalReference) -> Rows:

@@ -61,7 +61,7 @@ def profile_of(state: State, place: int) -> Profile | None:
         state.data.observation,
         tuple(np.delete(w, own, axis=1) for w in state.W),
         state.y,
-        state.base.sigma,
+        state.sigma,
         state.scales[pick.scaled],
     )
     return profile(problem, pick)
@@ -91,7 +91,7 @@ def _units(state: State, pick: Candidate) -> dict[str, str]:
 
 def _linear(state: State, pick: Candidate) -> bool:
     """True on a prismatic joint."""
-    joints = state.data.compiled.spec.joints
+    joints = state.spec.joints
     return any(joint.name == pick.joint and joint.unit == "m" for joint in joints)
 
 

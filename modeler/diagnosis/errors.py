@@ -18,14 +18,14 @@ def unseen(state: State, other: Data | None) -> Unseen:
     """
     if other is not None:
         return left_of(state, other)
-    left = (s * e for s, e in zip(state.base.sigma, state.base.left_out, strict=True))
+    left = (s * e for s, e in zip(state.sigma, state.base.left_out, strict=True))
     return _of(state.data, tuple(left))
 
 
 def left_of(state: State, data: Data) -> Unseen:
     """What a state leaves of logs, with its parameters as they are."""
     rows = data.about(state.reference)
-    extra = picked_columns(rows, state.picks, data.cache)
+    extra = picked_columns(rows, state.picks)
     found = []
     for j in range(rows.joints):
         left = rows.y[j] - rows.W[j] @ state.beta
@@ -52,7 +52,7 @@ def compared(
     """
     weights = {}
     for j in concerned:
-        y = state.rows.y[j] / state.base.sigma[j]
+        y = state.rows.y[j] / state.sigma[j]
         weights[before.names[j]] = float(np.mean(y**2)) if y.size else 0.0
     return scored(before, after, weights, block)
 
@@ -68,7 +68,7 @@ def touched_joints(judged: Judged, before: State, after: State) -> list[int]:
     """Joints whose residuals an effect explains: its own, or all where they fall most."""
     if judged.alone:
         return [judged.candidate.index]
-    sigma = before.base.sigma
+    sigma = before.sigma
     fall = np.array(
         [
             float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2))
@@ -103,7 +103,7 @@ def vetoing(other: Data | None) -> Callable[[State, State, Judged], bool]:
 def _fall(joints: Sequence[int], before: State, after: State) -> float:
     """Share of the squared residual of some joints that is gone, in units of the first one."""
     sums = [
-        sum(float(np.sum((s.residual[j] / before.base.sigma[j]) ** 2)) for j in joints)
+        sum(float(np.sum((s.residual[j] / before.sigma[j]) ** 2)) for j in joints)
         for s in (before, after)
     ]
     return 1.0 - sums[1] / max(sums[0], 1e-300)

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.diagnosis.effect_columns import Columns, Rows
+from modeler.diagnosis.effect_columns import Columns, Rows, width
 from modeler.numerics.least_squares import ReducedRows, turn_of
 from modeler.numerics.spectra import lap
 from modeler.observation.observation import Observation
@@ -76,8 +76,8 @@ class Base(Brief):
             return G, u
         r = self.turn.shape[1]
         G, u = np.zeros((self.blocks, r, r)), np.zeros((self.blocks, r))
-        for w, t, own in zip(self.columns, self.y, self.block, strict=True):
-            for b, rows in pieces(own):
+        for w, t, own in zip(self.columns, self.y, self.pieces, strict=True):
+            for b, rows in own:
                 G[b] += w[rows].T @ w[rows]
                 u[b] += w[rows].T @ t[rows]
         return G, u
@@ -191,7 +191,8 @@ class Pool:
 
     Attributes:
         owner: (K,) candidate of each column, ascending.
-        first: (N,) first column of each candidate.
+        sizes: (N,) columns of each candidate.
+        first: (N,) the first of them.
         scale: (K,) columns were divided by this to have length one.
         T: (blocks, r, K) base' columns.
         w: (blocks, K) columns' y.
@@ -200,6 +201,7 @@ class Pool:
     """
 
     owner: np.ndarray
+    sizes: np.ndarray
     first: np.ndarray
     scale: np.ndarray
     T: np.ndarray
@@ -212,11 +214,16 @@ class Pool:
         """Number of candidates, N."""
         return len(self.first)
 
+    @cached_property
+    def first_pairs(self) -> np.ndarray:
+        """(N,) first pair of each candidate."""
+        return np.cumsum(self.sizes**2) - self.sizes**2
+
 
 def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
     """The Gram matrices of candidates' columns, all of them finite and none zero."""
-    sizes = [next(c.shape[1] for c in columns if c is not None) for columns in every]
-    first = np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(int) if sizes else np.zeros(0, int)
+    sizes = np.array([width(columns) for columns in every], dtype=int)
+    first = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), sizes)
     K, r = len(owner), base.turn.shape[1]
     pairs = np.array(
@@ -235,24 +242,19 @@ def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
             stacked = np.concatenate([np.asarray(every[i][j]).T for i in some])
             stacked /= base.sigma[j]
             square[places] += np.einsum("ij,ij->i", stacked, stacked)
-            _add_joint(base, j, places, stacked, (T, w, D), pairs)
+            _add_joint(base, j, places, stacked, pairs, T, w, D)
     scale = np.sqrt(np.where(square > 0.0, square, 1.0))
     T /= scale
     w /= scale
     D /= scale[pairs].prod(axis=1)
-    return Pool(owner, first, scale, T, w, pairs, D)
+    return Pool(owner, sizes, first, scale, T, w, pairs, D)
 
 
 def _add_joint(
-    base: Base,
-    j: int,
-    places: np.ndarray,
-    columns: np.ndarray,
-    grams: tuple[np.ndarray, np.ndarray, np.ndarray],
-    pairs: np.ndarray,
-) -> None:
-    """Adds the rows of one joint, columns (k, rows_j), to (T, w, D)."""
-    T, w, D = grams
+    base: Base, j: int, places: np.ndarray, columns: np.ndarray, pairs: np.ndarray,
+    T: np.ndarray, w: np.ndarray, D: np.ndarray,
+) -> None:  # fmt: skip
+    """Adds the rows of one joint, columns (k, rows_j), to T, w, D."""
     where = np.full(T.shape[2], -1)
     where[places] = np.arange(len(places))
     here = np.flatnonzero((where[pairs] >= 0).all(axis=1))

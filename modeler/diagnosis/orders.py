@@ -27,7 +27,7 @@ def order_spectrum(state: State, j: int) -> OrderSpectrum | None:
 
 def _order_spectrum(state: State, j: int) -> OrderSpectrum | None:
     q, r = _samples(state, j)
-    unit = state.data.compiled.spec.joints[j].unit
+    unit = state.spec.joints[j].unit
     return spectrum_of(q, r, unit, _reached(state, j)) if q.size else None
 
 
@@ -99,7 +99,7 @@ def ripple_candidates(
         joints: names of those that count; None: all.
     """
     found = []
-    for j, joint in enumerate(state.data.compiled.spec.joints):
+    for j, joint in enumerate(state.spec.joints):
         asked = joint.actuated and (joints is None or joint.name in joints)
         spectrum = order_spectrum(state, j) if asked else None
         for order in spectrum.peaks if spectrum else ():

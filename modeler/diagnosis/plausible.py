@@ -76,7 +76,7 @@ def _driving(state: State, j: int, picks: Sequence[int]) -> float:
 
 def _own(state: State, j: int) -> list[int]:
     """Base columns of the friction of joint j alone."""
-    base = state.data.compiled.spec.base
+    base = state.spec.base
     return [i for i, b in enumerate(base) if b.kind == "friction" and b.rows == (j,)]
 
 
@@ -132,13 +132,13 @@ def _more_than_all(state: State, pick: Candidate, parameters: Mapping[str, float
 
 
 def _turns(state: State, pick: Candidate) -> bool:
-    return state.data.compiled.spec.joints[pick.index].unit == "rad"
+    return state.spec.joints[pick.index].unit == "rad"
 
 
 def _no_rest(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """Far from its rest a spring is a constant torque, unless the model has one already."""
     del parameters
-    having = {(p.effect, p.joint) for p in state.data.compiled.spec.standard}
+    having = {(p.effect, p.joint) for p in state.spec.standard}
     scale = state.scales[pick.index]
     if ("offset", pick.joint) in having or abs(
         pick.shapes["q0"] - scale.middle
@@ -164,7 +164,7 @@ def _no_body(state: State, pick: Candidate, parameters: Mapping[str, float]) -> 
 def _alone(state: State, pick: Candidate) -> np.ndarray:
     """(k, k) root of the information on the parameters of an effect, beside all else."""
     k = next(len(v) for v, p in zip(state.values, state.picks, strict=True) if p is pick)
-    columns, sigma = columns_of(state.rows, pick, state.cache), state.base.sigma
+    columns, sigma = columns_of(state.rows, pick), state.sigma
     own = np.vstack(
         [
             np.zeros((len(w), k)) if c is None else c / s
@@ -200,7 +200,7 @@ def _nothing_to_balance(state: State, pick: Candidate, parameters: Mapping[str, 
 def _no_lever(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """What the residual covers of its torque beside a straight line over the stroke is not seen."""
     j = pick.index
-    column = columns_of(state.rows, pick, state.cache)[j]
+    column = columns_of(state.rows, pick)[j]
     assert column is not None, "it acts on its own joint"
     torque = column @ [parameters[name] for name in pick.parameter_names()]
     line = np.vander(state.rows.filtered(j, [s.q[:, j] for s in state.rows.signals]), 2)

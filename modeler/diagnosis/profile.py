@@ -24,8 +24,8 @@ from functools import cached_property
 
 import numpy as np
 
-from modeler.diagnosis.candidates import Candidate, JointScale
-from modeler.diagnosis.effect_columns import Columns, Rows
+from modeler.diagnosis.candidates import Candidate, JointScale, coded
+from modeler.diagnosis.effect_columns import Columns, Rows, dense
 from modeler.diagnosis.gram import blocks_of
 from modeler.effects.effect import Shape
 from modeler.estimation.covariance import autocorrelation, repeated
@@ -95,10 +95,9 @@ class ProfileProblem:
 
     def weighted(self, columns: Columns) -> tuple[np.ndarray, ...]:
         """(rows_j, k) by joint, divided by sigma; zeros where there are none."""
-        size = next(c.shape[1] for c in columns if c is not None)
         return tuple(
-            np.zeros((len(t), size)) if c is None else c / s
-            for c, t, s in zip(columns, self.y, self.sigma, strict=True)
+            dense(columns, j, len(t)) / s
+            for j, (t, s) in enumerate(zip(self.y, self.sigma, strict=True))
         )
 
     def at(self, candidate: Candidate) -> Point | None:
@@ -263,7 +262,7 @@ def _kinds(told: Candidate) -> tuple[list[tuple[str, tuple[float, ...]]], list[S
     fixed, smooth = [], []
     for shape in told.form.shapes:
         value = told.shapes[shape.name]
-        if shape.smooth or (shape.scale == "waves" and value not in shape.grid):
+        if told.refinable(shape):
             smooth.append(shape)
         elif len(shape.grid) > 1 and value in shape.grid:
             fixed.append((shape.name, shape.grid))
@@ -279,7 +278,7 @@ def _explored(
         return [] if point is None else [point]
     lines = [_line(problem.scale, start, shape) for shape in smooth]
     if len(smooth) == 1:
-        return _along(lambda x: problem.at(_moved(start, smooth, [x])), lines[0], least)
+        return _along(lambda x: problem.at(start.moved(smooth, [x])), lines[0], least)
     return _around(problem, start, smooth, lines)
 
 
@@ -300,21 +299,6 @@ def _line(scale: JointScale, start: Candidate, shape: Shape) -> _Line:
     inner = {coded(shape, scale.value(shape, entry)) for entry in shape.grid}
     kept = {x for x in (*inner, told) if low < x < high}
     return _Line(tuple(sorted({low, high, *kept})), told)
-
-
-def coded(shape: Shape, value: float) -> float:
-    """Positive shapes by their logarithm."""
-    return float(np.log(value)) if shape.limits[0] > 0.0 else value
-
-
-def decoded(shape: Shape, x: float) -> float:
-    """The value of a coded shape."""
-    return float(np.exp(x)) if shape.limits[0] > 0.0 else float(x)
-
-
-def _moved(start: Candidate, smooth: Sequence[Shape], x: Sequence[float]) -> Candidate:
-    values = {shape.name: decoded(shape, v) for shape, v in zip(smooth, x, strict=True)}
-    return dataclasses.replace(start, shapes={**start.shapes, **values})
 
 
 def _along(at: Callable[[float], Point | None], line: _Line, least: float) -> list[Point]:
@@ -356,7 +340,7 @@ def _around(
     def at(x: np.ndarray) -> Point | None:
         if np.any(x < low) or np.any(x > high):
             return None
-        return problem.at(_moved(start, smooth, list(x)))
+        return problem.at(start.moved(smooth, x))
 
     axes = _axes(problem, start, smooth, middle) * _REACHED
     steps = np.linspace(-1.0, 1.0, _LINE)
@@ -394,7 +378,7 @@ def _slopes(
         for sign in (-1.0, 1.0):
             x = np.array(middle, dtype=float)
             x[i] += sign * _STEP
-            moved = problem.rows.columns(_moved(told, smooth, list(x)))
+            moved = problem.rows.columns(told.moved(smooth, x))
             ends.append(problem.off(problem.weighted(moved)) @ here.values)
         slopes.append((ends[1] - ends[0]) / (2.0 * _STEP))
     slope = np.column_stack(slopes) if slopes else np.zeros((len(own), 0))

@@ -23,7 +23,7 @@ def proposals(
         without: ids of effects, or id@joint, that the user rules out.
         keys: effects and joints that count; None: all.
     """
-    spec = state.data.compiled.spec
+    spec = state.spec
     temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
     changed = state.data.kept is not None
     present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
@@ -62,7 +62,7 @@ def _lasts(span: float, candidate: Candidate) -> bool:
 
 def load_candidates(state: State) -> list[Candidate]:
     """A body on the last link, or on another: only where the links' parameters are kept."""
-    spec = state.data.compiled.spec
+    spec = state.spec
     links = list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
     carrier = spec.closure.carrier if spec.closure is not None else ""
     last = carrier or links[-1]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.effect_columns import Columns, Rows, base_columns
+from modeler.diagnosis.effect_columns import Columns, Rows, base_columns, width
 from modeler.diagnosis.gram import pieces
 from modeler.diagnosis.signals import Signals
 from modeler.diagnosis.state import State, picked_columns
@@ -70,11 +70,11 @@ def instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.nda
     """
     smooth = _smoothed(state)
     own, other = state.rows.columns(candidate), smooth.columns(candidate)
-    extra = picked_columns(smooth, state.picks, {})
-    sizes = [next(c.shape[1] for c in e if c is not None) for e in (*extra, own)]
+    extra = picked_columns(smooth, state.picks)
+    sizes = [width(e) for e in (*extra, own)]
     ends = np.cumsum([len(state.data.free), *sizes])
     X, Z = [], []
-    for j, sigma in enumerate(state.base.sigma):
+    for j, sigma in enumerate(state.sigma):
         base = smooth.W[j][:, state.data.free]
         further = zip(ends[:-1], ends[1:], (*extra, other), strict=True)
         X.append(_Parts([(slice(0, ends[-2]), state.W[j]), *_shown(own, j, ends[-2:])], sigma))
@@ -159,32 +159,20 @@ def _smoothed(state: State) -> Rows:
     """The same rows with the motion smoothed."""
     if "smooth" in state.rows.known:
         return state.rows.known["smooth"]
-    signals, W = _smooth_motion(state)
-    signals = tuple(dataclasses.replace(s, reference=state.reference) for s in signals)
-    smooth = dataclasses.replace(state.rows, W=W, signals=signals, known={})
+    cutoff = 3.0 * max(SLOWEST, state.data.observation.report.band)  # Hz, of the band of the motion
+    key = "smooth motion"  # the same for all states, and so are its base columns
+    if key not in state.rows.cache:
+        moved = tuple(_smooth(s, cutoff) for s in state.rows.signals)
+        state.rows.cache[key] = moved, base_columns(state.rows.blocks, moved)
+    moved, W = state.rows.cache[key]
+    signals = tuple(dataclasses.replace(s, reference=state.reference) for s in moved)
+    smooth = dataclasses.replace(state.rows, W=W, signals=signals, known={}, cache={})
     state.rows.known["smooth"] = smooth
     return smooth
 
 
-def _smooth_motion(state: State) -> tuple[tuple[Signals, ...], tuple[np.ndarray, ...]]:
-    """The motion smoothed, and its base columns: the same for all states."""
-    key = "smooth motion"
-    if key not in state.cache:
-        signals = []
-        for s in state.rows.signals:
-            q, v, a = _smooth(s, _cutoff(state))
-            signals.append(dataclasses.replace(s, q=q, v=v, a=a))
-        state.cache[key] = tuple(signals), base_columns(state.rows.blocks, signals)
-    return state.cache[key]
-
-
-def _cutoff(state: State) -> float:
-    """Hz: three times the band of the motion."""
-    return 3.0 * max(SLOWEST, state.data.observation.report.band)
-
-
-def _smooth(signals: Signals, cutoff: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _smooth(signals: Signals, cutoff: float) -> Signals:
     step = signals.step
     q = low_pass(signals.q, step, min(cutoff, 0.2 / step))
     v = np.gradient(q, step, axis=0)
-    return q, v, np.gradient(v, step, axis=0)
+    return dataclasses.replace(signals, q=q, v=v, a=np.gradient(v, step, axis=0))

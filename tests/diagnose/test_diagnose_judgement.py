@@ -135,9 +135,9 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
     """With a tenth around every order of a ripple banned, there is always another one to ask."""
     asked = []
 
-    def refused(state: object, best: object, veto: object) -> search.Asked:
+    def refused(state: object, best: object, veto: object) -> tuple[object, None]:
         asked.append(best)
-        return search.Asked(SimpleNamespace(why=""), None)  # type: ignore[arg-type]
+        return SimpleNamespace(why=""), None
 
     class Endless:
         def judged(self, vetoed: object = (), tick: object = None) -> SimpleNamespace:
@@ -146,7 +146,8 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(search, "put_in", refused)
     monkeypatch.setattr(search, "_named", lambda state, best, vetoed, without: best)
     monkeypatch.setattr(search, "surveyed", lambda state, without: Endless())
-    monkeypatch.setattr(search, "_started", lambda data, beta: None)
+    monkeypatch.setattr(search, "state_of", lambda data, picks, beta: None)
+    monkeypatch.setattr(search, "about_itself", lambda state: state)
     found = search.search(None, None)  # type: ignore[arg-type]
     assert len(found.vetoed) == len(asked) == search.ASKED
 
@@ -171,7 +172,8 @@ def test_what_is_doubted_gives_way_to_a_rival_that_explains_as_much(
     instead = lambda judged: search._instead(  # noqa: E731
         survey,
         [],
-        search.Asked(judged, SimpleNamespace()),
+        judged,
+        SimpleNamespace(),
         print,  # type: ignore[arg-type]
     )
     assert (instead(doubted) is rival) is taken
@@ -253,7 +255,7 @@ def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(
     before: float, now: float, again: bool
 ) -> None:
     better = dataclasses.replace(at_its_best("spring", now))
-    survey = HypothesisScan(None, (), (), (better,))  # type: ignore[arg-type]
+    survey = HypothesisScan(None, (), (better,))  # type: ignore[arg-type]
     mending = dataclasses.replace(at_its_best("stribeck", 0.2), values=-np.ones(1))
     refused = [at_its_best("spring", before), mending]
     kept = survey.still(refused)

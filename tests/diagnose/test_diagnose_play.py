@@ -33,10 +33,8 @@ class Found(SimpleNamespace):
 def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
     """Args: by joint; columns: (gain, share, ratio to its standard error) of play, by joint."""
     joints = [SimpleNamespace(name=str(j), actuated=True) for j in (1, 2, 3)]
-    data = SimpleNamespace(
-        compiled=SimpleNamespace(spec=SimpleNamespace(joints=joints)), known=Known()
-    )
-    states = [SimpleNamespace(data=data, ratios=ratios) for ratios in (start, end)]
+    spec, data = SimpleNamespace(joints=joints), SimpleNamespace(known=Known())
+    states = [SimpleNamespace(data=data, spec=spec, ratios=ratios) for ratios in (start, end)]
     monkeypatch.setattr(module, "burst_ratio", lambda state, j: state.ratios[j])
     monkeypatch.setattr(module, "knocking", lambda state, j: knocks[j])
     effect = effect_named("backlash")

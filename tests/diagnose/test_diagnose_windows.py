@@ -36,7 +36,7 @@ def columns(arm, observation):
     data = Data(arm, observation)
     beta = np.linspace(-1.0, 2.0, len(arm.spec.base))
     state = state_of(data, (), beta)
-    return state.rows.W, all_columns_of(state.rows, proposals(state), {})
+    return state.rows.W, all_columns_of(state.rows, proposals(state))
 
 
 def test_columns_do_not_depend_on_the_windows(arm, log, monkeypatch) -> None:
@@ -80,7 +80,7 @@ def test_an_expression_lets_go_of_its_values() -> None:
 def test_a_state_lets_go_of_its_rows(arm, log) -> None:
     data = Data(arm, analysed(arm, [log], Processing()))
     state = state_of(data, (), np.zeros(len(arm.spec.base)))
-    state.sifted([(np.ones((len(state.y[0]), 1)), None, None)])
+    state.ranked([(np.ones((len(state.y[0]), 1)), None, None)])
     first = weakref.ref(state.base.columns[0])
     gc.disable()
     try:
