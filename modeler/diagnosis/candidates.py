@@ -123,6 +123,11 @@ class Candidate(Brief):
         return list(range(joints))
 
 
+def links_of(spec: ModuleSpec) -> list[str]:
+    """Names of the links that have inertial parameters."""
+    return list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
+
+
 def coded(shape: Shape, value: float) -> float:
     """Positive shapes by their logarithm."""
     return float(np.log(value)) if shape.limits[0] > 0.0 else value

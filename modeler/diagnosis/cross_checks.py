@@ -10,7 +10,7 @@ out is asked beside every effect: if it would have been named instead, the effec
 """
 
 import dataclasses
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,12 +18,11 @@ from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.judge import Judged, decide, numbers, tied
 from modeler.diagnosis.propose import proposals, ruled_out
-from modeler.diagnosis.search import Search, Step, about_itself, survey_of
+from modeler.diagnosis.search import Search, Step, Tick, about_itself, survey_of
 from modeler.diagnosis.state import Data, State, state_of
-from modeler.observation.log import Log
 from modeler.observation.motion import HIGHEST
+from modeler.observation.observation import Observation
 from modeler.observation.prepare import Mending
-from modeler.observation.processing import Processing
 
 FACTORS = (0.7, 1.4)
 """Cut-offs of the other looks, over those of the diagnosis."""
@@ -69,20 +68,14 @@ def other_looks(data: Data, mending: Mending, other: Data | None) -> Iterator[tu
     """
     if other is not None:
         yield "the held-out logs", other
-    logs = mending.logs
-    for factor, changed in cut_off_otherwise(data, logs):
-        yield (
-            f"cut-offs x {factor:g}",
-            dataclasses.replace(
-                data,
-                observation=analysed(data.compiled, logs, changed, chosen=True, mending=mending),
-            ),
-        )
+    for factor, seen in cut_off_otherwise(data, mending):
+        yield f"cut-offs x {factor:g}", dataclasses.replace(data, observation=seen)
+        del seen  # or it would live beside the next
 
 
-def cut_off_otherwise(data: Data, logs: Sequence[Log]) -> Iterator[tuple[float, Processing]]:
-    """The processing of the training logs with the filters elsewhere, by `FACTORS`."""
-    processing = data.observation.report.processing
+def cut_off_otherwise(data: Data, mending: Mending) -> Iterator[tuple[float, Observation]]:
+    """The training logs with the filters elsewhere, by `FACTORS`."""
+    processing, logs = data.observation.report.processing, mending.logs
     highest = HIGHEST / max(log.step for log in logs)
     for factor in FACTORS:
         cut = {
@@ -90,11 +83,12 @@ def cut_off_otherwise(data: Data, logs: Sequence[Log]) -> Iterator[tuple[float, 
             for name in ("position_cutoff", "parallel_cutoff")
             if (value := getattr(processing, name))
         }
-        yield factor, dataclasses.replace(processing, **cut, decimation=None, edge=None)
+        changed = dataclasses.replace(processing, **cut, decimation=None, edge=None)
+        yield factor, analysed(data.compiled, logs, changed, chosen=True, mending=mending)
 
 
 def looked_again(
-    found: Search, looks: Iterable[tuple[str, Data]], tick: Callable[[], None] = lambda: None
+    found: Search, looks: Iterable[tuple[str, Data]], tick: Tick = lambda: None
 ) -> list[tuple[CrossCheck, ...]]:
     """What the other looks say of every effect that was put in, in order.
 

@@ -26,20 +26,17 @@ def left_of(state: State, data: Data) -> Unseen:
     """What a state leaves of logs, with its parameters as they are."""
     rows = data.about(state.reference)
     extra = picked_columns(rows, state.picks)
-    found = []
-    for j in range(rows.joints):
-        left = rows.y[j] - rows.W[j] @ state.beta
-        for columns, values in zip(extra, state.values, strict=True):
-            own = columns[j]
+    found = [y - W @ state.beta for y, W in zip(rows.y, rows.W, strict=True)]
+    for columns, values in zip(extra, state.values, strict=True):
+        for j, own in enumerate(columns):
             if own is not None:
-                left = left - own @ values
-        found.append(left)
+                found[j] = found[j] - own @ values
     return _of(data, tuple(found))
 
 
 def _of(data: Data, left: tuple[np.ndarray, ...]) -> Unseen:
-    names = tuple(joint.name for joint in data.compiled.spec.joints)
-    return Unseen(names, left, data.rows.y, data.rows.time, data.rows.run)
+    names, rows = tuple(joint.name for joint in data.spec.joints), data.rows
+    return Unseen(names, left, rows.y, rows.time, rows.run)
 
 
 def compared(
@@ -68,13 +65,8 @@ def touched_joints(judged: Judged, before: State, after: State) -> list[int]:
     """Joints whose residuals an effect explains: its own, or all where they fall most."""
     if judged.alone:
         return [judged.candidate.index]
-    sigma = before.sigma
-    fall = np.array(
-        [
-            float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2))
-            for b, a, s in zip(before.residual, after.residual, sigma, strict=True)
-        ]
-    )
+    sizes = zip(before.residual, after.residual, before.sigma, strict=True)
+    fall = np.array([float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2)) for b, a, s in sizes])
     if fall.max() <= 0.0:
         return [int(np.argmax(fall))]
     return [int(j) for j in np.flatnonzero(fall >= TOUCHED * fall.max())]
@@ -93,17 +85,14 @@ def vetoing(other: Data | None) -> Callable[[State, State, Judged], bool]:
     def veto(before: State, after: State, judged: Judged) -> bool:
         touched = touched_joints(judged, before, after)
         score = compared(unseen(before, other), unseen(after, other), touched, before)
-        expected = judged.gain if judged.alone else _fall(touched, before, after)
+        expected = judged.gain
+        if not judged.alone:  # what is gone of the squared residuals of these joints
+            first, last = (
+                sum(float(np.sum((s.residual[j] / before.sigma[j]) ** 2)) for j in touched)
+                for s in (before, after)
+            )
+            expected = 1.0 - last / max(first, 1e-300)
         least = 0.0 if other is None else KEPT * expected
         return not score.better or score.whole.gain < least
 
     return veto
-
-
-def _fall(joints: Sequence[int], before: State, after: State) -> float:
-    """Share of the squared residual of some joints that is gone, in units of the first one."""
-    sums = [
-        sum(float(np.sum((s.residual[j] / before.sigma[j]) ** 2)) for j in joints)
-        for s in (before, after)
-    ]
-    return 1.0 - sums[1] / max(sums[0], 1e-300)

@@ -35,62 +35,29 @@ class Base(Brief):
     """The base columns as an orthonormal set over all weighted rows; c columns, r of them kept.
 
     Attributes:
-        W: (rows_j, c) by joint.
+        columns: (rows_j, r) by joint, weighted: W turn / sigma.
         y: (rows_j,) by joint, weighted.
-        turn: (c, r): the orthonormal columns are W turn / sigma.
+        turn: (c, r) of the base columns W.
         sigma: (J,) rms residual of each joint, N m or N: the weights are its inverse.
         block: (rows_j,) by joint, number of the block of time.
         fold: (blocks,) number of the fold of each block.
-        finer: the same with more blocks, whose sums are taken; None: from the rows.
+        G: (blocks, r, r) Gram matrices of the columns.
+        u: (blocks, r) their products with y.
     """
 
-    W: tuple[np.ndarray, ...]
+    columns: tuple[np.ndarray, ...]
     y: tuple[np.ndarray, ...]
     turn: np.ndarray
     sigma: np.ndarray
     block: tuple[np.ndarray, ...]
     fold: np.ndarray
-    finer: "Base | None" = None
+    G: np.ndarray
+    u: np.ndarray
 
     @property
     def blocks(self) -> int:
         """How many blocks of time there are."""
         return len(self.fold)
-
-    @cached_property
-    def columns(self) -> tuple[np.ndarray, ...]:
-        """(rows_j, r) by joint, weighted."""
-        if self.finer is not None:
-            return self.finer.columns
-        return tuple(w @ (self.turn / s) for w, s in zip(self.W, self.sigma, strict=True))
-
-    @cached_property
-    def grams(self) -> tuple[np.ndarray, np.ndarray]:
-        """(blocks, r, r) and (blocks, r): Gram matrices of the columns, and with y."""
-        if self.finer is not None:
-            place, count = self.finer.crossed.place, self.blocks
-            G, u = (
-                np.stack([x[place == f].sum(axis=0) for f in range(count)])
-                for x in self.finer.grams
-            )
-            return G, u
-        r = self.turn.shape[1]
-        G, u = np.zeros((self.blocks, r, r)), np.zeros((self.blocks, r))
-        for w, t, own in zip(self.columns, self.y, self.pieces, strict=True):
-            for b, rows in own:
-                G[b] += w[rows].T @ w[rows]
-                u[b] += w[rows].T @ t[rows]
-        return G, u
-
-    @property
-    def G(self) -> np.ndarray:
-        """(blocks, r, r) Gram matrices of the columns."""
-        return self.grams[0]
-
-    @property
-    def u(self) -> np.ndarray:
-        """(blocks, r) their products with y."""
-        return self.grams[1]
 
     @cached_property
     def pieces(self) -> list[list[tuple[int, slice]]]:
@@ -100,8 +67,6 @@ class Base(Brief):
     @cached_property
     def crossed(self) -> "GramFolds":
         """Fits of the base to all folds but one."""
-        if self.finer is not None:
-            return dataclasses.replace(self.finer.crossed, place=np.arange(self.blocks))
         place = np.unique(self.fold, return_inverse=True)[1]
         count = int(place.max()) + 1
         inverse, beta = solved(but_one(self.G, place, count), but_one(self.u, place, count))
@@ -110,8 +75,6 @@ class Base(Brief):
     @cached_property
     def left_out(self) -> tuple[np.ndarray, ...]:
         """(rows_j,) by joint, weighted: each row less what the fit to the other folds predicts."""
-        if self.finer is not None:
-            return self.finer.left_out
         fits = self.crossed
         return tuple(
             y - np.einsum("ij,ij->i", columns, fits.beta[fits.place[block]])
@@ -166,15 +129,23 @@ def base_of(
         turn: (c, r) of the columns, where it is known.
     """
     turn = turn_of(W, sigma) if turn is None else turn
+    columns = tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True))
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
-    return Base(tuple(W), target, turn, sigma, tuple(block), fold)
+    G, u = np.zeros((len(fold), *turn.shape[1:] * 2)), np.zeros((len(fold), turn.shape[1]))
+    base = Base(columns, target, turn, sigma, tuple(block), fold, G, u)
+    for w, t, own in zip(columns, target, base.pieces, strict=True):
+        for b, rows in own:
+            G[b] += w[rows].T @ w[rows]
+            u[b] += w[rows].T @ t[rows]
+    return base
 
 
 def folded(base: Base) -> Base:
     """The same with whole folds as blocks: enough where only sums over all blocks count."""
     place, count = base.crossed.place, len(base.crossed.beta)
     block = tuple(place[own] for own in base.block)
-    return Base(base.W, base.y, base.turn, base.sigma, block, np.arange(count), finer=base)
+    G, u = (np.stack([x[place == f].sum(axis=0) for f in range(count)]) for x in (base.G, base.u))
+    return dataclasses.replace(base, block=block, fold=np.arange(count), G=G, u=u)
 
 
 def pieces(block: np.ndarray) -> list[tuple[int, slice]]:
@@ -230,9 +201,9 @@ def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
         [(f + i, f + k) for f, size in zip(first, sizes, strict=True)
          for i in range(size) for k in range(size)]
     ).reshape(-1, 2).astype(int)  # fmt: skip
-    square = np.zeros(K)
     T, w = np.zeros((base.blocks, r, K)), np.zeros((base.blocks, K))
-    D = np.zeros((base.blocks, len(pairs)))
+    D, square = np.zeros((base.blocks, len(pairs))), np.zeros(K)
+    pool = Pool(owner, sizes, first, np.ones(K), T, w, pairs, D)
     for j in range(len(base.sigma)):
         own = [i for i, columns in enumerate(every) if columns[j] is not None]
         for some in (own[k : k + _AT_ONCE] for k in range(0, len(own), _AT_ONCE)):
@@ -242,19 +213,17 @@ def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
             stacked = np.concatenate([np.asarray(every[i][j]).T for i in some])
             stacked /= base.sigma[j]
             square[places] += np.einsum("ij,ij->i", stacked, stacked)
-            _add_joint(base, j, places, stacked, pairs, T, w, D)
-    scale = np.sqrt(np.where(square > 0.0, square, 1.0))
-    T /= scale
-    w /= scale
-    D /= scale[pairs].prod(axis=1)
-    return Pool(owner, sizes, first, scale, T, w, pairs, D)
+            _add_joint(base, pool, j, places, stacked)
+    pool.scale[:] = np.sqrt(np.where(square > 0.0, square, 1.0))
+    T /= pool.scale
+    w /= pool.scale
+    D /= pool.scale[pairs].prod(axis=1)
+    return pool
 
 
-def _add_joint(
-    base: Base, j: int, places: np.ndarray, columns: np.ndarray, pairs: np.ndarray,
-    T: np.ndarray, w: np.ndarray, D: np.ndarray,
-) -> None:  # fmt: skip
-    """Adds the rows of one joint, columns (k, rows_j), to T, w, D."""
+def _add_joint(base: Base, pool: Pool, j: int, places: np.ndarray, columns: np.ndarray) -> None:
+    """Adds the rows of one joint, columns (k, rows_j), to the products of a pool."""
+    T, w, D, pairs = pool.T, pool.w, pool.D, pool.pairs
     where = np.full(T.shape[2], -1)
     where[places] = np.arange(len(places))
     here = np.flatnonzero((where[pairs] >= 0).all(axis=1))

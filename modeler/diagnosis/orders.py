@@ -21,24 +21,16 @@ def order_spectrum(state: State, j: int) -> OrderSpectrum | None:
     """Of the moving samples of joint j, at full rate; None if it rests."""
     key = "order spectrum", j
     if key not in state.known:
-        state.known[key] = _order_spectrum(state, j)
+        q, r = _samples(state, j)
+        # orders that pass the parallel filter where the joint is slow
+        cutoff = state.data.observation.report.processing.parallel_cutoff or 1e9
+        moving = [np.abs(s.v[s.segment.whole[:: s.every], j]) for s in state.rows.signals]
+        speeds = np.concatenate(moving)
+        slow = float(np.quantile(speeds[speeds > 0.0], 0.1)) if (speeds > 0.0).any() else 1.0
+        reached = 2.0 * np.pi * cutoff / max(slow, 1e-9)
+        unit = state.spec.joints[j].unit
+        state.known[key] = spectrum_of(q, r, unit, reached) if q.size else None
     return cast(OrderSpectrum | None, state.known[key])
-
-
-def _order_spectrum(state: State, j: int) -> OrderSpectrum | None:
-    q, r = _samples(state, j)
-    unit = state.spec.joints[j].unit
-    return spectrum_of(q, r, unit, _reached(state, j)) if q.size else None
-
-
-def _reached(state: State, j: int) -> float:
-    """Order that passes the parallel filter at the median speed of the joint."""
-    cutoff = state.data.observation.report.processing.parallel_cutoff or 1e9
-    speeds = np.abs(
-        np.concatenate([s.v[s.segment.whole[:: s.every], j] for s in state.rows.signals])
-    )
-    slow = float(np.quantile(speeds[speeds > 0.0], 0.1)) if (speeds > 0.0).any() else 1.0
-    return 2.0 * np.pi * cutoff / max(slow, 1e-9)
 
 
 def _samples(state: State, j: int) -> tuple[np.ndarray, np.ndarray]:
@@ -68,17 +60,12 @@ def _extra(state: State, number: int, j: int) -> np.ndarray:
             continue
         if pick.local:
             total = total + own_columns(pick, signals) @ values
-        else:
-            total = total + _torques(state, number, pick)[:, j] @ values
+            continue
+        key = "torques", number, column_key(state.rows, pick)  # (n, J, k), for all joints
+        if key not in state.rows.known:
+            state.rows.known[key] = all_columns(pick, signals)
+        total = total + state.rows.known[key][:, j] @ values
     return total
-
-
-def _torques(state: State, number: int, pick: Candidate) -> np.ndarray:
-    """(n, J, k) torques of the columns of a pick over one stretch, remembered for all joints."""
-    key = "torques", number, column_key(state.rows, pick)
-    if key not in state.rows.known:
-        state.rows.known[key] = all_columns(pick, state.rows.signals[number])
-    return np.asarray(state.rows.known[key])
 
 
 def counted(order: float) -> float:

@@ -6,7 +6,7 @@ import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.drive_gains import TENFOLD
-from modeler.diagnosis.effect_columns import body_parameters
+from modeler.diagnosis.effect_columns import body_parameters, dense
 from modeler.diagnosis.state import State, columns_of
 from modeler.effects.effect import Needs
 from modeler.estimation.nearest_body import body, nearest_possible
@@ -42,12 +42,11 @@ def drives(before: State, after: State, pick: Candidate) -> bool:
     if not has_friction(after, j):
         return False  # a model without friction says nothing of the whole
     left = float(np.sqrt(np.mean(after.residual[j] ** 2)))
-    own = [k for k, other in enumerate(after.picks) if _brakes(other, j)]
+    own = _braking(after, j)
     worst = _driving(after, j, own)
     if pick.form.names & FADES:
         worst = max(worst, _driving(after, j, own[:-1]))
-    earlier = [k for k, other in enumerate(before.picks) if _brakes(other, j)]
-    return worst > max(left, _driving(before, j, earlier))
+    return worst > max(left, _driving(before, j, _braking(before, j)))
 
 
 def has_friction(state: State, j: int) -> bool:
@@ -55,16 +54,18 @@ def has_friction(state: State, j: int) -> bool:
     return bool(_own(state, j))
 
 
-def _brakes(pick: Candidate, j: int) -> bool:
-    """True for friction of that joint without memory."""
-    friction = pick.effect.family == "friction" and pick.local and pick.form.memory is None
-    return friction and pick.index == j
+def _braking(state: State, j: int) -> list[int]:
+    """Places of the picks that are friction of that joint without memory."""
+    return [
+        k for k, pick in enumerate(state.picks)
+        if pick.effect.family == "friction" and pick.local and pick.form.memory is None
+        and pick.index == j
+    ]  # fmt: skip
 
 
 def largest_friction(state: State, j: int) -> float:
     """The largest friction torque of joint j on its rows, but for one in fifty, N m or N."""
-    picks = [k for k, other in enumerate(state.picks) if _brakes(other, j)]
-    torque = np.abs(_friction(state, j, picks))
+    torque = np.abs(_friction(state, j, _braking(state, j)))
     return float(np.quantile(torque, 0.98)) if torque.size else 0.0
 
 
@@ -163,16 +164,10 @@ def _no_body(state: State, pick: Candidate, parameters: Mapping[str, float]) -> 
 
 def _alone(state: State, pick: Candidate) -> np.ndarray:
     """(k, k) root of the information on the parameters of an effect, beside all else."""
-    k = next(len(v) for v, p in zip(state.values, state.picks, strict=True) if p is pick)
     columns, sigma = columns_of(state.rows, pick), state.sigma
-    own = np.vstack(
-        [
-            np.zeros((len(w), k)) if c is None else c / s
-            for c, w, s in zip(columns, state.rows.W, sigma, strict=True)
-        ]
-    )
-    others = np.vstack([w[:, state.data.free] / s
-                        for w, s in zip(state.rows.W, sigma, strict=True)])  # fmt: skip
+    weighted = list(zip(state.rows.W, sigma, strict=True))
+    own = np.vstack([dense(columns, j, len(w)) / s for j, (w, s) in enumerate(weighted)])
+    others = np.vstack([w[:, state.data.free] / s for w, s in weighted])
     left = own - others @ np.linalg.lstsq(others, own, rcond=None)[0] if others.size else own
     return np.asarray(np.linalg.qr(left, mode="r"))
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence, Set
 
 import numpy as np
 
-from modeler.diagnosis.candidates import Candidate, candidates
+from modeler.diagnosis.candidates import Candidate, candidates, links_of
 from modeler.diagnosis.orders import ripple_candidates
 from modeler.diagnosis.state import State
 from modeler.effects.effect import Acts
@@ -63,7 +63,7 @@ def _lasts(span: float, candidate: Candidate) -> bool:
 def load_candidates(state: State) -> list[Candidate]:
     """A body on the last link, or on another: only where the links' parameters are kept."""
     spec = state.spec
-    links = list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
+    links = links_of(spec)
     carrier = spec.closure.carrier if spec.closure is not None else ""
     last = carrier or links[-1]
     return [

@@ -58,8 +58,8 @@ def fall(base: Base, pool: Pool) -> np.ndarray:
     """(blocks, N) fall of the squared residual in blocks that were held out: `Ranking.drop`."""
     crossed = base.crossed
     at = (crossed.place, len(crossed.beta))
-    grams = (but_one(gram, *at) for gram in (base.u, pool.T, pool.w, pool.D))
-    held_out = _solve(pool, crossed.inverse, crossed.beta, *grams)
+    grams = [but_one(gram, *at) for gram in (base.u, pool.T, pool.w, pool.D)]
+    held_out = _solve(pool, crossed.inverse, crossed.beta, grams)
     place, count = at
     if count == 1 or (len(place) == count and np.array_equal(place, np.arange(count))):
         cross, square = _by_fit(base, pool, held_out, slice(None), slice(None))
@@ -83,8 +83,8 @@ def sifted(base: Base, pool: Pool) -> tuple[np.ndarray, list[np.ndarray]]:
 
 def _whole(base: Base, pool: Pool) -> "_SolvedPool":
     """Fitted to all rows."""
-    G, u, T, w, D = (g.sum(axis=0)[None] for g in (base.G, base.u, pool.T, pool.w, pool.D))
-    return _solve(pool, *solved(G, u), u, T, w, D)
+    G, *grams = (g.sum(axis=0)[None] for g in (base.G, base.u, pool.T, pool.w, pool.D))
+    return _solve(pool, *solved(G, grams[0]), grams)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,10 +98,10 @@ class _SolvedPool:
 
 
 def _solve(
-    pool: Pool, inverse: np.ndarray, beta: np.ndarray,
-    u: np.ndarray, T: np.ndarray, w: np.ndarray, D: np.ndarray,
-) -> _SolvedPool:  # fmt: skip
-    """F fits of every candidate beside the base, from their Gram matrices (F, ...)."""
+    pool: Pool, inverse: np.ndarray, beta: np.ndarray, grams: Sequence[np.ndarray]
+) -> _SolvedPool:
+    """F fits of every candidate beside the base, from their Gram matrices (F, ...): u, T, w, D."""
+    u, T, w, D = grams
     A = inverse @ T
     i, k = pool.pairs[:, 0], pool.pairs[:, 1]
     M = D - np.einsum("fri,fri->fi", T[:, :, i], A[:, :, k])

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import Brief
+from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis.candidates import Candidate, over_grid
 from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled
-from modeler.diagnosis.effect_values import values_of
 from modeler.diagnosis.gram import pool_of
 from modeler.diagnosis.judge import (
     NEARLY,
@@ -27,6 +27,7 @@ from modeler.diagnosis.judge import (
     tried,
 )
 from modeler.diagnosis.plausible import DRIVES, drives, objection
+from modeler.diagnosis.profile import values_of
 from modeler.diagnosis.propose import proposals, ruled_out
 from modeler.diagnosis.ranking import sifted
 from modeler.diagnosis.refine import best_refined, refined
@@ -35,6 +36,9 @@ from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Effect
 
 # Every hypothesis in a state: at the best of its shapes, the leading ones refined.
+
+Tick = Callable[[], None]
+"""Called whenever something is done."""
 
 STARTS = 4
 """Grid values from which an effect with two shapes is refined: its fit has several summits."""
@@ -89,9 +93,7 @@ class HypothesisScan:
         best.sort(key=lambda j: -j.fall)
         return HypothesisScan(self.state, left, best, self.refined)
 
-    def judged(
-        self, vetoed: Sequence[Judged] = (), tick: Callable[[], None] = lambda: None
-    ) -> Judgement:
+    def judged(self, vetoed: Sequence[Judged] = (), tick: Tick = lambda: None) -> Judgement:
         """All but what was vetoed; the leading ones refined, with a tick after each."""
         left = self.but(vetoed)
         close = [
@@ -234,6 +236,21 @@ class Search(Brief):
     vetoed: tuple[Judged, ...] = ()
     without: tuple[str, ...] = ()
 
+    @property
+    def spec(self) -> ModuleSpec:
+        """What the robot is made of."""
+        return self.start.spec
+
+    @property
+    def catalogue(self) -> Sequence[Effect]:
+        """The effects that may be missing."""
+        return self.start.data.known.catalogue
+
+    @property
+    def ranked(self) -> tuple[Judged, ...]:
+        """Rivals of the first effect that was put in, or all where none was; best first."""
+        return self.steps[0].rivals if self.steps else self.last.ranked
+
 
 def search(
     data: Data,
@@ -241,7 +258,7 @@ def search(
     without: Sequence[str] = (),
     most: int = MOST,
     veto: Veto | None = None,
-    tick: Callable[[], None] = lambda: None,
+    tick: Tick = lambda: None,
 ) -> Search:
     """Effects that the model lacks, one by one.
 
@@ -300,9 +317,12 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
 
 
 def _instead(
-    survey: HypothesisScan, refused: Sequence[Judged], asked: Judged, later: State | None,
-    tick: Callable[[], None],
-) -> Judgement | None:  # fmt: skip
+    survey: HypothesisScan,
+    refused: Sequence[Judged],
+    asked: Judged,
+    later: State | None,
+    tick: Tick,
+) -> Judgement | None:
     """What leads without an effect that was refused, or is doubted, if another explains as much.
 
     Or if the doubted one explains little. None where the effect is put in.
@@ -361,9 +381,7 @@ def about_itself(state: State) -> State:
     return state_of(state.data, state.picks, state.beta if about is None else about)
 
 
-def _backward(
-    state: State, steps: Sequence[Step], tick: Callable[[], None]
-) -> tuple[list[Step], State]:
+def _backward(state: State, steps: Sequence[Step], tick: Tick) -> tuple[list[Step], State]:
     """Drops effects that the others made unnecessary, the weakest first.
 
     What the others gain is judged again then, beside those that are left.

@@ -133,6 +133,11 @@ class State(Brief):
         """What the robot is made of."""
         return self.data.spec
 
+    @property
+    def names(self) -> list[str]:
+        """Of the joints."""
+        return [joint.name for joint in self.spec.joints]
+
     @cached_property
     def W(self) -> tuple[np.ndarray, ...]:
         """(rows_j, f + extra) by joint: base columns that are fitted, then the picks'."""

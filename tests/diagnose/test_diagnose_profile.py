@@ -10,7 +10,7 @@ from modeler.diagnosis.add import add_effect, undone
 from modeler.diagnosis.added_model import Logs, added
 from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.candidates import Known
-from modeler.diagnosis.effect_values import profile_of
+from modeler.diagnosis.profile import profile_of
 from modeler.diagnosis.search import extended, surveyed
 from modeler.diagnosis.state import Data, state_of
 from modeler.estimation.identify import identify
