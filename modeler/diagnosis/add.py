@@ -28,10 +28,10 @@ from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.effect_columns import body_parameters
 from modeler.diagnosis.judge import Judged
 from modeler.diagnosis.result import Pick
-from modeler.diagnosis.score import Score, Unseen, errors_of, rms_error, scored, told
-from modeler.diagnosis.search import extended, survey_of, surveyed
+from modeler.diagnosis.score import Score, Unseen, error_changes, errors_of, rms_error, scored
+from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
-from modeler.diagnosis.state import Data, State, state_of
+from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import instrumental
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Acts, Effect
@@ -60,7 +60,7 @@ def passive_joints(spec: ModuleSpec) -> dict[str, int]:
     return {name: i for i, name in enumerate(spec.closure.variables) if i not in driven}
 
 
-def plain(effect: Effect) -> bool:
+def reads_speed_only(effect: Effect) -> bool:
     """True for effects of a joint that read its speed and have no shapes."""
     form = effect.forms[0]
     return effect.acts is Acts.JOINT and not form.shapes and form.names <= {"v"}
@@ -72,7 +72,7 @@ def plain(effect: Effect) -> bool:
 _JOINTED = (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
 
 
-def asked(
+def requested_effect(
     model: IdentifiedModel, name: str, joint: str | None, catalogue: Sequence[Effect]
 ) -> Effect:
     """The effect of that name, if it can go into the model on that joint.
@@ -129,7 +129,7 @@ def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
         names = links_of(spec)
     elif effect.acts is Acts.PASSIVE:
         names = passive
-    elif plain(effect):
+    elif reads_speed_only(effect):
         names += passive
     if joint not in names and joint in passive and jointed:
         raise DataError(
@@ -188,7 +188,9 @@ def add_effect(
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    effect = asked(model, name, joint, robot_from_text(model.robot_text, "robot").catalogue)
+    effect = requested_effect(
+        model, name, joint, robot_from_text(model.robot_text, "robot").catalogue
+    )
     before = _Fitted(model, rows_of(compiled, logs, model.processing))
     after, _ = _judged(before, _found(before, effect, joint))
     return _finished(after)
@@ -209,8 +211,8 @@ def add_findings(
     for finding in findings:
         try:
             catalogue = robot_from_text(best.model.robot_text, "robot").catalogue
-            asked(best.model, finding.effect, finding.joint, catalogue)
-            assert finding.pick is not None  # `asked` refuses what is no column
+            requested_effect(best.model, finding.effect, finding.joint, catalogue)
+            assert finding.pick is not None  # `requested_effect` refuses what is no column
             after, score = _judged(best, finding.pick)
         except (DataError, RobotError) as error:
             left.append(f"left out: {finding.effect}, {where(finding.joint)} ({error})")
@@ -247,11 +249,11 @@ def _with_gains(
 def _refused(score: Score) -> str:
     """Why a change is none for the better."""
     if score.spoilt:
-        return f"the error rises: {told(score.errors, score.changed)}"
+        return f"the error rises: {error_changes(score.errors, score.changed)}"
     total = " -> ".join(printed(score.whole.before, score.whole.after))
     return (
         "the error does not fall by more than chance: "
-        f"{total} over all joints; {told(score.errors, score.changed)}"
+        f"{total} over all joints; {error_changes(score.errors, score.changed)}"
     )
 
 
@@ -281,7 +283,7 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
     kept = kept_parameters(model, rows.compiled, rows.logs.fitted, observation)
     if effect.acts is Acts.LINK and kept is None:
         kept = model.beta
-    data = Data(rows.compiled, observation, kept, Known(robot.catalogue, robot.coupling))
+    data = SearchData(rows.compiled, observation, kept, Known(robot.catalogue, robot.coupling))
     state = state_of(data, (), model.beta)
     best = _best(state, effect, joint)
     if effect.acts is Acts.TORQUE:  # least squares make delays too small
@@ -295,12 +297,12 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
 def _best(state: State, effect: Effect, joint: str | None) -> Judged:
     """The effect at its best shapes."""
     place = passive_joints(state.spec).get(joint or "")
-    if place is not None and plain(effect):
+    if place is not None and reads_speed_only(effect):
         if state.spec.closure is not None:  # felt by all motors, by the speed that loops give it
             effect = dataclasses.replace(effect, acts=Acts.PASSIVE)
-        scan = survey_of(state, [Candidate(effect, effect.forms[0], joint, place)])
+        scan = scan_candidates(state, [Candidate(effect, effect.forms[0], joint, place)])
     else:
-        scan = surveyed(state, only=effect.id, joint=joint)
+        scan = scan_catalogue(state, only=effect.id, joint=joint)
     found = scan.judged().ranked
     if not found:
         raise DataError(

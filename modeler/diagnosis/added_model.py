@@ -10,10 +10,10 @@ from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.gram import base_of, blocks_of
 from modeler.diagnosis.profile import Profile, ProfileProblem, profile
-from modeler.diagnosis.score import Unseen, told
+from modeler.diagnosis.score import Unseen, error_changes
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.signals import SignalReference, tilt_basis
-from modeler.diagnosis.state import Data, State, columns_of, state_of
+from modeler.diagnosis.state import SearchData, State, columns_of, state_of
 from modeler.effects.catalogue import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, effect_named
 from modeler.effects.effect import Acts, Effect
 from modeler.estimation.model_file import Addition, IdentifiedModel
@@ -48,7 +48,7 @@ def with_shapes(
         pick = _candidate(model, step, catalogue)
         if pick is None:
             continue
-        state = state or state_of(Data(compiled, observation), (), model.beta)
+        state = state or state_of(SearchData(compiled, observation), (), model.beta)
         own = _own_columns(model, state, pick)
         W = tuple(np.delete(w, own, axis=1) for w in state.rows.W)
         along = profile(ProfileProblem.of(state, pick, W), pick) if own else None
@@ -286,7 +286,7 @@ def notes(model: IdentifiedModel, since: int = -1) -> list[str]:
 
 
 def _change(name: str, step: Addition) -> str:
-    change = told(step.joints, step.changed)
+    change = error_changes(step.joints, step.changed)
     if step.falls:
         return f"{name}: the error falls: {change}"
     return (

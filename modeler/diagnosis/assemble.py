@@ -11,18 +11,26 @@ from modeler.diagnosis.cross_checks import CrossCheck
 from modeler.diagnosis.data_checks import SHORT, doubts, length, one_speed
 from modeler.diagnosis.detected import detected
 from modeler.diagnosis.drive_gains import gain_deviations, gain_visible, is_gain
-from modeler.diagnosis.errors import compared, touched_joints, unseen
 from modeler.diagnosis.events import Window
+from modeler.diagnosis.generate import generate_candidates, ruled_out
 from modeler.diagnosis.gram import VISIBLE
+from modeler.diagnosis.holdout_error import compared, holdout_residuals, touched_joints
 from modeler.diagnosis.orders import systematic_share
 from modeler.diagnosis.plausible import objection
 from modeler.diagnosis.profile import named_intervals, profile_of, shape_units, values_of
-from modeler.diagnosis.propose import proposals, ruled_out
-from modeler.diagnosis.result import Diagnosis, Finding, JointState, Key, Pick, closure, mean_square
+from modeler.diagnosis.result import (
+    Diagnosis,
+    Finding,
+    JointState,
+    Key,
+    Pick,
+    explained_fraction,
+    mean_square,
+)
 from modeler.diagnosis.score import Change, Score, Unseen, errors_of
 from modeler.diagnosis.search import Search, Tick, extended
 from modeler.diagnosis.sentences import evidence, sentences
-from modeler.diagnosis.state import Data, State, state_of
+from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import instrumental
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Acts
@@ -38,7 +46,7 @@ SAME_WAVES = 0.1
 
 
 def assembled(
-    model: IdentifiedModel, found: Search, other: Data | None, window: Window | None,
+    model: IdentifiedModel, found: Search, other: SearchData | None, window: Window | None,
     looks: Sequence[tuple[CrossCheck, ...]] = (), faults: Sequence[Fault] = (),
     tick: Tick = lambda: None,
 ) -> Diagnosis:  # fmt: skip
@@ -59,7 +67,7 @@ def assembled(
     for j in range(found.end.rows.joints):
         tick()
         shares.append(systematic_share(found.end, j))
-    seen = [unseen(state, other) for state in chain]
+    seen = [holdout_residuals(state, other) for state in chain]
     contradicted = any(fault.certain for fault in faults)
     every: list[Finding] = []
     squares = [np.array([mean_square(left) for left in own.residual]) for own in seen]
@@ -67,13 +75,13 @@ def assembled(
         touched = touched_joints(step.judged, *chain[k : k + 2])
         score = compared(seen[k], seen[k + 1], touched, found.end)
         if score.better and score.whole.after <= LOST:
-            closed = closure(chain[k:], touched, shares, squares[k:] if other else None)
+            closed = explained_fraction(chain[k:], touched, shares, squares[k:] if other else None)
             finding = _finding(found, k, touched, score.whole, closed)
             every.append(dataclasses.replace(finding, looks=looks[k] if looks else ()))
         tick()
 
     def falls(candidate: Candidate) -> Score:
-        after = unseen(extended(found.end, candidate), other)
+        after = holdout_residuals(extended(found.end, candidate), other)
         return compared(seen[-1], after, [candidate.index], found.end)
 
     if not contradicted:
@@ -87,7 +95,7 @@ def assembled(
         effects=effects,
         refinements=refinements,
         rivals=tuple((*rival.key, rival.gain) for rival in found.ranked[:8]),
-        blind_spots=blind_spots(found),
+        blind_spots=undetectable_effects(found),
         joints=joints,
         unmoved=tuple(j.name for j in model.spec.joints if j.name not in joints),
         held_out=other.observation.logs if other else (),
@@ -225,7 +233,7 @@ def verdict(effects: Sequence[Finding], joints: dict[str, JointState], found: Se
     return "nothing significant"
 
 
-def blind_spots(found: Search) -> tuple[Key, ...]:
+def undetectable_effects(found: Search) -> tuple[Key, ...]:
     """Effects that these data cannot show: hidden by the model, or on joints that do not move."""
     has = {(p.effect, p.joint) for p in found.spec.standard}
     judged = [j for j in found.ranked if j.key not in has]
@@ -256,7 +264,7 @@ def _unmoved(state: State) -> list[Key]:
     if not any(steady) and all(y.size for y in state.rows.y):
         return []
     return [
-        candidate.key for candidate in proposals(state)
+        candidate.key for candidate in generate_candidates(state)
         if candidate.effect.acts in own
         and (
             not state.rows.y[candidate.index].size

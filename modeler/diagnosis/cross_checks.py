@@ -16,10 +16,10 @@ from typing import Any
 
 from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.generate import generate_candidates, ruled_out
 from modeler.diagnosis.judge import Judged, decide, numbers, tied
-from modeler.diagnosis.propose import proposals, ruled_out
-from modeler.diagnosis.search import Search, Step, Tick, about_itself, survey_of
-from modeler.diagnosis.state import Data, State, state_of
+from modeler.diagnosis.search import Search, Step, Tick, about_itself, scan_candidates
+from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.observation.motion import HIGHEST
 from modeler.observation.observation import Observation
 from modeler.observation.prepare import Mending
@@ -58,7 +58,9 @@ class CrossCheck:
         return {"what": self.what, "leads": leads, "agrees": self.agrees}
 
 
-def other_looks(data: Data, mending: Mending, other: Data | None) -> Iterator[tuple[str, Data]]:
+def other_looks(
+    data: SearchData, mending: Mending, other: SearchData | None
+) -> Iterator[tuple[str, SearchData]]:
     """The same robot's data, looked at otherwise.
 
     Args:
@@ -73,7 +75,7 @@ def other_looks(data: Data, mending: Mending, other: Data | None) -> Iterator[tu
         del seen  # or it would live beside the next
 
 
-def cut_off_otherwise(data: Data, mending: Mending) -> Iterator[tuple[float, Observation]]:
+def cut_off_otherwise(data: SearchData, mending: Mending) -> Iterator[tuple[float, Observation]]:
     """The training logs with the filters elsewhere, by `FACTORS`."""
     processing, logs = data.observation.report.processing, mending.logs
     highest = HIGHEST / max(log.step for log in logs)
@@ -88,7 +90,7 @@ def cut_off_otherwise(data: Data, mending: Mending) -> Iterator[tuple[float, Obs
 
 
 def looked_again(
-    found: Search, looks: Iterable[tuple[str, Data]], tick: Tick = lambda: None
+    found: Search, looks: Iterable[tuple[str, SearchData]], tick: Tick = lambda: None
 ) -> list[tuple[CrossCheck, ...]]:
     """What the other looks say of every effect that was put in, in order.
 
@@ -111,10 +113,10 @@ def _ruled_out(found: Search, step: Step) -> list[CrossCheck]:
     if not found.without:
         return []
     state = step.before
-    barred = [c for c in proposals(state) if ruled_out(*c.key, found.without)]
+    barred = [c for c in generate_candidates(state) if ruled_out(*c.key, found.without)]
     if not barred:
         return []
-    asked = survey_of(state, [step.pick, *barred]).judged()
+    asked = scan_candidates(state, [step.pick, *barred]).judged()
     own = [j for j in asked.ranked if j.key == step.pick.key]
     least = own[0].fall if own else 0.0
     alike = (
@@ -128,7 +130,7 @@ def _ruled_out(found: Search, step: Step) -> list[CrossCheck]:
     return [CrossCheck("ruled out", best.key, False)]
 
 
-def _look(what: str, data: Data, found: Search, place: int) -> CrossCheck:
+def _look(what: str, data: SearchData, found: Search, place: int) -> CrossCheck:
     step = found.steps[place]
     picks = [s.pick for s in found.steps[: place + 1]]
     if not all(_logged(data, pick) for pick in picks):
@@ -143,7 +145,7 @@ def _look(what: str, data: Data, found: Search, place: int) -> CrossCheck:
     return CrossCheck(what, best.key, step.pick.key in alike)
 
 
-def _logged(data: Data, candidate: Candidate) -> bool:
+def _logged(data: SearchData, candidate: Candidate) -> bool:
     """False for what reads a temperature that these logs lack."""
     temperature = data.rows.signals[0].reference.temperature
     return "T" not in candidate.form.names or candidate.joint in temperature
@@ -155,5 +157,7 @@ def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
     rivals = [j.candidate for j in step.rivals if j.key not in refused][:RIVALS]
     first = [step.pick, *rivals]
     keys = {c.key for c in first}
-    again = [c for c in proposals(state, None, found.without, keys) if c.key in keys]
-    return list(survey_of(state, [c for c in (*first, *again) if _logged(state.data, c)]).best)
+    again = [c for c in generate_candidates(state, None, found.without, keys) if c.key in keys]
+    return list(
+        scan_candidates(state, [c for c in (*first, *again) if _logged(state.data, c)]).best
+    )

@@ -12,7 +12,7 @@ from modeler.diagnosis.drive_gains import with_gains
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.plausible import has_friction, largest_friction
 from modeler.diagnosis.search import Search
-from modeler.diagnosis.state import Data, State, state_of
+from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import CONVENTION
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.channels import Fault, faults, suspects
@@ -167,7 +167,7 @@ _SURE = 4.5  # falls over their standard error
 
 
 def doubts(
-    model: IdentifiedModel, found: Search, other: Data | None, contradicting: Sequence[Fault],
+    model: IdentifiedModel, found: Search, other: SearchData | None, contradicting: Sequence[Fault],
     window: Window | None = None,
 ) -> tuple[str, ...]:  # fmt: skip
     """Sentences on the logs.
@@ -181,7 +181,7 @@ def doubts(
     """
     lines = [f.line for f in contradicting if f.certain or not _explained(found, f.joint)]
     if not any(fault.certain for fault in contradicting):
-        lines += late_lines(found)
+        lines += sensor_delay_lines(found)
     if window is not None and window.change is None:
         log = found.start.data.observation.logs[window.log]
         lines.append(
@@ -204,7 +204,7 @@ def _explained(found: Search, j: int) -> bool:
     return after < MENDED * before
 
 
-def _moved(model: IdentifiedModel, data: Data) -> list[str]:
+def _moved(model: IdentifiedModel, data: SearchData) -> list[str]:
     """A delay that the diagnosis took out of the logs."""
     moved = data.observation.report.processing.delay - model.processing.delay
     if moved == 0.0:
@@ -216,7 +216,7 @@ def _moved(model: IdentifiedModel, data: Data) -> list[str]:
     ]
 
 
-def _without_temperature(state: State, other: Data) -> list[str]:
+def _without_temperature(state: State, other: SearchData) -> list[str]:
     """Held-out logs without a temperature that the training logs have."""
     known = state.reference.temperature
     found = []
@@ -234,7 +234,7 @@ def _without_temperature(state: State, other: Data) -> list[str]:
     return found
 
 
-def _fitted_before(model: IdentifiedModel, other: Data) -> list[str]:
+def _fitted_before(model: IdentifiedModel, other: SearchData) -> list[str]:
     """Held-out logs that the model was fitted to."""
     cost = "its errors there are too small"
     if other.kept is None:
@@ -250,7 +250,7 @@ def _fitted_before(model: IdentifiedModel, other: Data) -> list[str]:
     ]  # fmt: skip
 
 
-def late_lines(found: Search) -> list[str]:
+def sensor_delay_lines(found: Search) -> list[str]:
     """A sentence on the joint whose position comes late, or early, beside all other channels.
 
     Nothing in the catalogue shifts one joint in time.
@@ -302,7 +302,7 @@ def late_lines(found: Search) -> list[str]:
 
 
 def channel_faults(
-    model: IdentifiedModel, data: Data, other: Data | None, mending: Mending
+    model: IdentifiedModel, data: SearchData, other: SearchData | None, mending: Mending
 ) -> tuple[Fault, ...]:
     """Of the logs, then of the held-out ones.
 
@@ -329,7 +329,7 @@ def channel_faults(
 
 
 def _allowed(
-    model: IdentifiedModel, data: Data, other: Data | None
+    model: IdentifiedModel, data: SearchData, other: SearchData | None
 ) -> tuple[np.ndarray, np.ndarray | None]:
     """Parameters, and gains of the joints in doubt; as fitted where the fit is of other logs."""
     every = [data, *([other] if other is not None else [])]
@@ -340,7 +340,9 @@ def _allowed(
     return (model.beta, None) if found is None else found
 
 
-def _stable(data: Data, mending: Mending, beta: np.ndarray, gains: np.ndarray | None) -> set[int]:
+def _stable(
+    data: SearchData, mending: Mending, beta: np.ndarray, gains: np.ndarray | None
+) -> set[int]:
     """Joints whose torque has another scale with other cut-offs too."""
     joints = [
         {f.joint for f in faults(data.compiled, seen, beta, gains)}

@@ -9,9 +9,9 @@ import numpy as np
 from modeler.core.table import printed
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.events import BURST, LOUD, Window, burst_ratio
+from modeler.diagnosis.generate import ruled_out
 from modeler.diagnosis.judge import GATE, SURE, Judged
 from modeler.diagnosis.orders import knocking
-from modeler.diagnosis.propose import ruled_out
 from modeler.diagnosis.result import Finding
 from modeler.diagnosis.score import Score
 from modeler.diagnosis.search import Search

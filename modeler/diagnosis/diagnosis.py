@@ -13,11 +13,11 @@ from modeler.diagnosis.assemble import assembled
 from modeler.diagnosis.candidates import Known
 from modeler.diagnosis.cross_checks import looked_again, other_looks
 from modeler.diagnosis.data_checks import channel_faults
-from modeler.diagnosis.errors import vetoing
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
+from modeler.diagnosis.holdout_error import vetoing
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.search import MOST, Search, search
-from modeler.diagnosis.state import Data, state_of
+from modeler.diagnosis.state import SearchData, state_of
 from modeler.diagnosis.timing import logger_shift
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Acts, Effect
@@ -92,7 +92,9 @@ def diagnose(
     meter = Meter(progress, _READ)
     mending = Mending(logs, compiled.spec)
     seen = analysed(compiled, logs, model.processing, mending=mending)
-    data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known())
+    data = SearchData(
+        compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known()
+    )
     without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
     doubted = channel_faults(model, data, other, mending)
     options = model.beta, without, 0 if any(f.certain for f in doubted) else most, meter
@@ -115,8 +117,8 @@ def diagnose(
 
 
 def _looks(
-    data: Data, mending: Mending, other: Data | None, window: Window | None
-) -> Iterator[tuple[str, Data]]:
+    data: SearchData, mending: Mending, other: SearchData | None, window: Window | None
+) -> Iterator[tuple[str, SearchData]]:
     """Other looks, those at the training logs without the rows of a push."""
     for what, look in other_looks(data, mending, other):
         yield what, look if window is None or look is other else _masked(look, window)
@@ -124,14 +126,16 @@ def _looks(
 
 
 def _searched(
-    data: Data, other: Data | None, beta: np.ndarray, without: Sequence[str], most: int,
+    data: SearchData, other: SearchData | None, beta: np.ndarray, without: Sequence[str], most: int,
     meter: Meter,
 ) -> Search:  # fmt: skip
     meter.stage(_SEARCHED)
     return search(data, beta, without, most, vetoing(other), meter.tick)
 
 
-def _aligned(data: Data, found: Search, model: IdentifiedModel, mending: Mending) -> Data | None:
+def _aligned(
+    data: SearchData, found: Search, model: IdentifiedModel, mending: Mending
+) -> SearchData | None:
     """The data without a delay that is a convention of the logger; None if there is none."""
     delays = [j for j in found.ranked if j.candidate.effect.acts is Acts.TORQUE and not j.confirmed]
     shift = logger_shift(found.start, delays[0].candidate, delays[0].values) if delays else 0.0
@@ -157,7 +161,7 @@ def _ids(without: Sequence[str], catalogue: Sequence[Effect]) -> tuple[str, ...]
     return tuple(found)
 
 
-def _held_out(data: Data, holdout: Sequence[Log]) -> Data | None:
+def _held_out(data: SearchData, holdout: Sequence[Log]) -> SearchData | None:
     """Held-out logs in the band of the training logs."""
     if not holdout:
         return None
@@ -172,7 +176,7 @@ def kept_parameters(
     """The model's parameters if these logs are of a robot that has changed since; else None."""
     if any(used.shares_rows(log) for used in model.logs for log in logs):
         return None
-    free = state_of(Data(compiled, seen), (), model.beta)
+    free = state_of(SearchData(compiled, seen), (), model.beta)
     fitted = float(free.ranked([]).before.sum())
     given = sum(
         float(np.sum(((y - w @ model.beta) / s) ** 2))
@@ -181,7 +185,7 @@ def kept_parameters(
     return model.beta if given > CHANGED * fitted else None
 
 
-def _push(data: Data, found: Search) -> Window | None:
+def _push(data: SearchData, found: Search) -> Window | None:
     """When something pushed; with its first part left out of the fit, more of it may show."""
     end = found.end
     # a gear may have so much play that one of its knocks looks like a push
@@ -196,7 +200,7 @@ def _push(data: Data, found: Search) -> Window | None:
     return explained(window, state_of(_masked(data, window), end.picks, end.beta), data)
 
 
-def _masked(data: Data, window: Window) -> Data:
+def _masked(data: SearchData, window: Window) -> SearchData:
     """The data without the rows of a window, and a little around it."""
     observation = data.observation
     hit = (observation.run == window.log) & (observation.time > window.start - MARGIN)

@@ -44,7 +44,7 @@ def all_columns_about(state: State, candidates: Sequence[Candidate]) -> list[Col
     """The columns of candidates; those of a gain about the model with that gain."""
     every = all_columns_of(state.rows, candidates)
     for i, candidate in enumerate(candidates):
-        beta = settled(state, candidate) if is_gain(candidate) else None
+        beta = settled_parameters(state, candidate) if is_gain(candidate) else None
         if beta is not None:
             own: list[np.ndarray | None] = [None] * state.rows.joints
             own[candidate.index] = -(state.rows.W[candidate.index] @ beta)[:, None]
@@ -57,7 +57,7 @@ def _gains(picks: Iterable[Candidate]) -> list[int]:
     return [pick.index for pick in picks if is_gain(pick)]
 
 
-def settled(state: State, candidate: Candidate | None = None) -> np.ndarray | None:
+def settled_parameters(state: State, candidate: Candidate | None = None) -> np.ndarray | None:
     """(c,) base parameters about which the gains among the picks and a candidate are linear.
 
     Gains that the robot has already count among them. None without a gain, or without an answer.

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.diagnosis.errors import compared, left_of
+from modeler.diagnosis.holdout_error import compared, left_of
 from modeler.diagnosis.score import Change
-from modeler.diagnosis.state import Data, State
+from modeler.diagnosis.state import SearchData, State
 
 MARGIN = 0.5
 """s before and after a push that are left out with it."""
@@ -143,7 +143,7 @@ def _sums(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
     return cells[:, 0], cells[:, 1], np.cumsum(total, axis=0), np.cumsum(count, axis=0)
 
 
-def explained(window: Window, state: State, data: Data) -> Window:
+def explained(window: Window, state: State, data: SearchData) -> Window:
     """The push with its torques, if these surely lower the error (`scored`).
 
     A torque of each joint that changes steadily is fitted to the residuals of the window, that of

@@ -10,7 +10,7 @@ from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import Columns
 from modeler.diagnosis.gram import VISIBLE, pool_of
-from modeler.diagnosis.ranking import Ranking, sifted
+from modeler.diagnosis.ranking import Ranking, total_falls
 from modeler.diagnosis.score import SURE as TIED
 from modeler.diagnosis.score import standard_errors
 from modeler.diagnosis.state import State
@@ -138,7 +138,7 @@ def tried(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> list[Tria
     return [
         Trial(candidate, columns, possible(candidate, value), float(fall))
         for (candidate, columns), fall, value in zip(
-            pairs, *sifted(state.folded, pool), strict=True
+            pairs, *total_falls(state.folded, pool), strict=True
         )
     ]
 

@@ -51,7 +51,7 @@ def drives(before: State, after: State, pick: Candidate) -> bool:
 
 def has_friction(state: State, j: int) -> bool:
     """True if the model has friction of joint j alone."""
-    return bool(_own(state, j))
+    return bool(_friction_columns(state, j))
 
 
 def _braking(state: State, j: int) -> list[int]:
@@ -75,7 +75,7 @@ def _driving(state: State, j: int, picks: Sequence[int]) -> float:
     return float(np.sqrt(np.mean(np.minimum(0.0, _friction(state, j, picks) * way) ** 2)))
 
 
-def _own(state: State, j: int) -> list[int]:
+def _friction_columns(state: State, j: int) -> list[int]:
     """Base columns of the friction of joint j alone."""
     base = state.spec.base
     return [i for i, b in enumerate(base) if b.kind == "friction" and b.rows == (j,)]
@@ -83,7 +83,7 @@ def _own(state: State, j: int) -> list[int]:
 
 def _friction(state: State, j: int, picks: Sequence[int]) -> np.ndarray:
     """(rows_j,) friction torque of joint j, N m or N: of the model and some of the picks."""
-    own = _own(state, j)
+    own = _friction_columns(state, j)
     torque = state.rows.W[j][:, own] @ state.beta[own]
     for k in picks:
         columns = state.extra[k][j]

@@ -71,7 +71,7 @@ def fall(base: Base, pool: Pool) -> np.ndarray:
     return 2.0 * cross - square
 
 
-def sifted(base: Base, pool: Pool) -> tuple[np.ndarray, list[np.ndarray]]:
+def total_falls(base: Base, pool: Pool) -> tuple[np.ndarray, list[np.ndarray]]:
     """`rank` in sums, where base and pool are those of whole folds: what chooses among shapes.
 
     (N,) fall of the squared residual in folds that were held out, and by candidate its parameters

@@ -26,7 +26,7 @@ ALIKE = 1.2
 """Noise on held-out logs over that on training logs, variances, that is no sign of physics."""
 
 
-def closure(
+def explained_fraction(
     chain: Sequence[State],
     touched: Sequence[int],
     systematic: Sequence[float],

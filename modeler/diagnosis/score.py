@@ -181,7 +181,7 @@ def errors_of(seen: Unseen) -> dict[str, float]:
     return {name: e / y for name, (e, y) in zip(seen.names, sizes, strict=True) if y > 0.0}
 
 
-def told(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
+def error_changes(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
     """The errors that change: "joint 7 11.4 % -> 7.1 %; joint 2 rises, 3 % -> 3.2 %".
 
     Args:

@@ -13,7 +13,8 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis.candidates import Candidate, over_grid
-from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled
+from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled_parameters
+from modeler.diagnosis.generate import generate_candidates, ruled_out
 from modeler.diagnosis.gram import pool_of
 from modeler.diagnosis.judge import (
     NEARLY,
@@ -28,10 +29,9 @@ from modeler.diagnosis.judge import (
 )
 from modeler.diagnosis.plausible import DRIVES, drives, objection
 from modeler.diagnosis.profile import values_of
-from modeler.diagnosis.propose import proposals, ruled_out
-from modeler.diagnosis.ranking import sifted
+from modeler.diagnosis.ranking import total_falls
 from modeler.diagnosis.refine import best_refined, refined
-from modeler.diagnosis.state import Data, State, all_columns_of, columns_of, state_of, visible
+from modeler.diagnosis.state import SearchData, State, all_columns_of, columns_of, state_of, visible
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Effect
 
@@ -75,19 +75,19 @@ class HypothesisScan:
     best: Sequence[Judged]
     refined: dict[tuple[Any, ...], Judged] = field(default_factory=dict)
 
-    def still(self, refused: Sequence[Judged]) -> list[Judged]:
+    def still_refused(self, refused: Sequence[Judged]) -> list[Judged]:
         """Vetoed effects that have not become far better by the effect put in since."""
         gains = {judged.key: judged.gain for judged in self.best}
         return [
             j for j in refused if j.mends or 1.0 - gains.get(j.key, 0.0) > BETTER * (1.0 - j.gain)
         ]
 
-    def but(self, vetoed: Sequence[Judged]) -> "HypothesisScan":
+    def excluding(self, vetoed: Sequence[Judged]) -> "HypothesisScan":
         """The same without what was vetoed."""
-        touched = {t.candidate.key for t in self.trials if among(t.candidate, vetoed)}
+        touched = {t.candidate.key for t in self.trials if is_vetoed(t.candidate, vetoed)}
         if not touched:
             return self
-        left = [t for t in self.trials if not among(t.candidate, vetoed)]
+        left = [t for t in self.trials if not is_vetoed(t.candidate, vetoed)]
         again = [t for t in leading(left) if t.candidate.key in touched]
         best = [*(j for j in self.best if j.key not in touched), *judged_at(self.state, again)]
         best.sort(key=lambda j: -j.fall)
@@ -95,7 +95,7 @@ class HypothesisScan:
 
     def judged(self, vetoed: Sequence[Judged] = (), tick: Tick = lambda: None) -> Judgement:
         """All but what was vetoed; the leading ones refined, with a tick after each."""
-        left = self.but(vetoed)
+        left = self.excluding(vetoed)
         close = [
             j for j in left.best[:MANY]
             if j.possible and j.share > CLOSE * left.best[0].share and j.gain > WORTH
@@ -146,16 +146,16 @@ class HypothesisScan:
         return list(best.values())
 
 
-def surveyed(
+def scan_catalogue(
     state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
 ) -> HypothesisScan:
     """All candidates in a state, or those of one effect, or of one joint."""
-    return survey_of(
-        state, [c for c in proposals(state, only, without) if joint in (None, c.joint)]
+    return scan_candidates(
+        state, [c for c in generate_candidates(state, only, without) if joint in (None, c.joint)]
     )
 
 
-def survey_of(state: State, found: Sequence[Candidate]) -> HypothesisScan:
+def scan_candidates(state: State, found: Sequence[Candidate]) -> HypothesisScan:
     """Some candidates in a state; those that show."""
     every = zip(found, all_columns_about(state, found), strict=True)
     shown = [(candidate, columns) for candidate, columns in every if visible(columns)]
@@ -163,7 +163,7 @@ def survey_of(state: State, found: Sequence[Candidate]) -> HypothesisScan:
     return HypothesisScan(state, trials, judged_at(state, leading(trials)))
 
 
-def among(candidate: Candidate, vetoed: Sequence[Judged]) -> bool:
+def is_vetoed(candidate: Candidate, vetoed: Sequence[Judged]) -> bool:
     """True if it was vetoed; of ripples, all orders that differ by less than a tenth."""
     others = [judged.candidate for judged in vetoed]
     if not candidate.effect.several:
@@ -253,7 +253,7 @@ class Search(Brief):
 
 
 def search(
-    data: Data,
+    data: SearchData,
     beta: np.ndarray,
     without: Sequence[str] = (),
     most: int = MOST,
@@ -274,7 +274,7 @@ def search(
     steps, refused, every = list[Step](), list[Judged](), list[Judged]()
     if not most:
         return Search(start, (), state, Judgement((), None), (), tuple(without))
-    survey = surveyed(state, without)
+    survey = scan_catalogue(state, without)
     judgement = survey.judged((), tick)
     while judgement.best is not None and len(steps) < most and len(every) < ASKED:
         best, later = put_in(state, _named(state, judgement.best, refused, without), veto)
@@ -283,8 +283,8 @@ def search(
             refused, every = [*refused, best], [*every, best]
             judgement = other or Judgement((), None)
             continue
-        survey = surveyed(later, without)
-        doubted, refused = _doubted(refused, best), survey.still(refused)
+        survey = scan_catalogue(later, without)
+        doubted, refused = _doubted(refused, best), survey.still_refused(refused)
         after, rivals = survey.judged(refused, tick), judgement.others(best)
         ties = (*alternatives(best, rivals, after), *doubted)
         steps.append(Step(best, rivals, state, ties))
@@ -349,15 +349,15 @@ def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequen
     Of drive gains, the likeliest: ranks weigh the joints by what a model bent by it leaves.
     """
     if is_gain(best.candidate):
-        every = proposals(state, best.candidate.effect.id, without)
-        gains = [c for c in every if not among(c, vetoed)]
+        every = generate_candidates(state, best.candidate.effect.id, without)
+        gains = [c for c in every if not is_vetoed(c, vetoed)]
         return _judged_again(state, likeliest(state, gains) or best.candidate)
     other = effect_named(best.candidate.effect.twin, state.data.known.catalogue)
     joint = best.candidate.joint
     if other is None or ruled_out(other.id, joint, without):
         return best
     pull = constant_force(state, best.candidate, other)
-    if pull is None or among(pull, vetoed):
+    if pull is None or is_vetoed(pull, vetoed):
         return best
     return _judged_again(state, pull)
 
@@ -370,14 +370,14 @@ def _judged_again(state: State, candidate: Candidate) -> Judged:
 
 def extended(state: State, pick: Candidate) -> State:
     """The state with one effect more, linearised about its own parameters."""
-    picks, about = (*state.picks, pick), settled(state, pick)
+    picks, about = (*state.picks, pick), settled_parameters(state, pick)
     once = state_of(state.data, picks, state.beta if about is None else about)
     return about_itself(once)
 
 
 def about_itself(state: State) -> State:
     """The state linearised about its own parameters."""
-    about = settled(state)
+    about = settled_parameters(state)
     return state_of(state.data, state.picks, state.beta if about is None else about)
 
 
@@ -455,6 +455,6 @@ def _signed(
     if not candidates:
         return []
     pool = pool_of(state.folded, all_columns_of(state.rows, candidates))
-    fall, values = sifted(state.folded, pool)
+    fall, values = total_falls(state.folded, pool)
     order = [k for k in np.argsort(-fall) if sign * values[k][-1] > 0.0 and fall[k] > 0.0]
     return [(candidates[k], float(fall[k])) for k in order]

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Data(Brief):
+class SearchData(Brief):
     """What does not change during a search.
 
     Attributes:
@@ -122,7 +122,7 @@ class State(Brief):
         extra: columns of the picks.
     """
 
-    data: Data
+    data: SearchData
     picks: tuple[Candidate, ...]
     reference: SignalReference
     rows: Rows
@@ -229,7 +229,7 @@ class State(Brief):
         return rank(self.base, pool_of(self.base, every))
 
 
-def state_of(data: Data, picks: Sequence[Candidate], beta: np.ndarray) -> State:
+def state_of(data: SearchData, picks: Sequence[Candidate], beta: np.ndarray) -> State:
     """The analysis with these effects, linearised about beta (c,)."""
     rows = data.about(dataclasses.replace(data.rows.signals[0].reference, beta=beta))
     return State(data, tuple(picks), rows.signals[0].reference, rows, picked_columns(rows, picks))

@@ -6,10 +6,10 @@ import numpy as np
 
 from modeler.diagnosis.judge import Judged
 from modeler.diagnosis.score import Score, Unseen, scored
-from modeler.diagnosis.state import Data, State, picked_columns
+from modeler.diagnosis.state import SearchData, State, picked_columns
 
 
-def unseen(state: State, other: Data | None) -> Unseen:
+def holdout_residuals(state: State, other: SearchData | None) -> Unseen:
     """What a state leaves of held-out logs; without any, of its own, each fold from the others.
 
     Args:
@@ -22,7 +22,7 @@ def unseen(state: State, other: Data | None) -> Unseen:
     return _of(state.data, tuple(left))
 
 
-def left_of(state: State, data: Data) -> Unseen:
+def left_of(state: State, data: SearchData) -> Unseen:
     """What a state leaves of logs, with its parameters as they are."""
     rows = data.about(state.reference)
     extra = picked_columns(rows, state.picks)
@@ -34,7 +34,7 @@ def left_of(state: State, data: Data) -> Unseen:
     return _of(data, tuple(found))
 
 
-def _of(data: Data, left: tuple[np.ndarray, ...]) -> Unseen:
+def _of(data: SearchData, left: tuple[np.ndarray, ...]) -> Unseen:
     names, rows = tuple(joint.name for joint in data.spec.joints), data.rows
     return Unseen(names, left, rows.y, rows.time, rows.run)
 
@@ -72,7 +72,7 @@ def touched_joints(judged: Judged, before: State, after: State) -> list[int]:
     return [int(j) for j in np.flatnonzero(fall >= TOUCHED * fall.max())]
 
 
-def vetoing(other: Data | None) -> Callable[[State, State, Judged], bool]:
+def vetoing(other: SearchData | None) -> Callable[[State, State, Judged], bool]:
     """A veto by unseen motion: True if a state with an effect more is not the better one there.
 
     The error of the joints that it touches must surely fall (`scored`), and on held-out logs by a
@@ -84,7 +84,9 @@ def vetoing(other: Data | None) -> Callable[[State, State, Judged], bool]:
 
     def veto(before: State, after: State, judged: Judged) -> bool:
         touched = touched_joints(judged, before, after)
-        score = compared(unseen(before, other), unseen(after, other), touched, before)
+        score = compared(
+            holdout_residuals(before, other), holdout_residuals(after, other), touched, before
+        )
         expected = judged.gain
         if not judged.alone:  # what is gone of the squared residuals of these joints
             first, last = (

@@ -11,7 +11,7 @@ from modeler.diagnosis.state import State
 from modeler.effects.effect import Acts
 
 
-def proposals(
+def generate_candidates(
     state: State, only: str | None = None, without: Sequence[str] = (),
     keys: Set[tuple[str, str | None]] | None = None,
 ) -> list[Candidate]:  # fmt: skip
