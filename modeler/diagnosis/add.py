@@ -26,12 +26,11 @@ from modeler.diagnosis.candidates import Candidate, Known, links_of
 from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.effect_columns import body_parameters
-from modeler.diagnosis.judge import Judged
 from modeler.diagnosis.result import Pick
 from modeler.diagnosis.score import Score, Unseen, error_changes, errors_of, rms_error, scored
 from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
-from modeler.diagnosis.state import SearchData, State, state_of
+from modeler.diagnosis.state import SearchData, state_of
 from modeler.diagnosis.timing import instrumental
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Acts, Effect
@@ -285,17 +284,6 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
         kept = model.beta
     data = SearchData(rows.compiled, observation, kept, Known(robot.catalogue, robot.coupling))
     state = state_of(data, (), model.beta)
-    best = _best(state, effect, joint)
-    if effect.acts is Acts.TORQUE:  # least squares make delays too small
-        values = instrumental(state, best.candidate)[0]
-        return Pick(best.candidate, values, state, best.visible)
-    later = extended(state, best.candidate)  # a wrong gain bends the model whose torques it scales
-    visible = gain_visible(later, 0) if is_gain(best.candidate) else best.visible
-    return Pick(best.candidate, later.values[0], later, visible)
-
-
-def _best(state: State, effect: Effect, joint: str | None) -> Judged:
-    """The effect at its best shapes."""
     place = passive_joints(state.spec).get(joint or "")
     if place is not None and reads_speed_only(effect):
         if state.spec.closure is not None:  # felt by all motors, by the speed that loops give it
@@ -303,13 +291,19 @@ def _best(state: State, effect: Effect, joint: str | None) -> Judged:
         scan = scan_candidates(state, [Candidate(effect, effect.forms[0], joint, place)])
     else:
         scan = scan_catalogue(state, only=effect.id, joint=joint)
-    found = scan.judged().ranked
-    if not found:
+    ranked = scan.judged().ranked
+    if not ranked:
         raise DataError(
             f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "
             "motion would"
         )
-    return found[0]
+    best = ranked[0]
+    if effect.acts is Acts.TORQUE:  # least squares make delays too small
+        values = instrumental(state, best.candidate)[0]
+        return Pick(best.candidate, values, state, best.visible)
+    later = extended(state, best.candidate)  # a wrong gain bends the model whose torques it scales
+    visible = gain_visible(later, 0) if is_gain(best.candidate) else best.visible
+    return Pick(best.candidate, later.values[0], later, visible)
 
 
 def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:

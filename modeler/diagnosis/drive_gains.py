@@ -89,7 +89,8 @@ def with_gains(state: State, joints: Sequence[int]) -> tuple[np.ndarray, np.ndar
 
 def _best(problem: "_GainProblem") -> "_Solution | None":
     """The likeliest of the solutions from all starts, with the weights given and with none."""
-    every = [p.weighed(start) for p in (problem, problem.level()) for start in p.starts()]
+    level = problem.reweighed(problem.torque)  # every joint weighs by its torque: no model bent it
+    every = [p.weighed(start) for p in (problem, level) for start in p.starts()]
     found = [f for f in every if f is not None]
     return min(found, key=lambda f: f.order) if found else None
 
@@ -163,10 +164,6 @@ class _GainProblem:
                 grid = [np.where(np.arange(len(self.rows)) == j, g, self.given) for g in _GRID]
                 found.append(min(grid, key=lambda g: self._score(self._left(g, self._values(g)))))
         return found
-
-    def level(self) -> "_GainProblem":
-        """With every joint weighed by its torque: no model has bent that."""
-        return self.reweighed(self.torque)
 
     def solved(self, g: np.ndarray) -> _Solution | None:
         """All parameters and gains; None where they do not come to rest."""

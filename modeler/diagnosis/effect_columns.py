@@ -92,9 +92,15 @@ def all_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -
     if acts is Acts.LINK:
         return signals.regressor(window)[:, :, [i for i, _ in _inertial(candidate, signals)]]
     if acts is Acts.MOTOR:
-        return _motor(candidate, signals, window)
+        turn = np.zeros(signals.q.shape[1])
+        turn[list(candidate.turn)] = list(candidate.turn.values())
+        own = _shaft(candidate, signals.v[window] @ turn, signals.a[window] @ turn)
+        return own[:, None, :] * turn[None, :, None]
     if acts is Acts.PASSIVE:
-        return _passive(candidate, signals, window)
+        row = signals.coupling[window, candidate.index]
+        speed = np.einsum("nj,nj->n", row, signals.v[window])
+        own = _shaft(candidate, speed, np.zeros_like(speed))
+        return own[:, None, :] * row[:, :, None]
     if acts is Acts.POSITION:
         dq = own_columns(candidate, signals)
         return signals.moved(candidate.index, dq, candidate.effect.whole_axis, window)
@@ -112,13 +118,6 @@ def _shaft(candidate: Candidate, speed: np.ndarray, acceleration: np.ndarray) ->
     )
 
 
-def _motor(candidate: Candidate, signals: Signals, window: slice) -> np.ndarray:
-    turn = np.zeros(signals.q.shape[1])
-    turn[list(candidate.turn)] = list(candidate.turn.values())
-    own = _shaft(candidate, signals.v[window] @ turn, signals.a[window] @ turn)
-    return own[:, None, :] * turn[None, :, None]
-
-
 def body_parameters(candidate: Candidate, signals: Signals) -> list[ParameterSpec]:
     """The standard parameters of the columns of a body on a link."""
     return [parameter for _, parameter in _inertial(candidate, signals)]
@@ -133,13 +132,6 @@ def _inertial(candidate: Candidate, signals: Signals) -> list[tuple[int, Paramet
         for i, p in enumerate(spec.standard)
         if (p.effect, p.joint) == own and signals.largest[i] > UNFELT
     ]
-
-
-def _passive(candidate: Candidate, signals: Signals, window: slice) -> np.ndarray:
-    row = signals.coupling[window, candidate.index]
-    speed = np.einsum("nj,nj->n", row, signals.v[window])
-    own = _shaft(candidate, speed, np.zeros_like(speed))
-    return own[:, None, :] * row[:, :, None]
 
 
 Columns = tuple[np.ndarray | None, ...]

@@ -342,7 +342,8 @@ def blocks_of(observation: Observation) -> TimeBlocks:
     of all laps is held out together: neighbouring laps would give the answer away.
     """
     time, run = observation.time, observation.run
-    length = max(BLOCK, _total(time, run) / MOST)
+    total = float(sum(np.ptp(time[run == log]) for log in np.unique(run)))
+    length = max(BLOCK, total / MOST)
     number = np.zeros(len(time), dtype=int)
     folds: list[int] = []
     periods = []
@@ -363,7 +364,3 @@ def blocks_of(observation: Observation) -> TimeBlocks:
         number[own] = block + len(folds)
         folds += [(int(FOLDS * min(m, 0.999)) + log) % FOLDS for m in middle]
     return TimeBlocks(number, np.array(folds), tuple(periods))
-
-
-def _total(time: np.ndarray, run: np.ndarray) -> float:
-    return float(sum(np.ptp(time[run == log]) for log in np.unique(run)))

@@ -9,7 +9,6 @@ from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import all_columns, own_columns
 from modeler.diagnosis.signals import resonance
 from modeler.diagnosis.state import State, column_key
-from modeler.effects.effect import Effect
 from modeler.numerics.noise import forgotten, outbursts, returning
 from modeler.numerics.spectra import OrderSpectrum
 from modeler.numerics.spectra import order_spectrum as spectrum_of
@@ -85,28 +84,23 @@ def ripple_candidates(
         allowed: False for an id and a joint that the user rules out.
         joints: names of those that count; None: all.
     """
-    found = []
+    found, catalogue = [], state.data.known.catalogue
     for j, joint in enumerate(state.spec.joints):
         asked = joint.actuated and (joints is None or joint.name in joints)
         spectrum = order_spectrum(state, j) if asked else None
         for order in spectrum.peaks if spectrum else ():
-            for effect in _waving(state, order, joint.name, allowed):
+            # the other name of an effect that is ruled out counts too
+            every = [e for e in catalogue if e.orders and allowed(e.id, joint.name)]
+            likely = [e for e in every if e.orders and e.orders[0] <= order < e.orders[1]]
+            named = {other for effect in likely for other in effect.same_as}
+            others = (e for e in every if e not in likely and not named & {e.id, *e.same_as})
+            for effect in (*likely, *others):
                 (shape,) = effect.forms[0].shapes
                 found += [
                     Candidate(effect, effect.forms[0], joint.name, j, {shape.name: waves})
                     for waves in dict.fromkeys((order, counted(order)))
                 ]
     return found
-
-
-def _waving(
-    state: State, order: float, joint: str, allowed: Callable[[str, str | None], bool]
-) -> list[Effect]:
-    """Effects that such waves are proposed for; the other name of one that is ruled out."""
-    every = [e for e in state.data.known.catalogue if e.orders and allowed(e.id, joint)]
-    likely = [e for e in every if e.orders and e.orders[0] <= order < e.orders[1]]
-    named = {other for effect in likely for other in effect.same_as}
-    return likely + [e for e in every if e not in likely and not named & {e.id, *e.same_as}]
 
 
 # How much of a residual is physics of whatever cause: predictable, back in every lap, no noise.

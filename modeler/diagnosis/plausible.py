@@ -153,23 +153,19 @@ def _no_body(state: State, pick: Candidate, parameters: Mapping[str, float]) -> 
     mass = parameters.get("mass", 0.0)
     if mass < 0.0:
         return f"no body has a mass of {mass:.3g} kg"
-    root = _alone(state, pick)
+    # a root of the information on its parameters, beside all else
+    weighted = list(zip(state.rows.W, state.sigma, strict=True))
+    columns = columns_of(state.rows, pick)
+    own = np.vstack([dense(columns, j, len(w)) / s for j, (w, s) in enumerate(weighted)])
+    others = np.vstack([w[:, state.data.free] / s for w, s in weighted])
+    left = own - others @ np.linalg.lstsq(others, own, rcond=None)[0] if others.size else own
+    root = np.asarray(np.linalg.qr(left, mode="r"))
     felt = body_parameters(pick, state.rows.signals[0])
     values = np.array([parameters[name] for name in list(parameters)[: len(felt)]])
     nearest = nearest_possible(body(felt), values, root)
     if nearest is None or nearest.distance < LOST * float(np.linalg.norm(root @ values)):
         return ""
     return "no body has these inertial parameters: its pseudo-inertia would be negative"
-
-
-def _alone(state: State, pick: Candidate) -> np.ndarray:
-    """(k, k) root of the information on the parameters of an effect, beside all else."""
-    columns, sigma = columns_of(state.rows, pick), state.sigma
-    weighted = list(zip(state.rows.W, sigma, strict=True))
-    own = np.vstack([dense(columns, j, len(w)) / s for j, (w, s) in enumerate(weighted)])
-    others = np.vstack([w[:, state.data.free] / s for w, s in weighted])
-    left = own - others @ np.linalg.lstsq(others, own, rcond=None)[0] if others.size else own
-    return np.asarray(np.linalg.qr(left, mode="r"))
 
 
 def _no_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:

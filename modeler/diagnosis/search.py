@@ -312,7 +312,9 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
         return dataclasses.replace(best, possible=False, why=DRIVES), None
     if veto is not None and veto(state, later, best):
         return best, None
-    why = _objection(later)
+    pick, values = later.picks[-1], later.values[-1]
+    named = values_of(later, pick, values, np.zeros(len(values)))
+    why = objection(later, pick, named.value | dict(pick.shapes))
     return dataclasses.replace(best, why=why) if why else best, later
 
 
@@ -334,13 +336,6 @@ def _instead(
         return without
     best = without.best
     return without if best is not None and best.share > NEARLY * asked.share else None
-
-
-def _objection(later: State) -> str:
-    """Why the values of the last effect cannot be those of this robot; empty if they can."""
-    pick, values = later.picks[-1], later.values[-1]
-    named = values_of(later, pick, values, np.zeros(len(values)))
-    return objection(later, pick, named.value | dict(pick.shapes))
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:

@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -305,14 +305,14 @@ def _tilt(rows: Rows) -> Columns:
         return (None,) * rows.joints
     key = "frame slopes"
     if key not in rows.cache:
-        rows.cache[key] = rows.spread(partial(_frame_slopes, rows), width=1000)
+
+        def slopes(stretch: int, window: slice) -> np.ndarray:
+            signals = rows.signals[stretch]
+            found = frame_slopes(signals.reference.compiled, signals.q[window])
+            return found.reshape(*found.shape[:2], -1)
+
+        rows.cache[key] = rows.spread(slopes, width=1000)
     return tuple(None if own is None else own @ weights for own in rows.cache[key])
-
-
-def _frame_slopes(rows: Rows, stretch: int, window: slice) -> np.ndarray:
-    signals = rows.signals[stretch]
-    found = frame_slopes(signals.reference.compiled, signals.q[window])
-    return found.reshape(*found.shape[:2], -1)
 
 
 def visible(columns: Columns) -> bool:
