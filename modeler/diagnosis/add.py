@@ -22,16 +22,15 @@ from modeler.diagnosis.added_model import (
     with_shapes,
 )
 from modeler.diagnosis.analyse import analysed
-from modeler.diagnosis.candidates import Candidate, Known
+from modeler.diagnosis.candidates import Candidate, Known, links_of
 from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.effect_columns import body_parameters
-from modeler.diagnosis.judge import Judged
 from modeler.diagnosis.result import Pick
-from modeler.diagnosis.score import Score, Unseen, errors_of, rms_error, scored, told
-from modeler.diagnosis.search import extended, survey_of, surveyed
+from modeler.diagnosis.score import Score, Unseen, error_changes, errors_of, rms_error, scored
+from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
-from modeler.diagnosis.state import Data, State, state_of
+from modeler.diagnosis.state import SearchData, state_of
 from modeler.diagnosis.timing import instrumental
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Acts, Effect
@@ -60,26 +59,10 @@ def passive_joints(spec: ModuleSpec) -> dict[str, int]:
     return {name: i for i, name in enumerate(spec.closure.variables) if i not in driven}
 
 
-def plain(effect: Effect) -> bool:
+def reads_speed_only(effect: Effect) -> bool:
     """True for effects of a joint that read its speed and have no shapes."""
     form = effect.forms[0]
     return effect.acts is Acts.JOINT and not form.shapes and form.names <= {"v"}
-
-
-def on_passive(spec: ModuleSpec, effect: Effect, joint: str | None) -> Candidate | None:
-    """The effect on a joint without motor; None on others.
-
-    Args:
-        spec: of the robot.
-        effect: `plain`.
-        joint: name.
-    """
-    place = passive_joints(spec).get(joint or "")
-    if place is None or not plain(effect):
-        return None
-    if spec.closure is not None:  # felt by all motors, by the speed that the loops give it
-        effect = dataclasses.replace(effect, acts=Acts.PASSIVE)
-    return Candidate(effect, effect.forms[0], joint, place)
 
 
 # What `add` is asked for, checked before any log is looked at.
@@ -88,7 +71,7 @@ def on_passive(spec: ModuleSpec, effect: Effect, joint: str | None) -> Candidate
 _JOINTED = (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
 
 
-def asked(
+def requested_effect(
     model: IdentifiedModel, name: str, joint: str | None, catalogue: Sequence[Effect]
 ) -> Effect:
     """The effect of that name, if it can go into the model on that joint.
@@ -111,61 +94,49 @@ def asked(
         )
     if effect.hindrance:
         raise DataError(f"{effect.id}: cannot be added ({effect.hindrance})")
-    _check_loops(model, effect)
-    if joint is not None:
-        _check_joint(model, effect, joint)
-    _check_absent(model, effect, joint)
-    return effect
-
-
-def _check_joint(model: IdentifiedModel, effect: Effect, joint: str) -> None:
-    if effect.acts not in _JOINTED and (effect.acts is not Acts.LINK or effect.last_link):
-        raise DataError(
-            f"--joint {joint}: {effect.id} acts on the whole robot, not on one joint; leave "
-            "--joint out"
-        )
-    names = _places(model, effect)
-    if joint not in names and joint in passive_joints(model.spec) and effect.acts in _JOINTED:
-        raise DataError(
-            f"--joint {joint}: it has no motor, and there {effect.id} cannot be found from logs; "
-            "write it into the robot file, or add viscous, coulomb or passive_friction"
-        )
-    if joint not in names:
-        raise DataError(f"--joint {joint}: no such joint; expected one of {listed(names)}")
-
-
-def _check_loops(model: IdentifiedModel, effect: Effect) -> None:
-    """The C of a robot with loops reads speeds and accelerations of its joints, nothing else."""
-    if model.spec.closure is None or effect.acts not in _JOINTED:
-        return
-    if effect.acts is Acts.POSITION or not effect.forms[0].names <= {"v", "a"}:
+    jointed = effect.acts in _JOINTED
+    reads_speeds = effect.acts is not Acts.POSITION and effect.forms[0].names <= {"v", "a"}
+    if model.spec.closure is not None and jointed and not reads_speeds:
+        # the C of a robot with loops reads speeds and accelerations of its joints, nothing else
         raise DataError(
             f"{effect.id}: cannot be added ({model.spec.robot} has loops, and there effects may "
             "read speeds and accelerations only; keep it in mind as a finding)"
         )
-
-
-def _check_absent(model: IdentifiedModel, effect: Effect, joint: str | None) -> None:
-    """An effect stands in a model once, but for ripples: there may be several orders."""
-    if effect.several or effect.acts not in _JOINTED:
-        return
+    if joint is not None:
+        _check_joint(model.spec, effect, joint)
+    if effect.several or not jointed:  # there may be several orders of ripples
+        return effect
     present = {p.joint for p in model.spec.standard if p.effect == effect.id}
     if joint in present:
         raise DataError(f"{effect.id}: joint {joint} has it in this model already")
     motors = {joint.name for joint in model.spec.joints if joint.actuated}
     if joint is None and present and present >= motors:
         raise DataError(f"{effect.id}: every joint has it in this model already")
+    return effect
 
 
-def _places(model: IdentifiedModel, effect: Effect) -> list[str]:
-    """Where the effect may act: joints with a motor, joints that loops leave over, or links."""
+def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
+    """Effects act on joints with a motor, on joints that loops leave over, or on links."""
+    jointed, passive = effect.acts in _JOINTED, list(passive_joints(spec))
+    if not jointed and (effect.acts is not Acts.LINK or effect.last_link):
+        raise DataError(
+            f"--joint {joint}: {effect.id} acts on the whole robot, not on one joint; leave "
+            "--joint out"
+        )
+    names = [own.name for own in spec.joints if own.actuated]
     if effect.acts is Acts.LINK:
-        return list(dict.fromkeys(p.joint for p in model.spec.standard if p.effect == "rigid_body"))
-    passive = list(passive_joints(model.spec))
-    if effect.acts is Acts.PASSIVE:
-        return passive
-    driven = [joint.name for joint in model.spec.joints if joint.actuated]
-    return driven + passive if plain(effect) else driven
+        names = links_of(spec)
+    elif effect.acts is Acts.PASSIVE:
+        names = passive
+    elif reads_speed_only(effect):
+        names += passive
+    if joint not in names and joint in passive and jointed:
+        raise DataError(
+            f"--joint {joint}: it has no motor, and there {effect.id} cannot be found from logs; "
+            "write it into the robot file, or add viscous, coulomb or passive_friction"
+        )
+    if joint not in names:
+        raise DataError(f"--joint {joint}: no such joint; expected one of {listed(names)}")
 
 
 _HIDDEN = 0.01  # share of its columns below which the logs do not show an effect
@@ -191,6 +162,11 @@ class _Fitted:
             return left_out(self.model, self.rows.fitted, self.free)
         return left_of(self.model, self.rows.compiled, self.rows.seen[-1])
 
+    def with_history(self, steps: tuple[Addition, ...]) -> "_Fitted":
+        """The same model by these steps."""
+        model = dataclasses.replace(self.model, history=steps)
+        return dataclasses.replace(self, model=model)
+
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
 def add_effect(
@@ -211,7 +187,9 @@ def add_effect(
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    effect = asked(model, name, joint, robot_from_text(model.robot_text, "robot").catalogue)
+    effect = requested_effect(
+        model, name, joint, robot_from_text(model.robot_text, "robot").catalogue
+    )
     before = _Fitted(model, rows_of(compiled, logs, model.processing))
     after, _ = _judged(before, _found(before, effect, joint))
     return _finished(after)
@@ -232,8 +210,8 @@ def add_findings(
     for finding in findings:
         try:
             catalogue = robot_from_text(best.model.robot_text, "robot").catalogue
-            asked(best.model, finding.effect, finding.joint, catalogue)
-            assert finding.pick is not None  # `asked` refuses what is no column
+            requested_effect(best.model, finding.effect, finding.joint, catalogue)
+            assert finding.pick is not None  # `requested_effect` refuses what is no column
             after, score = _judged(best, finding.pick)
         except (DataError, RobotError) as error:
             left.append(f"left out: {finding.effect}, {where(finding.joint)} ({error})")
@@ -263,18 +241,18 @@ def _with_gains(
         return before, findings
     steps = after.model.history
     done = [dataclasses.replace(step, falls=True) for step in steps[-len(gains) :]]
-    model = dataclasses.replace(after.model, history=(*steps[: -len(gains)], *done))
-    return dataclasses.replace(after, model=model), [f for f in findings if f not in gains]
+    after = after.with_history((*steps[: -len(gains)], *done))
+    return after, [f for f in findings if f not in gains]
 
 
 def _refused(score: Score) -> str:
     """Why a change is none for the better."""
     if score.spoilt:
-        return f"the error rises: {told(score.errors, score.changed)}"
+        return f"the error rises: {error_changes(score.errors, score.changed)}"
     total = " -> ".join(printed(score.whole.before, score.whole.after))
     return (
         "the error does not fall by more than chance: "
-        f"{total} over all joints; {told(score.errors, score.changed)}"
+        f"{total} over all joints; {error_changes(score.errors, score.changed)}"
     )
 
 
@@ -291,8 +269,7 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
     fitted = _fitted(
         before.robot_text, lambda compiled: rows_of(compiled, Logs(logs.fitted), processing)
     )
-    history = dataclasses.replace(fitted.model, history=model.history[:-1])
-    return _finished(dataclasses.replace(fitted, model=history))
+    return _finished(fitted.with_history(model.history[:-1]))
 
 
 def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
@@ -305,9 +282,22 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
     kept = kept_parameters(model, rows.compiled, rows.logs.fitted, observation)
     if effect.acts is Acts.LINK and kept is None:
         kept = model.beta
-    data = Data(rows.compiled, observation, kept, Known(robot.catalogue, robot.coupling))
+    data = SearchData(rows.compiled, observation, kept, Known(robot.catalogue, robot.coupling))
     state = state_of(data, (), model.beta)
-    best = _best(state, effect, joint)
+    place = passive_joints(state.spec).get(joint or "")
+    if place is not None and reads_speed_only(effect):
+        if state.spec.closure is not None:  # felt by all motors, by the speed that loops give it
+            effect = dataclasses.replace(effect, acts=Acts.PASSIVE)
+        scan = scan_candidates(state, [Candidate(effect, effect.forms[0], joint, place)])
+    else:
+        scan = scan_catalogue(state, only=effect.id, joint=joint)
+    ranked = scan.judged().ranked
+    if not ranked:
+        raise DataError(
+            f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "
+            "motion would"
+        )
+    best = ranked[0]
     if effect.acts is Acts.TORQUE:  # least squares make delays too small
         values = instrumental(state, best.candidate)[0]
         return Pick(best.candidate, values, state, best.visible)
@@ -316,52 +306,29 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
     return Pick(best.candidate, later.values[0], later, visible)
 
 
-def _best(state: State, effect: Effect, joint: str | None) -> Judged:
-    """The effect at its best shapes."""
-    passive = on_passive(state.data.compiled.spec, effect, joint)
-    asked_for = (
-        surveyed(state, only=effect.id, joint=joint) if passive is None
-        else survey_of(state, [passive])
-    )  # fmt: skip
-    found = asked_for.judged().ranked
-    if not found:
-        raise DataError(
-            f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "
-            "motion would"
-        )
-    return found[0]
-
-
-def _check_seen(pick: Pick) -> None:
-    """Refuse what would take its values from the model that is there."""
-    if pick.visible < _HIDDEN:
-        effect = pick.candidate.effect
+def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:
+    """The model with the effect, and whether it is the better one."""
+    effect = pick.candidate.effect
+    if pick.visible < _HIDDEN:  # it would take its values from the model that is there
         raise DataError(
             f"{effect.id}: cannot be told from what the model has on these logs "
             f"({percent(pick.visible)} of it is left); {effect.look_alikes}"
         )
-
-
-def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:
-    """The model with the effect, and whether it is the better one."""
-    _check_seen(pick)
-    after = _with(before, pick)
-    refitted = pick.candidate.effect.acts is not Acts.LINK
+    after, refitted = _with(before, pick), effect.acts is not Acts.LINK
     score = scored(before.unseen(refitted), after.unseen(refitted))
     if not score.joints:
         raise DataError("no joint has a torque in these logs; expected logs of a robot that moves")
     history = before.model.history or (_step(before, {n: a for n, (a, _) in score.errors.items()}),)
     step = dataclasses.replace(
         _step(after, {n: b for n, (_, b) in score.errors.items()}),
-        effect=pick.candidate.effect.id,
+        effect=effect.id,
         joint=pick.candidate.joint,
         shapes=dict(pick.candidate.shapes),
         joints=score.errors,
         changed=score.changed,
         falls=score.better,
     )
-    model = dataclasses.replace(after.model, history=(*history, step))
-    return dataclasses.replace(after, model=model), score
+    return after.with_history((*history, step)), score
 
 
 def _step(fitted: _Fitted, errors: Mapping[str, float]) -> Addition:
@@ -386,14 +353,17 @@ def _step(fitted: _Fitted, errors: Mapping[str, float]) -> Addition:
 
 
 def _with(before: _Fitted, pick: Pick) -> _Fitted:
-    """The model with the effect, fitted."""
+    """The model with the effect, fitted; with a body more on a link, nothing else is."""
     model, rows, effect = before.model, before.rows, pick.candidate.effect
     if effect.acts is Acts.LINK:
         felt = [p.name for p in body_parameters(pick.candidate, pick.state.rows.signals[0])]
         names = [p.name for p in model.spec.standard]
         chi = np.eye(len(names))[[names.index(name) for name in felt]]
         free = np.column_stack([rows.compiled.base_parameters(one) for one in chi])
-        return _Fitted(_loaded(model, free @ pick.values), rows, free)
+        pairs = zip(model.fit.parameters, model.beta + free @ pick.values, strict=True)
+        parameters = tuple(dataclasses.replace(p, value=float(v)) for p, v in pairs)
+        fit = dataclasses.replace(model.fit, parameters=parameters)
+        return _Fitted(dataclasses.replace(model, fit=fit), rows, free)
     if effect.acts is Acts.TORQUE:
         seen = pick.state.data.observation.report.processing
         processing = dataclasses.replace(model.processing, delay=seen.delay + float(pick.values[0]))
@@ -418,10 +388,3 @@ def _fitted(text: str, seen: Callable[[CompiledModel], HoldoutRows]) -> _Fitted:
     rows = seen(load(emitted.spec, emitted.code))
     fit, used = identify(rows.fitted), provenance(rows.fitted.report)
     return _Fitted(IdentifiedModel(text, emitted.spec, emitted.code, fit, used), rows)
-
-
-def _loaded(model: IdentifiedModel, body: np.ndarray) -> IdentifiedModel:
-    """The model with a body more on a link: its base parameters (c,), nothing else."""
-    pairs = zip(model.fit.parameters, model.beta + body, strict=True)
-    parameters = tuple(dataclasses.replace(p, value=float(v)) for p, v in pairs)
-    return dataclasses.replace(model, fit=dataclasses.replace(model.fit, parameters=parameters))

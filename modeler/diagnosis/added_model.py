@@ -10,10 +10,10 @@ from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.gram import base_of, blocks_of
 from modeler.diagnosis.profile import Profile, ProfileProblem, profile
-from modeler.diagnosis.score import Unseen, told
+from modeler.diagnosis.score import Unseen, error_changes
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.signals import SignalReference, tilt_basis
-from modeler.diagnosis.state import Data, State, columns_of, state_of
+from modeler.diagnosis.state import SearchData, State, columns_of, state_of
 from modeler.effects.catalogue import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, effect_named
 from modeler.effects.effect import Acts, Effect
 from modeler.estimation.model_file import Addition, IdentifiedModel
@@ -25,7 +25,6 @@ from modeler.observation.prepare import Prepared, prepare
 from modeler.observation.processing import Processing
 from modeler.robot.edit import with_coupling, with_effect, with_gravity, with_reference
 from modeler.robot.read import robot_from_text
-from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel
 
 
@@ -49,9 +48,10 @@ def with_shapes(
         pick = _candidate(model, step, catalogue)
         if pick is None:
             continue
-        state = state or state_of(Data(compiled, observation), (), model.beta)
+        state = state or state_of(SearchData(compiled, observation), (), model.beta)
         own = _own_columns(model, state, pick)
-        along = profile(_problem(state, own, pick), pick) if own else None
+        W = tuple(np.delete(w, own, axis=1) for w in state.rows.W)
+        along = profile(ProfileProblem.of(state, pick, W), pick) if own else None
         if along is None:
             continue
         model = _widened(model, along, own)
@@ -77,35 +77,22 @@ def _candidate(
 
 def _own_columns(model: IdentifiedModel, state: State, pick: Candidate) -> list[int]:
     """Base columns of the effect, in the order of its own; of several ripples, those alike."""
-    found = columns_of(state.rows, pick, state.cache)[pick.index]
+    found = columns_of(state.rows, pick)[pick.index]
     effect = {p.name: (p.effect, p.joint) for p in model.spec.standard}
     free = [i for i, b in enumerate(model.spec.base) if effect[b.column_of] == pick.key]
     if found is None or len(free) < found.shape[1]:
         return []
     base = state.rows.W[pick.index]
-    own = []
+    own: list[int] = []
     for column in found.T:
-        best = max(free, key=lambda i: _alike(base[:, i], column))
-        own.append(best)
-        free.remove(best)
+        left = [i for i in free if i not in own]
+        own.append(max(left, key=lambda i: _alike(base[:, i], column)))
     return own
 
 
 def _alike(one: np.ndarray, other: np.ndarray) -> float:
     size = float(np.linalg.norm(one) * np.linalg.norm(other))
     return abs(float(one @ other)) / size if size > 0.0 else 0.0
-
-
-def _problem(state: State, own: Sequence[int], pick: Candidate) -> ProfileProblem:
-    rows = state.rows
-    return ProfileProblem(
-        rows,
-        state.data.observation,
-        tuple(np.delete(w, own, axis=1) for w in rows.W),
-        rows.y,
-        state.base.sigma,
-        state.scales[pick.index],
-    )
 
 
 def _widened(model: IdentifiedModel, along: Profile, own: Sequence[int]) -> IdentifiedModel:
@@ -117,22 +104,20 @@ def _widened(model: IdentifiedModel, along: Profile, own: Sequence[int]) -> Iden
     known = np.array([p.sigma is not None for p in fit.parameters])
     covariance = fit.covariance + np.where(np.outer(known, known), extra, 0.0)
     scale = np.ones(len(order))
-    for i, sigma in zip(own, along.deviations(), strict=True):
+    for i, deviation in zip(own, along.deviations(), strict=True):
         if covariance[i, i] > 0.0:
-            scale[i] = max(1.0, float(sigma / np.sqrt(covariance[i, i])))
+            scale[i] = max(1.0, float(deviation / np.sqrt(covariance[i, i])))
     covariance = covariance * np.outer(scale, scale)
     # the fit has a narrower band, and with it values that differ a little
     moved = fit.beta[own] - along.told.values
     ends = [(float(low), float(high)) for low, high in along.intervals() + moved[:, None]]
-    intervals = dict(zip(own, ends, strict=True))
+    intervals, sigma = dict(zip(own, ends, strict=True)), np.sqrt(np.diag(covariance))
     parameters = tuple(
-        p if p.sigma is None else dataclasses.replace(
-            p,
-            sigma=float(np.sqrt(covariance[i, i])),
-            interval=intervals.get(i, p.interval),
-        )
+        dataclasses.replace(p, sigma=float(sigma[i]), interval=intervals.get(i, p.interval))
+        if known[i]
+        else p
         for i, p in enumerate(fit.parameters)
-    )  # fmt: skip
+    )
     better = dataclasses.replace(fit, parameters=parameters, covariance=covariance)
     return dataclasses.replace(model, fit=better)
 
@@ -156,23 +141,19 @@ def described(text: str, pick: Candidate, values: np.ndarray, reference: SignalR
     effect = pick.effect
     if effect.acts is Acts.GRAVITY:
         return with_gravity(text, _tilted(text, values, reference).tolist())
-    if effect.acts is Acts.PASSIVE:
-        assert pick.joint is not None
-        return _passive(text, effect, pick.joint)
     assert pick.joint is not None
+    if effect.acts is Acts.PASSIVE:
+        robot = robot_from_text(text, "robot of the model")
+        everyone = [row.name for row in robot.moving if row.actuated]
+        for name in PASSIVE_FRICTION_IS if effect.id == PASSIVE_FRICTION else (effect.id,):
+            text = with_effect(text, name, pick.joint, {}, everyone)
+        return text
     if effect.acts is Acts.MOTOR:
         text = _coupled(text, pick, reference)
     changed = with_effect(text, effect.id, pick.joint, _shapes(pick, reference))
-    return with_reference(changed, _referred(reference)) if _depends(effect) else changed
-
-
-def _passive(text: str, effect: Effect, joint: str) -> str:
-    """The file with friction on a joint without motor."""
-    robot = robot_from_text(text, "robot of the model")
-    everyone = [row.name for row in robot.moving if row.actuated]
-    for name in PASSIVE_FRICTION_IS if effect.id == PASSIVE_FRICTION else (effect.id,):
-        text = with_effect(text, name, joint, {}, everyone)
-    return text
+    names = frozenset().union(*(form.names for form in effect.forms))
+    depends = effect.acts is Acts.POSITION or not names.isdisjoint({"load", "static", "torque"})
+    return with_reference(changed, _referred(reference)) if depends else changed
 
 
 def _shapes(pick: Candidate, reference: SignalReference) -> dict[str, float]:
@@ -194,8 +175,7 @@ def _is_first_moment(pick: Candidate, reference: SignalReference) -> bool:
     """True if the model has sin(q - q0) on that joint already: gravity of its links."""
     model = reference.compiled
     joints = len(model.spec.joints)
-    generator = np.random.default_rng(7)
-    q, qd, qdd = generator.uniform(-2.0, 2.0, (3, 40 * joints, joints))
+    q, qd, qdd = np.random.default_rng(7).uniform(-2.0, 2.0, (3, 40 * joints, joints))
     signals = np.ones((len(q), len(model.spec.signals))) if model.spec.signals else None
     phi = model.base_regressor(q, qd, qdd, signals).reshape(q.size, -1)
     column = np.zeros(q.shape)
@@ -203,11 +183,6 @@ def _is_first_moment(pick: Candidate, reference: SignalReference) -> bool:
     target = column.ravel()
     solved = np.linalg.lstsq(phi, target, rcond=1e-10)[0]
     return bool(np.linalg.norm(phi @ solved - target) < 1e-6 * np.linalg.norm(target))
-
-
-def _depends(effect: Effect) -> bool:
-    names = frozenset().union(*(form.names for form in effect.forms))
-    return effect.acts is Acts.POSITION or not names.isdisjoint({"load", "static", "torque"})
 
 
 def _referred(reference: SignalReference) -> dict[str, float]:
@@ -223,7 +198,7 @@ def _referred(reference: SignalReference) -> dict[str, float]:
 
 def _tilted(text: str, values: np.ndarray, reference: SignalReference) -> np.ndarray:
     """Gravity with the tilt, of the length it had."""
-    robot: Robot = robot_from_text(text, "robot of the model")
+    robot = robot_from_text(text, "robot of the model")
     symbols = {name: value.number() for name, value in robot.symbols.items()}
     gravity = np.array([entry.number(symbols) for entry in robot.gravity])
     basis = tilt_basis(reference)
@@ -300,7 +275,8 @@ def notes(model: IdentifiedModel, since: int = -1) -> list[str]:
         effect = effect_named(step.effect, catalogue)
         assert effect is not None
         name = f"{effect.id}, {where(step.joint)}"
-        if _stands_in(effect, step):
+        usual = effect.forms[0]
+        if "T" in usual.names and {shape.name for shape in usual.shapes} != set(step.shapes):
             found.append(
                 f"{name}: the logs have no column temperature{step.joint} or temperature, so the "
                 "time since their start stands for it; log it to know more"
@@ -310,19 +286,13 @@ def notes(model: IdentifiedModel, since: int = -1) -> list[str]:
 
 
 def _change(name: str, step: Addition) -> str:
-    change = told(step.joints, step.changed)
+    change = error_changes(step.joints, step.changed)
     if step.falls:
         return f"{name}: the error falls: {change}"
     return (
         f"{name}: the error does not fall ({change}); `modeler add MODEL undo` takes the effect "
         "out again"
     )
-
-
-def _stands_in(effect: Effect, step: Addition) -> bool:
-    """True if the effect usually reads a temperature and here does not."""
-    usual = effect.forms[0]
-    return "T" in usual.names and {shape.name for shape in usual.shapes} != set(step.shapes)
 
 
 # The rows of logs for a robot, also with other effects, and what a model leaves of them.
@@ -334,6 +304,11 @@ class Logs:
 
     fitted: Sequence[Log]
     held_out: Sequence[Log] = ()
+
+    @property
+    def sets(self) -> list[Sequence[Log]]:
+        """Those that hold logs: the fitted ones first."""
+        return [self.fitted, self.held_out] if self.held_out else [self.fitted]
 
 
 @dataclass(frozen=True, eq=False)
@@ -381,14 +356,12 @@ def rows_of(compiled: CompiledModel, logs: Logs, processing: Processing) -> Hold
     Raises:
         DataError: no usable row.
     """
-    given = (logs.fitted, logs.held_out) if logs.held_out else (logs.fitted,)
-    prepared = tuple(prepare(compiled.spec, some, processing) for some in given)
+    prepared = tuple(prepare(compiled.spec, some, processing) for some in logs.sets)
     return _rows(compiled, logs, prepared)
 
 
 def _rows(compiled: CompiledModel, logs: Logs, prepared: tuple[Prepared, ...]) -> HoldoutRows:
-    given = (logs.fitted, logs.held_out)[: len(prepared)]
-    pairs = zip(given, prepared, strict=True)
+    pairs = zip(logs.sets, prepared, strict=True)
     return HoldoutRows(logs, compiled, prepared, tuple(observed(compiled, *pair) for pair in pairs))
 
 

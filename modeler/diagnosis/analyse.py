@@ -10,7 +10,6 @@ from modeler.observation.log import Log
 from modeler.observation.observation import Observation, observe, observed
 from modeler.observation.prepare import Mending, Prepared
 from modeler.observation.processing import Processing
-from modeler.observation.stretch import Stretch
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel
@@ -77,15 +76,10 @@ def _whole(observation: Observation) -> Observation:
     the sign of a speed there looks like physics.
     """
     stretches = tuple(
-        dataclasses.replace(part, used=part.used & _complete(part))
+        dataclasses.replace(part, used=part.used & (part.rows.share(part.usable) >= COMPLETE))
         for part in observation.stretches
     )
     used = np.concatenate([part.used for part in stretches])
     if not used.any():
         return observation
     return dataclasses.replace(observation, used=used, stretches=stretches)
-
-
-def _complete(part: Stretch) -> np.ndarray:
-    """(rows, joints) True where at least `COMPLETE` of a row's weights count."""
-    return part.rows.share(part.usable) >= COMPLETE

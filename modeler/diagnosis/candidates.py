@@ -1,5 +1,6 @@
 """What could be missing: every effect on every joint, over its grid of shapes."""
 
+import dataclasses
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
@@ -7,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.core.manifest import JointSpec, ModuleSpec
+from modeler.core.manifest import ModuleSpec
 from modeler.effects.catalogue import CATALOGUE, PASSIVE_FRICTION_IS
 from modeler.effects.effect import Acts, Effect, Form, Shape
 
@@ -101,6 +102,16 @@ class Candidate(Brief):
         """Of its columns, as in a robot file."""
         return [f"{column.prefix}{self.joint or ''}" for column in self.form.columns]
 
+    def refinable(self, shape: Shape) -> bool:
+        """True if values beside that of the candidate make sense: orders are, if not given."""
+        waves = shape.scale == "waves"
+        return shape.smooth or (waves and self.shapes[shape.name] not in shape.grid)
+
+    def moved(self, shapes: Sequence[Shape], x: Sequence[float] | np.ndarray) -> "Candidate":
+        """The same effect with other coded values of some shapes."""
+        values = {shape.name: decoded(shape, v) for shape, v in zip(shapes, x, strict=True)}
+        return dataclasses.replace(self, shapes={**self.shapes, **values})
+
     def concerns(self, joints: int) -> list[int]:
         """Indices of the joints whose errors it is there to explain."""
         if self.local:
@@ -112,9 +123,19 @@ class Candidate(Brief):
         return list(range(joints))
 
 
-def shape_values(shape: Shape, scale: JointScale) -> list[float]:
-    """The grid of a shape parameter on a joint, SI."""
-    return [scale.value(shape, entry) for entry in shape.grid]
+def links_of(spec: ModuleSpec) -> list[str]:
+    """Names of the links that have inertial parameters."""
+    return list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
+
+
+def coded(shape: Shape, value: float) -> float:
+    """Positive shapes by their logarithm."""
+    return float(np.log(value)) if shape.limits[0] > 0.0 else value
+
+
+def decoded(shape: Shape, x: float) -> float:
+    """The value of a coded shape."""
+    return float(np.exp(x)) if shape.limits[0] > 0.0 else float(x)
 
 
 def candidates(
@@ -143,10 +164,11 @@ def candidates(
             continue
         if effect.acts in (Acts.JOINT, Acts.POSITION):
             for j, joint in enumerate(spec.joints):
-                if _named_first(effect, joint.name, known, allowed) and _may_have(
-                    joint, effect, present
-                ):
-                    form = _form(effect, has_temperature.get(joint.name, False))
+                missing = joint.actuated and (effect.id, joint.name) not in present
+                turning = joint.unit == "rad" or not effect.turns
+                if missing and turning and _named_first(effect, joint.name, known, allowed):
+                    warm = has_temperature.get(joint.name, False)
+                    form = next((f for f in effect.forms if warm or "T" not in f.names), None)
                     if form is not None:
                         found += over_grid(effect, form, joint.name, j, scales[j])
         elif effect.acts in (Acts.TORQUE, Acts.GRAVITY):
@@ -156,12 +178,6 @@ def candidates(
         elif effect.acts is Acts.PASSIVE and spec.closure is not None:
             found += _passive(spec, effect, present)
     return [candidate for candidate in found if allowed(*candidate.key)]
-
-
-def _may_have(joint: JointSpec, effect: Effect, present: Set[tuple[str, str]]) -> bool:
-    """True if the model lacks the effect on that joint and the joint can have it."""
-    turning = joint.unit == "rad" or not effect.turns
-    return joint.actuated and turning and (effect.id, joint.name) not in present
 
 
 def _named_first(
@@ -177,18 +193,13 @@ def _named_first(
     return False
 
 
-def _form(effect: Effect, has_temperature: bool) -> Form | None:
-    """The first form that needs no temperature, unless one was logged; None if there is none."""
-    return next((f for f in effect.forms if has_temperature or "T" not in f.names), None)
-
-
 def over_grid(
     effect: Effect, form: Form, joint: str, index: int, scale: JointScale
 ) -> Iterator[Candidate]:
     """An effect on a joint with all combinations of its shapes."""
-    grids = [shape_values(shape, scale) for shape in form.shapes]
+    names = [shape.name for shape in form.shapes]
+    grids = [[scale.value(shape, entry) for entry in shape.grid] for shape in form.shapes]
     for values in itertools.product(*grids):
-        names = [shape.name for shape in form.shapes]
         yield Candidate(effect, form, joint, index, dict(zip(names, values, strict=True)))
 
 
@@ -221,10 +232,7 @@ def _passive(
 
 
 def scales_of(
-    spec: ModuleSpec,
-    q: Sequence[np.ndarray],
-    v: Sequence[np.ndarray],
-    load: Sequence[np.ndarray],
+    spec: ModuleSpec, q: Sequence[np.ndarray], v: Sequence[np.ndarray], load: Sequence[np.ndarray]
 ) -> list[JointScale]:
     """Of every joint, from samples (n, J) of all stretches."""
     positions, speeds, loads = (np.concatenate(list(x)) for x in (q, v, load))

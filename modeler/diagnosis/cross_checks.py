@@ -10,21 +10,19 @@ out is asked beside every effect: if it would have been named instead, the effec
 """
 
 import dataclasses
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.drive_gains import all_columns_about, settled
-from modeler.diagnosis.judge import Judged, best_shapes, decide, numbers, tied
-from modeler.diagnosis.propose import proposals, ruled_out
-from modeler.diagnosis.search import Search, Step, survey_of
-from modeler.diagnosis.state import Data, State, state_of, visible
-from modeler.observation.log import Log
+from modeler.diagnosis.generate import generate_candidates, ruled_out
+from modeler.diagnosis.judge import Judged, decide, numbers, tied
+from modeler.diagnosis.search import Search, Step, Tick, about_itself, scan_candidates
+from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.observation.motion import HIGHEST
+from modeler.observation.observation import Observation
 from modeler.observation.prepare import Mending
-from modeler.observation.processing import Processing
 
 FACTORS = (0.7, 1.4)
 """Cut-offs of the other looks, over those of the diagnosis."""
@@ -60,7 +58,9 @@ class CrossCheck:
         return {"what": self.what, "leads": leads, "agrees": self.agrees}
 
 
-def other_looks(data: Data, mending: Mending, other: Data | None) -> Iterator[tuple[str, Data]]:
+def other_looks(
+    data: SearchData, mending: Mending, other: SearchData | None
+) -> Iterator[tuple[str, SearchData]]:
     """The same robot's data, looked at otherwise.
 
     Args:
@@ -70,20 +70,14 @@ def other_looks(data: Data, mending: Mending, other: Data | None) -> Iterator[tu
     """
     if other is not None:
         yield "the held-out logs", other
-    logs = mending.logs
-    for factor, changed in cut_off_otherwise(data, logs):
-        yield (
-            f"cut-offs x {factor:g}",
-            dataclasses.replace(
-                data,
-                observation=analysed(data.compiled, logs, changed, chosen=True, mending=mending),
-            ),
-        )
+    for factor, seen in cut_off_otherwise(data, mending):
+        yield f"cut-offs x {factor:g}", dataclasses.replace(data, observation=seen)
+        del seen  # or it would live beside the next
 
 
-def cut_off_otherwise(data: Data, logs: Sequence[Log]) -> Iterator[tuple[float, Processing]]:
-    """The processing of the training logs with the filters elsewhere, by `FACTORS`."""
-    processing = data.observation.report.processing
+def cut_off_otherwise(data: SearchData, mending: Mending) -> Iterator[tuple[float, Observation]]:
+    """The training logs with the filters elsewhere, by `FACTORS`."""
+    processing, logs = data.observation.report.processing, mending.logs
     highest = HIGHEST / max(log.step for log in logs)
     for factor in FACTORS:
         cut = {
@@ -91,11 +85,12 @@ def cut_off_otherwise(data: Data, logs: Sequence[Log]) -> Iterator[tuple[float, 
             for name in ("position_cutoff", "parallel_cutoff")
             if (value := getattr(processing, name))
         }
-        yield factor, dataclasses.replace(processing, **cut, decimation=None, edge=None)
+        changed = dataclasses.replace(processing, **cut, decimation=None, edge=None)
+        yield factor, analysed(data.compiled, logs, changed, chosen=True, mending=mending)
 
 
 def looked_again(
-    found: Search, looks: Iterable[tuple[str, Data]], tick: Callable[[], None] = lambda: None
+    found: Search, looks: Iterable[tuple[str, SearchData]], tick: Tick = lambda: None
 ) -> list[tuple[CrossCheck, ...]]:
     """What the other looks say of every effect that was put in, in order.
 
@@ -118,58 +113,51 @@ def _ruled_out(found: Search, step: Step) -> list[CrossCheck]:
     if not found.without:
         return []
     state = step.before
-    barred = [c for c in proposals(state) if ruled_out(*c.key, found.without)]
+    barred = [c for c in generate_candidates(state) if ruled_out(*c.key, found.without)]
     if not barred:
         return []
-    asked = survey_of(state, [step.pick, *barred]).judged()
-    own = [j for j in asked.ranked if j.candidate.key == step.pick.key]
-    least = float(own[0].drop.sum()) if own else 0.0
+    asked = scan_candidates(state, [step.pick, *barred]).judged()
+    own = [j for j in asked.ranked if j.key == step.pick.key]
+    least = own[0].fall if own else 0.0
     alike = (
         j for j in asked.ranked
-        if j not in own and j.significant and float(j.drop.sum()) >= least
+        if j not in own and j.significant and j.fall >= least
         and numbers(j.candidate) <= numbers(step.pick)
     )  # fmt: skip
     best = next(alike, asked.best)
-    if best is None or best.candidate.key == step.pick.key:
+    if best is None or best.key == step.pick.key:
         return []
-    return [CrossCheck("ruled out", best.candidate.key, False)]
+    return [CrossCheck("ruled out", best.key, False)]
 
 
-def _look(what: str, data: Data, found: Search, place: int) -> CrossCheck:
+def _look(what: str, data: SearchData, found: Search, place: int) -> CrossCheck:
     step = found.steps[place]
     picks = [s.pick for s in found.steps[: place + 1]]
     if not all(_logged(data, pick) for pick in picks):
         return CrossCheck(what, None, True)
-    state = _beside_earlier(data, picks[:-1], step.before)
+    # the state in which the effect was chosen, from other data
+    state = about_itself(state_of(data, picks[:-1], step.before.beta))
     judged = _asked_again(state, step, found)
     best = decide(state, judged).best
     if best is None:
         return CrossCheck(what, None, True)
-    alike = {best.candidate.key, *(j.candidate.key for j in tied(best, judged))}
-    return CrossCheck(what, best.candidate.key, step.pick.key in alike)
+    alike = {best.key, *(j.key for j in tied(best, judged))}
+    return CrossCheck(what, best.key, step.pick.key in alike)
 
 
-def _logged(data: Data, candidate: Candidate) -> bool:
+def _logged(data: SearchData, candidate: Candidate) -> bool:
     """False for what reads a temperature that these logs lack."""
     temperature = data.rows.signals[0].reference.temperature
     return "T" not in candidate.form.names or candidate.joint in temperature
 
 
-def _beside_earlier(data: Data, picks: Sequence[Candidate], before: State) -> State:
-    """The state in which the effect was chosen, from other data."""
-    once = state_of(data, picks, before.beta)
-    about = settled(once)
-    return state_of(data, picks, once.beta if about is None else about, once.cache)
-
-
 def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
     """The effect and its nearest rivals, each at the best of its shapes."""
-    refused = {j.candidate.key for j in found.vetoed}
-    rivals = [j.candidate for j in step.rivals if j.candidate.key not in refused][:RIVALS]
+    refused = {j.key for j in found.vetoed}
+    rivals = [j.candidate for j in step.rivals if j.key not in refused][:RIVALS]
     first = [step.pick, *rivals]
     keys = {c.key for c in first}
-    again = [c for c in proposals(state, None, found.without, keys) if c.key in keys]
-    every = [c for c in (*first, *again) if _logged(state.data, c)]
-    columns = all_columns_about(state, every)
-    seen = [i for i, c in enumerate(columns) if visible(c)]
-    return best_shapes(state, [every[i] for i in seen], [columns[i] for i in seen])
+    again = [c for c in generate_candidates(state, None, found.without, keys) if c.key in keys]
+    return list(
+        scan_candidates(state, [c for c in (*first, *again) if _logged(state.data, c)]).best
+    )

@@ -1,19 +1,23 @@
 """What is wrong with the data itself, before any physics is blamed: doubts, one line each."""
 
-from collections.abc import Sequence
+import dataclasses
+from collections.abc import Mapping, Sequence
 from functools import partial
 
 import numpy as np
 
+from modeler.core.manifest import JointSpec
 from modeler.core.table import percent
-from modeler.diagnosis.effect_columns import Rows
+from modeler.diagnosis.cross_checks import cut_off_otherwise
+from modeler.diagnosis.drive_gains import with_gains
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.plausible import has_friction, largest_friction
 from modeler.diagnosis.search import Search
-from modeler.diagnosis.state import Data, State
+from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import CONVENTION
 from modeler.estimation.model_file import IdentifiedModel
-from modeler.observation.channels import Fault
+from modeler.observation.channels import Fault, faults, suspects
+from modeler.observation.prepare import Mending
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""
@@ -39,20 +43,18 @@ def data_lines(state: State) -> tuple[str, ...]:
     Args:
         state: the model as given.
     """
-    observation = state.data.observation
-    lines = observation.report.doubts()
+    lines = state.data.observation.report.doubts()
     total = length(state)
     if total < SHORT:
         lines.append(f"{total:.1f} s of motion in all; expected 20 s or more: record longer")
-    for j in range(len(observation.joints)):
-        lines += _motion(state, j)
-    return (*lines, *_slow(state), *_noisy(state), *_smooth(state))
+    driven = {j: joint for j, joint in enumerate(state.spec.joints) if joint.actuated}
+    for j, joint in driven.items():
+        lines += _motion(state, j, joint)
+    felt = {j: joint for j, joint in driven.items() if state.rows.y[j].size}
+    return (*lines, *_slow(state, felt), *_noisy(state), *_smooth(state, felt))
 
 
-def _motion(state: State, j: int) -> list[str]:
-    joint = state.data.observation.joints[j]
-    if not joint.actuated:
-        return []
+def _motion(state: State, j: int, joint: JointSpec) -> list[str]:
     signals = state.rows.signals
     q = np.concatenate([s.q[:, j] for s in signals])
     if np.ptp(q) < _STILL[joint.unit]:
@@ -88,15 +90,16 @@ def one_speed(state: State, j: int) -> float | None:
     return float(high) if high < _ONE_SPEED * low else None
 
 
-def _slow(state: State) -> list[str]:
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def _slow(state: State, joints: Mapping[int, JointSpec]) -> list[str]:
     """Joints that move, but so slowly that no inertia is felt."""
     names = []
-    for j, joint in enumerate(state.data.observation.joints):
-        if not joint.actuated or not state.rows.y[j].size:
-            continue
+    for j, joint in joints.items():
         moved = [s.load[:, j] - s.static[:, j] for s in state.rows.signals]
-        dynamic = float(np.sqrt(np.mean(state.rows.filtered(j, moved) ** 2)))
-        if dynamic < _SLOW * float(np.sqrt(np.mean(state.rows.y[j] ** 2))):
+        if _rms(state.rows.filtered(j, moved)) < _SLOW * _rms(state.rows.y[j]):
             names.append(joint.name)
     if not names:
         return []
@@ -106,14 +109,12 @@ def _slow(state: State) -> list[str]:
     ]
 
 
-def _smooth(state: State) -> list[str]:
+def _smooth(state: State, joints: Mapping[int, JointSpec]) -> list[str]:
     """Torques of a robot none of whose joints rubs."""
-    shares = []
-    for j, joint in enumerate(state.data.observation.joints):
-        y = state.rows.y[j]
-        if joint.actuated and y.size and has_friction(state, j):
-            size = float(np.sqrt(np.mean(y**2)))
-            shares.append(largest_friction(state, j) / max(size, 1e-300))
+    shares = [
+        largest_friction(state, j) / max(_rms(state.rows.y[j]), 1e-300)
+        for j in joints if has_friction(state, j)
+    ]  # fmt: skip
     if not shares or max(shares) > _SMOOTH:
         return []
     return [
@@ -125,11 +126,10 @@ def _smooth(state: State) -> list[str]:
 def _noisy(state: State) -> list[str]:
     """Joints whose model trembles from row to row, and whose torque does not."""
     found = {}
-    for j, joint in enumerate(state.data.observation.joints):
-        y = state.rows.y[j]
+    for j, (name, y) in enumerate(zip(state.names, state.rows.y, strict=True)):
         measured, model = (_trembling(state, j, x) for x in (y, y - state.residual[j]))
         if model > _TREMBLES * measured > 0.0:
-            found[joint.name] = model / measured
+            found[name] = model / measured
     if not found:
         return []
     cutoff = state.data.observation.report.processing.position_cutoff
@@ -148,7 +148,7 @@ def _trembling(state: State, j: int, values: np.ndarray) -> float:
     step = np.diff(time)
     near = (step < 1.5 * np.median(step)) & (np.diff(segment) == 0)
     bends = np.diff(values, 2)[near[1:] & near[:-1]]
-    return float(np.sqrt(np.mean(bends**2))) if bends.size else 0.0
+    return _rms(bends) if bends.size else 0.0
 
 
 # All that may be wrong with the logs of a diagnosis, the gravest first.
@@ -168,7 +168,7 @@ _SURE = 4.5  # falls over their standard error
 
 
 def doubts(
-    model: IdentifiedModel, found: Search, other: Data | None, faults: Sequence[Fault],
+    model: IdentifiedModel, found: Search, other: SearchData | None, contradicting: Sequence[Fault],
     window: Window | None = None,
 ) -> tuple[str, ...]:  # fmt: skip
     """Sentences on the logs.
@@ -177,29 +177,24 @@ def doubts(
         model: as given.
         found: of the training logs.
         other: held-out logs.
-        faults: channels that contradict the model.
+        contradicting: channels that contradict the model.
         window: that was left out.
     """
-    lines = [fault.line for fault in faults if fault.certain or not _explained(found, fault.joint)]
-    if not any(fault.certain for fault in faults):
-        lines += late_lines(found)
-    lines += [*_left_out(window, found.start.data), *_moved(model, found.start.data)]
-    lines += data_lines(found.start)
+    lines = [f.line for f in contradicting if f.certain or not _explained(found, f.joint)]
+    if not any(fault.certain for fault in contradicting):
+        lines += sensor_delay_lines(found)
+    if window is not None and window.change is None:
+        log = found.start.data.observation.logs[window.log]
+        lines.append(
+            f"{log}, {window.start:.1f} to {window.end:.1f} s: torques that come only once, "
+            f"{window.ratio:.0f} times the energy of any other window, and are no steady push: a "
+            "shock, or a spike of the measurement; left out of everything"
+        )
+    lines += [*_moved(model, found.start.data), *data_lines(found.start)]
     if other is not None:
         lines += [f"held out: {line}" for line in other.observation.report.doubts()]
         lines += [*_without_temperature(found.start, other), *_fitted_before(model, other)]
     return tuple(lines)
-
-
-def _left_out(window: Window | None, data: Data) -> list[str]:
-    """What comes only once and is no push."""
-    if window is None or window.change is not None:
-        return []
-    return [
-        f"{data.observation.logs[window.log]}, {window.start:.1f} to {window.end:.1f} s: torques "
-        f"that come only once, {window.ratio:.0f} times the energy of any other window, and are "
-        "no steady push: a shock, or a spike of the measurement; left out of everything"
-    ]
 
 
 def _explained(found: Search, j: int) -> bool:
@@ -210,7 +205,7 @@ def _explained(found: Search, j: int) -> bool:
     return after < MENDED * before
 
 
-def _moved(model: IdentifiedModel, data: Data) -> list[str]:
+def _moved(model: IdentifiedModel, data: SearchData) -> list[str]:
     """A delay that the diagnosis took out of the logs."""
     moved = data.observation.report.processing.delay - model.processing.delay
     if moved == 0.0:
@@ -222,7 +217,7 @@ def _moved(model: IdentifiedModel, data: Data) -> list[str]:
     ]
 
 
-def _without_temperature(state: State, other: Data) -> list[str]:
+def _without_temperature(state: State, other: SearchData) -> list[str]:
     """Held-out logs without a temperature that the training logs have."""
     known = state.reference.temperature
     found = []
@@ -240,7 +235,7 @@ def _without_temperature(state: State, other: Data) -> list[str]:
     return found
 
 
-def _fitted_before(model: IdentifiedModel, other: Data) -> list[str]:
+def _fitted_before(model: IdentifiedModel, other: SearchData) -> list[str]:
     """Held-out logs that the model was fitted to."""
     cost = "its errors there are too small"
     if other.kept is None:
@@ -256,7 +251,7 @@ def _fitted_before(model: IdentifiedModel, other: Data) -> list[str]:
     ]  # fmt: skip
 
 
-def late_lines(found: Search) -> list[str]:
+def sensor_delay_lines(found: Search) -> list[str]:
     """A sentence on the joint whose position comes late, or early, beside all other channels.
 
     Nothing in the catalogue shifts one joint in time.
@@ -266,20 +261,25 @@ def late_lines(found: Search) -> list[str]:
     than anything in the catalogue.
     """
     state = found.end
-    joints = state.data.compiled.spec.joints
-    driven = [j for j, joint in enumerate(joints) if joint.actuated]
-    columns = []
-    for j in driven:
-        columns.append(state.rows.spread(partial(_later, state.rows, j)))
-    shown = [i for i, own in enumerate(columns) if any(c is not None for c in own)]
-    if not shown:
+    rows, columns = state.rows, {}
+
+    def later(j: int, stretch: int, window: slice) -> np.ndarray:
+        """(n, J, 1) torque by the delay of the position of joint j."""
+        signals = rows.signals[stretch]
+        return signals.moved(j, signals.v[:, [j]], True, window)
+
+    for j, joint in enumerate(state.spec.joints):
+        own = rows.spread(partial(later, j)) if joint.actuated else ()
+        if any(c is not None for c in own):
+            columns[joint.name] = own
+    if not columns:
         return []
-    _, ranking = state.ranked([columns[i] for i in shown])
+    ranking = state.ranked(list(columns.values()))
     drop = ranking.drop.sum(axis=0)
     best = int(np.argmax(drop))
-    rivals = [float(judged.drop.sum()) for judged in found.last.ranked if judged.possible]
-    step = float(np.median([signals.segment.step for signals in state.rows.signals]))
-    late = float(ranking.value[best])
+    rivals = [judged.fall for judged in found.last.ranked if judged.possible]
+    step = float(np.median([signals.segment.step for signals in rows.signals]))
+    late = float(ranking.value[best][0])
     if (
         drop[best] < LATE_SHARE * float(ranking.before.sum())
         or drop[best] < AHEAD * max(rivals, default=0.0)
@@ -287,15 +287,66 @@ def late_lines(found: Search) -> list[str]:
         or abs(late) < CONVENTION * step
     ):
         return []
-    name = joints[driven[shown[best]]].name
     return [
-        f"joint {name}: its position comes {1e3 * abs(late):.2g} ms too "
+        f"joint {list(columns)[best]}: its position comes {1e3 * abs(late):.2g} ms too "
         f"{'late' if late > 0.0 else 'early'} beside the other channels; check the clock or the "
         "filter of that channel"
     ]
 
 
-def _later(rows: Rows, j: int, stretch: int, window: slice) -> np.ndarray:
-    """(n, J, 1) torque by the delay of the position of joint j."""
-    signals = rows.signals[stretch]
-    return signals.moved(j, signals.v[:, [j]], True, window)
+# Channels that contradict the model, once wrong drive gains are allowed for.
+#
+# A wrong drive gain bends the fit: the torques of its joint, and of others, then look like those of
+# another unit, or of another joint. So where a model was fitted to these logs, the joints in doubt
+# are given gains first; those are effects, which the search names with their values. What is said
+# of a scale all the same must not be a matter of the filters.
+
+
+def channel_faults(
+    model: IdentifiedModel, data: SearchData, other: SearchData | None, mending: Mending
+) -> tuple[Fault, ...]:
+    """Of the logs, then of the held-out ones.
+
+    Args:
+        model: as fitted.
+        data: training logs.
+        other: held-out ones.
+        mending: of the training logs.
+    """
+    beta, gains = _allowed(model, data, other)
+    found = faults(data.compiled, data.observation, beta, gains)
+    if any(f.joint >= 0 and not f.certain for f in found):
+        stable = _stable(data, mending, beta, gains)
+        found = tuple(f for f in found if f.certain or f.joint in (-1, *stable))
+    if other is None:
+        return found
+    said = {f.joint for f in found}
+    held = (
+        dataclasses.replace(f, line=f"held out: {f.line}")
+        for f in faults(other.compiled, other.observation, beta, gains)
+        if f.certain or f.joint in said
+    )
+    return (*found, *held)
+
+
+def _allowed(
+    model: IdentifiedModel, data: SearchData, other: SearchData | None
+) -> tuple[np.ndarray, np.ndarray | None]:
+    """Parameters, and gains of the joints in doubt; as fitted where the fit is of other logs."""
+    every = [data, *([other] if other is not None else [])]
+    doubted = {j for d in every for j in suspects(d.compiled, d.observation, model.beta)}
+    if data.kept is not None or not doubted or len(doubted) == data.rows.joints:
+        return model.beta, None
+    found = with_gains(state_of(data, (), model.beta), sorted(doubted))
+    return (model.beta, None) if found is None else found
+
+
+def _stable(
+    data: SearchData, mending: Mending, beta: np.ndarray, gains: np.ndarray | None
+) -> set[int]:
+    """Joints whose torque has another scale with other cut-offs too."""
+    joints = [
+        {f.joint for f in faults(data.compiled, seen, beta, gains)}
+        for _, seen in cut_off_otherwise(data, mending)
+    ]
+    return set.intersection(*joints)

@@ -9,9 +9,9 @@ import numpy as np
 from modeler.core.table import percent, printed
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.events import BURST, LOUD, Window, burst_ratio
+from modeler.diagnosis.generate import ruled_out
 from modeler.diagnosis.judge import GATE, SURE, Judged
 from modeler.diagnosis.orders import knocking
-from modeler.diagnosis.propose import ruled_out
 from modeler.diagnosis.result import Finding
 from modeler.diagnosis.score import Score
 from modeler.diagnosis.search import Search
@@ -58,89 +58,77 @@ def detected(
         falls: the score of a column beside them.
         findings: that are columns.
     """
-    pushed = [window] if window is not None and window.change is not None else []
-    contact = [_contact(found, push, errors) for push in pushed]
+    contact = [] if window is None else _contact(found, window, errors)
     alone = all(f.refines for f in findings)
     rings = any(_rings(f) for f in findings)
     least = FAINT if alone else BESIDE
     play = _play(found, found.end, BURST) or _faint(found, least, knocks=not rings)
-    play = [_scored(found, finding, errors, falls) for finding in play]
-    if play:
-        return [*(_knocked(f) for f in findings), *contact, *play]
-    first = _play(found, found.start, LOUD)
-    first = [_scored(found, finding, errors, falls) for finding in first]
-    if not first or contact:
+    if play is not None:
+        beside = [
+            dataclasses.replace(f, refines=f.refines or (_rings(f) and f.gain < WEAK))
+            for f in findings
+        ]
+        return [*beside, *contact, _scored(found, play, errors, falls)]
+    play = _play(found, found.start, LOUD)
+    if play is None or contact:
         return [*findings, *contact]
-    own = [f for f in findings if f.joint == first[0].joint]
+    play = _scored(found, play, errors, falls)
+    own = [f for f in findings if f.joint == play.joint]
     if any(f.gain > WEAK and not f.refines for f in own):
         return list(findings)
     rest = [dataclasses.replace(f, refines=True) if f in own else f for f in findings]
-    return [*first, *rest] if own or alone else [*rest, *first]
-
-
-def _knocked(finding: Finding) -> Finding:
-    """The finding beside play in a gear."""
-    weak = _rings(finding) and finding.gain < WEAK
-    return dataclasses.replace(finding, refines=True) if weak else finding
+    return [play, *rest] if own or alone else [*rest, play]
 
 
 def _rings(finding: Finding) -> bool:
     return finding.pick is not None and finding.pick.candidate.effect.rings
 
 
-def _event(found: Search) -> Effect:
-    """What a push is called."""
-    return next(e for e in found.start.data.known.catalogue if e.acts is Acts.WINDOW)
-
-
 def _knocking(found: Search) -> list[Effect]:
     """Effects that knock; one at most."""
-    return [e for e in found.start.data.known.catalogue if e.knocks][:1]
+    return [e for e in found.catalogue if e.knocks][:1]
 
 
-def _contact(found: Search, window: Window, errors: Mapping[str, float]) -> Finding:
-    units = {f"tau{j.name}": j.effort_unit for j in found.end.data.compiled.spec.joints}
+def _contact(found: Search, window: Window, errors: Mapping[str, float]) -> list[Finding]:
+    """The push, if it lowers the error; held-out motion that is not explained speaks against it."""
+    if window.change is None:
+        return []
+    event = next(e for e in found.catalogue if e.acts is Acts.WINDOW)
+    units = {f"tau{j.name}": j.effort_unit for j in found.spec.joints}
     torque = {f"tau{name}": value for name, value in window.torque.items()}
-    assert window.change is not None, "it lowers the error"
-    ends = window.change.before, window.change.after
-    return Finding(
-        _event(found).id, None, *ends,
-        {"t0": window.start, "t1": window.end} | torque, {}, {"t0": "s", "t1": "s"} | units, (),
+    ends, doubt = (window.change.before, window.change.after), ""
+    for name, y, r in zip(found.end.names, found.end.rows.y, found.end.residual, strict=True):
+        least = AGAIN * np.linalg.norm(r) / max(float(np.linalg.norm(y)), 1e-300)
+        if y.size and errors.get(name, 0.0) > least and not doubt:
+            doubt = f"something unexplained acts on joint {name} in the held-out motion too"
+    text = (
         f"a torque acts from {window.start:.1f} to {window.end:.1f} s that the motion does not "
         f"explain, {window.ratio:.0f} times the energy of any other window: with it the error of "
-        f"these logs is {' -> '.join(printed(*ends))}; these rows are left out of everything else",
-        None, False, _again(found.end, errors), event=True,
-    )  # fmt: skip
-
-
-def _again(state: State, errors: Mapping[str, float]) -> str:
-    """What speaks against a push: held-out motion that is not explained either."""
-    names = [joint.name for joint in state.data.compiled.spec.joints]
-    for name, y, r in zip(names, state.rows.y, state.residual, strict=True):
-        least = AGAIN * np.linalg.norm(r) / max(float(np.linalg.norm(y)), 1e-300)
-        if y.size and errors.get(name, 0.0) > least:
-            return f"something unexplained acts on joint {name} in the held-out motion too"
-    return ""
+        f"these logs is {' -> '.join(printed(*ends))}; these rows are left out of everything else"
+    )
+    values = {"t0": window.start, "t1": window.end} | torque
+    units = {"t0": "s", "t1": "s"} | units
+    return [Finding(event.id, None, *ends, values, {}, units, (), text, None, False, doubt,
+                    event=True)]  # fmt: skip
 
 
 def _asked(found: Search) -> list[int]:
     """Joints whose gear may have play."""
     return [
-        j for j, joint in enumerate(found.end.data.compiled.spec.joints)
-        for effect in _knocking(found)
+        j for j, joint in enumerate(found.spec.joints) for effect in _knocking(found)
         if joint.actuated and not ruled_out(effect.id, joint.name, found.without)
     ]  # fmt: skip
 
 
-def _play(found: Search, state: State, least: float) -> list[Finding]:
+def _play(found: Search, state: State, least: float) -> Finding | None:
     """Play in a gear, on the joint that bursts most and whose column describes most."""
     ratios = {j: burst_ratio(state, j) for j in _asked(found)}
     bursting = [j for j, ratio in ratios.items() if ratio > least]
     if not bursting:
-        return []
+        return None
     shares = {k: judged.share for k, judged in _columns(found).items()}
     j = max(bursting, key=lambda k: ratios[k] * max(shares.get(k, 0.0), _LEAST))
-    return [_backlash(found, [j, *bursting], _bursts(ratios[j]))]
+    return _backlash(found, [j, *bursting], _bursts(ratios[j]))
 
 
 def _bursts(ratio: float) -> str:
@@ -152,13 +140,10 @@ def _bursts(ratio: float) -> str:
 
 def _columns(found: Search) -> dict[int, Judged]:
     """What the column of play explains, by joint."""
-    return {
-        judged.candidate.index: judged
-        for judged in found.last.ranked if judged.candidate.effect.knocks
-    }  # fmt: skip
+    return {j.candidate.index: j for j in found.last.ranked if j.candidate.effect.knocks}
 
 
-def _faint(found: Search, least: float, knocks: bool) -> list[Finding]:
+def _faint(found: Search, least: float, knocks: bool) -> Finding | None:
     """Play whose bursts noise covers, or that knocks without rule: its column tells it then.
 
     Args:
@@ -173,19 +158,17 @@ def _faint(found: Search, least: float, knocks: bool) -> list[Finding]:
     for j in sorted(shares, key=lambda j: -shares[j]):
         ratio, share = burst_ratio(found.end, j), knocking(found.end, j)
         if ratio > least:
-            return [_backlash(found, [j], _bursts(ratio))]
+            return _backlash(found, [j], _bursts(ratio))
         if knocks and share > KNOCKS:
             text = f"{percent(share)} of the residual's energy comes in brief outbursts"
             doubt = "its outbursts do not follow the sign of the load"
-            return [_backlash(found, [j], text, doubt)]
-    return []
+            return _backlash(found, [j], text, doubt)
+    return None
 
 
 def _backlash(found: Search, bursting: Sequence[int], text: str, objection: str = "") -> Finding:
     """Play on the first of some joints; any of the others may be the one."""
-    names = [joint.name for joint in found.end.data.compiled.spec.joints]
-    first = bursting[0]
-    (effect,) = _knocking(found)
+    (effect,), names, first = _knocking(found), found.end.names, bursting[0]
     others = tuple((effect.id, names[k]) for k in bursting if k != first)
     return Finding(
         effect.id, names[first], math.nan, math.nan, {}, {}, {}, others,
@@ -198,8 +181,7 @@ def _scored(
     falls: Callable[[Candidate], Score],
 ) -> Finding:  # fmt: skip
     """Play with its errors; where its column does not lower them, it is a description at most."""
-    names = [joint.name for joint in found.end.data.compiled.spec.joints]
-    column = _columns(found).get(names.index(str(play.joint)))
+    column = _columns(found).get(found.end.names.index(str(play.joint)))
     score = None if column is None else falls(column.candidate)
     if score is not None and score.better:
         ends = score.whole.before, score.whole.after

@@ -11,18 +11,17 @@ from modeler.core.errors import DataError
 from modeler.diagnosis.analyse import analysed, bands_line
 from modeler.diagnosis.assemble import assembled
 from modeler.diagnosis.candidates import Known
-from modeler.diagnosis.channel_faults import channel_faults
 from modeler.diagnosis.cross_checks import looked_again, other_looks
-from modeler.diagnosis.errors import vetoing
+from modeler.diagnosis.data_checks import channel_faults
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
+from modeler.diagnosis.holdout_error import vetoing
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.search import MOST, Search, search
-from modeler.diagnosis.state import Data, State, state_of
+from modeler.diagnosis.state import SearchData, state_of
 from modeler.diagnosis.timing import logger_shift
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Acts, Effect
 from modeler.estimation.model_file import IdentifiedModel
-from modeler.observation.channels import Fault
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation
 from modeler.observation.prepare import Mending
@@ -93,7 +92,9 @@ def diagnose(
     meter = Meter(progress, _READ)
     mending = Mending(logs, compiled.spec)
     seen = analysed(compiled, logs, model.processing, mending=mending)
-    data = Data(compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known())
+    data = SearchData(
+        compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known()
+    )
     without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
     doubted = channel_faults(model, data, other, mending)
     options = model.beta, without, 0 if any(f.certain for f in doubted) else most, meter
@@ -102,26 +103,10 @@ def diagnose(
     if aligned is not None:
         data, other = aligned, _held_out(aligned, holdout)
         found = _searched(data, other, *options)
-    window = _push(data, found) if _may_push(data, without) else None
+    may_push = [e for e in data.known.catalogue if e.acts is Acts.WINDOW and e.id not in without]
+    window = _push(data, found) if may_push else None
     if window is not None:
         found = _searched(_masked(data, window), other, *options)
-    return _told(model, data, mending, other, found, window, doubted, meter)
-
-
-def _looks(
-    data: Data, mending: Mending, other: Data | None, window: Window | None
-) -> Iterator[tuple[str, Data]]:
-    """Other looks, those at the training logs without the rows of a push."""
-    for what, look in other_looks(data, mending, other):
-        yield what, look if window is None or look is other else _masked(look, window)
-        del look  # or it would live beside the next
-
-
-def _told(
-    model: IdentifiedModel, data: Data, mending: Mending, other: Data | None, found: Search,
-    window: Window | None, doubted: Sequence[Fault], meter: Meter,
-) -> Diagnosis:  # fmt: skip
-    """What a search found, looked at again, with a sentence on the band."""
     meter.stage(_LOOKED)
     looks = looked_again(found, _looks(data, mending, other, window), meter.tick)
     meter.stage(1.0)
@@ -131,18 +116,28 @@ def _told(
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
 
+def _looks(
+    data: SearchData, mending: Mending, other: SearchData | None, window: Window | None
+) -> Iterator[tuple[str, SearchData]]:
+    """Other looks, those at the training logs without the rows of a push."""
+    for what, look in other_looks(data, mending, other):
+        yield what, look if window is None or look is other else _masked(look, window)
+        del look  # or it would live beside the next
+
+
 def _searched(
-    data: Data, other: Data | None, beta: np.ndarray, without: Sequence[str], most: int,
+    data: SearchData, other: SearchData | None, beta: np.ndarray, without: Sequence[str], most: int,
     meter: Meter,
 ) -> Search:  # fmt: skip
     meter.stage(_SEARCHED)
     return search(data, beta, without, most, vetoing(other), meter.tick)
 
 
-def _aligned(data: Data, found: Search, model: IdentifiedModel, mending: Mending) -> Data | None:
+def _aligned(
+    data: SearchData, found: Search, model: IdentifiedModel, mending: Mending
+) -> SearchData | None:
     """The data without a delay that is a convention of the logger; None if there is none."""
-    ranked = found.steps[0].rivals if found.steps else found.last.ranked
-    delays = [j for j in ranked if j.candidate.effect.acts is Acts.TORQUE and not j.confirmed]
+    delays = [j for j in found.ranked if j.candidate.effect.acts is Acts.TORQUE and not j.confirmed]
     shift = logger_shift(found.start, delays[0].candidate, delays[0].values) if delays else 0.0
     if shift == 0.0:
         return None
@@ -166,7 +161,7 @@ def _ids(without: Sequence[str], catalogue: Sequence[Effect]) -> tuple[str, ...]
     return tuple(found)
 
 
-def _held_out(data: Data, holdout: Sequence[Log]) -> Data | None:
+def _held_out(data: SearchData, holdout: Sequence[Log]) -> SearchData | None:
     """Held-out logs in the band of the training logs."""
     if not holdout:
         return None
@@ -181,52 +176,38 @@ def kept_parameters(
     """The model's parameters if these logs are of a robot that has changed since; else None."""
     if any(used.shares_rows(log) for used in model.logs for log in logs):
         return None
-    free = state_of(Data(compiled, seen), (), model.beta)
-    pool, ranking = free.ranked([])
-    del pool
-    fitted = float(ranking.before.sum())
+    free = state_of(SearchData(compiled, seen), (), model.beta)
+    fitted = float(free.ranked([]).before.sum())
     given = sum(
         float(np.sum(((y - w @ model.beta) / s) ** 2))
-        for y, w, s in zip(free.rows.y, free.rows.W, free.base.sigma, strict=True)
+        for y, w, s in zip(free.rows.y, free.rows.W, free.sigma, strict=True)
     )
     return model.beta if given > CHANGED * fitted else None
 
 
-def _may_push(data: Data, without: Sequence[str]) -> bool:
-    """True unless the user rules it out."""
-    return any(e.acts is Acts.WINDOW and e.id not in without for e in data.known.catalogue)
-
-
-def _rattles(state: State) -> bool:
-    """True if a gear has so much play that one of its knocks looks like a push."""
-    return any(burst_ratio(state, j) > BURST for j in range(state.rows.joints))
-
-
-def _push(data: Data, found: Search) -> Window | None:
+def _push(data: SearchData, found: Search) -> Window | None:
     """When something pushed; with its first part left out of the fit, more of it may show."""
-    if not found.last.ranked or _rattles(found.end):
-        return None
-    window = contact_window(found.end)
-    more = window
-    while window is not None and more is not None:
-        later = contact_window(state_of(_masked(data, window), found.end.picks, found.end.beta))
-        more = window.with_part(later) if later is not None else None
-        window = more or window
+    end = found.end
+    # a gear may have so much play that one of its knocks looks like a push
+    rattles = any(burst_ratio(end, j) > BURST for j in range(end.rows.joints))
+    window = more = None if rattles or not found.last.ranked else contact_window(end)
     if window is None:
         return None
-    return explained(window, state_of(_masked(data, window), found.end.picks, found.end.beta), data)
+    while more is not None:
+        window = more
+        later = contact_window(state_of(_masked(data, window), end.picks, end.beta))
+        more = window.with_part(later) if later is not None else None
+    return explained(window, state_of(_masked(data, window), end.picks, end.beta), data)
 
 
-def _masked(data: Data, window: Window) -> Data:
+def _masked(data: SearchData, window: Window) -> SearchData:
     """The data without the rows of a window, and a little around it."""
     observation = data.observation
     hit = (observation.run == window.log) & (observation.time > window.start - MARGIN)
     hit &= observation.time < window.end + MARGIN
     used = observation.used & ~hit[:, None]
-    parts, at = [], 0
-    for part in observation.stretches:
-        rows = len(part.used)
-        parts.append(dataclasses.replace(part, used=used[at : at + rows]))
-        at += rows
-    rest = dataclasses.replace(observation, used=used, stretches=tuple(parts))
+    ends = np.cumsum([len(part.used) for part in observation.stretches])[:-1]
+    pairs = zip(observation.stretches, np.split(used, ends), strict=True)
+    parts = tuple(dataclasses.replace(part, used=own) for part, own in pairs)
+    rest = dataclasses.replace(observation, used=used, stretches=parts)
     return dataclasses.replace(data, observation=rest)

@@ -9,7 +9,7 @@ linear fit with these columns satisfies at its own parameters (`instruments`: W_
 """
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -42,29 +42,28 @@ def is_gain(candidate: Candidate) -> bool:
 
 def all_columns_about(state: State, candidates: Sequence[Candidate]) -> list[Columns]:
     """The columns of candidates; those of a gain about the model with that gain."""
-    every = all_columns_of(state.rows, candidates, state.cache)
-    return [_about(state, c, own) for c, own in zip(candidates, every, strict=True)]
+    every = all_columns_of(state.rows, candidates)
+    for i, candidate in enumerate(candidates):
+        beta = settled_parameters(state, candidate) if is_gain(candidate) else None
+        if beta is not None:
+            own: list[np.ndarray | None] = [None] * state.rows.joints
+            own[candidate.index] = -(state.rows.W[candidate.index] @ beta)[:, None]
+            every[i] = tuple(own)
+    return every
 
 
-def _about(state: State, candidate: Candidate, columns: Columns) -> Columns:
-    beta = settled(state, candidate) if is_gain(candidate) else None
-    if beta is None:
-        return columns
-    own: list[np.ndarray | None] = [None] * state.rows.joints
-    own[candidate.index] = -(state.rows.W[candidate.index] @ beta)[:, None]
-    return tuple(own)
+def _gains(picks: Iterable[Candidate]) -> list[int]:
+    """Joints whose torque is scaled."""
+    return [pick.index for pick in picks if is_gain(pick)]
 
 
-def settled(state: State, candidate: Candidate | None = None) -> np.ndarray | None:
+def settled_parameters(state: State, candidate: Candidate | None = None) -> np.ndarray | None:
     """(c,) base parameters about which the gains among the picks and a candidate are linear.
 
     Gains that the robot has already count among them. None without a gain, or without an answer.
     """
-    picks = [*state.picks] if candidate is None else [*state.picks, candidate]
-    if not any(is_gain(pick) for pick in picks):
-        return None
-    problem = _problem(state, [pick.index for pick in picks if is_gain(pick)])
-    found = _best(problem)
+    gains = _gains(state.picks if candidate is None else (*state.picks, candidate))
+    found = _best(_problem(state, gains)) if gains else None
     return None if found is None else found.beta
 
 
@@ -76,8 +75,7 @@ def likeliest(state: State, candidates: Sequence[Candidate]) -> Candidate | None
     """
     found = {}
     for k, candidate in enumerate(candidates):
-        gains = [pick.index for pick in (*state.picks, candidate) if is_gain(pick)]
-        best = _best(_problem(state, gains))
+        best = _best(_problem(state, _gains((*state.picks, candidate))))
         if best is not None:
             found[k] = best.order
     return candidates[min(found, key=lambda k: found[k])] if found else None
@@ -91,7 +89,8 @@ def with_gains(state: State, joints: Sequence[int]) -> tuple[np.ndarray, np.ndar
 
 def _best(problem: "_GainProblem") -> "_Solution | None":
     """The likeliest of the solutions from all starts, with the weights given and with none."""
-    every = [p.weighed(start) for p in (problem, problem.level()) for start in p.starts()]
+    level = problem.reweighed(problem.torque)  # every joint weighs by its torque: no model bent it
+    every = [p.weighed(start) for p in (problem, level) for start in p.starts()]
     found = [f for f in every if f is not None]
     return min(found, key=lambda f: f.order) if found else None
 
@@ -101,14 +100,14 @@ def gain_deviations(state: State, place: int) -> np.ndarray:
 
     From sums over blocks, so that coloured residuals count, and with all that beta may be.
     """
-    problem = _problem(state, [pick.index for pick in state.picks if is_gain(pick)])
+    problem = _problem(state, _gains(state.picks))
     own = [problem.gains.index(state.picks[place].index)]
     return problem.deviations(problem.given, _weighted(state), state.base.block)[own]
 
 
 def gain_visible(state: State, place: int) -> float:
     """Share of the column of one pick that all else does not hide, of a state about itself."""
-    problem = _problem(state, [pick.index for pick in state.picks if is_gain(pick)])
+    problem = _problem(state, _gains(state.picks))
     return problem.visible(state.picks[place].index)
 
 
@@ -165,10 +164,6 @@ class _GainProblem:
                 grid = [np.where(np.arange(len(self.rows)) == j, g, self.given) for g in _GRID]
                 found.append(min(grid, key=lambda g: self._score(self._left(g, self._values(g)))))
         return found
-
-    def level(self) -> "_GainProblem":
-        """With every joint weighed by its torque: no model has bent that."""
-        return self.reweighed(self.torque)
 
     def solved(self, g: np.ndarray) -> _Solution | None:
         """All parameters and gains; None where they do not come to rest."""
@@ -331,7 +326,7 @@ def _weighted(state: State) -> list[np.ndarray]:
     found = []
     for j, (base, y) in enumerate(zip(rows.W, rows.y, strict=True)):
         parts = [dense(e, j, len(y)) for e in extra]
-        found.append(np.hstack([base, *parts, y[:, None]]) / state.base.sigma[j])
+        found.append(np.hstack([base, *parts, y[:, None]]) / state.sigma[j])
     return found
 
 
@@ -343,7 +338,11 @@ def _grams(state: State) -> np.ndarray:
 
 def _problem(state: State, gains: Sequence[int]) -> _GainProblem:
     """With these gains, those of the robot, and all picks that are no gains."""
-    grams, had = _grams(state), _own_gains(state)
+    owner = {p.name: (p.effect, p.joint) for p in state.spec.standard}
+    scales = {e.id for e in state.data.known.catalogue if e.forms[0].names == _SCALES}
+    of = [owner[base.column_of] for base in state.spec.base]
+    had = {i: state.names.index(j) for i, (effect, j) in enumerate(of) if effect in scales}
+    grams = _grams(state)
     size, every = len(state.beta), grams.shape[1] - 1
     fixed = np.zeros(every)
     if state.data.kept is not None:
@@ -362,18 +361,5 @@ def _problem(state: State, gains: Sequence[int]) -> _GainProblem:
         grams=grams,
         free=np.array(free, dtype=int), fixed=fixed,
         gains=sorted({*gains, *had.values()}), size=size, given=given, had=had,
-        spread=state.base.sigma,
+        spread=state.sigma,
     )  # fmt: skip
-
-
-def _own_gains(state: State) -> dict[int, int]:
-    """Base columns that are gains which the robot has, and their joints."""
-    spec = state.data.compiled.spec
-    owner = {p.name: (p.effect, p.joint) for p in spec.standard}
-    place = {joint.name: j for j, joint in enumerate(spec.joints)}
-    scales = {e.id for e in state.data.known.catalogue if e.forms[0].names == _SCALES}
-    return {
-        i: place[owner[base.column_of][1]]
-        for i, base in enumerate(spec.base)
-        if owner[base.column_of][0] in scales
-    }

@@ -10,10 +10,10 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from modeler.core.brief import Brief
-from modeler.core.manifest import ModuleSpec, ParameterSpec
-from modeler.diagnosis.candidates import Candidate
+from modeler.core.manifest import ParameterSpec
+from modeler.diagnosis.candidates import Candidate, links_of
 from modeler.diagnosis.signals import EVERY, WINDOW, SignalReference, Signals, tilt_columns
-from modeler.effects.effect import Acts, Memory
+from modeler.effects.effect import Acts
 from modeler.numerics.filters import SPREAD, only
 from modeler.observation.observation import Observation
 from modeler.observation.stretch import Stretch
@@ -35,7 +35,7 @@ def own_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -
     values: dict[str, object] = {**candidate.shapes, **_read(candidate, signals, window)}
     memory = candidate.form.memory
     if memory is not None:
-        values["z"] = _state(memory, candidate, signals)[window]
+        values["z"] = signals.state(memory, candidate.index, candidate.shapes)[window]
     ones = np.ones(len(signals.q[window]))
     with np.errstate(all="ignore"):  # columns that are not finite are not looked at
         return np.column_stack(
@@ -49,12 +49,9 @@ def own_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -
 def _read(candidate: Candidate, signals: Signals, window: slice) -> dict[str, np.ndarray | None]:
     """(n,) what its equations read of the motion and the model, by name."""
     j, names = candidate.index, candidate.form.names
+    read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
     values: dict[str, np.ndarray | None]
-    motion = {"q": signals.q, "v": signals.v, "a": signals.a}
-    values = {name: x[window, j] for name, x in motion.items()}
-    for name in ("load", "static", "torque", "rate"):
-        if name in names:
-            values[name] = getattr(signals, name)[window, j]
+    values = {name: getattr(signals, name)[window, j] for name in read}
     if "t" in names:
         values["t"] = signals.time[window]
     if "T" in names:
@@ -85,10 +82,6 @@ def own_columns_of(
     return found.reshape(len(found), -1)
 
 
-def _state(memory: Memory, candidate: Candidate, signals: Signals) -> np.ndarray:
-    return signals.state(memory, candidate.index, candidate.shapes)
-
-
 def all_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -> np.ndarray:
     """(n, J, k) torques of its columns on every joint, over a window of the samples."""
     acts = candidate.effect.acts
@@ -97,11 +90,17 @@ def all_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -
     if acts is Acts.GRAVITY:
         return tilt_columns(signals, window)
     if acts is Acts.LINK:
-        return _body(candidate, signals, window)
+        return signals.regressor(window)[:, :, [i for i, _ in _inertial(candidate, signals)]]
     if acts is Acts.MOTOR:
-        return _motor(candidate, signals, window)
+        turn = np.zeros(signals.q.shape[1])
+        turn[list(candidate.turn)] = list(candidate.turn.values())
+        own = _shaft(candidate, signals.v[window] @ turn, signals.a[window] @ turn)
+        return own[:, None, :] * turn[None, :, None]
     if acts is Acts.PASSIVE:
-        return _passive(candidate, signals, window)
+        row = signals.coupling[window, candidate.index]
+        speed = np.einsum("nj,nj->n", row, signals.v[window])
+        own = _shaft(candidate, speed, np.zeros_like(speed))
+        return own[:, None, :] * row[:, :, None]
     if acts is Acts.POSITION:
         dq = own_columns(candidate, signals)
         return signals.moved(candidate.index, dq, candidate.effect.whole_axis, window)
@@ -119,40 +118,20 @@ def _shaft(candidate: Candidate, speed: np.ndarray, acceleration: np.ndarray) ->
     )
 
 
-def _motor(candidate: Candidate, signals: Signals, window: slice) -> np.ndarray:
-    turn = np.zeros(signals.q.shape[1])
-    turn[list(candidate.turn)] = list(candidate.turn.values())
-    own = _shaft(candidate, signals.v[window] @ turn, signals.a[window] @ turn)
-    return own[:, None, :] * turn[None, :, None]
-
-
-def _body(candidate: Candidate, signals: Signals, window: slice) -> np.ndarray:
-    """Columns of the ten inertial parameters of a link, those that any joint feels."""
-    every = _inertial(candidate, signals.reference.compiled.spec)
-    own = [i for i, _ in every if signals.largest[i] > UNFELT]
-    return signals.regressor(window)[:, :, own]
-
-
 def body_parameters(candidate: Candidate, signals: Signals) -> list[ParameterSpec]:
     """The standard parameters of the columns of a body on a link."""
-    every = _inertial(candidate, signals.reference.compiled.spec)
-    return [parameter for i, parameter in every if signals.largest[i] > UNFELT]
+    return [parameter for _, parameter in _inertial(candidate, signals)]
 
 
-def _inertial(candidate: Candidate, spec: ModuleSpec) -> list[tuple[int, ParameterSpec]]:
-    """Inertial parameters of the link that a candidate loads, with their places."""
-    links = [p.joint for p in spec.standard if p.effect == "rigid_body"]
-    own = list(dict.fromkeys(links))[candidate.index]
+def _inertial(candidate: Candidate, signals: Signals) -> list[tuple[int, ParameterSpec]]:
+    """Inertial parameters of the link that a candidate loads that any joint feels; their places."""
+    spec = signals.reference.compiled.spec
+    own = "rigid_body", links_of(spec)[candidate.index]
     return [
-        (i, p) for i, p in enumerate(spec.standard) if p.effect == "rigid_body" and p.joint == own
+        (i, p)
+        for i, p in enumerate(spec.standard)
+        if (p.effect, p.joint) == own and signals.largest[i] > UNFELT
     ]
-
-
-def _passive(candidate: Candidate, signals: Signals, window: slice) -> np.ndarray:
-    row = signals.coupling[window, candidate.index]
-    speed = np.einsum("nj,nj->n", row, signals.v[window])
-    own = _shaft(candidate, speed, np.zeros_like(speed))
-    return own[:, None, :] * row[:, :, None]
 
 
 Columns = tuple[np.ndarray | None, ...]
@@ -193,6 +172,7 @@ class Rows(Brief):
         blocks: the same in pieces, by stretch.
         signals: by stretch.
         known: what was made of them for this reference, by name.
+        cache: columns that do not depend on the model, shared by all references.
     """
 
     y: tuple[np.ndarray, ...]
@@ -204,6 +184,7 @@ class Rows(Brief):
     blocks: tuple[tuple[RowBlock, ...], ...]
     signals: tuple[Signals, ...]
     known: dict[Any, Any] = field(default_factory=dict)
+    cache: dict[Any, Any] = field(default_factory=dict)
 
     @property
     def joints(self) -> int:
@@ -236,10 +217,12 @@ class Rows(Brief):
         whole = self._together(candidates)
         columns = [None if c is None else np.ascontiguousarray(c.T) for c in whole]
         size = len(first.form.columns)
+        # a candidate may leave joints alone that its neighbours move
         return [
-            _or_none([None if c is None else c[k : k + size].T for c in columns])
+            tuple(None if c is None or not c[k : k + size].any() else c[k : k + size].T
+                  for c in columns)
             for k in range(0, size * len(candidates), size)
-        ]
+        ]  # fmt: skip
 
     def _together(self, candidates: Sequence[Candidate]) -> Columns:
         """Columns of candidates of one effect on its joint, beside each other."""
@@ -290,17 +273,15 @@ class Rows(Brief):
                 yield i, RowBlock(slice(0, len(self.signals[i].q)), filters)
 
 
-def _or_none(columns: Sequence[np.ndarray | None]) -> Columns:
-    """Of a candidate that moves other joints than its neighbours do."""
-    return tuple(None if c is None or not c.any() else c for c in columns)
+def width(columns: Columns) -> int:
+    """k of columns that are not zero on all joints."""
+    return next(c.shape[1] for c in columns if c is not None)
 
 
 def dense(columns: Columns, j: int, rows: int) -> np.ndarray:
     """(rows, k) columns on joint j; zeros where there are none."""
     here = columns[j]
-    if here is not None:
-        return here
-    return np.zeros((rows, next(c.shape[1] for c in columns if c is not None)))
+    return np.zeros((rows, width(columns))) if here is None else here
 
 
 def rows_of(observation: Observation, reference: SignalReference) -> Rows:
@@ -313,9 +294,16 @@ def rows_of(observation: Observation, reference: SignalReference) -> Rows:
     cutoff = observation.report.processing.parallel_cutoff
     signals = tuple(_signals(part, reference, cutoff) for part in observation.stretches)
     joints = len(observation.joints)
-    full = [[_filter(part, j) for j in range(joints)] for part in observation.stretches]
-    filters = tuple(
-        tuple(_thinned(own, s.every) for own in part) for part, s in zip(full, signals, strict=True)
+    full = [
+        [
+            _normed(only(part.rows.weights, part.usable[:, j])[part.used[:, j]])
+            for j in range(joints)
+        ]
+        for part in observation.stretches
+    ]  # weights over usable samples, each row summing to one
+    filters = tuple(  # the same over every k-th sample
+        tuple(own if s.every == 1 else _normed(csr_array(own[:, :: s.every])) for own in part)
+        for part, s in zip(full, signals, strict=True)
     )
     blocks = tuple(_blocks(own, len(s.q)) for own, s in zip(filters, signals, strict=True))
     used = [observation.used[:, j] for j in range(joints)]
@@ -357,33 +345,14 @@ def _blocks(filters: Sequence[csr_array], samples: int) -> tuple[RowBlock, ...]:
         edges.append([*np.searchsorted(first, starts).tolist(), len(first)])
     found = []
     for start, *ends in zip(starts.tolist(), *(pairwise(own) for own in edges), strict=True):
-        parts = [_part(w, slice(*own)) for w, own in zip(filters, ends, strict=True)]
-        stop = max(int(indices.max(initial=start)) for _, indices, _ in parts) + 1
+        parts = [weights[slice(*own)] for weights, own in zip(filters, ends, strict=True)]
+        stop = max(int(part.indices.max(initial=start)) for part in parts) + 1
         made = [
-            csr_array((data, indices - start, pointer), shape=(len(pointer) - 1, stop - start))
-            for data, indices, pointer in parts
+            csr_array((p.data, p.indices - start, p.indptr), shape=(p.shape[0], stop - start))
+            for p in parts
         ]
         found.append(RowBlock(slice(start, stop), tuple(made)))
     return tuple(found)
-
-
-def _part(weights: csr_array, rows: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Data, indices and pointers of some rows."""
-    pointer = weights.indptr[rows.start : rows.stop + 1]
-    own = slice(pointer[0], pointer[-1])
-    return weights.data[own], weights.indices[own], pointer - pointer[0]
-
-
-def _filter(part: Stretch, j: int) -> csr_array:
-    """(used rows, samples) weights over usable samples, each row summing to one."""
-    return _normed(only(part.rows.weights, part.usable[:, j])[part.used[:, j]])
-
-
-def _thinned(weights: csr_array, every: int) -> csr_array:
-    """The same filter over every k-th sample."""
-    if every == 1:
-        return weights
-    return _normed(csr_array(weights[:, ::every]))
 
 
 def _normed(weights: csr_array) -> csr_array:

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.diagnosis.errors import compared, left_of
+from modeler.diagnosis.holdout_error import compared, left_of
 from modeler.diagnosis.score import Change
-from modeler.diagnosis.state import Data, State
+from modeler.diagnosis.state import SearchData, State
 
 MARGIN = 0.5
 """s before and after a push that are left out with it."""
@@ -60,14 +60,12 @@ class _Windows:
     Attributes:
         run: (windows,) index of the log.
         start, end: (windows,) s.
-        cells: (windows,) length.
         energy: (windows,) of a steady torque, in units of each joint's median residual.
     """
 
     run: np.ndarray
     start: np.ndarray
     end: np.ndarray
-    cells: np.ndarray
     energy: np.ndarray
 
 
@@ -122,7 +120,7 @@ def _windows(state: State) -> _Windows | None:
         square = (total[last + 1] - total[first]) ** 2
         energy = np.divide(square, count, out=np.zeros_like(square), where=count > 0).sum(axis=1)
         start, end = number[first] * _CELL, (number[last] + 1) * _CELL
-        parts.append((run[first], start, end, np.full(len(first), length), energy))
+        parts.append((run[first], start, end, energy))
     found = _Windows(*(np.concatenate(part) for part in zip(*parts, strict=True)))
     return found if len(found.run) else None
 
@@ -145,7 +143,7 @@ def _sums(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
     return cells[:, 0], cells[:, 1], np.cumsum(total, axis=0), np.cumsum(count, axis=0)
 
 
-def explained(window: Window, state: State, data: Data) -> Window:
+def explained(window: Window, state: State, data: SearchData) -> Window:
     """The push with its torques, if these surely lower the error (`scored`).
 
     A torque of each joint that changes steadily is fitted to the residuals of the window, that of
@@ -206,17 +204,19 @@ def burst_ratio(state: State, j: int) -> float:
     play bursts every time. 0 where the load changes sign, far from speed reversals, less than
     `EVENTS` times.
     """
-    label, events = [], 0
-    for s, turns in zip(state.rows.signals, load_turns(state, j), strict=True):
+    event, events = [], 0  # of each row, 0 for none: that of the sample amid its weights
+    turns_of = zip(state.rows.signals, state.rows.filters, load_turns(state, j), strict=True)
+    for s, weights, turns in turns_of:
         span = max(1, round(AFTER / s.step))
         flags = np.zeros(len(s.q))
         for turn in turns:
             events += 1
             flags[turn : turn + span] = events
-        label.append(flags)
+        middle = np.round(weights[j] @ np.arange(len(flags))).astype(int)
+        event.append(flags[np.clip(middle, 0, len(flags) - 1)])
     if events < EVENTS:
         return 0.0
-    return _ratio(state.residual[j] ** 2, _nearest(state, j, label), events)
+    return _ratio(state.residual[j] ** 2, np.concatenate(event), events)
 
 
 def load_turns(state: State, j: int) -> list[np.ndarray]:
@@ -229,15 +229,6 @@ def load_turns(state: State, j: int) -> list[np.ndarray]:
         moving = [turn for turn in turns if speed[turn : turn + span].min() > least]
         found.append(np.array(moving, dtype=int))
     return found
-
-
-def _nearest(state: State, j: int, label: list[np.ndarray]) -> np.ndarray:
-    """(rows,) event of each row, 0 for none: that of the sample in the middle of its weights."""
-    found = []
-    for own, flags in zip(state.rows.filters, label, strict=True):
-        middle = own[j] @ np.arange(len(flags))
-        found.append(flags[np.clip(np.round(middle).astype(int), 0, len(flags) - 1)])
-    return np.concatenate(found)
 
 
 def _ratio(square: np.ndarray, event: np.ndarray, events: int) -> float:

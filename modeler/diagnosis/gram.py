@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.diagnosis.effect_columns import Columns, Rows
+from modeler.diagnosis.effect_columns import Columns, Rows, width
 from modeler.numerics.least_squares import ReducedRows, turn_of, whitening
 from modeler.numerics.spectra import lap
 from modeler.observation.observation import Observation
@@ -35,62 +35,29 @@ class Base(Brief):
     """The base columns as an orthonormal set over all weighted rows; c columns, r of them kept.
 
     Attributes:
-        W: (rows_j, c) by joint.
+        columns: (rows_j, r) by joint, weighted: W turn / sigma.
         y: (rows_j,) by joint, weighted.
-        turn: (c, r): the orthonormal columns are W turn / sigma.
+        turn: (c, r) of the base columns W.
         sigma: (J,) rms residual of each joint, N m or N: the weights are its inverse.
         block: (rows_j,) by joint, number of the block of time.
         fold: (blocks,) number of the fold of each block.
-        finer: the same with more blocks, whose sums are taken; None: from the rows.
+        G: (blocks, r, r) Gram matrices of the columns.
+        u: (blocks, r) their products with y.
     """
 
-    W: tuple[np.ndarray, ...]
+    columns: tuple[np.ndarray, ...]
     y: tuple[np.ndarray, ...]
     turn: np.ndarray
     sigma: np.ndarray
     block: tuple[np.ndarray, ...]
     fold: np.ndarray
-    finer: "Base | None" = None
+    G: np.ndarray
+    u: np.ndarray
 
     @property
     def blocks(self) -> int:
         """How many blocks of time there are."""
         return len(self.fold)
-
-    @cached_property
-    def columns(self) -> tuple[np.ndarray, ...]:
-        """(rows_j, r) by joint, weighted."""
-        if self.finer is not None:
-            return self.finer.columns
-        return tuple(w @ (self.turn / s) for w, s in zip(self.W, self.sigma, strict=True))
-
-    @cached_property
-    def grams(self) -> tuple[np.ndarray, np.ndarray]:
-        """(blocks, r, r) and (blocks, r): Gram matrices of the columns, and with y."""
-        if self.finer is not None:
-            place, count = self.finer.crossed.place, self.blocks
-            G, u = (
-                np.stack([x[place == f].sum(axis=0) for f in range(count)])
-                for x in self.finer.grams
-            )
-            return G, u
-        r = self.turn.shape[1]
-        G, u = np.zeros((self.blocks, r, r)), np.zeros((self.blocks, r))
-        for w, t, own in zip(self.columns, self.y, self.block, strict=True):
-            for b, rows in pieces(own):
-                G[b] += w[rows].T @ w[rows]
-                u[b] += w[rows].T @ t[rows]
-        return G, u
-
-    @property
-    def G(self) -> np.ndarray:
-        """(blocks, r, r) Gram matrices of the columns."""
-        return self.grams[0]
-
-    @property
-    def u(self) -> np.ndarray:
-        """(blocks, r) their products with y."""
-        return self.grams[1]
 
     @cached_property
     def pieces(self) -> list[list[tuple[int, slice]]]:
@@ -100,8 +67,6 @@ class Base(Brief):
     @cached_property
     def crossed(self) -> "GramFolds":
         """Fits of the base to all folds but one."""
-        if self.finer is not None:
-            return dataclasses.replace(self.finer.crossed, place=np.arange(self.blocks))
         place = np.unique(self.fold, return_inverse=True)[1]
         count = int(place.max()) + 1
         inverse, beta = solved(but_one(self.G, place, count), but_one(self.u, place, count))
@@ -110,8 +75,6 @@ class Base(Brief):
     @cached_property
     def left_out(self) -> tuple[np.ndarray, ...]:
         """(rows_j,) by joint, weighted: each row less what the fit to the other folds predicts."""
-        if self.finer is not None:
-            return self.finer.left_out
         fits = self.crossed
         return tuple(
             y - np.einsum("ij,ij->i", columns, fits.beta[fits.place[block]])
@@ -166,15 +129,23 @@ def base_of(
         turn: (c, r) of the columns, where it is known.
     """
     turn = turn_of(W, sigma) if turn is None else turn
+    columns = tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True))
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
-    return Base(tuple(W), target, turn, sigma, tuple(block), fold)
+    G, u = np.zeros((len(fold), *turn.shape[1:] * 2)), np.zeros((len(fold), turn.shape[1]))
+    base = Base(columns, target, turn, sigma, tuple(block), fold, G, u)
+    for w, t, own in zip(columns, target, base.pieces, strict=True):
+        for b, rows in own:
+            G[b] += w[rows].T @ w[rows]
+            u[b] += w[rows].T @ t[rows]
+    return base
 
 
 def folded(base: Base) -> Base:
     """The same with whole folds as blocks: enough where only sums over all blocks count."""
     place, count = base.crossed.place, len(base.crossed.beta)
     block = tuple(place[own] for own in base.block)
-    return Base(base.W, base.y, base.turn, base.sigma, block, np.arange(count), finer=base)
+    G, u = (np.stack([x[place == f].sum(axis=0) for f in range(count)]) for x in (base.G, base.u))
+    return dataclasses.replace(base, block=block, fold=np.arange(count), G=G, u=u)
 
 
 def pieces(block: np.ndarray) -> list[tuple[int, slice]]:
@@ -191,7 +162,8 @@ class Pool:
 
     Attributes:
         owner: (K,) candidate of each column, ascending.
-        first: (N,) first column of each candidate.
+        sizes: (N,) columns of each candidate.
+        first: (N,) the first of them.
         scale: (K,) columns were divided by this to have length one.
         T: (blocks, r, K) base' columns.
         w: (blocks, K) columns' y.
@@ -200,6 +172,7 @@ class Pool:
     """
 
     owner: np.ndarray
+    sizes: np.ndarray
     first: np.ndarray
     scale: np.ndarray
     T: np.ndarray
@@ -212,20 +185,25 @@ class Pool:
         """Number of candidates, N."""
         return len(self.first)
 
+    @cached_property
+    def first_pairs(self) -> np.ndarray:
+        """(N,) first pair of each candidate."""
+        return np.cumsum(self.sizes**2) - self.sizes**2
+
 
 def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
     """The Gram matrices of candidates' columns, all of them finite and none zero."""
-    sizes = [next(c.shape[1] for c in columns if c is not None) for columns in every]
-    first = np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(int) if sizes else np.zeros(0, int)
+    sizes = np.array([width(columns) for columns in every], dtype=int)
+    first = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), sizes)
     K, r = len(owner), base.turn.shape[1]
     pairs = np.array(
         [(f + i, f + k) for f, size in zip(first, sizes, strict=True)
          for i in range(size) for k in range(size)]
     ).reshape(-1, 2).astype(int)  # fmt: skip
-    square = np.zeros(K)
     T, w = np.zeros((base.blocks, r, K)), np.zeros((base.blocks, K))
-    D = np.zeros((base.blocks, len(pairs)))
+    D, square = np.zeros((base.blocks, len(pairs))), np.zeros(K)
+    pool = Pool(owner, sizes, first, np.ones(K), T, w, pairs, D)
     for j in range(len(base.sigma)):
         own = [i for i, columns in enumerate(every) if columns[j] is not None]
         for some in (own[k : k + _AT_ONCE] for k in range(0, len(own), _AT_ONCE)):
@@ -235,24 +213,17 @@ def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
             stacked = np.concatenate([np.asarray(every[i][j]).T for i in some])
             stacked /= base.sigma[j]
             square[places] += np.einsum("ij,ij->i", stacked, stacked)
-            _add_joint(base, j, places, stacked, (T, w, D), pairs)
-    scale = np.sqrt(np.where(square > 0.0, square, 1.0))
-    T /= scale
-    w /= scale
-    D /= scale[pairs].prod(axis=1)
-    return Pool(owner, first, scale, T, w, pairs, D)
+            _add_joint(base, pool, j, places, stacked)
+    pool.scale[:] = np.sqrt(np.where(square > 0.0, square, 1.0))
+    T /= pool.scale
+    w /= pool.scale
+    D /= pool.scale[pairs].prod(axis=1)
+    return pool
 
 
-def _add_joint(
-    base: Base,
-    j: int,
-    places: np.ndarray,
-    columns: np.ndarray,
-    grams: tuple[np.ndarray, np.ndarray, np.ndarray],
-    pairs: np.ndarray,
-) -> None:
-    """Adds the rows of one joint, columns (k, rows_j), to (T, w, D)."""
-    T, w, D = grams
+def _add_joint(base: Base, pool: Pool, j: int, places: np.ndarray, columns: np.ndarray) -> None:
+    """Adds the rows of one joint, columns (k, rows_j), to the products of a pool."""
+    T, w, D, pairs = pool.T, pool.w, pool.D, pool.pairs
     where = np.full(T.shape[2], -1)
     where[places] = np.arange(len(places))
     here = np.flatnonzero((where[pairs] >= 0).all(axis=1))
@@ -368,7 +339,8 @@ def blocks_of(observation: Observation) -> TimeBlocks:
     of all laps is held out together: neighbouring laps would give the answer away.
     """
     time, run = observation.time, observation.run
-    length = max(BLOCK, _total(time, run) / MOST)
+    total = float(sum(np.ptp(time[run == log]) for log in np.unique(run)))
+    length = max(BLOCK, total / MOST)
     number = np.zeros(len(time), dtype=int)
     folds: list[int] = []
     periods = []
@@ -389,7 +361,3 @@ def blocks_of(observation: Observation) -> TimeBlocks:
         number[own] = block + len(folds)
         folds += [(int(FOLDS * min(m, 0.999)) + log) % FOLDS for m in middle]
     return TimeBlocks(number, np.array(folds), tuple(periods))
-
-
-def _total(time: np.ndarray, run: np.ndarray) -> float:
-    return float(sum(np.ptp(time[run == log]) for log in np.unique(run)))

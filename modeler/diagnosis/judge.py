@@ -9,8 +9,8 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import Columns
-from modeler.diagnosis.gram import VISIBLE, Pool
-from modeler.diagnosis.ranking import Ranking
+from modeler.diagnosis.gram import VISIBLE, pool_of
+from modeler.diagnosis.ranking import Ranking, total_falls
 from modeler.diagnosis.score import SURE as TIED
 from modeler.diagnosis.score import standard_errors
 from modeler.diagnosis.state import State
@@ -66,6 +66,16 @@ class Judged(Brief):
     why: str = ""
 
     @property
+    def key(self) -> tuple[str, str | None]:
+        """Effect and joint."""
+        return self.candidate.key
+
+    @property
+    def fall(self) -> float:
+        """Of the squared residual on held-out motion, weighted."""
+        return float(self.drop.sum())
+
+    @property
     def alone(self) -> bool:
         """True if only its own joint feels it.
 
@@ -102,58 +112,80 @@ class Judgement(Brief):
 
     def others(self, best: Judged) -> tuple[Judged, ...]:
         """All but that effect on its joint."""
-        return tuple(j for j in self.ranked if j.candidate.key != best.candidate.key)
+        return tuple(j for j in self.ranked if j.key != best.key)
 
 
-def judge(state: State, found: Sequence[Candidate], columns: Sequence[Columns]) -> Judgement:
-    """The best shapes of every effect on every joint, judged."""
-    return decide(state, best_shapes(state, found, columns))
+@dataclass(frozen=True, eq=False)
+class Trial(Brief):
+    """A candidate, and what chooses among the shapes of its effect.
+
+    Attributes:
+        candidate: effect, joint, shapes.
+        columns: by joint.
+        possible: False for a sign or a size that physics forbids.
+        fall: of the squared residual on held-out motion, weighted.
+    """
+
+    candidate: Candidate
+    columns: Columns
+    possible: bool
+    fall: float
 
 
-def best_shapes(
-    state: State, found: Sequence[Candidate], columns: Sequence[Columns]
-) -> list[Judged]:
-    """Every effect on every joint at the best of the given shapes, best first."""
-    order = sift(state, found, columns)
-    return judged_at(state, found, columns, leading(found, order))
-
-
-Order = tuple[bool, float]
-"""What chooses among the shapes of an effect: whether it is possible, and what it explains."""
-
-
-def sift(state: State, found: Sequence[Candidate], columns: Sequence[Columns]) -> list[Order]:
-    """Of every candidate."""
-    seen = state.sifted(columns)
+def tried(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> list[Trial]:
+    """All candidates, each with its columns."""
+    pool = pool_of(state.folded, [columns for _, columns in pairs])
     return [
-        (possible(candidate, value), float(total))
-        for candidate, value, total in zip(found, seen.value, seen.total, strict=True)
+        Trial(candidate, columns, possible(candidate, value), float(fall))
+        for (candidate, columns), fall, value in zip(
+            pairs, *total_falls(state.folded, pool), strict=True
+        )
     ]
 
 
-def leading(found: Sequence[Candidate], order: Sequence[Order]) -> list[int]:
-    """Places of the best shapes of every effect on every joint."""
-    best: dict[tuple[str, str | None], int] = {}
-    for i, candidate in enumerate(found):
-        at = best.get(candidate.key)
-        if at is None or order[i] > order[at]:
-            best[candidate.key] = i
+def leading(trials: Sequence[Trial]) -> list[Trial]:
+    """The best shapes of every effect on every joint."""
+    best: dict[tuple[str, str | None], Trial] = {}
+    for trial in trials:
+        other = best.setdefault(trial.candidate.key, trial)
+        if (trial.possible, trial.fall) > (other.possible, other.fall):
+            best[trial.candidate.key] = trial
     return list(best.values())
 
 
-def judged_at(
-    state: State,
-    found: Sequence[Candidate],
-    columns: Sequence[Columns],
-    places: Sequence[int],
-) -> list[Judged]:
+def judged_at(state: State, trials: Sequence[Trial]) -> list[Judged]:
     """Some of the candidates judged, best first."""
-    if not places:
+    if not trials:
         return []
-    pool, ranking = state.ranked([columns[i] for i in places])
-    judged = [_judged(state, found[i], ranking, pool, k) for k, i in enumerate(places)]
-    judged.sort(key=lambda j: -float(j.drop.sum()))
-    return judged
+    ranking = state.ranked([trial.columns for trial in trials])
+    judged = [_judged(state, trial.candidate, ranking, i) for i, trial in enumerate(trials)]
+    return sorted(judged, key=lambda j: -j.fall)
+
+
+def _judged(state: State, candidate: Candidate, ranking: Ranking, i: int) -> Judged:
+    drop, concerned = ranking.drop[:, i], candidate.concerns(len(ranking.before))
+    fall, at_stake = float(drop.sum()), float(ranking.before[concerned].sum())
+    torque = sum(float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2)) for j in concerned)
+    return Judged(
+        candidate=candidate,
+        gain=min(1.0, fall / max(at_stake, 1e-300)),
+        share=fall / max(float(ranking.before.sum()), 1e-300),
+        drop=drop,
+        values=ranking.value[i],
+        deviations=ranking.deviation[i],
+        sure=float(ranking.sure[i]),
+        felt=float(np.sqrt(max(0.0, fall) / (torque + 1e-300))),
+        visible=float(ranking.visible[i]),
+        possible=possible(candidate, ranking.value[i]),
+    )
+
+
+def possible(candidate: Candidate, values: np.ndarray) -> bool:
+    """False for a sign or a size of the candidate's parameters that physics forbids."""
+    return not any(
+        (column.nonnegative and value < 0.0) or abs(value) > column.largest
+        for value, column in zip(map(float, values), candidate.form.columns, strict=False)
+    )
 
 
 def decide(state: State, judged: list[Judged]) -> Judgement:
@@ -182,11 +214,11 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
     near = [
         other for other in tied(best, judged)
         if other.significant and (timing or not other.candidate.effect.timing)
-        and float(other.drop.sum()) > NEARLY * float(best.drop.sum())
+        and other.fall > NEARLY * best.fall
     ]  # fmt: skip
 
     def place(j: Judged) -> tuple[bool, bool, float, float]:
-        return j.mends, j.unlikely, numbers(j.candidate), -float(j.drop.sum())
+        return j.mends, j.unlikely, numbers(j.candidate), -j.fall
 
     order = sorted([best, *near], key=place)
     return next(
@@ -204,46 +236,6 @@ def numbers(candidate: Candidate) -> float:
     return len(candidate.form.columns) + free + 0.5 * ratios
 
 
-def _own(pool: Pool, i: int) -> np.ndarray:
-    return np.flatnonzero(pool.owner == i)
-
-
-def possible(candidate: Candidate, values: np.ndarray) -> bool:
-    """False for a sign or a size of the candidate's parameters that physics forbids."""
-    for value, column in zip(map(float, values), candidate.form.columns, strict=False):
-        if (column.nonnegative and value < 0.0) or abs(value) > column.largest:
-            return False
-    return True
-
-
-def _judged(state: State, candidate: Candidate, ranking: Ranking, pool: Pool, i: int) -> Judged:
-    drop = ranking.drop[:, i]
-    own = _own(pool, i)
-    return Judged(
-        candidate,
-        min(1.0, float(drop.sum()) / max(_at_stake(candidate, ranking), 1e-300)),
-        float(drop.sum()) / max(float(ranking.before.sum()), 1e-300),
-        drop,
-        ranking.value[own],
-        ranking.deviation[own],
-        float(ranking.sure[i]),
-        float(np.sqrt(max(0.0, float(drop.sum())) / _torque(state, candidate))),
-        float(ranking.visible[i]),
-        possible(candidate, ranking.value[own]),
-    )
-
-
-def _at_stake(candidate: Candidate, ranking: Ranking) -> float:
-    """Squared residual of the joints that the effect concerns, weighted, on held-out motion."""
-    return float(ranking.before[candidate.concerns(len(ranking.before))].sum())
-
-
-def _torque(state: State, candidate: Candidate) -> float:
-    """Squared torque of the joints that the effect concerns, weighted."""
-    own = candidate.concerns(len(state.y))
-    return sum(float(np.sum((state.rows.y[j] / state.base.sigma[j]) ** 2)) for j in own) + 1e-300
-
-
 def alternatives(best: Judged, others: Sequence[Judged], after: Judgement) -> list[Judged]:
     """Tied ones that explain the same: with the best put in, little is left for them.
 
@@ -252,11 +244,8 @@ def alternatives(best: Judged, others: Sequence[Judged], after: Judgement) -> li
         others: its rivals then.
         after: the judgement with it.
     """
-    left = {j.candidate.key: float(j.drop.sum()) for j in after.ranked}
-    return [
-        other for other in tied(best, others)
-        if left.get(other.candidate.key, 0.0) < SAME * float(other.drop.sum())
-    ]  # fmt: skip
+    left = {j.key: j.fall for j in after.ranked}
+    return [o for o in tied(best, others) if left.get(o.key, 0.0) < SAME * o.fall]
 
 
 def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:

@@ -9,7 +9,6 @@ from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import all_columns, own_columns
 from modeler.diagnosis.signals import resonance
 from modeler.diagnosis.state import State, column_key
-from modeler.effects.effect import Effect
 from modeler.numerics.noise import forgotten, outbursts, returning
 from modeler.numerics.spectra import OrderSpectrum
 from modeler.numerics.spectra import order_spectrum as spectrum_of
@@ -21,24 +20,16 @@ def order_spectrum(state: State, j: int) -> OrderSpectrum | None:
     """Of the moving samples of joint j, at full rate; None if it rests."""
     key = "order spectrum", j
     if key not in state.known:
-        state.known[key] = _order_spectrum(state, j)
+        q, r = _samples(state, j)
+        # orders that pass the parallel filter where the joint is slow
+        cutoff = state.data.observation.report.processing.parallel_cutoff or 1e9
+        moving = [np.abs(s.v[s.segment.whole[:: s.every], j]) for s in state.rows.signals]
+        speeds = np.concatenate(moving)
+        slow = float(np.quantile(speeds[speeds > 0.0], 0.1)) if (speeds > 0.0).any() else 1.0
+        reached = 2.0 * np.pi * cutoff / max(slow, 1e-9)
+        unit = state.spec.joints[j].unit
+        state.known[key] = spectrum_of(q, r, unit, reached) if q.size else None
     return cast(OrderSpectrum | None, state.known[key])
-
-
-def _order_spectrum(state: State, j: int) -> OrderSpectrum | None:
-    q, r = _samples(state, j)
-    unit = state.data.compiled.spec.joints[j].unit
-    return spectrum_of(q, r, unit, _reached(state, j)) if q.size else None
-
-
-def _reached(state: State, j: int) -> float:
-    """Order that passes the parallel filter at the median speed of the joint."""
-    cutoff = state.data.observation.report.processing.parallel_cutoff or 1e9
-    speeds = np.abs(
-        np.concatenate([s.v[s.segment.whole[:: s.every], j] for s in state.rows.signals])
-    )
-    slow = float(np.quantile(speeds[speeds > 0.0], 0.1)) if (speeds > 0.0).any() else 1.0
-    return 2.0 * np.pi * cutoff / max(slow, 1e-9)
 
 
 def _samples(state: State, j: int) -> tuple[np.ndarray, np.ndarray]:
@@ -68,17 +59,12 @@ def _extra(state: State, number: int, j: int) -> np.ndarray:
             continue
         if pick.local:
             total = total + own_columns(pick, signals) @ values
-        else:
-            total = total + _torques(state, number, pick)[:, j] @ values
+            continue
+        key = "torques", number, column_key(state.rows, pick)  # (n, J, k), for all joints
+        if key not in state.rows.known:
+            state.rows.known[key] = all_columns(pick, signals)
+        total = total + state.rows.known[key][:, j] @ values
     return total
-
-
-def _torques(state: State, number: int, pick: Candidate) -> np.ndarray:
-    """(n, J, k) torques of the columns of a pick over one stretch, remembered for all joints."""
-    key = "torques", number, column_key(state.rows, pick)
-    if key not in state.rows.known:
-        state.rows.known[key] = all_columns(pick, state.rows.signals[number])
-    return np.asarray(state.rows.known[key])
 
 
 def counted(order: float) -> float:
@@ -98,28 +84,23 @@ def ripple_candidates(
         allowed: False for an id and a joint that the user rules out.
         joints: names of those that count; None: all.
     """
-    found = []
-    for j, joint in enumerate(state.data.compiled.spec.joints):
+    found, catalogue = [], state.data.known.catalogue
+    for j, joint in enumerate(state.spec.joints):
         asked = joint.actuated and (joints is None or joint.name in joints)
         spectrum = order_spectrum(state, j) if asked else None
         for order in spectrum.peaks if spectrum else ():
-            for effect in _waving(state, order, joint.name, allowed):
+            # the other name of an effect that is ruled out counts too
+            every = [e for e in catalogue if e.orders and allowed(e.id, joint.name)]
+            likely = [e for e in every if e.orders and e.orders[0] <= order < e.orders[1]]
+            named = {other for effect in likely for other in effect.same_as}
+            others = (e for e in every if e not in likely and not named & {e.id, *e.same_as})
+            for effect in (*likely, *others):
                 (shape,) = effect.forms[0].shapes
                 found += [
                     Candidate(effect, effect.forms[0], joint.name, j, {shape.name: waves})
                     for waves in dict.fromkeys((order, counted(order)))
                 ]
     return found
-
-
-def _waving(
-    state: State, order: float, joint: str, allowed: Callable[[str, str | None], bool]
-) -> list[Effect]:
-    """Effects that such waves are proposed for; the other name of one that is ruled out."""
-    every = [e for e in state.data.known.catalogue if e.orders and allowed(e.id, joint)]
-    likely = [e for e in every if e.orders and e.orders[0] <= order < e.orders[1]]
-    named = {other for effect in likely for other in effect.same_as}
-    return likely + [e for e in every if e not in likely and not named & {e.id, *e.same_as}]
 
 
 # How much of a residual is physics of whatever cause: predictable, back in every lap, no noise.

@@ -6,7 +6,7 @@ import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.drive_gains import TENFOLD
-from modeler.diagnosis.effect_columns import body_parameters
+from modeler.diagnosis.effect_columns import body_parameters, dense
 from modeler.diagnosis.state import State, columns_of
 from modeler.effects.effect import Needs
 from modeler.estimation.nearest_body import body, nearest_possible
@@ -42,29 +42,30 @@ def drives(before: State, after: State, pick: Candidate) -> bool:
     if not has_friction(after, j):
         return False  # a model without friction says nothing of the whole
     left = float(np.sqrt(np.mean(after.residual[j] ** 2)))
-    own = [k for k, other in enumerate(after.picks) if _brakes(other, j)]
+    own = _braking(after, j)
     worst = _driving(after, j, own)
     if pick.form.names & FADES:
         worst = max(worst, _driving(after, j, own[:-1]))
-    earlier = [k for k, other in enumerate(before.picks) if _brakes(other, j)]
-    return worst > max(left, _driving(before, j, earlier))
+    return worst > max(left, _driving(before, j, _braking(before, j)))
 
 
 def has_friction(state: State, j: int) -> bool:
     """True if the model has friction of joint j alone."""
-    return bool(_own(state, j))
+    return bool(_friction_columns(state, j))
 
 
-def _brakes(pick: Candidate, j: int) -> bool:
-    """True for friction of that joint without memory."""
-    friction = pick.effect.family == "friction" and pick.local and pick.form.memory is None
-    return friction and pick.index == j
+def _braking(state: State, j: int) -> list[int]:
+    """Places of the picks that are friction of that joint without memory."""
+    return [
+        k for k, pick in enumerate(state.picks)
+        if pick.effect.family == "friction" and pick.local and pick.form.memory is None
+        and pick.index == j
+    ]  # fmt: skip
 
 
 def largest_friction(state: State, j: int) -> float:
     """The largest friction torque of joint j on its rows, but for one in fifty, N m or N."""
-    picks = [k for k, other in enumerate(state.picks) if _brakes(other, j)]
-    torque = np.abs(_friction(state, j, picks))
+    torque = np.abs(_friction(state, j, _braking(state, j)))
     return float(np.quantile(torque, 0.98)) if torque.size else 0.0
 
 
@@ -74,15 +75,15 @@ def _driving(state: State, j: int, picks: Sequence[int]) -> float:
     return float(np.sqrt(np.mean(np.minimum(0.0, _friction(state, j, picks) * way) ** 2)))
 
 
-def _own(state: State, j: int) -> list[int]:
+def _friction_columns(state: State, j: int) -> list[int]:
     """Base columns of the friction of joint j alone."""
-    base = state.data.compiled.spec.base
+    base = state.spec.base
     return [i for i, b in enumerate(base) if b.kind == "friction" and b.rows == (j,)]
 
 
 def _friction(state: State, j: int, picks: Sequence[int]) -> np.ndarray:
     """(rows_j,) friction torque of joint j, N m or N: of the model and some of the picks."""
-    own = _own(state, j)
+    own = _friction_columns(state, j)
     torque = state.rows.W[j][:, own] @ state.beta[own]
     for k in picks:
         columns = state.extra[k][j]
@@ -132,13 +133,13 @@ def _more_than_all(state: State, pick: Candidate, parameters: Mapping[str, float
 
 
 def _turns(state: State, pick: Candidate) -> bool:
-    return state.data.compiled.spec.joints[pick.index].unit == "rad"
+    return state.spec.joints[pick.index].unit == "rad"
 
 
 def _no_rest(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """Far from its rest a spring is a constant torque, unless the model has one already."""
     del parameters
-    having = {(p.effect, p.joint) for p in state.data.compiled.spec.standard}
+    having = {(p.effect, p.joint) for p in state.spec.standard}
     scale = state.scales[pick.index]
     if ("offset", pick.joint) in having or abs(
         pick.shapes["q0"] - scale.middle
@@ -152,29 +153,19 @@ def _no_body(state: State, pick: Candidate, parameters: Mapping[str, float]) -> 
     mass = parameters.get("mass", 0.0)
     if mass < 0.0:
         return f"no body has a mass of {mass:.3g} kg"
-    root = _alone(state, pick)
+    # a root of the information on its parameters, beside all else
+    weighted = list(zip(state.rows.W, state.sigma, strict=True))
+    columns = columns_of(state.rows, pick)
+    own = np.vstack([dense(columns, j, len(w)) / s for j, (w, s) in enumerate(weighted)])
+    others = np.vstack([w[:, state.data.free] / s for w, s in weighted])
+    left = own - others @ np.linalg.lstsq(others, own, rcond=None)[0] if others.size else own
+    root = np.asarray(np.linalg.qr(left, mode="r"))
     felt = body_parameters(pick, state.rows.signals[0])
     values = np.array([parameters[name] for name in list(parameters)[: len(felt)]])
     nearest = nearest_possible(body(felt), values, root)
     if nearest is None or nearest.distance < LOST * float(np.linalg.norm(root @ values)):
         return ""
     return "no body has these inertial parameters: its pseudo-inertia would be negative"
-
-
-def _alone(state: State, pick: Candidate) -> np.ndarray:
-    """(k, k) root of the information on the parameters of an effect, beside all else."""
-    k = next(len(v) for v, p in zip(state.values, state.picks, strict=True) if p is pick)
-    columns, sigma = columns_of(state.rows, pick, state.cache), state.base.sigma
-    own = np.vstack(
-        [
-            np.zeros((len(w), k)) if c is None else c / s
-            for c, w, s in zip(columns, state.rows.W, sigma, strict=True)
-        ]
-    )
-    others = np.vstack([w[:, state.data.free] / s
-                        for w, s in zip(state.rows.W, sigma, strict=True)])  # fmt: skip
-    left = own - others @ np.linalg.lstsq(others, own, rcond=None)[0] if others.size else own
-    return np.asarray(np.linalg.qr(left, mode="r"))
 
 
 def _no_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
@@ -200,7 +191,7 @@ def _nothing_to_balance(state: State, pick: Candidate, parameters: Mapping[str, 
 def _no_lever(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """What the residual covers of its torque beside a straight line over the stroke is not seen."""
     j = pick.index
-    column = columns_of(state.rows, pick, state.cache)[j]
+    column = columns_of(state.rows, pick)[j]
     assert column is not None, "it acts on its own joint"
     torque = column @ [parameters[name] for name in pick.parameter_names()]
     line = np.vander(state.rows.filtered(j, [s.q[:, j] for s in state.rows.signals]), 2)

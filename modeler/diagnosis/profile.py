@@ -24,10 +24,12 @@ from functools import cached_property
 
 import numpy as np
 
-from modeler.diagnosis.candidates import Candidate, JointScale
-from modeler.diagnosis.effect_columns import Columns, Rows
+from modeler.diagnosis.candidates import Candidate, JointScale, coded
+from modeler.diagnosis.effect_columns import Columns, Rows, body_parameters, dense
 from modeler.diagnosis.gram import blocks_of
-from modeler.effects.effect import Shape
+from modeler.diagnosis.signals import tilt_basis
+from modeler.diagnosis.state import State
+from modeler.effects.effect import Acts, Shape
 from modeler.estimation.covariance import autocorrelation, repeated
 from modeler.numerics.least_squares import orthonormal
 from modeler.observation.observation import Observation
@@ -76,6 +78,12 @@ class ProfileProblem:
     sigma: np.ndarray
     scale: JointScale
 
+    @classmethod
+    def of(cls, state: State, pick: Candidate, others: Sequence[np.ndarray]) -> "ProfileProblem":
+        """Of an effect in a state, by all columns but its own."""
+        observation, scale = state.data.observation, state.scales[pick.scaled]
+        return cls(state.rows, observation, others, state.y, state.sigma, scale)
+
     @cached_property
     def block(self) -> np.ndarray:
         """(samples,) number of the block of time of each sample."""
@@ -95,10 +103,9 @@ class ProfileProblem:
 
     def weighted(self, columns: Columns) -> tuple[np.ndarray, ...]:
         """(rows_j, k) by joint, divided by sigma; zeros where there are none."""
-        size = next(c.shape[1] for c in columns if c is not None)
         return tuple(
-            np.zeros((len(t), size)) if c is None else c / s
-            for c, t, s in zip(columns, self.y, self.sigma, strict=True)
+            dense(columns, j, len(t)) / s
+            for j, (t, s) in enumerate(zip(self.y, self.sigma, strict=True))
         )
 
     def at(self, candidate: Candidate) -> Point | None:
@@ -204,21 +211,17 @@ class Profile:
 
     def shape_deviations(self) -> dict[str, float]:
         """Standard deviations of the shapes by name."""
-        return {
-            name: float(
-                np.sqrt(self.share @ (np.array([p.shapes[name] for p in self.points]) - value) ** 2)
-            )
-            for name, value in self.told.shapes.items()
-        }
+        found = {}
+        for name, value in self.told.shapes.items():
+            apart = np.array([point.shapes[name] for point in self.points]) - value
+            found[name] = float(np.sqrt(self.share @ apart**2))
+        return found
 
     def shape_intervals(self) -> dict[str, tuple[float, float]]:
         """95 % intervals of the shapes by name: all that the data do not refuse."""
         allowed = [p for p, rise in zip(self.points, self.rise, strict=True) if rise < SURE]
-        found = {}
-        for name, value in self.told.shapes.items():
-            own = [value, *(point.shapes[name] for point in allowed)]
-            found[name] = (min(own), max(own))
-        return found
+        found = {n: [p.shapes[n] for p in (self.told, *allowed)] for n in self.told.shapes}
+        return {name: (min(own), max(own)) for name, own in found.items()}
 
     def extra(self) -> np.ndarray:
         """(c + k,) squared: what the shapes add to the covariance; all else first, then own."""
@@ -234,13 +237,17 @@ def profile(problem: ProfileProblem, told: Candidate) -> Profile | None:
         problem: the rows.
         told: the effect with the shapes that are told.
     """
-    fixed, smooth = _kinds(told)
+    smooth = [shape for shape in told.form.shapes if told.refinable(shape)]
+    fixed = {  # shapes of which only some values make sense
+        shape.name: shape.grid for shape in told.form.shapes
+        if shape not in smooth and len(shape.grid) > 1 and told.shapes[shape.name] in shape.grid
+    }  # fmt: skip
     first = problem.at(told)
-    if first is None or not (smooth or any(len(values) > 1 for _, values in fixed)):
+    if first is None or not (smooth or fixed):
         return None
     points: list[Point] = []
-    for values in itertools.product(*(values for _, values in fixed)):
-        chosen = dict(zip((name for name, _ in fixed), values, strict=True))
+    for values in itertools.product(*fixed.values()):
+        chosen = dict(zip(fixed, values, strict=True))
         here = dataclasses.replace(told, shapes={**told.shapes, **chosen})
         points += _explored(problem, here, smooth, first.squares)
     points = [p for p in points if _possible(told, p)] or [first]
@@ -258,18 +265,6 @@ def _possible(candidate: Candidate, point: Point) -> bool:
     )
 
 
-def _kinds(told: Candidate) -> tuple[list[tuple[str, tuple[float, ...]]], list[Shape]]:
-    """Shapes of which only some values make sense, with these, and the others."""
-    fixed, smooth = [], []
-    for shape in told.form.shapes:
-        value = told.shapes[shape.name]
-        if shape.smooth or (shape.scale == "waves" and value not in shape.grid):
-            smooth.append(shape)
-        elif len(shape.grid) > 1 and value in shape.grid:
-            fixed.append((shape.name, shape.grid))
-    return fixed, smooth
-
-
 def _explored(
     problem: ProfileProblem, start: Candidate, smooth: Sequence[Shape], least: float
 ) -> list[Point]:
@@ -279,50 +274,28 @@ def _explored(
         return [] if point is None else [point]
     lines = [_line(problem.scale, start, shape) for shape in smooth]
     if len(smooth) == 1:
-        return _along(lambda x: problem.at(_moved(start, smooth, [x])), lines[0], least)
+        return _along(lambda x: problem.at(start.moved(smooth, [x])), lines[0], least)
     return _around(problem, start, smooth, lines)
 
 
-@dataclass(frozen=True)
-class _Line:
-    """Coded values of one shape: those to begin with, ascending; the told one among them."""
-
-    values: tuple[float, ...]
-    told: float
-
-
-def _line(scale: JointScale, start: Candidate, shape: Shape) -> _Line:
+def _line(scale: JointScale, start: Candidate, shape: Shape) -> list[float]:
+    """Coded values of one shape to begin with, ascending; the told one among them."""
     told = coded(shape, start.shapes[shape.name])
     if shape.scale == "waves":
         near = told + np.pi / scale.range * np.linspace(-_BESIDE, _BESIDE, 4 * _BESIDE + 1)
-        return _Line(tuple(float(m) for m in near if m > 0.0), told)
+        return [float(m) for m in near if m > 0.0]
     low, high = (coded(shape, scale.value(shape, end)) for end in shape.limits)
     inner = {coded(shape, scale.value(shape, entry)) for entry in shape.grid}
-    kept = {x for x in (*inner, told) if low < x < high}
-    return _Line(tuple(sorted({low, high, *kept})), told)
+    return sorted({low, high, *(x for x in (*inner, told) if low < x < high)})
 
 
-def coded(shape: Shape, value: float) -> float:
-    """Positive shapes by their logarithm."""
-    return float(np.log(value)) if shape.limits[0] > 0.0 else value
-
-
-def decoded(shape: Shape, x: float) -> float:
-    """The value of a coded shape."""
-    return float(np.exp(x)) if shape.limits[0] > 0.0 else float(x)
-
-
-def _moved(start: Candidate, smooth: Sequence[Shape], x: Sequence[float]) -> Candidate:
-    values = {shape.name: decoded(shape, v) for shape, v in zip(smooth, x, strict=True)}
-    return dataclasses.replace(start, shapes={**start.shapes, **values})
-
-
-def _along(at: Callable[[float], Point | None], line: _Line, least: float) -> list[Point]:
+def _along(at: Callable[[float], Point | None], line: Sequence[float], least: float) -> list[Point]:
     """Points along one shape, closest where the likelihood is: the biggest cell is halved."""
-    seen = {x: at(x) for x in line.values}
+    seen = {x: at(x) for x in line}
     while len(seen) < _MOST:
         x = np.array(sorted(seen))
-        squares = np.array([_squares(seen[value]) for value in x])
+        points = [seen[value] for value in x]
+        squares = np.array([np.inf if point is None else point.squares for point in points])
         likely = np.exp(-0.5 * (squares - min(least, squares.min())))
         # a peak may hide between two points: cells count by their better end
         cells = np.diff(x) * np.maximum(likely[:-1], likely[1:])
@@ -341,38 +314,29 @@ def _along(at: Callable[[float], Point | None], line: _Line, least: float) -> li
     return [dataclasses.replace(p, weight=float(w)) for p, w in found if p is not None]
 
 
-def _squares(point: Point | None) -> float:
-    return np.inf if point is None else point.squares
-
-
 def _around(
-    problem: ProfileProblem, start: Candidate, smooth: Sequence[Shape], lines: Sequence[_Line]
+    problem: ProfileProblem,
+    start: Candidate,
+    smooth: Sequence[Shape],
+    lines: Sequence[Sequence[float]],
 ) -> list[Point]:
     """Points on a grid about the told shapes, along the axes of the likelihood there."""
-    middle = np.array([line.told for line in lines])
-    low = np.array([line.values[0] for line in lines])
-    high = np.array([line.values[-1] for line in lines])
+    middle = np.array([coded(shape, start.shapes[shape.name]) for shape in smooth])
+    low, high = (np.array([line[end] for line in lines]) for end in (0, -1))
 
     def at(x: np.ndarray) -> Point | None:
         if np.any(x < low) or np.any(x > high):
             return None
-        return problem.at(_moved(start, smooth, list(x)))
+        return problem.at(start.moved(smooth, x))
 
-    axes = _axes(problem, start, smooth, middle) * _REACHED
+    # a root of the covariance of the coded shapes, by the slopes of the columns
+    _, slopes = _slopes(problem, start, smooth, middle)
+    values, vectors = np.linalg.eigh(slopes.T @ slopes)
+    floor = 1e-9 * max(float(values.max(initial=0.0)), 1e-300)
+    axes = vectors / np.sqrt(np.maximum(values, floor)) * _REACHED
     steps = np.linspace(-1.0, 1.0, _LINE)
     places = (middle + axes @ np.array(z) for z in itertools.product(steps, repeat=len(smooth)))
     return [point for point in map(at, places) if point is not None]
-
-
-def _axes(
-    problem: ProfileProblem, start: Candidate, smooth: Sequence[Shape], middle: np.ndarray
-) -> np.ndarray:
-    """(s, s) root of the covariance of the coded shapes, by the slopes of the columns."""
-    _, slopes = _slopes(problem, start, smooth, middle)
-    gram = slopes.T @ slopes
-    values, vectors = np.linalg.eigh(gram)
-    floor = 1e-9 * max(float(values.max(initial=0.0)), 1e-300)
-    return np.asarray(vectors / np.sqrt(np.maximum(values, floor)))
 
 
 def _slopes(
@@ -394,7 +358,7 @@ def _slopes(
         for sign in (-1.0, 1.0):
             x = np.array(middle, dtype=float)
             x[i] += sign * _STEP
-            moved = problem.rows.columns(_moved(told, smooth, list(x)))
+            moved = problem.rows.columns(told.moved(smooth, x))
             ends.append(problem.off(problem.weighted(moved)) @ here.values)
         slopes.append((ends[1] - ends[0]) / (2.0 * _STEP))
     slope = np.column_stack(slopes) if slopes else np.zeros((len(own), 0))
@@ -429,3 +393,91 @@ def _factors(
     safe = np.where(white > 0.0, white, 1.0)
     ratio = np.maximum(1.0 + extra / safe, np.sum(sums**2, axis=0) / safe)
     return np.sqrt(np.maximum(ratio, 1.0))
+
+
+# What people read of an effect that was found: names, values, deviations, units.
+
+
+@dataclass(frozen=True)
+class EffectValues:
+    """By name of the parameter: value, its standard deviation, unit; SI."""
+
+    value: dict[str, float]
+    deviation: dict[str, float]
+    unit: dict[str, str]
+
+
+def values_of(
+    state: State, pick: Candidate, values: np.ndarray, deviations: np.ndarray
+) -> EffectValues:
+    """What people read of an effect.
+
+    A body on a link has its mass and the inertial parameters that the robot feels; a tilted base
+    the change of gravity in frame 0, m/s^2.
+
+    Args:
+        state: with the effect.
+        pick: it.
+        values: of its columns.
+        deviations: theirs.
+    """
+    if pick.effect.acts is Acts.GRAVITY:
+        basis = tilt_basis(state.reference)
+        assert basis is not None
+        axes = np.array([axis for axis, _ in basis[:2]])
+        values, deviations = values[:2] @ axes, np.sqrt(deviations[:2] ** 2 @ axes**2)
+        units = dict.fromkeys(("gx", "gy", "gz"), "m/s^2")
+    else:
+        units = _units(state, pick)
+    return EffectValues(
+        dict(zip(units, map(float, values), strict=True)),
+        dict(zip(units, map(float, deviations), strict=False)),
+        units,
+    )
+
+
+def profile_of(state: State, place: int) -> Profile | None:
+    """The likelihood along the shapes of an effect that was put in.
+
+    Args:
+        state: with the effect.
+        place: of it among the effects of the state.
+    """
+    sizes = [len(values) for values in state.values]
+    first = state.W[0].shape[1] - sum(sizes[place:])
+    own = slice(first, first + sizes[place])
+    pick = state.picks[place]
+    others = tuple(np.delete(w, own, axis=1) for w in state.W)
+    return profile(ProfileProblem.of(state, pick, others), pick)
+
+
+def named_intervals(along: Profile, named: EffectValues) -> dict[str, tuple[float, float]]:
+    """95 % intervals of the parameters and shapes of an effect, by name."""
+    own = zip(named.value, along.intervals().tolist(), strict=False)
+    return {name: (low, high) for name, (low, high) in own} | along.shape_intervals()
+
+
+def _units(state: State, pick: Candidate) -> dict[str, str]:
+    """Names of the parameters, in the order of the columns, and their units."""
+    if pick.effect.acts is Acts.LINK:
+        felt = body_parameters(pick, state.rows.signals[0])
+        names = [p.name.removesuffix(p.joint) for p in felt]
+        return {
+            "mass" if name == "M" else name: p.unit for name, p in zip(names, felt, strict=True)
+        }
+    linear = _linear(state, pick)
+    return {
+        name: column.unit_prismatic if linear else column.unit_revolute
+        for name, column in zip(pick.parameter_names(), pick.form.columns, strict=True)
+    }
+
+
+def _linear(state: State, pick: Candidate) -> bool:
+    """True on a prismatic joint."""
+    joints = state.spec.joints
+    return any(joint.name == pick.joint and joint.unit == "m" for joint in joints)
+
+
+def shape_units(state: State, pick: Candidate) -> dict[str, str]:
+    """Units of the shapes, by name."""
+    return {shape.name: shape.unit(_linear(state, pick)) for shape in pick.form.shapes}

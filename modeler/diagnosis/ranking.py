@@ -1,5 +1,6 @@
 """Ranking: how much of the residual each candidate explains on motion it was not fitted to."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,16 +17,16 @@ class Ranking:
         before: (J,) squared residual there without any candidate.
         sure: (N,) fall fitted on all rows over its standard error: sums over blocks of what the
             candidate explains and what it leaves, so that coloured residuals count.
-        value: (K,) parameters on all rows, SI.
-        deviation: (K,) their standard deviation for white residuals of variance 1, SI.
+        value: by candidate, its parameters on all rows, SI.
+        deviation: their standard deviation for white residuals of variance 1, SI.
         visible: (N,) share of the columns that the base does not hide.
     """
 
     drop: np.ndarray
     before: np.ndarray
     sure: np.ndarray
-    value: np.ndarray
-    deviation: np.ndarray
+    value: Sequence[np.ndarray]
+    deviation: Sequence[np.ndarray]
     visible: np.ndarray
 
 
@@ -41,15 +42,14 @@ def rank(base: Base, pool: Pool) -> Ranking:
         pool: candidates.
     """
     every = _whole(base, pool)
-    cross, square = _in_blocks(base, pool, every, np.zeros(base.blocks, dtype=int))
+    cross, square = _by_fit(base, pool, every, slice(None), slice(None))
     score = np.sum((cross - square) ** 2, axis=0)
-    gamma, deviation = every.gamma[0], every.deviation[0]
     return Ranking(
         fall(base, pool),
         np.array([float(left @ left) for left in base.left_out]),
         every.fitted[0] / np.sqrt(np.maximum(score, 1e-300)),
-        gamma / pool.scale,
-        deviation / pool.scale,
+        np.split(every.gamma[0] / pool.scale, pool.first[1:]),
+        np.split(every.deviation[0] / pool.scale, pool.first[1:]),
         every.visible[0],
     )
 
@@ -58,35 +58,33 @@ def fall(base: Base, pool: Pool) -> np.ndarray:
     """(blocks, N) fall of the squared residual in blocks that were held out: `Ranking.drop`."""
     crossed = base.crossed
     at = (crossed.place, len(crossed.beta))
-    grams = (but_one(gram, *at) for gram in (base.u, pool.T, pool.w, pool.D))
-    held_out = _solve(pool, crossed.inverse, crossed.beta, *grams)
-    cross, square = _in_blocks(base, pool, held_out, crossed.place)
+    grams = [but_one(gram, *at) for gram in (base.u, pool.T, pool.w, pool.D)]
+    held_out = _solve(pool, crossed.inverse, crossed.beta, grams)
+    place, count = at
+    if count == 1 or (len(place) == count and np.array_equal(place, np.arange(count))):
+        cross, square = _by_fit(base, pool, held_out, slice(None), slice(None))
+    else:
+        cross, square = np.zeros((2, base.blocks, pool.count))
+        for f in range(count):
+            here = place == f
+            cross[here], square[here] = _by_fit(base, pool, held_out, here, slice(f, f + 1))
     return 2.0 * cross - square
 
 
-@dataclass(frozen=True, eq=False)
-class Sifted:
-    """Of N candidates with K columns: what chooses among their shapes.
+def total_falls(base: Base, pool: Pool) -> tuple[np.ndarray, list[np.ndarray]]:
+    """`rank` in sums, where base and pool are those of whole folds: what chooses among shapes.
 
-    Attributes:
-        total: (N,) fall of the squared residual in folds that were held out.
-        value: by candidate, its parameters on all rows, SI.
+    (N,) fall of the squared residual in folds that were held out, and by candidate its parameters
+    on all rows, SI.
     """
-
-    total: np.ndarray
-    value: tuple[np.ndarray, ...]
-
-
-def sifted(base: Base, pool: Pool) -> Sifted:
-    """`rank` in sums: the same falls, if base and pool are those of whole folds."""
     value = _whole(base, pool).gamma[0] / pool.scale
-    return Sifted(fall(base, pool).sum(axis=0), tuple(np.split(value, pool.first[1:])))
+    return fall(base, pool).sum(axis=0), np.split(value, pool.first[1:])
 
 
 def _whole(base: Base, pool: Pool) -> "_SolvedPool":
     """Fitted to all rows."""
-    G, u, T, w, D = (g.sum(axis=0)[None] for g in (base.G, base.u, pool.T, pool.w, pool.D))
-    return _solve(pool, *solved(G, u), u, T, w, D)
+    G, *grams = (g.sum(axis=0)[None] for g in (base.G, base.u, pool.T, pool.w, pool.D))
+    return _solve(pool, *solved(G, grams[0]), grams)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,27 +98,20 @@ class _SolvedPool:
 
 
 def _solve(
-    pool: Pool,
-    inverse: np.ndarray,
-    beta: np.ndarray,
-    u: np.ndarray,
-    T: np.ndarray,
-    w: np.ndarray,
-    D: np.ndarray,
+    pool: Pool, inverse: np.ndarray, beta: np.ndarray, grams: Sequence[np.ndarray]
 ) -> _SolvedPool:
-    """F fits of every candidate beside the base, from their Gram matrices (F, ...)."""
+    """F fits of every candidate beside the base, from their Gram matrices (F, ...): u, T, w, D."""
+    u, T, w, D = grams
     A = inverse @ T
     i, k = pool.pairs[:, 0], pool.pairs[:, 1]
     M = D - np.einsum("fri,fri->fi", T[:, :, i], A[:, :, k])
     h = w - np.einsum("frk,fr->fk", A, u)
     gamma, deviation = np.zeros(h.shape), np.zeros(h.shape)
     visible, fitted = np.zeros((len(h), pool.count)), np.zeros((len(h), pool.count))
-    sizes = np.bincount(pool.owner, minlength=pool.count)
-    start = np.concatenate([[0], np.cumsum(sizes**2)])
-    for size in np.unique(sizes):
-        own = np.flatnonzero(sizes == size)
+    for size in np.unique(pool.sizes):
+        own = np.flatnonzero(pool.sizes == size)
         places = pool.first[own][:, None] + np.arange(size)
-        square = start[own][:, None] + np.arange(size**2)
+        square = pool.first_pairs[own][:, None] + np.arange(size**2)
         matrix = M[:, square].reshape(len(h), -1, size, size)
         values, vectors = np.linalg.eigh(0.5 * (matrix + matrix.swapaxes(2, 3)))
         seen = values > VISIBLE**2
@@ -133,8 +124,8 @@ def _solve(
     return _SolvedPool(beta, A, gamma, deviation, visible, fitted)
 
 
-def _in_blocks(
-    base: Base, pool: Pool, at: _SolvedPool, place: np.ndarray
+def _by_fit(
+    base: Base, pool: Pool, at: _SolvedPool, here: np.ndarray | slice, fit: slice
 ) -> tuple[np.ndarray, np.ndarray]:
     """(blocks, N) e^T r and e^T e: r the residual of the base, e what is added.
 
@@ -142,27 +133,14 @@ def _in_blocks(
         base: current model.
         pool: all candidates.
         at: parameters of F fits.
-        place: (blocks,) which fit counts in each block.
+        here: the blocks that are counted.
+        fit: that which counts in all of them, or one for each.
     """
-    count = len(at.beta)
-    if count == 1 or (len(place) == count and np.array_equal(place, np.arange(count))):
-        return _by_fit(base, pool, at, slice(None), slice(None))
-    cross, square = np.zeros((2, base.blocks, pool.count))
-    for f in range(count):
-        here = place == f
-        cross[here], square[here] = _by_fit(base, pool, at, here, slice(f, f + 1))
-    return cross, square
-
-
-def _by_fit(
-    base: Base, pool: Pool, at: _SolvedPool, here: np.ndarray | slice, fit: slice
-) -> tuple[np.ndarray, np.ndarray]:
-    """The same in some blocks, with one fit for each of them or for all."""
     beta, gamma = at.beta[fit], at.gamma[fit]
     G, T = base.G[here], pool.T[here]
     i, k = pool.pairs[:, 0], pool.pairs[:, 1]
     a = _by_owner(pool, at.A[fit] * gamma[:, None])
-    products = _sums(pool.D[here] * (gamma[:, i] * gamma[:, k]), _pair_starts(pool))
+    products = _sums(pool.D[here] * (gamma[:, i] * gamma[:, k]), pool.first_pairs)
     left = base.u[here] - (G @ beta[:, :, None])[:, :, 0]
     known = (beta[:, None] @ T)[:, 0]
     cross = _by_owner(pool, (pool.w[here] - known) * gamma) - (left[:, None] @ a)[:, 0]
@@ -181,8 +159,3 @@ def _sums(values: np.ndarray, starts: np.ndarray) -> np.ndarray:
     if not starts.size or not values.size:
         return np.zeros((*values.shape[:-1], len(starts)))
     return np.add.reduceat(values, starts, axis=-1)
-
-
-def _pair_starts(pool: Pool) -> np.ndarray:
-    sizes = np.bincount(pool.owner, minlength=pool.count)
-    return np.concatenate([[0], np.cumsum(sizes**2)[:-1]]).astype(int)

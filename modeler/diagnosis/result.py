@@ -26,7 +26,7 @@ ALIKE = 1.2
 """Noise on held-out logs over that on training logs, variances, that is no sign of physics."""
 
 
-def closure(
+def explained_fraction(
     chain: Sequence[State],
     touched: Sequence[int],
     systematic: Sequence[float],
@@ -47,7 +47,7 @@ def closure(
     """
     squares = [np.array([mean_square(r) for r in state.residual]) for state in chain]
     noise = [(1.0 - systematic[j]) * squares[-1][j] for j in range(len(squares[-1]))]
-    sigma = chain[0].base.sigma
+    sigma = chain[0].sigma
     shares = [_share(squares, touched, noise, sigma)]
     if held_out is not None:
         shares.append(_share(held_out, touched, [ALIKE * n for n in noise], sigma))

@@ -138,8 +138,10 @@ def scored(
     """
     grid = _Grid.of(before, block)
     old, new = errors_of(before), errors_of(after)
-    known = [(j, name) for j, name in enumerate(before.names) if name in old and name in new]
-    shares = {name: (grid.shares(before, j), grid.shares(after, j)) for j, name in known}
+    shares = {
+        name: (grid.shares(before, j), grid.shares(after, j))
+        for j, name in enumerate(before.names) if name in old and name in new
+    }  # fmt: skip
     changes = tuple(
         Change(name, old[name], new[name], standard_errors(np.sqrt(a) - np.sqrt(b)))
         for name, (a, b) in shares.items()
@@ -148,13 +150,14 @@ def scored(
     total = sum(share.values())
     if not total > 0.0:
         return Score(changes, Change("", math.nan, math.nan, 0.0))
-    first, last = (math.sqrt(sum(share[name] * of[name] ** 2 for name in shares) / total)
-                   for of in (old, new))  # fmt: skip
-    pooled = [
+    first, last = (
+        math.sqrt(sum(share[name] * of[name] ** 2 for name in shares) / total) for of in (old, new)
+    )
+    a, b = (
         np.sqrt(np.sum([share[name] * own[k] for name, own in shares.items()], axis=0))
         for k in (0, 1)
-    ]
-    return Score(changes, Change("", first, last, standard_errors(pooled[0] - pooled[1])))
+    )
+    return Score(changes, Change("", first, last, standard_errors(a - b)))
 
 
 def standard_errors(differences: np.ndarray) -> float:
@@ -178,7 +181,7 @@ def errors_of(seen: Unseen) -> dict[str, float]:
     return {name: e / y for name, (e, y) in zip(seen.names, sizes, strict=True) if y > 0.0}
 
 
-def told(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
+def error_changes(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
     """The errors that change: "joint 7 11.4 % -> 7.1 %; joint 2 rises, 3 % -> 3.2 %".
 
     Args:

@@ -6,38 +6,39 @@ And which spring hangs on a lever: a helical one, or one of constant force?
 import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import Brief
+from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis.candidates import Candidate, over_grid
-from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled
-from modeler.diagnosis.effect_columns import Columns
-from modeler.diagnosis.effect_values import values_of
+from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled_parameters
+from modeler.diagnosis.generate import generate_candidates, ruled_out
+from modeler.diagnosis.gram import pool_of
 from modeler.diagnosis.judge import (
     NEARLY,
     Judged,
     Judgement,
-    Order,
+    Trial,
     alternatives,
     decide,
-    judge,
     judged_at,
     leading,
-    sift,
+    tried,
 )
 from modeler.diagnosis.plausible import DRIVES, drives, objection
-from modeler.diagnosis.polish import best_polished, polished
-from modeler.diagnosis.propose import proposals, ruled_out
-from modeler.diagnosis.state import Data, State, all_columns_of, columns_of, state_of, visible
+from modeler.diagnosis.profile import values_of
+from modeler.diagnosis.ranking import total_falls
+from modeler.diagnosis.refine import best_refined, refined
+from modeler.diagnosis.state import SearchData, State, all_columns_of, columns_of, state_of, visible
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Effect
 
 # Every hypothesis in a state: at the best of its shapes, the leading ones refined.
 
-
-_T = TypeVar("_T")
+Tick = Callable[[], None]
+"""Called whenever something is done."""
 
 STARTS = 4
 """Grid values from which an effect with two shapes is refined: its fit has several summits."""
@@ -64,47 +65,37 @@ class HypothesisScan:
 
     Attributes:
         state: it.
-        found: candidates that show.
-        columns: theirs.
+        trials: candidates that show.
         best: every effect on every joint at the best of its shapes, none refined, best first.
-        order: what chooses among the shapes of `found`.
         refined: effects that were refined, by the shapes that this began with.
     """
 
     state: State
-    found: Sequence[Candidate]
-    columns: Sequence[Columns]
+    trials: Sequence[Trial]
     best: Sequence[Judged]
-    order: Sequence[Order] = ()
     refined: dict[tuple[Any, ...], Judged] = field(default_factory=dict)
 
-    def still(self, refused: Sequence[Judged]) -> list[Judged]:
+    def still_refused(self, refused: Sequence[Judged]) -> list[Judged]:
         """Vetoed effects that have not become far better by the effect put in since."""
-        gains = {judged.candidate.key: judged.gain for judged in self.best}
+        gains = {judged.key: judged.gain for judged in self.best}
         return [
-            j for j in refused
-            if j.mends or 1.0 - gains.get(j.candidate.key, 0.0) > BETTER * (1.0 - j.gain)
-        ]  # fmt: skip
+            j for j in refused if j.mends or 1.0 - gains.get(j.key, 0.0) > BETTER * (1.0 - j.gain)
+        ]
 
-    def but(self, vetoed: Sequence[Judged]) -> "HypothesisScan":
+    def excluding(self, vetoed: Sequence[Judged]) -> "HypothesisScan":
         """The same without what was vetoed."""
-        left = [i for i, c in enumerate(self.found) if not among(c, vetoed)]
-        if len(left) == len(self.found):
+        touched = {t.candidate.key for t in self.trials if is_vetoed(t.candidate, vetoed)}
+        if not touched:
             return self
-        found, columns = _picked(self.found, left), _picked(self.columns, left)
-        order = _picked(self.order, left)
-        touched = {c.key for c in self.found if among(c, vetoed)}
-        again = [i for i in leading(found, order) if found[i].key in touched]
-        best = [j for j in self.best if j.candidate.key not in touched]
-        best += judged_at(self.state, found, columns, again)
-        best.sort(key=lambda j: -float(j.drop.sum()))
-        return HypothesisScan(self.state, found, columns, best, order, self.refined)
+        left = [t for t in self.trials if not is_vetoed(t.candidate, vetoed)]
+        again = [t for t in leading(left) if t.candidate.key in touched]
+        best = [*(j for j in self.best if j.key not in touched), *judged_at(self.state, again)]
+        best.sort(key=lambda j: -j.fall)
+        return HypothesisScan(self.state, left, best, self.refined)
 
-    def judged(
-        self, vetoed: Sequence[Judged] = (), tick: Callable[[], None] = lambda: None
-    ) -> Judgement:
+    def judged(self, vetoed: Sequence[Judged] = (), tick: Tick = lambda: None) -> Judgement:
         """All but what was vetoed; the leading ones refined, with a tick after each."""
-        left = self.but(vetoed)
+        left = self.excluding(vetoed)
         close = [
             j for j in left.best[:MANY]
             if j.possible and j.share > CLOSE * left.best[0].share and j.gain > WORTH
@@ -112,29 +103,26 @@ class HypothesisScan:
         # Of effects that were not refined, only the best shapes may win still.
         refined = {}
         for item in close:
-            refined[item.candidate.key] = left.at_best(item)
+            starts = left.starts(item.candidate)
+            key = tuple((*c.key, *c.shapes.items()) for c in starts)
+            if key not in self.refined:
+                self.refined[key] = left.at_best(item, starts)
+            refined[item.key] = self.refined[key]
             tick()
-        best = [refined.get(j.candidate.key, j) for j in left.best]
-        return decide(self.state, sorted(best, key=lambda j: -float(j.drop.sum())))
+        best = [refined.get(j.key, j) for j in left.best]
+        return decide(self.state, sorted(best, key=lambda j: -j.fall))
 
-    def at_best(self, judged: Judged) -> Judged:
+    def at_best(self, judged: Judged, starts: Sequence[Candidate]) -> Judged:
         """An effect with its best shapes refined, or with the next best if these do better."""
-        starts = self.starts(judged.candidate)
-        key = tuple((*c.key, *c.shapes.items()) for c in starts)
-        if key not in self.refined:
-            self.refined[key] = self._refined(judged, starts)
-        return self.refined[key]
-
-    def _refined(self, judged: Judged, starts: Sequence[Candidate]) -> Judged:
-        better = best_polished(self.state, starts)
-        if better is judged.candidate:
+        better, first = best_refined(self.state, starts), judged.candidate
+        if better is first:
             return judged
-        first = judged.candidate
-        others = [i for i, c in enumerate(self.found) if c.key == first.key and c is not first]
-        found = [better, *_picked(self.found, others)]
-        columns = [columns_of(self.state.rows, better, {}), *_picked(self.columns, others)]
-        order = [*sift(self.state, found[:1], columns[:1]), *_picked(self.order, others)]
-        return judged_at(self.state, found, columns, leading(found, order))[0]
+        others = [t for t in self.trials if t.candidate.key == first.key]
+        trials = [
+            *tried(self.state, [(better, self.state.rows.columns(better))]),
+            *(t for t in others if t.candidate is not first),
+        ]
+        return judged_at(self.state, leading(trials))[0]
 
     def starts(self, first: Candidate) -> list[Candidate]:
         """Shapes of one effect from which refining starts, the best first.
@@ -145,11 +133,11 @@ class HypothesisScan:
         refined = [s.name for s in first.form.shapes if s.smooth and len(s.grid) > 1]
         if len(first.form.shapes) < 2 or not refined:
             return [first]
-        own = [i for i, c in enumerate(self.found) if c.key == first.key]
-        total = np.array([self.order[i][1] for i in own])
-        least = NEAR * float(total.max()) if len(refined) == 1 else -np.inf
-        places = [own[k] for k in np.argsort(-total) if total[k] >= least]
-        order = [first, *(c for c in (self.found[i] for i in places) if c is not first)]
+        own = [t for t in self.trials if t.candidate.key == first.key]
+        falls = np.array([trial.fall for trial in own])
+        least = NEAR * float(falls.max()) if len(refined) == 1 else -np.inf
+        near = [own[k].candidate for k in np.argsort(-falls) if falls[k] >= least]
+        order = [first, *(c for c in near if c is not first)]
         if len(refined) > 1:
             return order[:STARTS]
         best: dict[tuple[float, ...], Candidate] = {}
@@ -158,32 +146,24 @@ class HypothesisScan:
         return list(best.values())
 
 
-def surveyed(
+def scan_catalogue(
     state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
 ) -> HypothesisScan:
     """All candidates in a state, or those of one effect, or of one joint."""
-    return survey_of(
-        state, [c for c in proposals(state, only, without) if joint in (None, c.joint)]
+    return scan_candidates(
+        state, [c for c in generate_candidates(state, only, without) if joint in (None, c.joint)]
     )
 
 
-def survey_of(state: State, found: Sequence[Candidate]) -> HypothesisScan:
+def scan_candidates(state: State, found: Sequence[Candidate]) -> HypothesisScan:
     """Some candidates in a state; those that show."""
-    columns = all_columns_about(state, found)
-    seen = [i for i, c in enumerate(columns) if visible(c)]
-    found, columns = _picked(found, seen), _picked(columns, seen)
-    if not found:
-        return HypothesisScan(state, (), (), (), ())
-    order = sift(state, found, columns)
-    best = judged_at(state, found, columns, leading(found, order))
-    return HypothesisScan(state, found, columns, best, order)
+    every = zip(found, all_columns_about(state, found), strict=True)
+    shown = [(candidate, columns) for candidate, columns in every if visible(columns)]
+    trials = tried(state, shown) if shown else []
+    return HypothesisScan(state, trials, judged_at(state, leading(trials)))
 
 
-def _picked(items: Sequence[_T], places: Sequence[int]) -> list[_T]:
-    return [items[i] for i in places]
-
-
-def among(candidate: Candidate, vetoed: Sequence[Judged]) -> bool:
+def is_vetoed(candidate: Candidate, vetoed: Sequence[Judged]) -> bool:
     """True if it was vetoed; of ripples, all orders that differ by less than a tenth."""
     others = [judged.candidate for judged in vetoed]
     if not candidate.effect.several:
@@ -256,14 +236,29 @@ class Search(Brief):
     vetoed: tuple[Judged, ...] = ()
     without: tuple[str, ...] = ()
 
+    @property
+    def spec(self) -> ModuleSpec:
+        """What the robot is made of."""
+        return self.start.spec
+
+    @property
+    def catalogue(self) -> Sequence[Effect]:
+        """The effects that may be missing."""
+        return self.start.data.known.catalogue
+
+    @property
+    def ranked(self) -> tuple[Judged, ...]:
+        """Rivals of the first effect that was put in, or all where none was; best first."""
+        return self.steps[0].rivals if self.steps else self.last.ranked
+
 
 def search(
-    data: Data,
+    data: SearchData,
     beta: np.ndarray,
     without: Sequence[str] = (),
     most: int = MOST,
     veto: Veto | None = None,
-    tick: Callable[[], None] = lambda: None,
+    tick: Tick = lambda: None,
 ) -> Search:
     """Effects that the model lacks, one by one.
 
@@ -275,35 +270,27 @@ def search(
         veto: looks at held-out logs.
         tick: called whenever something is done.
     """
-    start = state = _started(data, beta)
+    start = state = about_itself(state_of(data, (), beta))
     steps, refused, every = list[Step](), list[Judged](), list[Judged]()
-    survey = surveyed(state, without) if most else None
-    judgement = survey.judged((), tick) if survey else Judgement((), None)
-    while survey is not None and judgement.best is not None and len(steps) < most:
-        if len(every) == ASKED:
-            break
-        first = judgement.best
-        asked = put_in(state, _named(state, first, refused, without), veto)
-        best, later = asked.judged, asked.later
-        other = _instead(survey, refused, asked, tick)
+    if not most:
+        return Search(start, (), state, Judgement((), None), (), tuple(without))
+    survey = scan_catalogue(state, without)
+    judgement = survey.judged((), tick)
+    while judgement.best is not None and len(steps) < most and len(every) < ASKED:
+        best, later = put_in(state, _named(state, judgement.best, refused, without), veto)
+        other = _instead(survey, refused, best, later, tick)
         if other is not None or later is None:
             refused, every = [*refused, best], [*every, best]
             judgement = other or Judgement((), None)
             continue
-        survey = surveyed(later, without)
-        doubted, refused = _doubted(refused, best), survey.still(refused)
-        after = survey.judged(refused, tick)
-        steps.append(_step(state, best, judgement.others(best), after, doubted))
+        survey = scan_catalogue(later, without)
+        doubted, refused = _doubted(refused, best), survey.still_refused(refused)
+        after, rivals = survey.judged(refused, tick), judgement.others(best)
+        ties = (*alternatives(best, rivals, after), *doubted)
+        steps.append(Step(best, rivals, state, ties))
         state, judgement = later, after
     kept, state = _backward(state, steps, tick)
     return Search(start, tuple(kept), state, judgement, tuple(every), tuple(without))
-
-
-def _step(
-    state: State, best: Judged, rivals: tuple[Judged, ...], after: Judgement,
-    doubted: Sequence[Judged],
-) -> Step:  # fmt: skip
-    return Step(best, rivals, state, (*alternatives(best, rivals, after), *doubted))
 
 
 def _doubted(refused: Sequence[Judged], best: Judged) -> list[Judged]:
@@ -315,50 +302,40 @@ def _doubted(refused: Sequence[Judged], best: Judged) -> list[Judged]:
     ]  # fmt: skip
 
 
-@dataclass(frozen=True, eq=False)
-class TriedEffect:
+def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State | None]:
     """An effect that led, with what speaks against its values, and the state with it.
 
-    `later` is None where it was refused: `judged.why` says why, if it is not by held-out motion.
+    The state is None where it is refused: `why` says why, if it is not by held-out motion.
     """
-
-    judged: Judged
-    later: State | None
-
-
-def put_in(state: State, best: Judged, veto: Veto | None) -> TriedEffect:
-    """The effect, and the state with it."""
     later = extended(state, best.candidate)
     if drives(state, later, best.candidate):
-        return TriedEffect(dataclasses.replace(best, possible=False, why=DRIVES), None)
+        return dataclasses.replace(best, possible=False, why=DRIVES), None
     if veto is not None and veto(state, later, best):
-        return TriedEffect(best, None)
-    why = _objection(later)
-    return TriedEffect(dataclasses.replace(best, why=why) if why else best, later)
+        return best, None
+    pick, values = later.picks[-1], later.values[-1]
+    named = values_of(later, pick, values, np.zeros(len(values)))
+    why = objection(later, pick, named.value | dict(pick.shapes))
+    return dataclasses.replace(best, why=why) if why else best, later
 
 
 def _instead(
-    survey: HypothesisScan, refused: Sequence[Judged], asked: TriedEffect, tick: Callable[[], None]
+    survey: HypothesisScan,
+    refused: Sequence[Judged],
+    asked: Judged,
+    later: State | None,
+    tick: Tick,
 ) -> Judgement | None:
     """What leads without an effect that was refused, or is doubted, if another explains as much.
 
     Or if the doubted one explains little. None where the effect is put in.
     """
-    doubted = asked.judged
-    if asked.later is not None and not doubted.why:
+    if later is not None and not asked.why:
         return None
-    without = survey.judged([*refused, doubted], tick)
-    best = without.best
-    if asked.later is None or doubted.gain < MUCH:
+    without = survey.judged([*refused, asked], tick)
+    if later is None or asked.gain < MUCH:
         return without
-    return without if best is not None and best.share > NEARLY * doubted.share else None
-
-
-def _objection(later: State) -> str:
-    """Why the values of the last effect cannot be those of this robot; empty if they can."""
-    pick, values = later.picks[-1], later.values[-1]
-    named = values_of(later, pick, values, np.zeros(len(values)))
-    return objection(later, pick, named.value | dict(pick.shapes))
+    best = without.best
+    return without if best is not None and best.share > NEARLY * asked.share else None
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:
@@ -367,40 +344,39 @@ def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequen
     Of drive gains, the likeliest: ranks weigh the joints by what a model bent by it leaves.
     """
     if is_gain(best.candidate):
-        every = proposals(state, best.candidate.effect.id, without)
-        gains = [c for c in every if not among(c, vetoed)]
+        every = generate_candidates(state, best.candidate.effect.id, without)
+        gains = [c for c in every if not is_vetoed(c, vetoed)]
         return _judged_again(state, likeliest(state, gains) or best.candidate)
     other = effect_named(best.candidate.effect.twin, state.data.known.catalogue)
     joint = best.candidate.joint
     if other is None or ruled_out(other.id, joint, without):
         return best
     pull = constant_force(state, best.candidate, other)
-    if pull is None or among(pull, vetoed):
+    if pull is None or is_vetoed(pull, vetoed):
         return best
     return _judged_again(state, pull)
 
 
 def _judged_again(state: State, candidate: Candidate) -> Judged:
-    return judge(state, [candidate], all_columns_about(state, [candidate])).ranked[0]
-
-
-def _started(data: Data, beta: np.ndarray) -> State:
-    """Without any effect, linearised about its own parameters."""
-    given = state_of(data, (), beta)
-    return state_of(data, (), given.beta, given.cache)
+    (columns,) = all_columns_about(state, [candidate])
+    trials = tried(state, [(candidate, columns)])
+    return decide(state, judged_at(state, trials)).ranked[0]
 
 
 def extended(state: State, pick: Candidate) -> State:
     """The state with one effect more, linearised about its own parameters."""
-    picks, about = (*state.picks, pick), settled(state, pick)
-    once = state_of(state.data, picks, state.beta if about is None else about, state.cache)
-    about = settled(once)
-    return state_of(state.data, picks, once.beta if about is None else about, state.cache)
+    picks, about = (*state.picks, pick), settled_parameters(state, pick)
+    once = state_of(state.data, picks, state.beta if about is None else about)
+    return about_itself(once)
 
 
-def _backward(
-    state: State, steps: Sequence[Step], tick: Callable[[], None]
-) -> tuple[list[Step], State]:
+def about_itself(state: State) -> State:
+    """The state linearised about its own parameters."""
+    about = settled_parameters(state)
+    return state_of(state.data, state.picks, state.beta if about is None else about)
+
+
+def _backward(state: State, steps: Sequence[Step], tick: Tick) -> tuple[list[Step], State]:
     """Drops effects that the others made unnecessary, the weakest first.
 
     What the others gain is judged again then, beside those that are left.
@@ -415,7 +391,7 @@ def _backward(
         if judged[weakest].significant:
             break
         del kept[weakest]
-        state = state_of(state.data, [s.pick for s in kept], state.beta, state.cache)
+        state = state_of(state.data, [s.pick for s in kept], state.beta)
     if len(kept) < len(steps):
         kept = [dataclasses.replace(s, judged=_beside(state, kept, s)) for s in kept]
     return kept, state
@@ -424,8 +400,7 @@ def _backward(
 def _beside(state: State, kept: Sequence[Step], step: Step) -> Judged:
     """One of the effects, judged in the model with the others."""
     others = [s.pick for s in kept if s is not step]
-    less = state_of(state.data, others, state.beta, state.cache)
-    return _judged_again(less, step.pick)
+    return _judged_again(state_of(state.data, others, state.beta), step.pick)
 
 
 def constant_force(state: State, helical: Candidate, other: Effect) -> Candidate | None:
@@ -443,7 +418,7 @@ def constant_force(state: State, helical: Candidate, other: Effect) -> Candidate
     pull = _best(state, helical, other, 1.0)
     if pull is None:
         return None
-    _, ranking = state.ranked([columns_of(state.rows, helical, state.cache)])
+    ranking = state.ranked([columns_of(state.rows, helical)])
     total = float(ranking.before[helical.index])
     if _better(float(ranking.drop.sum()), pull[1], total):
         return None
@@ -463,9 +438,9 @@ def _best(
     """The best shapes with which the part sin / l has that sign, and the fall they give."""
     scale = state.scales[like.index]
     grid = list(over_grid(effect, effect.forms[0], str(like.joint), like.index, scale))
-    tried = _signed(state, grid, sign)[:_STARTS]
-    refined = [polished(state, candidate) for candidate, _ in tried]
-    return next(iter(_signed(state, [*refined, *(c for c, _ in tried)], sign)), None)
+    signed = _signed(state, grid, sign)[:_STARTS]
+    every = [*(refined(state, candidate) for candidate, _ in signed), *(c for c, _ in signed)]
+    return next(iter(_signed(state, every, sign)), None)
 
 
 def _signed(
@@ -474,7 +449,7 @@ def _signed(
     """Those whose last parameter has that sign, and the fall of each, best first."""
     if not candidates:
         return []
-    seen = state.sifted(all_columns_of(state.rows, candidates, state.cache))
-    last, fall = [value[-1] for value in seen.value], seen.total
-    order = [k for k in np.argsort(-fall) if sign * last[k] > 0.0 and fall[k] > 0.0]
+    pool = pool_of(state.folded, all_columns_of(state.rows, candidates))
+    fall, values = total_falls(state.folded, pool)
+    order = [k for k in np.argsort(-fall) if sign * values[k][-1] > 0.0 and fall[k] > 0.0]
     return [(candidates[k], float(fall[k])) for k in order]

@@ -58,12 +58,8 @@ class SignalReference(Brief):
             owner[base.column_of]: float(value)
             for base, value in zip(spec.base, self.beta, strict=True)
         }
-        return np.array(
-            [
-                [values.get((effect, joint.name), 0.0) for joint in spec.joints]
-                for effect in ("viscous", "rotor_inertia")
-            ]
-        )
+        drives = ("viscous", "rotor_inertia")
+        return np.array([[values.get((e, j.name), 0.0) for j in spec.joints] for e in drives])
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,21 +180,15 @@ class Signals(Brief):
 
     def _slope(self, j: int, kind: int) -> np.ndarray:
         model, beta = self.reference.compiled, self.reference.links
-        if kind == 2:
-            unit = np.zeros(self.q.shape[1])
-            unit[j] = 1.0
-            return (
-                model.inverse_dynamics(self.q, self.v, self.a + unit, beta, self.read) - self.load
-            )
         size = (_STEP, 1.0, 1.0)[kind]
-        ahead, behind = [self.q, self.v, self.a], [self.q, self.v, self.a]
         step = np.zeros(self.q.shape[1])
         step[j] = size
+        ahead, behind = [self.q, self.v, self.a], [self.q, self.v, self.a]
         ahead[kind] = ahead[kind] + step
+        if kind == 2:
+            return model.inverse_dynamics(self.q, self.v, ahead[2], beta, self.read) - self.load
         behind[kind] = behind[kind] - step
-        if (
-            kind == 0
-        ):  # beside the last posture that closes the loops there may be one that does not
+        if kind == 0:  # beside the last posture that closes the loops may be one that does not
             nearest = nearest_closed(model, ahead[0], behind[0])
             if nearest is not None:
                 ahead[0], behind[0] = ahead[0][nearest], behind[0][nearest]
@@ -293,16 +283,11 @@ def tilt_weights(reference: SignalReference) -> np.ndarray | None:
 
 def frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
     """(n, J, rows, 3, 4) d/dq_j of [R | p] of every moving row, by differences; q is (n, J)."""
-    found: np.ndarray | None = None
-    for j in range(q.shape[1]):
-        step = np.zeros(q.shape[1])
-        step[j] = _TILT_STEP
-        ahead, behind = model.forward_kinematics(q + step), model.forward_kinematics(q - step)
-        if found is None:
-            found = np.empty((len(q), q.shape[1], *ahead.shape[1:]))
-        np.subtract(ahead, behind, out=found[:, j])
-    assert found is not None, "a robot has joints"
-    return found / (2.0 * _TILT_STEP)
+    slopes = [
+        model.forward_kinematics(q + step) - model.forward_kinematics(q - step)
+        for step in _TILT_STEP * np.eye(q.shape[1])
+    ]
+    return np.stack(slopes, axis=1) / (2.0 * _TILT_STEP)
 
 
 def gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
@@ -331,7 +316,12 @@ def tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]
     rows = list(dict.fromkeys(rows))
     if len(rows) != model.forward_kinematics(np.zeros((1, len(model.spec.joints)))).shape[1]:
         return None  # virtual rows: which frame is whose is not in the manifest
-    chi = _stands_for(reference, rows)
+    # first moments and masses that give the model's torques: the base columns' own
+    chi, moments = np.zeros((len(rows), 4)), ("M", "MX", "MY", "MZ")
+    place = {f"{m}{row}": (r, k) for r, row in enumerate(rows) for k, m in enumerate(moments)}
+    for base, value in zip(model.spec.base, reference.links, strict=True):
+        if base.column_of in place:
+            chi[place[base.column_of]] = value
     q = np.random.default_rng(3).uniform(-1.5, 1.5, (_STATES, len(model.spec.joints)))
     unit = np.eye(3)
     slopes = frame_slopes(model, q)
@@ -347,17 +337,6 @@ def tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]
     axes = (across, np.cross(down, across))
     found = [(axis, chi) for axis in axes]
     return found + _woken(slopes, axes, down, len(rows))
-
-
-def _stands_for(reference: SignalReference, rows: list[str]) -> np.ndarray:
-    """(rows, 4) first moments and masses that give the model's torques: the base columns' own."""
-    chi = np.zeros((len(rows), 4))
-    for base, value in zip(reference.compiled.spec.base, reference.links, strict=True):
-        for k, prefix in enumerate(("M", "MX", "MY", "MZ")):
-            for r, row in enumerate(rows):
-                if base.column_of == f"{prefix}{row}":
-                    chi[r, k] = value
-    return chi
 
 
 def _woken(

@@ -3,25 +3,18 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from modeler.core.brief import Brief
+from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis.candidates import Candidate, JointScale, Known, scales_of
-from modeler.diagnosis.effect_columns import Columns, Rows, rows_of
-from modeler.diagnosis.gram import (
-    Base,
-    Pool,
-    TimeBlocks,
-    base_of,
-    blocks_of,
-    folded,
-    pool_of,
-    sigma_of,
-)
-from modeler.diagnosis.ranking import Ranking, Sifted, rank, sifted
+from modeler.diagnosis.effect_columns import Columns, Rows, dense, rows_of, width
+from modeler.diagnosis.gram import Base, TimeBlocks, base_of, blocks_of, folded, pool_of, sigma_of
+from modeler.diagnosis.ranking import Ranking, rank
 from modeler.diagnosis.signals import SignalReference, frame_slopes, tilt_weights
 from modeler.effects.effect import Acts
 from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
@@ -32,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Data(Brief):
+class SearchData(Brief):
     """What does not change during a search.
 
     Attributes:
@@ -48,6 +41,11 @@ class Data(Brief):
     kept: np.ndarray | None = None
     known: Known = field(default_factory=Known)
 
+    @property
+    def spec(self) -> ModuleSpec:
+        """What the robot is made of."""
+        return self.compiled.spec
+
     @cached_property
     def blocks(self) -> TimeBlocks:
         """Blocks and folds."""
@@ -56,17 +54,13 @@ class Data(Brief):
     @cached_property
     def rows(self) -> Rows:
         """All rows; effects are not linearised about anything yet."""
-        beta = np.zeros(len(self.compiled.spec.base))
+        beta = np.zeros(len(self.spec.base))
         return rows_of(
             self.observation, SignalReference(self.compiled, beta, *_references(self.observation))
         )
 
-    def rows_about(self, beta: np.ndarray) -> Rows:
-        """The rows with effects linearised about beta (c,)."""
-        return self.about(dataclasses.replace(self.rows.signals[0].reference, beta=beta))
-
     def about(self, reference: SignalReference) -> Rows:
-        """The same about a reference; the last few are remembered."""
+        """The rows with effects linearised about a reference; the last few are remembered."""
         key = reference.beta.tobytes(), _clock(reference)
         found = self._about.pop(key, None) or self.rows.about(reference)
         self._about[key] = found
@@ -79,17 +73,11 @@ class Data(Brief):
         return {}
 
     @cached_property
-    def cache(self) -> dict[Any, Any]:
-        """Columns that do not depend on the model."""
-        return {}
-
-    @cached_property
     def free(self) -> np.ndarray:
         """Indices of the base columns that are fitted."""
-        base = self.compiled.spec.base
-        return np.array(
-            [i for i, b in enumerate(base) if self.kept is None or b.kind in _FREE], dtype=int
-        )
+        base = self.spec.base
+        free = [i for i, b in enumerate(base) if self.kept is None or b.kind in _FREE]
+        return np.array(free, dtype=int)
 
     @cached_property
     def y(self) -> tuple[np.ndarray, ...]:
@@ -134,27 +122,31 @@ class State(Brief):
         extra: columns of the picks.
     """
 
-    data: Data
+    data: SearchData
     picks: tuple[Candidate, ...]
     reference: SignalReference
     rows: Rows
     extra: tuple[Columns, ...]
-    cache: dict = field(default_factory=dict)
+
+    @property
+    def spec(self) -> ModuleSpec:
+        """What the robot is made of."""
+        return self.data.spec
+
+    @property
+    def names(self) -> list[str]:
+        """Of the joints."""
+        return [joint.name for joint in self.spec.joints]
 
     @cached_property
     def W(self) -> tuple[np.ndarray, ...]:
         """(rows_j, f + extra) by joint: base columns that are fitted, then the picks'."""
-        sizes = [next(c.shape[1] for c in e if c is not None) for e in self.extra]
-        if not sizes and self.data.kept is None:
+        if not self.extra and self.data.kept is None:
             return self.rows.W
-        found = []
-        for j, base in enumerate(self.rows.W):
-            parts = [base[:, self.data.free]]
-            for columns, size in zip(self.extra, sizes, strict=True):
-                own = columns[j]
-                parts.append(np.zeros((len(base), size)) if own is None else own)
-            found.append(np.hstack(parts))
-        return tuple(found)
+        return tuple(
+            np.hstack([base[:, self.data.free], *(dense(e, j, len(base)) for e in self.extra)])
+            for j, base in enumerate(self.rows.W)
+        )
 
     @property
     def y(self) -> tuple[np.ndarray, ...]:
@@ -210,12 +202,8 @@ class State(Brief):
     @cached_property
     def values(self) -> list[np.ndarray]:
         """Parameters of each pick, SI."""
-        found, at = [], len(self.data.free)
-        for columns in self.extra:
-            size = next(c.shape[1] for c in columns if c is not None)
-            found.append(self.solution[at : at + size])
-            at += size
-        return found
+        ends = np.cumsum([len(self.data.free), *map(width, self.extra)])
+        return [self.solution[first:last] for first, last in pairwise(ends)]
 
     @cached_property
     def residual(self) -> tuple[np.ndarray, ...]:
@@ -230,83 +218,63 @@ class State(Brief):
     @cached_property
     def scales(self) -> list[JointScale]:
         """What is large on each joint."""
-        signals = self.rows.signals
-        whole = [s.segment.whole[:: s.every] for s in signals]
-        return scales_of(
-            self.data.compiled.spec,
-            [s.q[w] for s, w in zip(signals, whole, strict=True)],
-            [s.v[w] for s, w in zip(signals, whole, strict=True)],
-            [s.load[w] for s, w in zip(signals, whole, strict=True)],
+        motion = (
+            [getattr(s, name)[s.segment.whole[:: s.every]] for s in self.rows.signals]
+            for name in ("q", "v", "load")
         )
+        return scales_of(self.spec, *motion)
 
-    def sifted(self, every: Sequence[Columns]) -> Sifted:
-        """Falls and values of candidates by their columns, in sums."""
-        return sifted(self.folded, pool_of(self.folded, every))
-
-    def ranked(self, every: Sequence[Columns]) -> tuple[Pool, Ranking]:
+    def ranked(self, every: Sequence[Columns]) -> Ranking:
         """Candidates by their columns."""
-        pool = pool_of(self.base, every)
-        return pool, rank(self.base, pool)
+        return rank(self.base, pool_of(self.base, every))
 
 
-def state_of(
-    data: Data, picks: Sequence[Candidate], beta: np.ndarray, cache: dict | None = None
-) -> State:
-    """The analysis with these effects, linearised about beta.
-
-    Args:
-        data: the logs.
-        picks: accepted so far.
-        beta: (c,) base parameters.
-        cache: of columns that do not depend on beta, kept between states.
-    """
-    rows = data.rows_about(beta)
-    kept = data.cache if cache is None else cache
-    extra = picked_columns(rows, picks, kept)
-    return State(data, tuple(picks), rows.signals[0].reference, rows, extra, kept)
+def state_of(data: SearchData, picks: Sequence[Candidate], beta: np.ndarray) -> State:
+    """The analysis with these effects, linearised about beta (c,)."""
+    rows = data.about(dataclasses.replace(data.rows.signals[0].reference, beta=beta))
+    return State(data, tuple(picks), rows.signals[0].reference, rows, picked_columns(rows, picks))
 
 
-def picked_columns(rows: Rows, picks: Sequence[Candidate], cache: dict) -> tuple[Columns, ...]:
+def picked_columns(rows: Rows, picks: Sequence[Candidate]) -> tuple[Columns, ...]:
     """The columns of what was put in: remembered for every reference."""
     for pick in picks:
         if column_key(rows, pick) not in rows.known:
-            rows.known[column_key(rows, pick)] = columns_of(rows, pick, cache)
+            rows.known[column_key(rows, pick)] = columns_of(rows, pick)
     return tuple(rows.known[column_key(rows, pick)] for pick in picks)
 
 
-def columns_of(rows: Rows, candidate: Candidate, cache: dict) -> Columns:
+def columns_of(rows: Rows, candidate: Candidate) -> Columns:
     """The candidate's columns; those that do not depend on the model are computed once."""
     if candidate.effect.acts is Acts.GRAVITY:
-        return _tilt(rows, cache)
+        return _tilt(rows)
     if not _fixed(candidate):
         return rows.columns(candidate)
     key = column_key(rows, candidate)
-    if key not in cache:
-        cache[key] = rows.columns(candidate)
-    return cache[key]
+    if key not in rows.cache:
+        rows.cache[key] = rows.columns(candidate)
+    return rows.cache[key]
 
 
-def all_columns_of(rows: Rows, candidates: Sequence[Candidate], cache: dict) -> list[Columns]:
+def all_columns_of(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]:
     """The columns of many candidates: the shapes of one effect at once."""
-    found: list[Columns | None] = [None] * len(candidates)
+    found: dict[int, Columns] = {}
     groups: dict[Any, list[int]] = {}
     for i, candidate in enumerate(candidates):
-        if _fixed(candidate) and column_key(rows, candidate) in cache:
-            found[i] = cache[column_key(rows, candidate)]
+        if _fixed(candidate) and column_key(rows, candidate) in rows.cache:
+            found[i] = rows.cache[column_key(rows, candidate)]
         else:
             groups.setdefault((candidate.key, id(candidate.form)), []).append(i)
     # Joint after joint: the slopes along the motion of one joint serve all its effects.
     for places in sorted(groups.values(), key=lambda own: candidates[own[0]].index):
         every = [candidates[i] for i in places]
         if len(every) == 1 or every[0].effect.acts is Acts.GRAVITY:
-            made = [columns_of(rows, candidate, cache) for candidate in every]
+            made = [columns_of(rows, candidate) for candidate in every]
         else:
             made = rows.many(every)
             new = zip(every, made, strict=True)
-            cache.update({column_key(rows, c): own for c, own in new if _fixed(c)})
-        for i, own in zip(places, made, strict=True):
-            found[i] = own
-    return [own for own in found if own is not None]
+            rows.cache.update({column_key(rows, c): own for c, own in new if _fixed(c)})
+        found |= dict(zip(places, made, strict=True))
+    return [found[i] for i in range(len(candidates))]
 
 
 def _fixed(candidate: Candidate) -> bool:
@@ -330,21 +298,21 @@ _FIXED = (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE, Acts.LINK)
 """What reads the motion only, if its equations do."""
 
 
-def _tilt(rows: Rows, cache: dict) -> Columns:
+def _tilt(rows: Rows) -> Columns:
     """`tilt_columns`: the model only weighs the slopes of the frames, which are filtered once."""
     weights = tilt_weights(rows.signals[0].reference)
     if weights is None:
         return (None,) * rows.joints
     key = "frame slopes"
-    if key not in cache:
-        cache[key] = rows.spread(partial(_frame_slopes, rows), width=1000)
-    return tuple(None if own is None else own @ weights for own in cache[key])
+    if key not in rows.cache:
 
+        def slopes(stretch: int, window: slice) -> np.ndarray:
+            signals = rows.signals[stretch]
+            found = frame_slopes(signals.reference.compiled, signals.q[window])
+            return found.reshape(*found.shape[:2], -1)
 
-def _frame_slopes(rows: Rows, stretch: int, window: slice) -> np.ndarray:
-    signals = rows.signals[stretch]
-    found = frame_slopes(signals.reference.compiled, signals.q[window])
-    return found.reshape(*found.shape[:2], -1)
+        rows.cache[key] = rows.spread(slopes, width=1000)
+    return tuple(None if own is None else own @ weights for own in rows.cache[key])
 
 
 def visible(columns: Columns) -> bool:

@@ -80,7 +80,7 @@ def shown(found: Search, step: Step) -> Shown:
     """
     full, others = found.end, [s.pick for s in found.steps if s is not step]
     start = found.start
-    without = state_of(start.data, others, full.beta, start.cache) if others else start
+    without = state_of(start.data, others, full.beta) if others else start
     j = _joint(step, without, full)
     adds = without.residual[j] - full.residual[j]
     axis = axis_of(full, step.pick, j, adds)
@@ -110,7 +110,7 @@ def _joint(step: Step, without: State, full: State) -> int:
 def _own(found: Search, step: Step, j: int) -> np.ndarray | None:
     """(rows_j,) torque of the effect on joint j, whether or not the model could imitate it."""
     place = next(i for i, s in enumerate(found.steps) if s is step)
-    columns = columns_of(found.end.rows, step.pick, found.end.cache)[j]
+    columns = columns_of(found.end.rows, step.pick)[j]
     return None if columns is None else columns @ found.end.values[place]
 
 
@@ -163,7 +163,7 @@ def law_sigma(found: Search, step: Step, j: int, axis: Axis, bins: Bins) -> np.n
         bins: of the axis.
     """
     place = next(i for i, s in enumerate(found.steps) if s is step)
-    columns = columns_of(found.end.rows, step.pick, found.end.cache)[j]
+    columns = columns_of(found.end.rows, step.pick)[j]
     if columns is None:
         return None
     covariance = covariance_of(found.end.base)

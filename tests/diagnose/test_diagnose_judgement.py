@@ -9,7 +9,8 @@ import pytest
 
 from modeler.core.json import nulled
 from modeler.diagnosis import data_checks as doubts
-from modeler.diagnosis import errors, search
+from modeler.diagnosis import holdout_error as errors
+from modeler.diagnosis import search
 from modeler.diagnosis.assemble import _doubted, verdict
 from modeler.diagnosis.candidates import Candidate, Known, candidates, scales_of
 from modeler.diagnosis.cross_checks import CrossCheck
@@ -135,9 +136,9 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
     """With a tenth around every order of a ripple banned, there is always another one to ask."""
     asked = []
 
-    def refused(state: object, best: object, veto: object) -> search.Asked:
+    def refused(state: object, best: object, veto: object) -> tuple[object, None]:
         asked.append(best)
-        return search.Asked(SimpleNamespace(why=""), None)  # type: ignore[arg-type]
+        return SimpleNamespace(why=""), None
 
     class Endless:
         def judged(self, vetoed: object = (), tick: object = None) -> SimpleNamespace:
@@ -145,8 +146,9 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
 
     monkeypatch.setattr(search, "put_in", refused)
     monkeypatch.setattr(search, "_named", lambda state, best, vetoed, without: best)
-    monkeypatch.setattr(search, "surveyed", lambda state, without: Endless())
-    monkeypatch.setattr(search, "_started", lambda data, beta: None)
+    monkeypatch.setattr(search, "scan_catalogue", lambda state, without: Endless())
+    monkeypatch.setattr(search, "state_of", lambda data, picks, beta: None)
+    monkeypatch.setattr(search, "about_itself", lambda state: state)
     found = search.search(None, None)  # type: ignore[arg-type]
     assert len(found.vetoed) == len(asked) == search.ASKED
 
@@ -171,7 +173,8 @@ def test_what_is_doubted_gives_way_to_a_rival_that_explains_as_much(
     instead = lambda judged: search._instead(  # noqa: E731
         survey,
         [],
-        search.Asked(judged, SimpleNamespace()),
+        judged,
+        SimpleNamespace(),
         print,  # type: ignore[arg-type]
     )
     assert (instead(doubted) is rival) is taken
@@ -212,7 +215,7 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
     """Errors there without it are 1; a little falls by chance, or by what the effect is not."""
     change = Change("", 1.0, after, 5.0)
     monkeypatch.setattr(errors, "touched_joints", lambda judged, before, after: [0])
-    monkeypatch.setattr(errors, "unseen", lambda state, other: state)
+    monkeypatch.setattr(errors, "holdout_residuals", lambda state, other: state)
     monkeypatch.setattr(errors, "compared", lambda *a: Score((change,), change))
     veto = errors.vetoing("held out")  # type: ignore[arg-type]
     judged_at = SimpleNamespace(gain=expected, alone=True)
@@ -229,7 +232,7 @@ def test_what_an_effect_explains_is_no_matter_of_the_channel(
     monkeypatch: pytest.MonkeyPatch, left: float, certain: bool, told: int
 ) -> None:
     start, end = (SimpleNamespace(residual=[np.full(10, size)], data=None) for size in (1.0, left))
-    for name in ("late_lines", "_moved", "data_lines"):
+    for name in ("sensor_delay_lines", "_moved", "data_lines"):
         monkeypatch.setattr(doubts, name, lambda *a: [])
     faults = [Fault("torque 1 is 0.7 times the predicted", certain, 0)]
     found = SimpleNamespace(start=start, end=end)
@@ -253,9 +256,9 @@ def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(
     before: float, now: float, again: bool
 ) -> None:
     better = dataclasses.replace(at_its_best("spring", now))
-    survey = HypothesisScan(None, (), (), (better,))  # type: ignore[arg-type]
+    survey = HypothesisScan(None, (), (better,))  # type: ignore[arg-type]
     mending = dataclasses.replace(at_its_best("stribeck", 0.2), values=-np.ones(1))
     refused = [at_its_best("spring", before), mending]
-    kept = survey.still(refused)
+    kept = survey.still_refused(refused)
     assert (refused[0] not in kept) is again
     assert mending in kept, "what only mends a law stays refused"

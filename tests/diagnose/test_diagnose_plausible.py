@@ -14,9 +14,9 @@ INERTIA = 2.0  # kg m^2
 
 
 def state(unit="rad", weight=0.0):
+    spec = SimpleNamespace(joints=[SimpleNamespace(unit=unit)])
     compiled = SimpleNamespace(
-        inertia_matrix=lambda q, beta: np.full((len(q), 1, 1), INERTIA),
-        spec=SimpleNamespace(joints=[SimpleNamespace(unit=unit)]),
+        inertia_matrix=lambda q, beta: np.full((len(q), 1, 1), INERTIA), spec=spec
     )
     return SimpleNamespace(
         rows=SimpleNamespace(
@@ -24,6 +24,7 @@ def state(unit="rad", weight=0.0):
             y=[np.ones(100)],
         ),
         data=SimpleNamespace(compiled=compiled),
+        spec=spec,
         reference=SimpleNamespace(links=np.zeros(1)),
     )
 
@@ -57,7 +58,7 @@ def test_a_part_of_the_friction_is_no_larger_than_all_of_it(level, said):
         SimpleNamespace(kind="inertial", rows=(0,)),
     ]
     made = state()
-    made.data.compiled.spec.base = friction
+    made.spec.base = friction
     made.rows.W = [np.column_stack([np.sign(np.sin(np.arange(100.0))), np.full(100, 50.0)])]
     made.beta, made.picks = np.array([3.0, 1.0]), (pick("presliding"),)
     text = objection(made, pick("presliding"), {"Fz1": level, "d": 0.01})
@@ -72,7 +73,7 @@ def levered(curve, weight=0.5, noise=0.1):
     made.rows.filtered = lambda j, values: np.concatenate(values)
     made.rows.columns = lambda candidate: (curve(q)[:, None],)
     made.residual = [noise * np.cos(50.0 * q)]
-    made.cache = {}
+    made.rows.cache = {}
     return made
 
 
@@ -109,8 +110,7 @@ def felt_of(state, felt, values):
     """A state with a body of these parameters on link 1, each felt alike and alone."""
     state.picks, state.values = (pick("payload"),), [np.array(values)]
     state.rows.signals, state.rows.W = [None], [np.zeros((100, 0))]
-    state.base = SimpleNamespace(sigma=np.ones(1))
-    state.data.free, state.cache = [], {}
+    state.sigma, state.data.free = np.ones(1), []
     return state, state.picks[0], dict(zip(felt, values, strict=True))
 
 
@@ -122,7 +122,7 @@ def test_a_body_has_the_inertia_of_a_body(monkeypatch, inertia, built):
     columns = np.random.default_rng(1).normal(size=(100, 5))
     felt = [SimpleNamespace(name=f"{name}1", joint="1") for name in names]
     monkeypatch.setattr(plausible, "body_parameters", lambda candidate, signals: felt)
-    monkeypatch.setattr(plausible, "columns_of", lambda rows, candidate, cache: (columns,))
+    monkeypatch.setattr(plausible, "columns_of", lambda rows, candidate: (columns,))
     made = felt_of(state(), [*names[:4], "mass"], [*inertia, 0.1, 1.0])
     assert (objection(*made) == "") is built
 

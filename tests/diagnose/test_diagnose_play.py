@@ -8,11 +8,10 @@ import pytest
 
 from modeler.diagnosis import detected as module
 from modeler.diagnosis import diagnosis
-from modeler.diagnosis.candidates import Known
 from modeler.diagnosis.detected import detected
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.score import Change, Score
-from modeler.effects.catalogue import effect_named
+from modeler.effects.catalogue import CATALOGUE, effect_named
 from modeler.report.diagnosis import write_diagnosis
 from modeler.report.torque_picture import play_picture
 from tests.diagnose.conftest import Case, motion, on_joint
@@ -33,10 +32,8 @@ class Found(SimpleNamespace):
 def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
     """Args: by joint; columns: (gain, share, ratio to its standard error) of play, by joint."""
     joints = [SimpleNamespace(name=str(j), actuated=True) for j in (1, 2, 3)]
-    data = SimpleNamespace(
-        compiled=SimpleNamespace(spec=SimpleNamespace(joints=joints)), known=Known()
-    )
-    states = [SimpleNamespace(data=data, ratios=ratios) for ratios in (start, end)]
+    spec, names = SimpleNamespace(joints=joints), [joint.name for joint in joints]
+    states = [SimpleNamespace(names=names, ratios=ratios) for ratios in (start, end)]
     monkeypatch.setattr(module, "burst_ratio", lambda state, j: state.ratios[j])
     monkeypatch.setattr(module, "knocking", lambda state, j: knocks[j])
     effect = effect_named("backlash")
@@ -47,7 +44,9 @@ def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
         for j, (gain, share, sure) in (columns or {}).items()
     ]
     last = SimpleNamespace(ranked=ranked)
-    return Found(start=states[0], end=states[1], last=last, without=())
+    return Found(
+        start=states[0], end=states[1], last=last, without=(), spec=spec, catalogue=CATALOGUE
+    )
 
 
 def column(effect, joint, gain, refines=False):

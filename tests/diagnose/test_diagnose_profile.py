@@ -10,9 +10,9 @@ from modeler.diagnosis.add import add_effect, undone
 from modeler.diagnosis.added_model import Logs, added
 from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.candidates import Known
-from modeler.diagnosis.effect_values import profile_of
-from modeler.diagnosis.search import extended, surveyed
-from modeler.diagnosis.state import Data, state_of
+from modeler.diagnosis.profile import profile_of
+from modeler.diagnosis.search import extended, scan_catalogue
+from modeler.diagnosis.state import SearchData, state_of
 from modeler.estimation.identify import identify
 from modeler.estimation.model_file import load_model, save_model
 from modeler.estimation.parameter import told_spread
@@ -50,12 +50,14 @@ def found(arm, log, effect, joint):
     """The state with an effect put in at its best shapes."""
     model = fitted(arm, log)
     robot = arm[0].robot
-    data = Data(
+    data = SearchData(
         arm[2], analysed(arm[2], [log], model.processing), None,
         Known(robot.catalogue, robot.coupling),
     )  # fmt: skip
     state = state_of(data, (), model.beta)
-    return extended(state, surveyed(state, only=effect, joint=joint).judged().ranked[0].candidate)
+    return extended(
+        state, scan_catalogue(state, only=effect, joint=joint).judged().ranked[0].candidate
+    )
 
 
 CASES = {

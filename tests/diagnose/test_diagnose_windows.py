@@ -11,8 +11,8 @@ from modeler.core.expression import parse
 from modeler.diagnosis import effect_columns as rows_module
 from modeler.diagnosis import signals as signals_module
 from modeler.diagnosis.analyse import analysed
-from modeler.diagnosis.propose import proposals
-from modeler.diagnosis.state import Data, all_columns_of, state_of
+from modeler.diagnosis.generate import generate_candidates
+from modeler.diagnosis.state import SearchData, all_columns_of, state_of
 from modeler.observation.prepare import Mending
 from modeler.observation.processing import Processing
 from modeler.observation.read import read_log
@@ -33,10 +33,10 @@ def log(arm, tmp_path_factory):
 
 def columns(arm, observation):
     """Of everything that could be missing, and those of the model."""
-    data = Data(arm, observation)
+    data = SearchData(arm, observation)
     beta = np.linspace(-1.0, 2.0, len(arm.spec.base))
     state = state_of(data, (), beta)
-    return state.rows.W, all_columns_of(state.rows, proposals(state), {})
+    return state.rows.W, all_columns_of(state.rows, generate_candidates(state))
 
 
 def test_columns_do_not_depend_on_the_windows(arm, log, monkeypatch) -> None:
@@ -78,9 +78,9 @@ def test_an_expression_lets_go_of_its_values() -> None:
 
 
 def test_a_state_lets_go_of_its_rows(arm, log) -> None:
-    data = Data(arm, analysed(arm, [log], Processing()))
+    data = SearchData(arm, analysed(arm, [log], Processing()))
     state = state_of(data, (), np.zeros(len(arm.spec.base)))
-    state.sifted([(np.ones((len(state.y[0]), 1)), None, None)])
+    state.ranked([(np.ones((len(state.y[0]), 1)), None, None)])
     first = weakref.ref(state.base.columns[0])
     gc.disable()
     try:

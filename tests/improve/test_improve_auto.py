@@ -47,7 +47,7 @@ def sprung(case: Case) -> Found:
 def test_nothing_is_searched_for_again(
     case: Case, sprung: Found, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.delattr(module, "surveyed")
+    monkeypatch.delattr(module, "scan_catalogue")
     better, left_out = add_findings(
         sprung.model, case.compiled, sprung.diagnosis.effects, sprung.logs
     )

@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from modeler.core.table import printed
-from modeler.diagnosis.score import Score, Unseen, scored, told
+from modeler.diagnosis.score import Score, Unseen, error_changes, scored
 
 RATE, SPAN = 20.0, 30.0
 
@@ -43,7 +43,7 @@ def test_one_joint_that_falls_is_not_drowned_by_others_that_are_larger() -> None
     old = [coloured(0, 0), 5.0 * coloured(0, 1)]
     seen = scored(unseen(*old), unseen(0.6 * old[0], (1.0 + 1e-5) * old[1]))
     assert seen.better and seen.changed == ("1",)
-    assert told(seen.errors, seen.changed) == "joint 1 10 % -> 6 %; other joints unchanged"
+    assert error_changes(seen.errors, seen.changed) == "joint 1 10 % -> 6 %; other joints unchanged"
 
 
 def test_what_is_printed_falls_or_the_step_is_not_kept() -> None:
@@ -77,9 +77,9 @@ def test_joints_may_have_weights_and_what_nobody_measured_counts_nothing() -> No
 
 def test_what_rises_is_told_apart() -> None:
     errors = {"1": (0.03, 0.032), "2": (0.05, 0.02), "3": (0.1, 0.1)}
-    line = told(errors, ("1", "2"))
+    line = error_changes(errors, ("1", "2"))
     assert line == "joint 2 5 % -> 2 %; joint 1 rises, 3 % -> 3.2 %; other joints unchanged"
-    assert told(errors, ()) == "no joint changes"
+    assert error_changes(errors, ()) == "no joint changes"
 
 
 def test_a_joint_that_rises_beyond_its_noise_spoils_what_others_gain() -> None:

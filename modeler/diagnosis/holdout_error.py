@@ -6,10 +6,10 @@ import numpy as np
 
 from modeler.diagnosis.judge import Judged
 from modeler.diagnosis.score import Score, Unseen, scored
-from modeler.diagnosis.state import Data, State, picked_columns
+from modeler.diagnosis.state import SearchData, State, picked_columns
 
 
-def unseen(state: State, other: Data | None) -> Unseen:
+def holdout_residuals(state: State, other: SearchData | None) -> Unseen:
     """What a state leaves of held-out logs; without any, of its own, each fold from the others.
 
     Args:
@@ -18,28 +18,25 @@ def unseen(state: State, other: Data | None) -> Unseen:
     """
     if other is not None:
         return left_of(state, other)
-    left = (s * e for s, e in zip(state.base.sigma, state.base.left_out, strict=True))
+    left = (s * e for s, e in zip(state.sigma, state.base.left_out, strict=True))
     return _of(state.data, tuple(left))
 
 
-def left_of(state: State, data: Data) -> Unseen:
+def left_of(state: State, data: SearchData) -> Unseen:
     """What a state leaves of logs, with its parameters as they are."""
     rows = data.about(state.reference)
-    extra = picked_columns(rows, state.picks, data.cache)
-    found = []
-    for j in range(rows.joints):
-        left = rows.y[j] - rows.W[j] @ state.beta
-        for columns, values in zip(extra, state.values, strict=True):
-            own = columns[j]
+    extra = picked_columns(rows, state.picks)
+    found = [y - W @ state.beta for y, W in zip(rows.y, rows.W, strict=True)]
+    for columns, values in zip(extra, state.values, strict=True):
+        for j, own in enumerate(columns):
             if own is not None:
-                left = left - own @ values
-        found.append(left)
+                found[j] = found[j] - own @ values
     return _of(data, tuple(found))
 
 
-def _of(data: Data, left: tuple[np.ndarray, ...]) -> Unseen:
-    names = tuple(joint.name for joint in data.compiled.spec.joints)
-    return Unseen(names, left, data.rows.y, data.rows.time, data.rows.run)
+def _of(data: SearchData, left: tuple[np.ndarray, ...]) -> Unseen:
+    names, rows = tuple(joint.name for joint in data.spec.joints), data.rows
+    return Unseen(names, left, rows.y, rows.time, rows.run)
 
 
 def compared(
@@ -52,7 +49,7 @@ def compared(
     """
     weights = {}
     for j in concerned:
-        y = state.rows.y[j] / state.base.sigma[j]
+        y = state.rows.y[j] / state.sigma[j]
         weights[before.names[j]] = float(np.mean(y**2)) if y.size else 0.0
     return scored(before, after, weights, block)
 
@@ -68,19 +65,14 @@ def touched_joints(judged: Judged, before: State, after: State) -> list[int]:
     """Joints whose residuals an effect explains: its own, or all where they fall most."""
     if judged.alone:
         return [judged.candidate.index]
-    sigma = before.base.sigma
-    fall = np.array(
-        [
-            float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2))
-            for b, a, s in zip(before.residual, after.residual, sigma, strict=True)
-        ]
-    )
+    sizes = zip(before.residual, after.residual, before.sigma, strict=True)
+    fall = np.array([float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2)) for b, a, s in sizes])
     if fall.max() <= 0.0:
         return [int(np.argmax(fall))]
     return [int(j) for j in np.flatnonzero(fall >= TOUCHED * fall.max())]
 
 
-def vetoing(other: Data | None) -> Callable[[State, State, Judged], bool]:
+def vetoing(other: SearchData | None) -> Callable[[State, State, Judged], bool]:
     """A veto by unseen motion: True if a state with an effect more is not the better one there.
 
     The error of the joints that it touches must surely fall (`scored`), and on held-out logs by a
@@ -92,18 +84,17 @@ def vetoing(other: Data | None) -> Callable[[State, State, Judged], bool]:
 
     def veto(before: State, after: State, judged: Judged) -> bool:
         touched = touched_joints(judged, before, after)
-        score = compared(unseen(before, other), unseen(after, other), touched, before)
-        expected = judged.gain if judged.alone else _fall(touched, before, after)
+        score = compared(
+            holdout_residuals(before, other), holdout_residuals(after, other), touched, before
+        )
+        expected = judged.gain
+        if not judged.alone:  # what is gone of the squared residuals of these joints
+            first, last = (
+                sum(float(np.sum((s.residual[j] / before.sigma[j]) ** 2)) for j in touched)
+                for s in (before, after)
+            )
+            expected = 1.0 - last / max(first, 1e-300)
         least = 0.0 if other is None else KEPT * expected
         return not score.better or score.whole.gain < least
 
     return veto
-
-
-def _fall(joints: Sequence[int], before: State, after: State) -> float:
-    """Share of the squared residual of some joints that is gone, in units of the first one."""
-    sums = [
-        sum(float(np.sum((s.residual[j] / before.base.sigma[j]) ** 2)) for j in joints)
-        for s in (before, after)
-    ]
-    return 1.0 - sums[1] / max(sums[0], 1e-300)

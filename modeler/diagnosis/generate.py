@@ -5,13 +5,13 @@ from collections.abc import Sequence, Set
 
 import numpy as np
 
-from modeler.diagnosis.candidates import Candidate, candidates
+from modeler.diagnosis.candidates import Candidate, candidates, links_of
 from modeler.diagnosis.orders import ripple_candidates
 from modeler.diagnosis.state import State
 from modeler.effects.effect import Acts
 
 
-def proposals(
+def generate_candidates(
     state: State, only: str | None = None, without: Sequence[str] = (),
     keys: Set[tuple[str, str | None]] | None = None,
 ) -> list[Candidate]:  # fmt: skip
@@ -23,7 +23,7 @@ def proposals(
         without: ids of effects, or id@joint, that the user rules out.
         keys: effects and joints that count; None: all.
     """
-    spec = state.data.compiled.spec
+    spec = state.spec
     temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
     changed = state.data.kept is not None
     present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
@@ -62,8 +62,8 @@ def _lasts(span: float, candidate: Candidate) -> bool:
 
 def load_candidates(state: State) -> list[Candidate]:
     """A body on the last link, or on another: only where the links' parameters are kept."""
-    spec = state.data.compiled.spec
-    links = list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
+    spec = state.spec
+    links = links_of(spec)
     carrier = spec.closure.carrier if spec.closure is not None else ""
     last = carrier or links[-1]
     return [

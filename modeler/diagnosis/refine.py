@@ -1,15 +1,14 @@
 """Refining the shape parameters of one candidate between the values of the grid."""
 
-import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
 from scipy.optimize import minimize, minimize_scalar
 
-from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.candidates import Candidate, coded
 from modeler.diagnosis.gram import pool_of
 from modeler.diagnosis.ranking import fall
-from modeler.diagnosis.state import State, columns_of, visible
+from modeler.diagnosis.state import State, visible
 from modeler.effects.effect import Shape
 
 _STEPS = 8
@@ -20,26 +19,33 @@ WHOLE = 0.85
 rollers are counted."""
 
 
-def best_polished(state: State, starts: Sequence[Candidate]) -> Candidate:
+def best_refined(state: State, starts: Sequence[Candidate]) -> Candidate:
     """The best of several shapes of one effect, each refined."""
-    found = [polished(state, start) for start in starts]
+    found = [refined(state, start) for start in starts]
     if len(found) == 1:
         return found[0]
     return max(found, key=lambda candidate: _explained(state, candidate))
 
 
-def polished(state: State, candidate: Candidate) -> Candidate:
+def refined(state: State, candidate: Candidate) -> Candidate:
     """The candidate at the shapes that explain most: variable projection, one shape at a time."""
-    smooth = [s for s in candidate.form.shapes if _free(s, candidate)]
+    smooth = [shape for shape in candidate.form.shapes if candidate.refinable(shape)]
     if not smooth:
         return candidate
-    start = np.array([_coded(shape, candidate.shapes[shape.name]) for shape in smooth])
+    scale = state.scales[candidate.scaled]
+    start = np.array([coded(shape, candidate.shapes[shape.name]) for shape in smooth])
+    reach = np.array([_reach(state, candidate, shape) for shape in smooth])
+    if smooth[0].scale == "waves":
+        low, high = np.zeros(1), np.full(1, np.inf)
+    else:
+        low, high = (
+            np.array([coded(shape, scale.value(shape, shape.limits[k])) for shape in smooth])
+            for k in (0, 1)
+        )
 
     def lost(x: np.ndarray) -> float:
-        return -_explained(state, _at(candidate, smooth, np.clip(x, low, high)))
+        return -_explained(state, candidate.moved(smooth, np.clip(x, low, high)))
 
-    reach = np.array([_reach(state, candidate, shape) for shape in smooth])
-    low, high = _limits(state, candidate, smooth)
     if len(smooth) == 1:
         found = minimize_scalar(
             lambda x: lost(np.array([x])),
@@ -50,7 +56,7 @@ def polished(state: State, candidate: Candidate) -> Candidate:
         x, score = np.array([found.x]), float(found.fun)
         whole = np.round(x)
         if smooth[0].scale == "waves" and lost(whole) < WHOLE * score:
-            return _at(candidate, smooth, whole)
+            return candidate.moved(smooth, whole)
     else:
         corners = np.vstack([start, start + 0.5 * np.diag(reach)])
         found = minimize(
@@ -58,34 +64,8 @@ def polished(state: State, candidate: Candidate) -> Candidate:
             options={"maxfev": _STEPS * 4, "initial_simplex": corners},
         )  # fmt: skip
         x, score = found.x, float(found.fun)
-    return _at(candidate, smooth, np.clip(x, low, high)) if score < lost(start) else candidate
-
-
-def _free(shape: Shape, candidate: Candidate) -> bool:
-    """True if values beside that of the candidate make sense: orders are, if not given."""
-    if shape.scale == "waves":
-        return candidate.shapes[shape.name] not in shape.grid
-    return shape.smooth
-
-
-def _limits(
-    state: State, candidate: Candidate, smooth: Sequence[Shape]
-) -> tuple[np.ndarray, np.ndarray]:
-    """Coded limits of the shapes on the candidate's joint."""
-    scale = state.scales[candidate.scaled]
-    if smooth[0].scale == "waves":
-        return np.zeros(1), np.full(1, np.inf)
-    ends = [[_coded(shape, scale.value(shape, end)) for end in shape.limits] for shape in smooth]
-    return np.array([e[0] for e in ends]), np.array([e[1] for e in ends])
-
-
-def _coded(shape: Shape, value: float) -> float:
-    """Positive shapes by their logarithm."""
-    return float(np.log(value)) if shape.limits[0] > 0.0 else value
-
-
-def _decoded(shape: Shape, x: float) -> float:
-    return float(np.exp(x)) if shape.limits[0] > 0.0 else float(x)
+    better = score < lost(start)
+    return candidate.moved(smooth, np.clip(x, low, high)) if better else candidate
 
 
 def _reach(state: State, candidate: Candidate, shape: Shape) -> float:
@@ -97,18 +77,13 @@ def _reach(state: State, candidate: Candidate, shape: Shape) -> float:
     if len(shape.grid) == 1:
         return np.log(2.0)
     unit = state.scales[candidate.index].unit(shape)
-    gaps = np.diff([_coded(shape, unit * value) for value in shape.grid])
+    gaps = np.diff([coded(shape, unit * value) for value in shape.grid])
     return float(gaps.max() if shape.scale == "own" else gaps[0])
-
-
-def _at(candidate: Candidate, smooth: Sequence[Shape], x: np.ndarray) -> Candidate:
-    values = {shape.name: _decoded(shape, v) for shape, v in zip(smooth, x, strict=True)}
-    return dataclasses.replace(candidate, shapes={**candidate.shapes, **values})
 
 
 def _explained(state: State, candidate: Candidate) -> float:
     """Fall of the squared residual, weighted, in held-out blocks."""
-    columns = columns_of(state.rows, candidate, {})
+    columns = state.rows.columns(candidate)
     if not visible(columns):
         return 0.0
     base = state.folded
