@@ -14,18 +14,19 @@ from modeler.core.table import Table
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.formulas.cad import CadComparison, KnownAgainstFit, compare_cad, test_known
 from modeler.formulas.physical_system import PhysicalSystem, physical_system
-from modeler.formulas.set_sensitivity import Rated, rated
 from modeler.formulas.solve import ClosedSolution, solve
 from modeler.formulas.sufficient_sets import KnownSets, easiest_set, known_sets, smallest_number
 from modeler.formulas.values import (
     VERIFIED,
     DerivedValue,
     Given,
+    Rated,
     cad_from_file,
     cad_from_robot,
     derive_values,
     given_from_text,
     impossible,
+    rated,
     verify,
 )
 from modeler.robot.read import robot_from_text

@@ -11,10 +11,9 @@ from modeler.core.errors import DataError
 from modeler.estimation.model_file import IdentifiedModel, load_model
 from modeler.formulas.cad import CadComparison, KnownAgainstFit
 from modeler.formulas.physical_system import PhysicalSystem
-from modeler.formulas.set_sensitivity import Rated
 from modeler.formulas.solve import definition_lines, missing_lines, solution_json, solution_lines
 from modeler.formulas.sufficient_sets import KnownSets, easiest_set, smallest_number
-from modeler.formulas.values import VERIFIED, Given, given_from_text
+from modeler.formulas.values import VERIFIED, Given, Rated, given_from_text
 
 _SHOWN = 10
 _KINDS = {"mass": "masses", "length": "lengths", "centre": "mass centres", "inertia": "inertias",

@@ -10,7 +10,7 @@ from modeler.core.formula import Formula
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.result import Figures, Presentation, Tables, present
 from modeler.core.table import Cell, MathCell, Table
-from modeler.derivation.home import HomeModes, written
+from modeler.derivation.derive import HomeModes, written
 from modeler.derivation.relations import relation_latex, relation_text
 from modeler.report.figures import robot_figure
 from modeler.report.page import (
