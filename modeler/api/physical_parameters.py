@@ -15,10 +15,9 @@ from modeler.estimation.model_file import IdentifiedModel
 from modeler.formulas import values as rules
 from modeler.formulas.cad import CadComparison, KnownAgainstFit, compare_cad, test_known
 from modeler.formulas.physical_system import PhysicalSystem, physical_system
-from modeler.formulas.set_sensitivity import Rated, rated
 from modeler.formulas.solve import ClosedSolution, solve
 from modeler.formulas.sufficient_sets import KnownSets, easiest_set, known_sets, smallest_number
-from modeler.formulas.values import VERIFIED, DerivedValue, Given, given_from_text
+from modeler.formulas.values import VERIFIED, DerivedValue, Given, Rated, given_from_text, rated
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 

@@ -4,8 +4,7 @@ import dataclasses
 from collections.abc import Mapping
 
 from modeler.core.errors import DataError
-from modeler.derivation.derive import modes_near
-from modeler.derivation.home import HomeModes, written
+from modeler.derivation.derive import HomeModes, modes_near, written
 from modeler.robot.edit import with_home_text
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot

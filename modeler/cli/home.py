@@ -12,7 +12,7 @@ from modeler.cli.lists import read_told
 from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
 from modeler.core.errors import DataError
 from modeler.core.files import check_writable, write_atomically
-from modeler.derivation.home import HomeModes, written
+from modeler.derivation.derive import HomeModes, written
 from modeler.derivation.walks import Linkage
 from modeler.report.robot_closing import Posture
 from modeler.report.robot_page import modes_html

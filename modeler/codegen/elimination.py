@@ -11,9 +11,9 @@ from fractions import Fraction
 
 import numpy as np
 
-from modeler.derivation.closed_states import closing_of
 from modeler.derivation.graph import Expr, Graph
 from modeler.derivation.model import SymbolicModel
+from modeler.derivation.walks import closing_of
 
 SMALLEST = 1e-2
 """Share of its row's size below which a pivot counts as small when the code runs."""

@@ -14,12 +14,12 @@ import numpy as np
 
 from modeler.codegen.functions import CFunction, Closed, name_lines
 from modeler.core.errors import EmitError
-from modeler.derivation.closed_states import closing_of
 from modeler.derivation.closing import moved_postures
 from modeler.derivation.closure import Closure
 from modeler.derivation.enclosed import EnclosedState, Enclosures, NotEnclosed
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.precise import Ball, BallFunction, exact_ball, flint
+from modeler.derivation.walks import closing_of
 
 STATES = 2
 PRODUCTS = ("regressor", "base_regressor", "base_regressor_nonzeros", "platform_base_regressor")

@@ -2,14 +2,16 @@
 
 import numpy as np
 
-from modeler.derivation.ball_rank import ball_rank
-from modeler.derivation.elimination import TooLarge
-from modeler.derivation.field import ExactField, geometry_field
+from modeler.derivation.certificate import PRIME, ModularState, modular_rank
+from modeler.derivation.columns import StandardColumn, in_block
+from modeler.derivation.enclosed import ball_rank
+from modeler.derivation.field import Element, ExactField, TooLarge, geometry_field
 from modeler.derivation.geometry import Geometry, exact_geometry
 from modeler.derivation.grouping import (
     GroupingRelations,
     base_from_relations,
     column_relations,
+    friction_relations,
     with_closure_relations,
 )
 from modeler.derivation.model import SymbolicModel
@@ -21,15 +23,17 @@ from modeler.derivation.numeric_rank import (
     sampled,
     torque_agreement,
 )
-from modeler.derivation.proof import NotProved, certificate
 from modeler.derivation.result import (
     BallRank,
+    BaseParameter,
     BaseParameters,
     Certificate,
+    ModularRank,
     Proof,
     SampledRank,
     Sampling,
 )
+from modeler.effects.effect import EnergyBlock
 
 SEED = 20030914
 _AGREEMENT = 1e-9
@@ -132,24 +136,39 @@ def _exact(
     else:
         proved = certificate(geometry, model.columns, K, relations, seed)
     parameters, unidentifiable = base_from_relations(model.columns, relations, K)
-    agreement = torque_agreement(model, parameters, seed)
-    if agreement > _AGREEMENT:
-        raise NotProved(f"base and standard torque differ by {agreement:.1e}")
+    kind = "exact at the given values" if statement else "exact"
+    if isinstance(proved, SampledRank):
+        kind = f"relations {kind}, rank sampled"
+    tied = model.geometry.tied
+    if model.closure is None:
+        argument = _TIED if tied else _EXACT
+    else:
+        argument = _LOOPS.format(tree=_OPEN[tied])
+    statement = argument + _independent(model, proved, numeric) + statement
+    found = parameters, unidentifiable
+    base = _proved(model, found, kind, statement, proved, sample, numeric, seed)
+    if base.proof.agreement > _AGREEMENT:
+        raise NotProved(f"base and standard torque differ by {base.proof.agreement:.1e}")
+    return base
+
+
+def _proved(
+    model: SymbolicModel, found: tuple[tuple[BaseParameter, ...], tuple[str, ...]], kind: str,
+    statement: str, proved: Certificate, sample: Sample, numeric: NumericRank, seed: int,
+) -> BaseParameters:  # fmt: skip
+    """The base parameters and those without effect, with their proof."""
+    parameters, unidentifiable = found
+    if model.unproven:
+        statement += _UNPROVEN.format(joints=", ".join(model.unproven))
+    sampling, walk = None, sample.walk
+    if walk is not None:
+        ends = zip(model.robot.coordinates, walk.lowest, walk.highest, strict=True)
+        ranges = {joint.name: (float(low), float(high)) for joint, low, high in ends}
+        sampling = Sampling(len(walk.postures), ranges, walk.distance)
     proof = Proof(
-        kind=_kind(proved, at_nominal=bool(statement)),
-        statement=_statement(model)
-        + _independent(model, proved, numeric)
-        + statement
-        + _unproven(model),
-        certificate=proved,
-        seed=seed,
-        numeric_rank=numeric.rank,
-        gap=numeric.gap,
-        tolerance=numeric.tolerance,
-        scale=numeric.scale,
-        agreement=agreement,
-        sampling=_sampling(model, sample),
-    )
+        kind, statement, proved, seed, numeric.rank, numeric.gap, numeric.tolerance,
+        numeric.scale, torque_agreement(model, parameters, seed), sampling,
+    )  # fmt: skip
     return BaseParameters(model.columns, parameters, unidentifiable, proof)
 
 
@@ -168,22 +187,6 @@ def _relations(
     return relations
 
 
-def _kind(proved: Certificate, at_nominal: bool) -> str:
-    """What is exact, in a word or few."""
-    values = " at the given values" if at_nominal else ""
-    if isinstance(proved, SampledRank):
-        return f"relations exact{values}, rank sampled"
-    return f"exact{values}"
-
-
-def _statement(model: SymbolicModel) -> str:
-    """The argument of an exact grouping."""
-    tied = model.geometry.tied
-    if model.closure is None:
-        return _TIED if tied else _EXACT
-    return _LOOPS.format(tree=_OPEN[tied])
-
-
 def _independent(model: SymbolicModel, proved: Certificate, numeric: NumericRank) -> str:
     """The argument of the independence, where relations and independence have two."""
     if isinstance(proved, BallRank):
@@ -194,36 +197,81 @@ def _independent(model: SymbolicModel, proved: Certificate, numeric: NumericRank
     return ""
 
 
-def _unproven(model: SymbolicModel) -> str:
-    return _UNPROVEN.format(joints=", ".join(model.unproven)) if model.unproven else ""
-
-
-def _sampling(model: SymbolicModel, sample: Sample) -> Sampling | None:
-    walk = sample.walk
-    if walk is None:
-        return None
-    ends = zip(model.robot.coordinates, walk.lowest, walk.highest, strict=True)
-    ranges = {joint.name: (float(low), float(high)) for joint, low, high in ends}
-    return Sampling(len(walk.postures), ranges, walk.distance)
-
-
 def _numeric(
     model: SymbolicModel, sample: Sample, numeric: NumericRank, seed: int, why: str
 ) -> BaseParameters:
-    found = numeric_grouping(model, sample, numeric)
-    proved = ball_rank(model, [p.column for p in found.parameters], sample, seed)
-    proof = Proof(
-        kind="numeric",
-        statement=_NUMERIC.format(why=why, bound=found.bound)
-        + _independent(model, proved, numeric)
-        + _unproven(model),
-        certificate=proved,
-        seed=seed,
-        numeric_rank=numeric.rank,
-        gap=numeric.gap,
-        tolerance=numeric.tolerance,
-        scale=numeric.scale,
-        agreement=torque_agreement(model, found.parameters, seed),
-        sampling=_sampling(model, sample),
-    )
-    return BaseParameters(model.columns, found.parameters, found.unidentifiable, proof)
+    parameters, unidentifiable, bound = numeric_grouping(model, sample, numeric)
+    proved = ball_rank(model, [p.column for p in parameters], sample, seed)
+    statement = _NUMERIC.format(why=why, bound=bound) + _independent(model, proved, numeric)
+    found = parameters, unidentifiable
+    return _proved(model, found, "numeric", statement, proved, sample, numeric, seed)
+
+
+# The proof of a grouping modulo a prime.
+
+
+_CHECKS = 3
+
+
+class NotProved(Exception):
+    """The certificate contradicts the relations; says how."""
+
+
+def certificate(
+    geometry: Geometry,
+    columns: tuple[StandardColumn, ...],
+    K: ExactField,
+    relations: GroupingRelations,
+    seed: int,
+) -> ModularRank:
+    """The relations hold at random states and geometries, and the kept columns are independent.
+
+    Raises:
+        NotProved: a relation does not hold, or the kept columns are dependent.
+    """
+    # Without gravity only the kinetic row of each point counts.
+    points = len(relations.kept) + 8
+    for check in range(_CHECKS):
+        try:
+            state = ModularState(geometry, K, points, seed + check)
+            _check_relations(columns, K, relations, state)
+        except ValueError as error:  # a constant whose denominator is a multiple of the prime
+            raise NotProved(f"a constant has no value modulo {PRIME} ({error})") from None
+    rank = _modular_rank(columns, relations, state)
+    if rank != len(relations.kept):
+        raise NotProved(f"of {len(relations.kept)} columns kept only {rank} are independent")
+    return ModularRank(rank, PRIME, _CHECKS * points, seed)
+
+
+def _check_relations(
+    columns: tuple[StandardColumn, ...],
+    K: ExactField,
+    relations: GroupingRelations,
+    state: ModularState,
+) -> None:
+    rows = np.vstack([state.energy_rows(columns), state.rayleigh_rows(columns)])
+    dry = {place for place, c in enumerate(columns) if in_block(c, EnergyBlock.COULOMB)}
+    known: dict[Element, int] = {}
+    for relation, dropped in zip(relations.rows, relations.dropped, strict=True):
+        total = np.zeros(rows.shape[0], dtype=np.int64)
+        for place, coefficient in relation.items():
+            residue = known.get(coefficient)
+            if residue is None:
+                residue = known[coefficient] = K.residue(coefficient, state.residues, PRIME)
+            total = (total + rows[:, place] * residue) % PRIME
+        if np.any(total) and dropped not in dry:
+            raise NotProved(f"the relation of {columns[dropped].name} does not hold")
+
+
+def _modular_rank(
+    columns: tuple[StandardColumn, ...], relations: GroupingRelations, state: ModularState
+) -> int:
+    kept = list(relations.kept)
+    left = [columns[i] for i in kept]
+    energy = modular_rank(state.energy_rows(columns)[:, kept])
+    rayleigh = modular_rank(state.rayleigh_rows(columns)[:, kept])
+    dry = [column for column in left if in_block(column, EnergyBlock.COULOMB)]
+    own = sum(in_block(column, EnergyBlock.OWN) for column in left)
+    # Columns |v| of pairwise non-proportional speeds are independent: see
+    # `modeler.derivation.grouping`.
+    return energy + rayleigh + own + len(dry) - len(friction_relations(dry))

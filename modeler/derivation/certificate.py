@@ -240,10 +240,22 @@ class ModularState:
         count = geometry.coordinates
         self.qd = drawn(rng, (count, points), prime)
         self.travel = drawn(rng, (count, points), prime)
-        self._scales = _angle_scales(geometry)
+        # Common denominators of the coefficients with which the free variables enter angles.
+        self._scales = [1] * count
+        for row in geometry.rows:
+            if row.index is not None and row.joint.angular:
+                for k, coefficient in geometry.forms[row.index].items():
+                    self._scales[k] = lcm(self._scales[k], coefficient.denominator)
         self._units = [circle(t, prime) for t in drawn(rng, (count, points), prime)]
         self.gravity = [self.value(entry) for entry in geometry.gravity]
-        self._frames()
+        # R (3, 3), p, angular and linear velocity of every row's frame, in the base frame.
+        zero, one = (filled(n, points, prime) for n in (0, 1))
+        identity = [[one if i == j else zero for j in range(3)] for i in range(3)]
+        none = [zero] * 3
+        self.motion: list[tuple[list, list, list, list]] = []
+        for row in geometry.rows:
+            at = (identity, none, none, none) if row.parent is None else self.motion[row.parent]
+            self.motion.append(self._frame(row, *at))
 
     def value(self, expression: sympy.Expr) -> Residues:
         """Residues of a constant expression."""
@@ -254,7 +266,8 @@ class ModularState:
 
     def _evaluated(self, e: sympy.Expr) -> Residues:
         if e.is_Rational:
-            return self._number(Fraction(int(e.p), int(e.q)))
+            number = rational(Fraction(int(e.p), int(e.q)), self.prime)
+            return filled(number, self.points, self.prime)
         if e.func in (sympy.cos, sympy.sin):
             c, s = circle(self.letters[cosine_letter(e)], self.prime)
             return c if e.func is sympy.cos else s
@@ -269,19 +282,6 @@ class ModularState:
         n = int(e.exp)
         base = power(self.value(e.base), abs(n), self.prime)
         return base if n >= 0 else inverse(base, self.prime)
-
-    def _number(self, number: Fraction) -> Residues:
-        return filled(rational(number, self.prime), self.points, self.prime)
-
-    def _frames(self) -> None:
-        """R (3, 3), p, angular and linear velocity of every row's frame, in the base frame."""
-        zero, one = (filled(n, self.points, self.prime) for n in (0, 1))
-        identity = [[one if i == j else zero for j in range(3)] for i in range(3)]
-        none = [zero] * 3
-        self.motion: list[tuple[list, list, list, list]] = []
-        for row in self.geometry.rows:
-            at = (identity, none, none, none) if row.parent is None else self.motion[row.parent]
-            self.motion.append(self._frame(row, *at))
 
     def _frame(self, row: GeometryRow, R: list, p: list, w: list, v: list) -> tuple:
         p0, prime = p, self.prime
@@ -383,16 +383,6 @@ class ModularState:
             rows[name] = (2 * vw[i] % prime, -gw[i] % prime)
         rows["M"] = (dot(v, v, prime), -dot(g, v, prime) % prime)
         return rows
-
-
-def _angle_scales(geometry: Geometry) -> list[int]:
-    """Common denominators of the coefficients with which each free variable enters angles."""
-    scales = [1] * geometry.coordinates
-    for row in geometry.rows:
-        if row.index is not None and row.joint.angular:
-            for k, coefficient in geometry.forms[row.index].items():
-                scales[k] = lcm(scales[k], coefficient.denominator)
-    return scales
 
 
 def modular_rank(matrix: np.ndarray) -> int:

@@ -60,33 +60,8 @@ def meeting(
     return posed[ends[0]], posed[ends[1]]
 
 
-def loop_equations(loop: Loop, one: Frame, other: Frame) -> list[Expr]:
-    """Expressions that vanish where the loop is closed; some may be redundant.
-
-    Lengths in m where positions are compared, cosines where directions are.
-
-    Args:
-        loop: how the frames meet.
-        one: axes and origin of the first, as from `meeting`.
-        other: those of the other.
-    """
-    return [value for value in _KINDS[loop.kind](one, other) if not value.is_zero]
-
-
-def loop_alignments(loop: Loop, one: Frame, other: Frame) -> list[Expr]:
-    """Expressions that are 1 where the loop is closed as meant, -1 with axes opposite.
-
-    The equations compare directions by right angles, which opposite axes fulfil too.
-    """
-    return [dot(one[0][axis], other[0][axis]) for axis in _SAME_AXES[loop.kind]]
-
-
-def _between(a: Frame, b: Frame) -> list[Expr]:
-    return plus(a[1], times(-1, b[1]))
-
-
 def _position(a: Frame, b: Frame) -> list[Expr]:
-    return _between(a, b)
+    return plus(a[1], times(-1, b[1]))
 
 
 def _parallel(a: Frame, b: Frame) -> list[Expr]:
@@ -98,7 +73,7 @@ def _aligned(a: Frame, b: Frame) -> list[Expr]:
 
 
 def _on_axis(a: Frame, b: Frame) -> list[Expr]:
-    way = _between(b, a)
+    way = _position(b, a)
     return [dot(a[0][0], way), dot(a[0][1], way)]
 
 
@@ -109,9 +84,11 @@ _KINDS: Mapping[str, Callable[[Frame, Frame], list[Expr]]] = {
     "revolute": lambda a, b: [*_position(a, b), *_parallel(a, b)],
     "cylindrical": lambda a, b: [*_on_axis(a, b), *_parallel(a, b)],
     "prismatic": lambda a, b: [*_on_axis(a, b), *_aligned(a, b)],
-    "planar": lambda a, b: [dot(a[0][2], _between(b, a)), *_parallel(a, b)],
+    "planar": lambda a, b: [dot(a[0][2], _position(b, a)), *_parallel(a, b)],
     "rigid": lambda a, b: [*_position(a, b), *_aligned(a, b)],
 }
+"""By kind of loop: expressions that vanish where it is closed, some perhaps redundant; lengths in m
+where positions are compared, cosines where directions are."""
 
 MEETING = ("position", "spherical", "universal", "revolute", "rigid")
 """Kinds of loops whose origins coincide."""
@@ -120,6 +97,8 @@ _SAME_AXES: Mapping[str, tuple[int, ...]] = {
     "position": (), "spherical": (), "universal": (), "revolute": (2,), "cylindrical": (2,),
     "planar": (2,), "prismatic": (0, 2), "rigid": (0, 2),
 }  # fmt: skip
+"""Axes whose product is 1 where the loop is closed as meant, -1 with axes opposite: the equations
+compare directions by right angles, which opposite axes fulfil too."""
 
 
 _RANK = 1e-9
@@ -221,9 +200,9 @@ def loop_closing(
     owners: list[str] = []
     aligned: list[Expr] = []
     for loop in robot.loops:
-        ends = meeting(geometry, loop, frames, algebra)
-        found = loop_equations(loop, *ends)
-        aligned += loop_alignments(loop, *ends)
+        one, other = meeting(geometry, loop, frames, algebra)
+        found = [value for value in _KINDS[loop.kind](one, other) if not value.is_zero]
+        aligned += [dot(one[0][axis], other[0][axis]) for axis in _SAME_AXES[loop.kind]]
         equations += found
         owners += [loop.name] * len(found)
     n = geometry.coordinates
@@ -233,22 +212,17 @@ def loop_closing(
     given = tuple(names.index(joint.name) for joint in robot.coordinates)
     solved = tuple(k for k in range(n) if k not in given)
     lengths = tuple(not joint.angular for joint in robot.free)
-    size = _size(graph, geometry, frames)
+    # The longest way from a frame to the next with all joints at 0, m; 1 where all are one point.
+    # It goes into the emitted C: taken with 40 digits, it is the same on every machine.
+    still = {f"q[{k}]": 0.0 for k in range(n)}
+    ways = [graph.lift(entry) for pose in frames for entry in pose.p]
+    precisely = precise_values(graph, ways, {**geometry.values, **still})
+    norms = map(precise().norm, zip(*[iter(precisely)] * 3, strict=True))
+    size = float(max(norms)) or 1.0
     closing = Closing(
         graph, geometry.values, equations, jacobian, given, solved, lengths, size, aligned
     )
     return closing, owners
-
-
-def _size(graph: Graph, geometry: Geometry, frames: Sequence[Pose]) -> float:
-    """Longest way from a frame to the next with all joints at 0, m; 1 where all are one point.
-
-    It goes into the emitted C: taken with 40 digits, it is the same on every machine.
-    """
-    still = {f"q[{k}]": 0.0 for k in range(geometry.coordinates)}
-    ways = [graph.lift(entry) for pose in frames for entry in pose.p]
-    found = precise_values(graph, ways, {**geometry.values, **still})
-    return float(max(map(precise().norm, zip(*[iter(found)] * 3, strict=True)))) or 1.0
 
 
 def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Expr]:
@@ -347,19 +321,15 @@ def _mobility(closing: Closing, geometry: Geometry, J: np.ndarray, owners: Seque
             f"{_moving_names(closing, geometry, inner)} could move with these locked; actuate one "
             "of them (mu 1), add a relation, or close the loop by a joint that lets less free"
         )
+    # The loops without which more would be free.
+    names, full = list(dict.fromkeys(owners)), _rank(J)
+    blamed = [name for name in names if _rank(J[[o != name for o in owners]]) < full]
+    strictest = ", ".join(f'"{name}"' for name in blamed or names)
     return (
         f"{told}, {len(closing.given)} joints are actuated ({actuated}): over-constrained by "
-        f"loop {_strictest(closing, J, owners)}; close it by a joint that lets more free, or make "
+        f"loop {strictest}; close it by a joint that lets more free, or make "
         "actuated joints passive (mu 0)"
     )
-
-
-def _strictest(closing: Closing, J: np.ndarray, owners: Sequence[str]) -> str:
-    """The loops without which more would be free, as text."""
-    names = list(dict.fromkeys(owners))
-    full = _rank(J)
-    blamed = [name for name in names if _rank(J[[o != name for o in owners]]) < full]
-    return ", ".join(f'"{name}"' for name in blamed or names)
 
 
 def _platform(closing: Closing, home: np.ndarray, geometry: Geometry) -> tuple[int, ...] | None:

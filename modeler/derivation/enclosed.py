@@ -12,12 +12,23 @@ by solving the linear equations of `modeler.derivation.closure` in balls.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from modeler.derivation.closed_states import closing_of
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.precise import Ball, BallFunction, exact_ball, flint
+from modeler.derivation.numeric_rank import Sample, States, carried, regressor_values, signal_values
+from modeler.derivation.precise import (
+    Ball,
+    BallFunction,
+    exact_ball,
+    flint,
+    proven_regular,
+    surely_zero,
+    symbol_balls,
+)
+from modeler.derivation.result import BallRank, ExactState, SampledRank
+from modeler.derivation.walks import closing_of
 
 _STEPS = 40
 _NEAR = 1e-6
@@ -97,14 +108,18 @@ class Enclosures:
         """
         assert self.closure is not None
         solved = list(self.closure.solved)
-        Y = _matrix(_inverse(closing_of(self.model).jacobians(u[None])[0][:, solved]))
+        try:
+            inner = closing_of(self.model).jacobians(u[None])[0][:, solved]
+            Y = _matrix(np.linalg.inv(inner).tolist())
+        except np.linalg.LinAlgError:
+            raise NotEnclosed("the loops are singular at a posture") from None
         q = self._settled(_exact(u), Y)
         if not all(abs(q[k] - float(u[k])) < _NEAR for k in solved):
             raise NotEnclosed(f"the loops do not close within {_NEAR:g} of a posture")
         radius = exact_ball(2.0 ** -(self.bits // 2))
         wide = _with(q, solved, [q[k] + flint().arb(0, radius) for k in solved])
         step = Y * _column(self.equations(_inputs(q=q)))
-        rest = _matrix(np.eye(len(solved)).tolist()) - Y * self._inner(wide)
+        rest = _matrix(np.eye(len(solved)).tolist()) - Y * self._slopes(wide, solved)
         turned = rest * _column([wide[k] - q[k] for k in solved])
         image = [q[k] - step[i, 0] + turned[i, 0] for i, k in enumerate(solved)]
         if not all(wide[k].contains_interior(x) for k, x in zip(solved, image, strict=True)):
@@ -126,10 +141,6 @@ class Enclosures:
                 return q
         raise NotEnclosed("the loops do not close at a posture")
 
-    def _inner(self, q: Sequence[Ball]) -> Ball:
-        assert self.closure is not None
-        return self._slopes(q, self.closure.solved)
-
     def _slopes(self, q: Sequence[Ball], places: Sequence[int]) -> Ball:
         """The columns of the Jacobian that `places` names, at a box."""
         flat, n = self.slopes(_inputs(q=q)), len(q)
@@ -139,27 +150,20 @@ class Enclosures:
         assert self.closure is not None
         given, solved = list(self.closure.given), list(self.closure.solved)
         try:
-            follow = -self._inner(q).solve(self._slopes(q, given))
+            inner = self._slopes(q, solved)
+            follow = -inner.solve(self._slopes(q, given))
             G = [[exact_ball(0)] * len(given) for _ in q]
             for place, k in enumerate(given):
                 G[k][place] = exact_ball(1)
             for place, k in enumerate(solved):
                 G[k] = [follow[place, i] for i in range(len(given))]
             ud, udd = _times(G, qd), _times(G, qdd)
-            drift = self._inner(q).solve(_column(self.drift(_inputs(q=q, qd=ud))))
+            drift = inner.solve(_column(self.drift(_inputs(q=q, qd=ud))))
         except ZeroDivisionError:
             raise NotEnclosed("the loops may be singular at a posture") from None
         for place, k in enumerate(solved):
             udd[k] = udd[k] - drift[place, 0]
         return EnclosedState(_inputs(q=q, qd=ud, qdd=udd), G)
-
-
-def _inverse(matrix: np.ndarray) -> list[list[float]]:
-    try:
-        found: list[list[float]] = np.linalg.inv(matrix).tolist()
-    except np.linalg.LinAlgError:
-        raise NotEnclosed("the loops are singular at a posture") from None
-    return found
 
 
 def _exact(values: np.ndarray) -> list[Ball]:
@@ -189,3 +193,154 @@ def _times(matrix: Sequence[Sequence[Ball]], vector: Sequence[Ball]) -> list[Bal
     return [
         sum((x * y for x, y in zip(line, vector, strict=True)), exact_ball(0)) for line in matrix
     ]
+
+
+# A lower bound of the rank of the torques, proven in ball arithmetic.
+#
+# At closed states in balls some rows of the torque regressor of the base columns make a square
+# matrix; if it is regular for all numbers in its balls, these columns are independent. States are
+# chosen in floating point and are written into the proof with few digits: whoever checks it needs
+# nothing else.
+
+
+_BITS = (128, 256, 512)
+_DIGITS = 6
+"""Decimals of rad or m of the postures."""
+_SPARE = 4
+_EIGHTHS = 16
+"""Speeds and accelerations are up to so many eighths."""
+
+
+def ball_rank(
+    model: SymbolicModel, kept: Sequence[int], sample: Sample, seed: int
+) -> BallRank | SampledRank:
+    """The proof that the columns `kept` are independent, or why there is none.
+
+    Args:
+        model: of the robot, at its given lengths and angles.
+        kept: numbers of columns.
+        sample: whose closed postures are used.
+        seed: of the states.
+    """
+    over = model.closure.others if model.closure else ()
+    count = sum(not surely_zero(equation, model.robot) for equation in over)
+    if count:
+        why = f"{count} closure equations seem to follow from the others, unproven"
+        return SampledRank(len(kept), seed, why)
+    choice = _Choice(model, kept, sample, seed)
+    if len(choice.rows) < len(kept):
+        why = f"the states tried span {len(choice.rows)} of {len(kept)} columns"
+        return SampledRank(len(kept), seed, why)
+    for bits in _BITS:
+        with flint().ctx.workprec(bits):
+            try:
+                matrix = choice.matrix()
+            except NotEnclosed as error:
+                why = str(error)
+                continue
+            if proven_regular(matrix):
+                return BallRank(len(kept), bits, seed, choice.exact_states(), choice.places())
+            why = f"the balls of a minor of {len(kept)} rows hold a singular matrix"
+    return SampledRank(len(kept), seed, f"{why} ({_BITS[-1]} bits)")
+
+
+class _Choice:
+    """Rows of the regressor at exact states that are as independent as can be."""
+
+    def __init__(
+        self, model: SymbolicModel, kept: Sequence[int], sample: Sample, seed: int
+    ) -> None:
+        self.model, self.kept = model, list(kept)
+        self.closure = model.closure
+        rng = np.random.default_rng(seed)
+        width = len(model.robot.coordinates)
+        count = _SPARE + -(-3 * len(kept) // (2 * max(1, width)))
+        self.u = self._postures(sample, count, rng)
+        shape = (2, len(self.u), width)
+        self.qd, self.qdd = rng.integers(1, _EIGHTHS + 1, shape) * rng.choice([-1, 1], shape) / 8
+        self.signals = signal_values(model, len(self.u))
+        states: States = self.u, self.qd, self.qdd
+        if self.closure is not None:
+            states = carried(model, *states)
+        phi = regressor_values(model, states)[:, :, self.kept]
+        self.rows, self.scale = _independent_rows(phi.reshape(-1, len(self.kept)))
+        self.width = phi.shape[1]
+
+    def _postures(self, sample: Sample, count: int, rng: np.random.Generator) -> np.ndarray:
+        """(n, len(u)) exact in the actuated joints, closed in floating point."""
+        if sample.walk is None:
+            angular = np.array([joint.angular for joint in self.model.robot.free])
+            reach = np.where(angular, np.pi, 1.0)
+            drawn = rng.uniform(-reach, reach, (count, len(reach)))
+            return np.asarray(np.round(drawn, _DIGITS))
+        u = closing_of(self.model).closed(np.round(sample.walk.postures[:count], _DIGITS))
+        return np.asarray(u[np.all(np.isfinite(u), axis=1)])
+
+    @property
+    def used(self) -> list[int]:
+        """Numbers of the states whose rows are chosen."""
+        return sorted({row // self.width for row in self.rows})
+
+    def places(self) -> tuple[tuple[int, str], ...]:
+        """(number among the used states, joint) of every row."""
+        order = {state: place for place, state in enumerate(self.used)}
+        names = [joint.name for joint in self.model.robot.coordinates]
+        return tuple((order[row // self.width], names[row % self.width]) for row in self.rows)
+
+    def exact_states(self) -> tuple[ExactState, ...]:
+        """The states whose rows are chosen."""
+        free = [joint.name for joint in self.model.robot.free]
+        names = [joint.name for joint in self.model.robot.coordinates]
+        return tuple(
+            ExactState(
+                dict(zip(free, np.round(self.u[i], _DIGITS).tolist(), strict=True)),
+                dict(zip(names, self.qd[i].tolist(), strict=True)),
+                dict(zip(names, self.qdd[i].tolist(), strict=True)),
+                tuple(self.signals[:, i].tolist()),
+            )
+            for i in self.used
+        )
+
+    def matrix(self) -> list[list[Any]]:
+        """The chosen rows in balls, columns scaled.
+
+        Raises:
+            NotEnclosed: a posture is not proven to exist.
+        """
+        model = self.model
+        symbols = symbol_balls(model.robot)
+        enclosures = Enclosures(model, symbols)
+        place = {column: i for i, column in enumerate(self.kept)}
+        entries = {at: x for at, x in model.regressor.items() if at[1] in place}
+        regressor = BallFunction(model.graph, list(entries.values()), symbols)
+        found = {}
+        for i in self.used:
+            state = enclosures.state(self.u[i], self.qd[i], self.qdd[i])
+            signals = {f"s[{k}]": exact_ball(float(x)) for k, x in enumerate(self.signals[:, i])}
+            values = regressor({**state.inputs, **signals})
+            for k in range(self.width):
+                row = [exact_ball(0)] * len(place)
+                for (joint, column), value in zip(entries, values, strict=True):
+                    row[place[column]] += state.coupling[joint][k] * value
+                found[i * self.width + k] = row
+        scale = [exact_ball(float(x)) for x in self.scale]
+        return [[x * y for x, y in zip(found[row], scale, strict=True)] for row in self.rows]
+
+
+def _independent_rows(matrix: np.ndarray) -> tuple[list[int], np.ndarray]:
+    """Rows, each the longest of what those before leave, and the factors of the columns."""
+    lengths = np.linalg.norm(matrix, axis=0)
+    scale = 1.0 / np.where(lengths > 0.0, lengths, 1.0)
+    rest = matrix * scale
+    sizes = np.linalg.norm(rest, axis=1)
+    rest = rest / np.where(sizes > 0.0, sizes, 1.0)[:, None]
+    rows: list[int] = []
+    for _ in range(matrix.shape[1]):
+        left = np.linalg.norm(rest, axis=1)
+        best = int(np.argmax(left))
+        if left[best] == 0.0:
+            break
+        rows.append(best)
+        direction = rest[best] / left[best]
+        rest -= np.outer(rest @ direction, direction)
+    return rows, scale

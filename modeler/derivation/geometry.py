@@ -4,13 +4,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import comb, prod
 
 import sympy
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
-from modeler.derivation.writing_out import TooLong, check_length, power
 from modeler.robot.robot import Joint, Robot
 
 # Cosine and sine of constant angles, exactly, with as few different ones as possible.
@@ -339,19 +339,13 @@ def _symbols(robot: Robot, numbers: Mapping[str, float], at_nominal: bool) -> di
         elif quarters and abs(numbers[name] - quarters * _QUARTER) < _RIGHT_ANGLE_TOLERANCE:
             found[name] = quarters * sympy.pi / 2
         elif expression.names or "pi" in expression.text or at_nominal:
-            found[name] = _constant_symbol(name, expression, found)
+            try:
+                found[name] = folded(expression, found)
+            except DerivationError as error:
+                raise DerivationError(f"[symbols], {name}: {error}") from None
         else:
             found[name] = geometric_symbol(name)
     return found
-
-
-def _constant_symbol(
-    name: str, expression: Expression, found: Mapping[str, sympy.Expr]
-) -> sympy.Expr:
-    try:
-        return folded(expression, found)
-    except DerivationError as error:
-        raise DerivationError(f"[symbols], {name}: {error}") from None
 
 
 @dataclass(frozen=True)
@@ -393,3 +387,69 @@ class _Cells:
         if abs(turns - round(turns)) < _RIGHT_ANGLE_TOLERANCE:
             return round(turns) * sympy.pi / 2
         return value
+
+
+# How large a constant becomes when it is written out, found without writing it out.
+
+
+MOST_TERMS = 1000
+"""Terms of a constant written out as a sum of products."""
+DEEPEST = 60
+"""Operations inside each other, symbols that stand for expressions replaced by these."""
+MOST_BITS = 10_000
+"""Of an exact number."""
+
+
+class TooLong(ArithmeticError):
+    """Says what of a constant is too long, and the bound."""
+
+
+def check_length(value: sympy.Expr) -> None:
+    """Refuse constants that nobody could write out.
+
+    Every subexpression is looked at once, arguments first: what is shared costs nothing.
+
+    Raises:
+        TooLong: more terms or deeper than the bounds.
+    """
+    known: dict[sympy.Basic, tuple[int, int]] = {}  # terms, depth
+    stack = [value]
+    while stack:
+        node = stack[-1]
+        missing = [arg for arg in node.args if arg not in known]
+        if missing:
+            stack += missing
+            continue
+        stack.pop()
+        depth = 1 + max((known[arg][1] for arg in node.args), default=0)
+        terms = _written_terms(node, [known[arg][0] for arg in node.args])
+        if depth > DEEPEST:
+            raise TooLong(f"has more than {DEEPEST} operations inside each other")
+        if terms > MOST_TERMS:
+            raise TooLong(f"has {terms} terms when it is written out, more than {MOST_TERMS}")
+        known[node] = terms, depth
+
+
+def _written_terms(node: sympy.Basic, parts: list[int]) -> int:
+    if isinstance(node, sympy.Add):
+        return sum(parts)
+    if isinstance(node, sympy.Mul):
+        return prod(parts)
+    if isinstance(node, sympy.Pow) and node.exp.is_Integer:
+        n = abs(int(node.exp))
+        return comb(n + parts[0] - 1, n) if n <= MOST_TERMS or parts[0] == 1 else n
+    return 1
+
+
+def power(base: sympy.Expr, exponent: sympy.Expr | int) -> sympy.Expr:
+    """base**exponent.
+
+    Raises:
+        TooLong: an exact number of more than `MOST_BITS`.
+    """
+    exponent = sympy.sympify(exponent)
+    if base.is_Rational and exponent.is_Rational:
+        bits = max(int(base.p).bit_length(), int(base.q).bit_length()) * abs(exponent)
+        if bits > MOST_BITS and base not in (0, 1, -1):
+            raise TooLong(f"holds an exact number of {int(bits)} bits, more than {MOST_BITS}")
+    return base**exponent

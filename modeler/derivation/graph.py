@@ -19,7 +19,7 @@ import operator
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Protocol, Union
+from typing import Any, Protocol, Union
 
 import numpy as np
 import sympy
@@ -27,10 +27,6 @@ import sympy
 from modeler.core.errors import DerivationError
 from modeler.core.expression import FUNCTIONS
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
-
-if TYPE_CHECKING:
-    pass
-
 
 # Values of expressions by steps that are listed once: closing loops asks hundreds of times.
 
@@ -220,19 +216,18 @@ class Graph:
         node = self.nodes[ref]
         if node.op == "add":
             return _composed(self._unit(node.args[0]), self._unit(node.args[1]))
-        if node.op == "mul" and self._is_whole(node.args[0]):
+        factor = (
+            self._value(node.args[0]) if node.op == "mul" and self._is_number(node.args[0]) else 0
+        )
+        if factor in range(1, _LARGEST_MULTIPLE):  # a small whole number
             turn, total = self._unit(node.args[1]), (1, 0)
-            for _ in range(int(self._value(node.args[0]))):
+            for _ in range(int(factor)):
                 total = _composed(total, turn)
             return total
         # tan of half the angle is drawn for each angle; 1 + t*t is never 0 modulo this prime.
         t = _random_residue(f"angle {self._residue[ref]}")
         scale = pow(1 + t * t, -1, PRIME)
         return (1 - t * t) * scale % PRIME, 2 * t * scale % PRIME
-
-    def _is_whole(self, ref: int) -> bool:
-        """True for a small whole number."""
-        return self._is_number(ref) and self._value(ref) in range(1, _LARGEST_MULTIPLE)
 
     def _number(self, value: Fraction) -> int:
         if value == 0:
@@ -472,7 +467,7 @@ class GraphAlgebra:
     def static(self, value: sympy.Expr) -> Expr:
         """A geometric constant as a static expression."""
         if value.is_Rational:
-            return self.graph.constant(_fraction(value))
+            return self.graph.constant(Fraction(int(value.p), int(value.q)))
         if value.is_Float:
             return self.graph.constant(Fraction(repr(float(value))))
         if value.is_Symbol:
@@ -488,21 +483,18 @@ class GraphAlgebra:
                 total = total + arg if value.is_Add else total * arg
             return total
         if value.is_Pow:
-            return self._power(value, args[0])
+            halves = 2 * value.exp
+            if not halves.is_Integer:
+                raise DerivationError(
+                    f"{value}: only whole powers and square roots have a C form; give the number"
+                )
+            whole, half = divmod(int(halves), 2)
+            power = args[0] ** whole
+            return power * self.graph.call("sqrt", args[0]) if half else power
         name = value.func.__name__.lower()
         if name not in FUNCTIONS:
             raise DerivationError(f"{value}: {name} has no C form; expected {', '.join(FUNCTIONS)}")
         return self.graph.call(name, args[0])
-
-    def _power(self, value: sympy.Expr, base: Expr) -> Expr:
-        halves = 2 * value.exp
-        if not halves.is_Integer:
-            raise DerivationError(
-                f"{value}: only whole powers and square roots have a C form; give the number"
-            )
-        whole, half = divmod(int(halves), 2)
-        power = base**whole
-        return power * self.graph.call("sqrt", base) if half else power
 
     def variable(self, row: GeometryRow) -> Expr:
         """rate * q + offset of a prismatic joint."""
@@ -532,10 +524,6 @@ class GraphAlgebra:
         for _ in range(int(quarters) % 4):
             c, s = -s, c
         return c, s
-
-
-def _fraction(value: sympy.Rational) -> Fraction:
-    return Fraction(int(value.p), int(value.q))
 
 
 # Derivatives of graph expressions along a direction, by the rules of differentiation.

@@ -10,8 +10,7 @@ import sympy
 
 from modeler.core.errors import DerivationError
 from modeler.derivation.columns import LinkColumn, StandardColumn, in_block, link_column
-from modeler.derivation.elimination import sparse_row_reduce
-from modeler.derivation.field import Element, ExactField
+from modeler.derivation.field import Element, ExactField, sparse_row_reduce
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.loop_relations import closure_relations, loop_relations, on_link
 from modeler.derivation.model import SymbolicModel
@@ -56,18 +55,14 @@ class Units:
             Rows over the robot's columns and auxiliary columns; the numbers of these, all above
             the robot's: coefficients of absent units, and differences within shared parameters.
         """
-        first: dict[int, int] = {}
-        for unit, column in enumerate(self.owner):
-            if column is not None:
-                first.setdefault(column, unit)
         found = []
         for row in rows:
             new: dict[int, Element] = {}
             for unit, value in row.items():
                 column = self.owner[unit]
-                if column is not None and first[column] == unit:
+                if column is not None and self._parts[column][0] == unit:
                     new[column] = value
-                    for other in self._others(column, unit):
+                    for other in (u for u in self._parts[column] if u != unit):
                         _add(new, self.standard + other, -value)
                 else:
                     _add(new, self.standard + unit, value)
@@ -83,9 +78,6 @@ class Units:
             range(len(self.owner)),
             key=lambda unit: last if (own := self.owner[unit]) is None else places[own],
         )
-
-    def _others(self, column: int, unit: int) -> list[int]:
-        return [u for u in self._parts[column] if u != unit]
 
     @cached_property
     def _parts(self) -> dict[int, list[int]]:
@@ -309,8 +301,14 @@ def base_from_relations(
         for b, coefficient in row.items():
             if b != place:
                 terms[b].append(Term(K.expression(-coefficient), columns[place].name))
-    parameters = [
+    return named_parameters(columns, terms), tuple(unidentifiable)
+
+
+def named_parameters(
+    columns: Sequence[StandardColumn], terms: Mapping[int, Sequence[Term]]
+) -> tuple[BaseParameter, ...]:
+    """{column: terms} as base parameters; the names of those into which others group end in R."""
+    return tuple(
         BaseParameter(columns[b].name + ("R" if len(found) > 1 else ""), b, tuple(found))
         for b, found in terms.items()
-    ]
-    return tuple(parameters), tuple(unidentifiable)
+    )

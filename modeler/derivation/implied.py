@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations
 from typing import Any
 
@@ -17,12 +18,12 @@ import numpy as np
 
 from modeler.core.expression import FUNCTIONS, Expression, parse
 from modeler.core.rounded import precise
-from modeler.derivation.closed_states import closed_motion, closed_walk, closing_of
 from modeler.derivation.closing import Closing
 from modeler.derivation.closure import Closure
 from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.precise import Number, decimal, precise_values
+from modeler.derivation.walks import closed_motion, closed_walk, closing_of
 from modeler.robot.robot import Robot
 
 Term = tuple[Fraction, str]
@@ -53,7 +54,6 @@ class Constants:
             derived: values of symbols that are given by expressions of others.
         """
         self.closing, self.home, self.derived = closing, home, derived
-        self._moved: dict[str, np.ndarray] | None = None
 
     def terms(self, coefficients: np.ndarray, angular: bool) -> list[Term] | None:
         """The constant coefficients . home as a sum of terms; None where none is found.
@@ -68,24 +68,17 @@ class Constants:
         rest = _turns(left, angular)
         if rest is not None:
             return [*terms, *rest]
-        derived = self._of_derived(value, angular)
-        if derived is not None:
-            return derived
-        rest = _with_decimal(left, angular)
-        return None if rest is None else [*terms, *rest]
-
-    def _of_derived(self, value: float, angular: bool) -> list[Term] | None:
-        """The constant by one symbol that is no combination of the others: w = sqrt(v)."""
-        for name, size in self.derived.items():
+        for name, size in self.derived.items():  # no combination of the others: w = sqrt(v)
             for share in _SHARES:
                 rest = _turns(value - float(share) * size, angular)
                 if rest is not None:
                     return [(share, name), *rest]
-        return None
+        rest = _with_decimal(left, angular)
+        return None if rest is None else [*terms, *rest]
 
     def _slopes(self, coefficients: np.ndarray, angular: bool) -> Iterator[Term]:
         """The symbols on which the constant depends."""
-        for name, moved in self._perturbed().items():
+        for name, moved in self._perturbed.items():
             change = float(coefficients @ (moved - self.home)) / _STEP
             for factor, size in self._factors(name, angular):
                 if abs(size) > _STEP:
@@ -112,18 +105,15 @@ class Constants:
         function, other = factor[:3], factor[4:-1]
         return value * getattr(math, function)(self.closing.values[other])
 
+    @cached_property
     def _perturbed(self) -> Mapping[str, np.ndarray]:
         """By symbol, home closed anew with another value of it; where it does not, left out."""
-        if self._moved is None:
-            names, closing = list(self.closing.values), self.closing
-            with np.errstate(all="ignore"):  # the root of a length that became negative
-                moved = self._closed_anew(names)
-            far = np.abs(moved - self.home) / closing.scale
-            near = np.max(far, axis=1, initial=0.0) < _NEAR
-            self._moved = {
-                name: u for name, u, good in zip(names, moved, near, strict=True) if good
-            }
-        return self._moved
+        names = list(self.closing.values)
+        with np.errstate(all="ignore"):  # the root of a length that became negative
+            moved = self._closed_anew(names)
+        far = np.abs(moved - self.home) / self.closing.scale
+        near = np.max(far, axis=1, initial=0.0) < _NEAR
+        return {name: u for name, u, good in zip(names, moved, near, strict=True) if good}
 
     def _closed_anew(self, names: Sequence[str]) -> np.ndarray:
         """(names, unknowns): Newton from home, one sample for each symbol."""
@@ -363,15 +353,11 @@ def _vanishing_rows(model: SymbolicModel) -> list[tuple[np.ndarray, int]]:
     u = closed_walk(model, _POSTURES, np.random.default_rng(_SEED)).postures
     G = closed_motion(model, u, np.zeros((len(u), len(closure.given)))).coupling
     speeds = np.concatenate(list(G), axis=1)  # (len(u), postures * len(q))
-    rows = _reduced(_left_null_space(speeds), closure.solved)
+    left, singular, _ = np.linalg.svd(speeds, full_matrices=True)
+    rank = int(np.sum(singular > _TOLERANCE * singular[0]))
+    rows = _reduced(left[:, rank:].T, closure.solved)
     home = np.array(closure.home)
     return [(row, pivot) for row, pivot in rows if np.max(np.abs((u - home) @ row)) < _SAME]
-
-
-def _left_null_space(matrix: np.ndarray) -> np.ndarray:
-    left, singular, _ = np.linalg.svd(matrix, full_matrices=True)
-    rank = int(np.sum(singular > _TOLERANCE * singular[0]))
-    return left[:, rank:].T
 
 
 def _reduced(rows: np.ndarray, solved: Sequence[int]) -> list[tuple[np.ndarray, int]]:

@@ -11,10 +11,10 @@ import casadi
 import numpy as np
 import sympy
 
-from modeler.derivation.closed_states import closed_motion
 from modeler.derivation.columns import LinkColumn
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.model import SymbolicModel
+from modeler.derivation.walks import closed_motion
 from modeler.robot.robot import INERTIAL
 
 

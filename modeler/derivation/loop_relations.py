@@ -40,11 +40,10 @@ from modeler.derivation.certificate import (
     plus,
 )
 from modeler.derivation.columns import StandardColumn
-from modeler.derivation.elimination import TooLarge
-from modeler.derivation.field import Element, ExactField
+from modeler.derivation.field import Element, ExactField, TooLarge
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.tied import dependent_columns
-from modeler.derivation.transfer import joint_constant, placement, transferred
+from modeler.derivation.tree import joint_constant, placement, transferred
 from modeler.robot.robot import INERTIAL
 
 _ALL, _ACROSS, _ALONG, _NONE = (0, 1, 2), (0, 1), (2,), ()
@@ -89,7 +88,7 @@ def closure_relations(
     first = products.different(K, seed)
     if len(first) + len(order) > _MOST:
         raise TooLarge(f"relations around the loops are among more than {_MOST} functions")
-    return dependent_columns(geometry, products, K, [*first, *order], set(order), seed)
+    return dependent_columns(geometry, products.rows, K, [*first, *order], set(order), seed)
 
 
 class _Products:

@@ -17,13 +17,17 @@ from modeler.derivation.columns import (
 )
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.graph import Expr, Graph, GraphAlgebra
-from modeler.derivation.kinematics import Pose, Screw, base_poses, plus, poses, screws, times
-from modeler.derivation.newton_euler import (
+from modeler.derivation.kinematics import (
     Motion,
     MotionState,
+    Pose,
+    Screw,
+    base_poses,
+    free_screws,
     inertia_matrix,
     inverse_dynamics,
     motions,
+    poses,
     project,
     wrench_columns,
 )
@@ -105,14 +109,13 @@ class SymbolicModel(Brief):
                 found[k] = found[k] + torque * coefficient
         return found
 
-    def _gravity(self) -> list[Expr]:
-        return [self.algebra.static(entry) for entry in self.geometry.gravity]
-
     def _motions(
-        self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: Sequence[Expr]
+        self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: bool = True
     ) -> list[Motion]:
-        state = MotionState(self._row_values(qd), self._row_values(qdd), list(gravity))
-        return motions(self.geometry, self.frames, state, self.algebra)
+        zero = self.graph.constant(0)
+        down = [self.algebra.static(x) if gravity else zero for x in self.geometry.gravity]
+        rates = self._row_values(qd), self._row_values(qdd)
+        return motions(self.geometry, self.frames, MotionState(*rates, down), self.algebra)
 
     @cached_property
     def regressor(self) -> Entries:
@@ -121,7 +124,7 @@ class SymbolicModel(Brief):
         Inertial columns by Newton-Euler in screw form: the wrench of one unit of a parameter,
         projected on every joint below; effect columns from their definition.
         """
-        moved = self._motions(self.inputs("qd"), self.inputs("qdd"), self._gravity())
+        moved = self._motions(self.inputs("qd"), self.inputs("qdd"))
         carried = self.carried
         wrenches = [wrench_columns(motion) for motion in moved]
         entries: dict[tuple[int, int], Expr] = {}
@@ -142,18 +145,7 @@ class SymbolicModel(Brief):
     @cached_property
     def carried(self) -> list[dict[int, Screw]]:
         """For every row, the screw of each free variable that moves it."""
-        found = []
-        for screws_of in screws(self.geometry, self.frames, self.algebra):
-            total: dict[int, Screw] = {}
-            for index, screw in screws_of.items():
-                for k, coefficient in self.geometry.forms[index].items():
-                    e, m = times(coefficient, screw.e), times(coefficient, screw.m)
-                    before = total.get(k)
-                    total[k] = (
-                        Screw(plus(before.e, e), plus(before.m, m)) if before else Screw(e, m)
-                    )
-            found.append(total)
-        return found
+        return free_screws(self.geometry, self.frames, self.algebra)
 
     @cached_property
     def signals(self) -> tuple[Signal, ...]:
@@ -198,7 +190,7 @@ class SymbolicModel(Brief):
         qdd = self.inputs("qdd") if accelerations else none
         tau = list(none)
         if links:
-            moved = self._motions(qd, qdd, self._gravity() if gravity else [zero] * 3)
+            moved = self._motions(qd, qdd, gravity)
             rows = self.link_parameters(parameters)
             torques = inverse_dynamics(self.geometry, self.frames, moved, rows, zero)
             tau = self._free_efforts(torques)

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 import sympy
 
-from modeler.derivation.closed_states import closed_motion, closed_walk, rounded_off
-from modeler.derivation.columns import StandardColumn
-from modeler.derivation.grouping import priority_order
+from modeler.derivation.grouping import named_parameters, priority_order
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameter, BaseParameters, Term
-from modeler.derivation.walks import Walk
+from modeler.derivation.walks import Walk, closed_motion, closed_walk, rounded_off
 
 TOLERANCE = 1e-9
 """Relative to the largest singular value of the scaled matrix, of a robot without loops; see
@@ -185,16 +183,9 @@ _NOTHING = 1e-9
 """A factor below this is 0, a number this near to a whole one is that."""
 
 
-@dataclass(frozen=True)
-class NumericGrouping:
-    """Base parameters, parameters without effect, and the error bound of the coefficients."""
-
-    parameters: tuple[BaseParameter, ...]
-    unidentifiable: tuple[str, ...]
-    bound: float
-
-
-def numeric_grouping(model: SymbolicModel, sample: Sample, numeric: NumericRank) -> NumericGrouping:
+def numeric_grouping(
+    model: SymbolicModel, sample: Sample, numeric: NumericRank
+) -> tuple[tuple[BaseParameter, ...], tuple[str, ...], float]:
     """First-come independent columns of the torque regressor at random states, nominal geometry.
 
     A column is dependent if the columns before it leave less of it than lies in the middle of the
@@ -205,6 +196,9 @@ def numeric_grouping(model: SymbolicModel, sample: Sample, numeric: NumericRank)
         model: of the robot.
         sample: its regressor.
         numeric: the rank of that.
+
+    Returns:
+        Base parameters, parameters without effect, and the error bound of the coefficients.
 
     Raises:
         DerivationError: a priority pattern matches nothing.
@@ -220,15 +214,11 @@ def numeric_grouping(model: SymbolicModel, sample: Sample, numeric: NumericRank)
     for column in sorted(relations):
         for b, factor in relations[column].items():
             terms[b].append(Term(factor, model.names[column]))
-    return NumericGrouping(
-        tuple(_parameter(model.columns, b, found) for b, found in terms.items()),
+    return (
+        named_parameters(model.columns, terms),
         tuple(model.names[i] for i in sorted(absent)),
         bound,
     )
-
-
-def _parameter(columns: Sequence[StandardColumn], b: int, terms: list[Term]) -> BaseParameter:
-    return BaseParameter(columns[b].name + ("R" if len(terms) > 1 else ""), b, tuple(terms))
 
 
 def _first_come(

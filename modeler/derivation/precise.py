@@ -13,7 +13,7 @@ from typing import Any
 
 from modeler.core.expression import FUNCTIONS
 from modeler.core.rounded import precise
-from modeler.derivation.graph import Expr, Graph, Node, combined
+from modeler.derivation.graph import Expr, Graph, combined
 from modeler.robot.robot import Robot
 
 Ball = Any
@@ -114,47 +114,33 @@ def proven_regular(matrix: Sequence[Sequence[Ball]]) -> bool:
 # Constants of the geometry that are zero for certain: in rational numbers, as they are written.
 
 
-class _NotRational(Exception):
-    """An angle, a root, or something that moves."""
-
-
 def surely_zero(expression: Expr, robot: Robot) -> bool:
     """True if an expression is 0 at the given values; False if it moves or is not rational.
 
     Lengths in a file are decimals, so sums and products of them are rational numbers: the offsets
     along the axes of a plane loop add up to 0, or they do not.
     """
-    try:
-        values = _rational(robot)
-        return _exact_value(expression, values) == 0
-    except (_NotRational, ZeroDivisionError):
-        return False
-
-
-def _rational(robot: Robot) -> dict[str, Fraction]:
-    known: dict[str, Fraction] = {}
-    for name, expression in robot.symbols.items():
+    values: dict[str, Fraction] = {}
+    for name, text in robot.symbols.items():
         try:
-            known[name] = expression.fold(known, {}, None, Fraction)
+            values[name] = text.fold(values, {}, None, Fraction)
         except (KeyError, TypeError, ZeroDivisionError):
             continue  # an angle: missed where it is needed
-    return known
-
-
-def _exact_value(expression: Expr, values: Mapping[str, Fraction]) -> Fraction:
-    graph = expression.graph
-    found: dict[int, Fraction] = {0: Fraction(0)}
-    for index in graph.reachable([expression]):
-        node = graph.nodes[index]
-        if node.op == "num":
-            found[index] = Fraction(node.args[0])
-        elif node.op == "sym" and node.args[0] in values:
-            found[index] = values[node.args[0]]
-        elif node.op in ("add", "mul", "div"):
-            found[index] = combined(node, found, {})
-        else:
-            raise _NotRational
-    return found[expression.ref] if expression.ref >= 0 else -found[-expression.ref]
+    graph, found = expression.graph, {0: Fraction(0)}
+    try:
+        for index in graph.reachable([expression]):
+            node = graph.nodes[index]
+            if node.op == "num":
+                found[index] = Fraction(node.args[0])
+            elif node.op == "sym" and node.args[0] in values:
+                found[index] = values[node.args[0]]
+            elif node.op in ("add", "mul", "div"):
+                found[index] = combined(node, found, {})
+            else:
+                return False
+        return found[abs(expression.ref)] == 0
+    except ZeroDivisionError:
+        return False
 
 
 # Graph expressions with 40 digits, for numbers that must be the same on every machine.
@@ -178,26 +164,21 @@ def precise_values(
     mp = precise()
     found: dict[int, Number] = {0: mp.zero}
     for index in graph.reachable(outputs):
-        found[index] = _node_value(graph.nodes[index], values, found)
+        node = graph.nodes[index]
+        if node.op == "num":
+            found[index] = mp.mpf(node.args[0].numerator) / node.args[0].denominator
+        elif node.op == "pi":
+            found[index] = +mp.pi
+        elif node.op == "sym":
+            found[index] = decimal(values[node.args[0]])
+        else:
+            found[index] = combined(node, found, _functions())
     return [found[abs(o.ref)] if o.ref >= 0 else -found[-o.ref] for o in outputs]
 
 
 def decimal(value: float | Number) -> Number:
     """A double as the decimal that it prints; a number of 40 digits as it is."""
     return precise().mpf(repr(float(value)) if isinstance(value, float) else value)
-
-
-def _node_value(
-    node: Node, values: Mapping[str, float | Number], found: Mapping[int, Number]
-) -> Number:
-    mp = precise()
-    if node.op == "num":
-        return mp.mpf(node.args[0].numerator) / node.args[0].denominator
-    if node.op == "pi":
-        return +mp.pi
-    if node.op == "sym":
-        return decimal(values[node.args[0]])
-    return combined(node, found, _functions())
 
 
 @cache

@@ -1,6 +1,7 @@
 """All base parameters as people and programs read them: text, LaTeX, Markdown, JSON."""
 
 import textwrap
+from dataclasses import asdict
 from typing import Any
 
 import sympy
@@ -14,7 +15,6 @@ from modeler.derivation.result import (
     BaseParameter,
     BaseParameters,
     Certificate,
-    ExactState,
     ModularRank,
     Proof,
     SampledRank,
@@ -143,48 +143,34 @@ def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
 
 
 def _certificate(proof: Proof) -> dict[str, Any]:
-    found = proof.certificate
+    found, sampling = proof.certificate, proof.sampling
     modular = found if isinstance(found, ModularRank) else None
+    told: dict[str, Any] = {"rank": found.rank, "seed": found.seed}
+    if isinstance(found, ModularRank):
+        told = {"kind": "modular", **told, "prime": found.prime, "points": found.points}
+    elif isinstance(found, SampledRank):
+        told = {"kind": "sampled", **told, "why": found.why}
+    else:
+        states = [asdict(state) | {"signals": list(state.signals)} for state in found.states]
+        rows = [list(row) for row in found.rows]
+        told = {"kind": "balls", **told, "bits": found.bits, "states": states, "rows": rows}
     return {
         "statement": proof.statement,
         "prime": modular and modular.prime,
         "points": modular and modular.points,
         "seed": proof.seed,
         "exact_rank": None if isinstance(found, SampledRank) else found.rank,
-        "independence": _independence(found),
+        "independence": told,
         "numeric_rank": proof.numeric_rank,
         "tolerance": proof.tolerance,
         "scale": proof.scale,
         "base_against_standard_torque": proof.agreement,
-        "sampling": None if proof.sampling is None else _sampling(proof.sampling),
-    }
-
-
-def _independence(found: Certificate) -> dict[str, Any]:
-    told: dict[str, Any] = {"rank": found.rank, "seed": found.seed}
-    if isinstance(found, ModularRank):
-        return {"kind": "modular", **told, "prime": found.prime, "points": found.points}
-    if isinstance(found, SampledRank):
-        return {"kind": "sampled", **told, "why": found.why}
-    states = [_state(state) for state in found.states]
-    rows = [list(row) for row in found.rows]
-    return {"kind": "balls", **told, "bits": found.bits, "states": states, "rows": rows}
-
-
-def _state(state: ExactState) -> dict[str, Any]:
-    return {
-        "positions": dict(state.positions),
-        "speeds": dict(state.speeds),
-        "accelerations": dict(state.accelerations),
-        "signals": list(state.signals),
-    }
-
-
-def _sampling(sampling: Sampling) -> dict[str, Any]:
-    return {
-        "postures": sampling.postures,
-        "ranges": {name: list(ends) for name, ends in sampling.ranges.items()},
-        "distance_to_singularity": sampling.distance,
+        "sampling": sampling
+        and {
+            "postures": sampling.postures,
+            "ranges": {name: list(ends) for name, ends in sampling.ranges.items()},
+            "distance_to_singularity": sampling.distance,
+        },
     }
 
 
@@ -252,10 +238,13 @@ def _product(size: sympy.Expr, term: Term) -> tuple[Formula, ...]:
 
 def _before(size: sympy.Expr) -> tuple[Formula, ...]:
     """A factor as it stands before a letter; 1 is not written."""
-    if size == 1:
-        return ()
-    front = expression_formula(size)
-    return (Formula("fenced", parts=(front,)) if size.is_Add else front,)
+    return () if size == 1 else (_fenced_sum(size),)
+
+
+def _fenced_sum(factor: sympy.Expr) -> Formula:
+    """A factor of a product: a sum in brackets."""
+    inner = expression_formula(factor)
+    return Formula("fenced", parts=(inner,)) if factor.is_Add else inner
 
 
 def expression_formula(expression: sympy.Expr) -> Formula:
@@ -263,7 +252,12 @@ def expression_formula(expression: sympy.Expr) -> Formula:
     if expression.is_Symbol or expression is sympy.pi:
         return name(str(expression))
     if expression.is_Add:
-        return _sum_formula(expression)
+        parts: list[Formula] = []
+        for k, term in enumerate(expression.as_ordered_terms()):
+            sign, size = split_sign(term)
+            parts += [operator(sign or "+")] if k or sign else []
+            parts.append(expression_formula(size))
+        return row(*parts)
     top, bottom = sympy.fraction(expression)
     if bottom != 1:
         return Formula("fraction", parts=(expression_formula(top), expression_formula(bottom)))
@@ -271,7 +265,9 @@ def expression_formula(expression: sympy.Expr) -> Formula:
         text = str(expression)
         return row(operator("-"), number(text[1:])) if text.startswith("-") else number(text)
     if expression.is_Mul:
-        return _factors(expression)
+        sign, size = split_sign(expression)
+        factors = size.as_ordered_factors() if size.is_Mul else [size]
+        return row(*([operator("-")] if sign else []), *map(_fenced_sum, factors))
     if expression.is_Pow:
         base, exponent = expression.args
         below = expression_formula(base)
@@ -280,21 +276,3 @@ def expression_formula(expression: sympy.Expr) -> Formula:
         return Formula("sup", parts=(below, expression_formula(exponent)))
     inner = tuple(expression_formula(argument) for argument in expression.args)
     return row(name(expression.func.__name__), Formula("fenced", parts=inner))
-
-
-def _sum_formula(expression: sympy.Expr) -> Formula:
-    parts: list[Formula] = []
-    for k, term in enumerate(expression.as_ordered_terms()):
-        sign, size = split_sign(term)
-        parts += [operator(sign or "+")] if k or sign else []
-        parts.append(expression_formula(size))
-    return row(*parts)
-
-
-def _factors(expression: sympy.Expr) -> Formula:
-    sign, size = split_sign(expression)
-    parts = [operator("-")] if sign else []
-    for factor in size.as_ordered_factors() if size.is_Mul else [size]:
-        inner = expression_formula(factor)
-        parts.append(Formula("fenced", parts=(inner,)) if factor.is_Add else inner)
-    return row(*parts)

@@ -7,10 +7,8 @@ geometry, is interpolated from its values at several geometries and checked at f
 """
 
 from collections.abc import Callable, Mapping, Sequence, Set
-from dataclasses import dataclass
 from functools import partial
 from itertools import product
-from typing import Protocol
 
 import numpy as np
 import sympy
@@ -26,8 +24,7 @@ from modeler.derivation.certificate import (
     row_echelon,
 )
 from modeler.derivation.columns import LinkColumn, StandardColumn
-from modeler.derivation.elimination import TooLarge
-from modeler.derivation.field import Element, ExactField
+from modeler.derivation.field import Element, ExactField, TooLarge
 from modeler.derivation.geometry import Geometry
 
 # Rational functions from their values modulo a prime.
@@ -224,26 +221,16 @@ def tied_relations(
         TooLarge: a coefficient is no short quotient of polynomials, or has long numbers.
     """
     energetic = [i for i in order if has_energy(columns[i])]
-    return dependent_columns(geometry, _Energies(columns), K, energetic, set(energetic), seed)
+
+    def rows(state: ModularState, places: Sequence[int]) -> np.ndarray:
+        return state.energy_rows([columns[i] for i in places])
+
+    return dependent_columns(geometry, rows, K, energetic, set(energetic), seed)
 
 
-class ExactFunctions(Protocol):
-    """Functions on the opened tree, numbered, of which relations are looked for."""
-
-    def rows(self, state: ModularState, places: Sequence[int]) -> np.ndarray:
-        """(2 points, places): what those functions add to 2T, then to the power of gravity."""
-        ...
-
-
-@dataclass(frozen=True)
-class _Energies:
-    """The energy rows of columns."""
-
-    columns: Sequence[StandardColumn]
-
-    def rows(self, state: ModularState, places: Sequence[int]) -> np.ndarray:
-        """(2 points, places)."""
-        return state.energy_rows([self.columns[i] for i in places])
+ExactFunctions = Callable[[ModularState, Sequence[int]], np.ndarray]
+"""(2 points, places): what numbered functions on the opened tree, of which relations are looked
+for, add to 2T, then to the power of gravity."""
 
 
 def dependent_columns(
@@ -270,23 +257,19 @@ def dependent_columns(
     try:
         supports = _supports(geometry, functions, K, order, seed)
         supports = {column: kept for column, kept in supports.items() if column in wanted}
-        return _interpolated(_Sampler(geometry, functions, K, supports, seed), wanted)
+        sampler = _Sampler(geometry, functions, K, supports, seed)
+        probes = Probes(len(K.letters), seed)
+        relations: list[dict[int, Element]] = []
+        for column, support in supports.items():
+            relation = {column: K.one}
+            for kept in support:
+                if kept in wanted:
+                    values = partial(sampler.values, (column, kept))
+                    relation[kept] = -coefficient(values, K, probes)
+            relations.append(relation)
+        return relations
     except ValueError as error:  # a constant whose denominator is a multiple of a prime
         raise TooLarge(f"a constant has no value modulo a prime ({error})") from None
-
-
-def _interpolated(sampler: "_Sampler", wanted: Set[int]) -> list[dict[int, Element]]:
-    """The relation of each dependent function, from the kept ones that it involves."""
-    relations: list[dict[int, Element]] = []
-    K = sampler.K
-    probes = Probes(len(K.letters), sampler.seed)
-    for column, support in sampler.supports.items():
-        relation = {column: K.one}
-        for kept in support:
-            if kept in wanted:
-                relation[kept] = -coefficient(partial(sampler.values, (column, kept)), K, probes)
-        relations.append(relation)
-    return relations
 
 
 def _supports(
@@ -294,7 +277,7 @@ def _supports(
 ) -> dict[int, list[int]]:
     """For each dependent function the kept ones that it is a combination of."""
     state = ModularState(geometry, K, len(order) + _SPARE, seed, SMALL)
-    rows = functions.rows(state, order)
+    rows = functions(state, order)
     pivots = row_echelon(rows, range(len(order)), SMALL)
     kept = {column: row for row, column in pivots}
     return {
@@ -348,7 +331,7 @@ class _Sampler:
         total = n * len(geometries)
         self.seed += 1
         state = ModularState(self.geometry, self.K, total, self.seed, LARGE, letters)
-        rows = self.functions.rows(state, self.used).reshape(2, len(geometries), n, -1)
+        rows = self.functions(state, self.used).reshape(2, len(geometries), n, -1)
         for i, geometry in enumerate(geometries):
             self._known[geometry] = {}
             for kept, dependent in self.blocks:

@@ -1,36 +1,7 @@
 """Closed forms that people read: functions of the configuration, coefficients, CAD values."""
 
-from modeler.formulas.closed_form import ClosedForm as ClosedForm
-from modeler.formulas.closed_form import Function as Function
 from modeler.formulas.closed_form import closed_form as closed_form
-from modeler.formulas.coefficients import Coefficient as Coefficient
-from modeler.formulas.coefficients import CoefficientTable as CoefficientTable
 from modeler.formulas.coefficients import coefficient_table as coefficient_table
-from modeler.formulas.coefficients import independent_coefficients as independent_coefficients
-from modeler.formulas.evaluation import Evaluation as Evaluation
-from modeler.formulas.evaluation import evaluate as evaluate
-from modeler.formulas.function_sheet import Sheet as Sheet
-from modeler.formulas.function_sheet import sheet_json as sheet_json
-from modeler.formulas.function_sheet import sheet_latex as sheet_latex
 from modeler.formulas.function_sheet import sheet_lines as sheet_lines
-from modeler.formulas.function_sheet import sheet_markdown as sheet_markdown
-from modeler.formulas.identifiability import Identifiability as Identifiability
-from modeler.formulas.loop_form import LoopForm as LoopForm
-from modeler.formulas.print_report import terms_report as terms_report
-from modeler.formulas.regressor_form import Equation as Equation
-from modeler.formulas.regressor_form import nonzero_base as nonzero_base
 from modeler.formulas.regressor_form import regressor_form as regressor_form
 from modeler.formulas.regressor_form import short_form as short_form
-from modeler.formulas.relations import BaseMap as BaseMap
-from modeler.formulas.relations import Relations as Relations
-from modeler.formulas.render import backward_lines as backward_lines
-from modeler.formulas.render import closed_form_json as closed_form_json
-from modeler.formulas.render import closed_form_latex as closed_form_latex
-from modeler.formulas.render import closed_form_markdown as closed_form_markdown
-from modeler.formulas.render import closed_form_text as closed_form_text
-from modeler.formulas.render import coefficients_json as coefficients_json
-from modeler.formulas.render import coefficients_latex as coefficients_latex
-from modeler.formulas.render import coefficients_markdown as coefficients_markdown
-from modeler.formulas.render import coefficients_text as coefficients_text
-from modeler.formulas.render import determinant_text as determinant_text
-from modeler.formulas.render import forward_lines as forward_lines

@@ -10,6 +10,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.formulas.physical_system import PhysicalSystem
+from modeler.formulas.ring import places_in
 from modeler.formulas.solve import ClosedSolution, solve
 from modeler.formulas.values import SolvedNumbers, derive_values
 
@@ -186,7 +187,10 @@ def compare_cad(
         sigmas: tolerances of CAD values, S their squares.
         unknown_data: {quantity: why it has no value}; these are left out.
     """
-    depends = {d: _letters(system, d) for d in system.data}
+    places = {d: places_in(system.definitions[d]) for d in system.data}
+    depends = {
+        d: tuple(x for x in system.letters if system.place[x] in places[d]) for d in system.data
+    }
     missing = {d: [x for x in letters if x not in cad] for d, letters in depends.items()}
     left_out = {d: f"no CAD value of {', '.join(some)}" for d, some in missing.items() if some}
     left_out |= unknown_data or {}
@@ -205,11 +209,6 @@ def compare_cad(
     )
 
 
-def _letters(system: PhysicalSystem, name: str) -> tuple[str, ...]:
-    used = {system.names[i] for at in system.definitions[name] for i, e in enumerate(at) if e}
-    return tuple(x for x in system.letters if x in used)
-
-
 class _CadProblem:
     """Residuals of the compared quantities for any values of the parameters."""
 
@@ -220,10 +219,7 @@ class _CadProblem:
         self.system, self.kept = system, list(kept)
         self.data = data[self.kept]
         self.polys = [SolvedNumbers(system.definitions[system.data[i]]) for i in self.kept]
-        self.start = np.zeros(len(system.names))
-        for name, value in (*system.constants.items(), *cad.items()):
-            if name in system.place:
-                self.start[system.place[name]] = value
+        self.start = system.point(cad)
         J = self.jacobian(self.start)
         S = np.zeros(len(system.names))
         for name, value in sigmas.items():

@@ -23,7 +23,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import combinations, combinations_with_replacement
+from itertools import combinations, combinations_with_replacement, product
 from typing import TypeAlias
 
 import sympy
@@ -32,12 +32,20 @@ from modeler.core.errors import RobotError
 from modeler.derivation.columns import ShaftColumn, effect_entries, in_block
 from modeler.derivation.geometry import Geometry, GeometryRow
 from modeler.derivation.graph import Expr, Graph, GraphAlgebra
-from modeler.derivation.kinematics import Screw, Vector, cross, dot, gravity_in_frames, plus, screws
+from modeler.derivation.kinematics import (
+    Composite,
+    Screw,
+    Vector,
+    cross,
+    dot,
+    gravity_in_frames,
+    plus,
+    screws,
+)
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.newton_euler import Composite
 from modeler.derivation.result import BaseParameters
 from modeler.effects.effect import EnergyBlock
-from modeler.formulas.energy_form import Entries, dynamics
+from modeler.formulas.energy_form import dynamics
 from modeler.formulas.function_sheet import Sheet, SheetWriter
 from modeler.formulas.ring import Poly, TrigRing, without_squares
 from modeler.robot.robot import Robot
@@ -232,13 +240,24 @@ def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> Clo
     factor = _gravity_factor(algebra)
     names = [joint.name for joint in model.robot.free]
     keep = _kept_by_paper(model.robot)
+    gravity = found.gravity
+    if factor is not None:
+        letter_of = algebra.ring.gens[factor]
+        gravity = {
+            at: {column: poly.exquo(letter_of) for column, poly in entry.items()}
+            for at, entry in gravity.items()
+        }
     functions = [
-        _function("g", names, at, _divided(entry, factor, algebra), algebra, keep)
-        for at, entry in found.gravity.items()
+        _function(letter, names, at, entry, algebra, keep)
+        for letter, entries in (("g", gravity), ("J", found.inertia), ("S", found.christoffel))
+        for at, entry in entries.items()
     ]
-    for letter, entries in (("J", found.inertia), ("S", found.christoffel)):
-        functions += _functions(letter, names, entries, algebra, keep)
-    _check_names(model.robot, keep, functions)
+    known = [function.name for function in functions]
+    for name in sorted((keep or set()) - set(known)):
+        raise RobotError(
+            f"robot {model.robot.name}, [terms], keep_sine_squares: got {name}, which is zero or "
+            f"no function of this robot; expected names among {', '.join(known)}"
+        )
     letter = str(algebra.ring.symbols[factor]) if factor is not None else ""
     parameters = list(model.names)
     for parameter in base.parameters if base is not None else ():
@@ -252,29 +271,16 @@ def function_name(letter: str, joints: Sequence[str]) -> str:
     return letter + ("" if all(len(name) == 1 for name in joints) else "_").join(joints)
 
 
-def _functions(
-    letter: str,
-    names: Sequence[str],
-    entries: Entries,
-    algebra: TrigRing,
-    keep: frozenset[str] | None,
-) -> list[Function]:
-    return [_function(letter, names, at, entry, algebra, keep) for at, entry in entries.items()]
-
-
 def _function(
-    letter: str,
-    names: Sequence[str],
-    at: tuple[int, ...],
-    entry: Form,
-    algebra: TrigRing,
+    letter: str, names: Sequence[str], at: tuple[int, ...], entry: Form, algebra: TrigRing,
     keep: frozenset[str] | None,
-) -> Function:
+) -> Function:  # fmt: skip
     name = function_name(letter, [names[i] for i in at])
     if keep is None:
         entry = _fewest(entry, algebra)
     elif name in keep:
-        entry = _all_sines(entry, algebra)
+        turning = [i for i, motion in enumerate(algebra.motions) if motion.sine is not None]
+        entry = _with_sines(entry, algebra, turning)
     terms = collect(entry, algebra)
     order = sorted(terms, reverse=True)
     return Function(name, KINDS[letter], at, {exponents: terms[exponents] for exponents in order})
@@ -309,11 +315,6 @@ def _fewest(entry: Form, algebra: TrigRing) -> Form:
     return best
 
 
-def _all_sines(entry: Form, algebra: TrigRing) -> Form:
-    turning = [i for i, motion in enumerate(algebra.motions) if motion.sine is not None]
-    return _with_sines(entry, algebra, turning)
-
-
 def _with_sines(entry: Form, algebra: TrigRing, joints: Sequence[int]) -> Form:
     for index in joints:
         motion = algebra.motions[index]
@@ -339,12 +340,6 @@ def _gravity_factor(algebra: TrigRing) -> int | None:
     return next((place for place in places if all(t[place] for t in terms)), None)
 
 
-def _divided(entry: Form, place: int | None, algebra: TrigRing) -> Form:
-    if place is None:
-        return entry
-    return {column: poly.exquo(algebra.ring.gens[place]) for column, poly in entry.items()}
-
-
 def _kept_by_paper(robot: Robot) -> frozenset[str] | None:
     names = robot.terms.get("keep_sine_squares")
     if names is None:
@@ -355,15 +350,6 @@ def _kept_by_paper(robot: Robot) -> frozenset[str] | None:
             'functions such as ["J11", "J12"]'
         )
     return frozenset(names)
-
-
-def _check_names(robot: Robot, keep: frozenset[str] | None, functions: Sequence[Function]) -> None:
-    known = [function.name for function in functions]
-    for name in sorted((keep or set()) - set(known)):
-        raise RobotError(
-            f"robot {robot.name}, [terms], keep_sine_squares: got {name}, which is zero or no "
-            f"function of this robot; expected names among {', '.join(known)}"
-        )
 
 
 _INERTIA = (("XX", 0, 0), ("XY", 0, 1), ("XZ", 0, 2), ("YY", 1, 1), ("YZ", 1, 2), ("ZZ", 2, 2))
@@ -400,7 +386,6 @@ def write_short_form(model: SymbolicModel, base: BaseParameters, writer: SheetWr
     names = [joint.name for joint in model.robot.free]
     shafts = _shafts(model, beta)
     if model.geometry.tied:
-        _name_rows(model, rows, writer)
         _write_tied(model, rows, shafts, names, writer)
     else:
         _write_chain(rows, shafts, names, writer)
@@ -447,14 +432,21 @@ def _rows(model: SymbolicModel, bodies: Sequence[Composite], writer: SheetWriter
             _name_vector(writer, f"e{other}{{}}_{name}", screw.e)
             _name_vector(writer, f"m{other}{{}}_{name}", screw.m)
         _name_vector(writer, f"g{{}}_{name}", g)
-        n, f = _momentum(body, row.joint.angular, row.rate)
+        # Angular and linear momentum of the composite body for unit speed of its own joint.
+        zero, (x, y, _) = body.M * 0, body.MS
+        if row.joint.angular:
+            n, f = [line[2] * row.rate for line in body.J], [-y * row.rate, x * row.rate, zero]
+        else:
+            n, f = [y * row.rate, -x * row.rate, zero], [zero, zero, body.M * row.rate]
         gravity[k] = -_along(chain[k], [*cross(body.MS, g)], [x * body.M for x in g])
         for i, j in combinations_with_replacement(sorted(chain), 2):
             turned[i, j, k] = _turned(body, chain[i], chain[j], row.joint.angular) * row.rate
             if j == k:
                 inertia[i, k] = _along(chain[i], n, f)
             if i < j:
-                carried[i, j, k] = -_along(_moved(chain[j], chain[i]), n, f)
+                a, b = chain[j], chain[i]  # a x b: how screw b changes while all turns by a
+                moved = Screw(cross(a.e, b.e), plus(cross(a.e, b.m), cross(a.m, b.e)))
+                carried[i, j, k] = -_along(moved, n, f)
     return _Rows(inertia, turned, carried, gravity)
 
 
@@ -463,23 +455,9 @@ def _name_vector(writer: SheetWriter, pattern: str, vector: Vector) -> None:
         writer.propose(pattern.format(axis), entry)
 
 
-def _momentum(body: Composite, angular: bool, rate: int) -> tuple[Vector, Vector]:
-    """(angular, linear) momentum of a composite body for unit speed of its own joint."""
-    zero = body.M * 0
-    if angular:
-        n = [line[2] * rate for line in body.J]
-        return n, [-body.MS[1] * rate, body.MS[0] * rate, zero]
-    return [body.MS[1] * rate, -body.MS[0] * rate, zero], [zero, zero, body.M * rate]
-
-
 def _along(screw: Screw, n: Vector, f: Vector) -> Expr:
     total: Expr = dot(screw.e, n) + dot(screw.m, f)
     return total
-
-
-def _moved(a: Screw, b: Screw) -> Screw:
-    """A x b: how screw b changes while all turns by a."""
-    return Screw(cross(a.e, b.e), plus(cross(a.e, b.m), cross(a.m, b.e)))
 
 
 def _turned(body: Composite, a: Screw, b: Screw, angular: bool) -> Expr:
@@ -514,10 +492,7 @@ def _shafts(model: SymbolicModel, beta: Mapping[int, Expr]) -> dict[tuple[int, i
 
 
 def _write_chain(
-    rows: _Rows,
-    shafts: Mapping[tuple[int, int], Expr],
-    names: Sequence[str],
-    writer: SheetWriter,
+    rows: _Rows, shafts: Mapping[tuple[int, int], Expr], names: Sequence[str], writer: SheetWriter
 ) -> None:
     """Results where every joint is free."""
     writer.section("inertia matrix, J_ji = J_ij")
@@ -540,28 +515,21 @@ def _write_chain(
         writer.result(function_name("g", [names[i]]), value)
 
 
-def _name_rows(model: SymbolicModel, rows: _Rows, writer: SheetWriter) -> None:
-    """Proposals for the tree's entries, whose rows follow the free joints."""
-    names = [joint.name for joint in model.robot.moving]
+def _write_tied(
+    model: SymbolicModel, rows: _Rows, shafts: Mapping[tuple[int, int], Expr],
+    names: Sequence[str], writer: SheetWriter,
+) -> None:  # fmt: skip
+    """Results along the free joints: J_u = E' J E, and so on."""
+    moving = [joint.name for joint in model.robot.moving]
     writer.section("as if every joint were free")
     for letter, entries in (("T", rows.inertia), ("A", rows.turned), ("B", rows.carried)):
-        for at, value in sorted(entries.items()):
-            writer.propose(function_name(letter, [names[i] for i in at]), value)
-
-
-def _write_tied(
-    model: SymbolicModel,
-    rows: _Rows,
-    shafts: Mapping[tuple[int, int], Expr],
-    names: Sequence[str],
-    writer: SheetWriter,
-) -> None:
-    """Results along the free joints: J_u = E' J E, and so on."""
+        for place, value in sorted(entries.items()):
+            writer.propose(function_name(letter, [moving[i] for i in place]), value)
     forms, zero = model.geometry.forms, model.graph.constant(0)
     inertia: dict[tuple[int, int], Expr] = dict(shafts)
     for (i, k), value in rows.inertia.items():
         for at in [(i, k)] if i == k else [(i, k), (k, i)]:
-            for (a, x), (b, y) in _pairs(forms, at):
+            for (a, x), (b, y) in product(forms[at[0]].items(), forms[at[1]].items()):
                 if a <= b:
                     inertia[a, b] = inertia.get((a, b), zero) + value * (x * y)
     writer.section("inertia matrix, J_ji = J_ij")
@@ -578,23 +546,15 @@ def _write_tied(
         writer.result(function_name("g", [name]), total)
 
 
-def _pairs(
-    forms: Sequence[Mapping[int, Fraction]], at: tuple[int, int]
-) -> list[tuple[tuple[int, Fraction], tuple[int, Fraction]]]:
-    return [(x, y) for x in forms[at[0]].items() for y in forms[at[1]].items()]
-
-
 def _tied_christoffel(model: SymbolicModel, rows: _Rows) -> dict[Triple, Expr]:
     """S_abc, b <= c: sums over the rows of half the tree's coefficients, both orders of b, c."""
     forms, zero = model.geometry.forms, model.graph.constant(0)
     found: dict[Triple, Expr] = {}
-    for (i, j, k), value in _symbols(rows).items():
-        for a, x in forms[i].items():
-            for (b, y), (c, z) in _pairs(forms, (j, k)):
-                if b <= c:
-                    twice = 1 if b == c else 2
-                    at = (a, b, c)
-                    found[at] = found.get(at, zero) + value * (x * y * z * twice)
+    for triple, value in _symbols(rows).items():
+        for (a, x), (b, y), (c, z) in product(*(forms[i].items() for i in triple)):
+            if b <= c:
+                at, twice = (a, b, c), 1 if b == c else 2
+                found[at] = found.get(at, zero) + value * (x * y * z * twice)
     return found
 
 

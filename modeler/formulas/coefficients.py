@@ -5,10 +5,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from math import comb
 from typing import Any
 
-import numpy as np
 from sympy.polys.polyerrors import ExactQuotientFailed
 
 from modeler.core.errors import RobotError
@@ -16,17 +14,25 @@ from modeler.core.expression import Expression
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
 from modeler.formulas.closed_form import ClosedForm, Exponents, Form, Function, closed_form
-from modeler.formulas.identifiability import (
+from modeler.formulas.physical import (
     SEED,
     Identifiability,
+    PhysicalParameters,
     identifiability,
+    physical_parameters,
     random_point,
     value_modulo,
 )
-from modeler.formulas.physical import PhysicalParameters, physical_parameters
 from modeler.formulas.printed import Print, read_print
-from modeler.formulas.relations import BaseMap, Relations, base_map, independent_modulo, relations
-from modeler.formulas.ring import Poly, TrigRing
+from modeler.formulas.ring import (
+    BaseMap,
+    Poly,
+    Relations,
+    TrigRing,
+    base_map,
+    independent_modulo,
+    relations,
+)
 from modeler.formulas.text import monomial_text
 
 PREFIX = {"gravity": "PG", "inertia": "PJ", "christoffel": "PS"}
@@ -108,30 +114,23 @@ def coefficient_table(model: SymbolicModel, base: BaseParameters) -> Coefficient
     printed = read_print(model.robot)
     closed = closed_form(model)
     physical = physical_parameters(model, closed.algebra)
-    names = _names(closed, printed)
     motion = closed.algebra.names[: closed.algebra.moving]
-    coefficients = tuple(
-        _coefficient(name, at, closed.by_name[function], physical, base, motion)
-        for name, (function, at) in names
-    )
+    numbered = [(k, parameter.column) for k, parameter in enumerate(base.parameters)]
+    listed = []
+    for name, (function, at) in _names(closed, printed):
+        form = closed.by_name[function].terms[at]
+        grouped = {k: form[column] for k, column in numbered if column in form}
+        text = monomial_text(at, motion)
+        listed.append(Coefficient(name, function, at, text, form, grouped, physical.of(form)))
+    coefficients = tuple(listed)
     found = relations({c.name: vector_of(c.standard) for c in coefficients})
     by_name = {c.name: c for c in coefficients}
     known = _known_geometry(coefficients, closed.algebra)
+    seen = identifiability(physical, [by_name[name].physical for name in found.independent])
+    names, ring = [parameter.name for parameter in base.parameters], closed.algebra.static_ring
+    of_base = base_map(known, [by_name[name].base for name in known], names, ring)
     return CoefficientTable(
-        closed,
-        physical,
-        base,
-        printed,
-        coefficients,
-        found,
-        known,
-        identifiability(physical, [by_name[name].physical for name in found.independent]),
-        base_map(
-            known,
-            [by_name[name].base for name in known],
-            [parameter.name for parameter in base.parameters],
-            closed.algebra.static_ring,
-        ),
+        closed, physical, base, printed, coefficients, found, known, seen, of_base
     )
 
 
@@ -144,27 +143,6 @@ def independent_coefficients(table: CoefficientTable) -> CoefficientTable:
 def vector_of(form: Form) -> dict[Any, Any]:
     """A linear form over Q: {(parameter, exponents of the geometry): rational number}."""
     return {(column, at): value for column, factor in form.items() for at, value in factor.items()}
-
-
-def _coefficient(
-    name: str,
-    at: Exponents,
-    function: Function,
-    physical: PhysicalParameters,
-    base: BaseParameters,
-    motion: tuple[str, ...],
-) -> Coefficient:
-    form = function.terms[at]
-    # phi chi = phi_b beta, where the columns phi_b are columns of phi: the factor of a base
-    # parameter is that of the standard parameter whose column it has.
-    grouped = {
-        k: form[parameter.column]
-        for k, parameter in enumerate(base.parameters)
-        if parameter.column in form
-    }
-    return Coefficient(
-        name, function.name, at, monomial_text(at, motion), form, grouped, physical.of(form)
-    )
 
 
 def _names(closed: ClosedForm, printed: Print) -> list[tuple[str, tuple[str, Exponents]]]:
@@ -234,108 +212,3 @@ def by_function(table: CoefficientTable) -> Iterator[tuple[Function, list[Coeffi
     """Functions with their coefficients, in order of names."""
     for function in table.closed.functions:
         yield function, [c for c in table.coefficients if c.function == function.name]
-
-
-# Sets of columns of a matrix over a prime field that span its rows, many at once.
-
-
-BLOCK = 4000  # sets reduced together
-
-
-def components(kernel: np.ndarray) -> list[tuple[list[int], list[int]]]:
-    """(rows, columns) of the parts that share no entry; a column of zeros is its own part."""
-    label = list(range(len(kernel)))
-    for k in range(kernel.shape[1]):
-        merged = {label[r] for r in np.flatnonzero(kernel[:, k])}
-        label = [min(merged) if x in merged else x for x in label]
-    parts: list[tuple[list[int], list[int]]] = []
-    for x in sorted(set(label)):
-        rows = [r for r, y in enumerate(label) if y == x]
-        parts.append((rows, [int(k) for k in np.flatnonzero(kernel[rows].any(axis=0))]))
-    for k in np.flatnonzero(~kernel.any(axis=0)).tolist():
-        parts.append(([], [k]))
-    return parts
-
-
-def spanning_sets(matrix: np.ndarray, size: int, prime: int) -> Iterator[tuple[float, np.ndarray]]:
-    """(share done, sets of `size` columns that span the rows), in blocks.
-
-    Elimination grows with the set: a column joins a set that comes before it, and the rest of the
-    matrix is reduced by it; all sets of a block at once.
-    """
-    rows, n = matrix.shape
-    start = (matrix[None], np.zeros((1, 0), dtype=np.int64), np.zeros(1, dtype=np.int64))
-    stack = [start]
-    done = 0.0
-    total = float(comb(n, size))
-    while stack:
-        work, sets, rank = stack.pop()
-        k = sets.shape[1]
-        if k == size:
-            done += len(sets)
-            yield done / total, sets
-            continue
-        if k == size - 1 and rows:
-            sets = _last(work, sets, rank, rows)
-            done += len(sets)
-            yield min(1.0, done / total), sets
-            continue
-        grown = _grown(work, sets, rank, size, prime)
-        for at in range(0, len(grown[0]), BLOCK):
-            part = slice(at, at + BLOCK)
-            stack.append((grown[0][part], grown[1][part], grown[2][part]))
-
-
-def _last(work: np.ndarray, sets: np.ndarray, rank: np.ndarray, rows: int) -> np.ndarray:
-    """Sets made full by one column more, those that span."""
-    n = work.shape[2]
-    after = np.arange(n)[None] > (sets[:, -1:] if sets.shape[1] else -1)
-    joins: np.ndarray = np.any(work, axis=1)
-    fits = after & np.where((rank == rows)[:, None], True, joins & (rank == rows - 1)[:, None])
-    which, column = np.nonzero(fits)
-    return np.concatenate([sets[which], column[:, None]], axis=1)
-
-
-def _grown(
-    work: np.ndarray, sets: np.ndarray, rank: np.ndarray, size: int, prime: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Every set with every later column, if it can still span in the end."""
-    rows, n = work.shape[1:]
-    k = sets.shape[1]
-    columns = np.arange(n)[None]
-    after = (columns > (sets[:, -1:] if k else -1)) & (columns <= n - size + k)
-    joins: np.ndarray = np.any(work, axis=1)
-    reach = rank[:, None] + joins + (size - k - 1) >= rows
-    which, column = np.nonzero(after & reach)
-    joined = joins[which, column]
-    grown = work[which]
-    grown[joined] = reduced_by(grown[joined], column[joined], prime)
-    return grown, np.concatenate([sets[which], column[:, None]], axis=1), rank[which] + joined
-
-
-def reduced_by(work: np.ndarray, column: np.ndarray, prime: int) -> np.ndarray:
-    """Matrices reduced by one of their columns, its pivot row set to zero."""
-    if not len(work):
-        return work
-    at = np.arange(len(work))
-    entries = work[at, :, column]
-    pivot = (entries != 0).argmax(axis=1)
-    row = work[at, pivot]
-    # No inverse is needed: rows times the pivot have the same zeros.
-    scale = entries[at, pivot]
-    reduced = work * scale[:, None, None] % prime - entries[:, :, None] * row[:, None, :] % prime
-    reduced %= prime
-    reduced[at, pivot] = 0
-    return reduced
-
-
-def span(kernel: np.ndarray, sets: np.ndarray, prime: int) -> np.ndarray:
-    """Which sets of columns have the rank of the matrix."""
-    work = np.broadcast_to(kernel, (len(sets), *kernel.shape)).copy()
-    rank = np.zeros(len(sets), dtype=np.int64)
-    at = np.arange(len(sets))
-    for k in range(sets.shape[1]):
-        joins: np.ndarray = np.any(work[at, :, sets[:, k]], axis=1)
-        work[joins] = reduced_by(work[joins], sets[joins, k], prime)
-        rank += joins
-    return np.asarray(rank == len(kernel))

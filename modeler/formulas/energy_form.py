@@ -21,11 +21,9 @@ from modeler.derivation.kinematics import (
     Screw,
     Vector,
     dot,
+    free_screws,
     gravity_in_frames,
-    plus,
     poses,
-    screws,
-    times,
 )
 from modeler.derivation.model import SymbolicModel
 from modeler.effects.effect import EnergyBlock
@@ -67,8 +65,19 @@ def dynamics(model: SymbolicModel, ring: TrigRing, columns: Sequence[int]) -> En
     carried = carried_screws(model.geometry, frames, ring)
     wanted = [(place, part) for place in columns for part in model.columns[place].parts]
     _check_size(model, carried, wanted)
-    inertia = _inertia(carried, wanted, ring)
-    _add_rotors(inertia, wanted, ring)
+    inertia: dict[tuple[int, ...], dict[int, Poly]] = {}
+    for place, column in wanted:
+        if isinstance(column, LinkColumn):
+            link = carried[column.row]
+            for i, j in _pairs(link):
+                factor = ring.normal(_kinetic_factor(column.prefix, link[i], link[j]))
+                _add(inertia, (i, j), place, factor)
+    for place, column in wanted:  # inertia that turns with a shaft: constant entries c_i c_j
+        if in_block(column, EnergyBlock.KINETIC):
+            for i, j in _pairs(column.shaft):
+                value = column.shaft[i] * column.shaft[j]
+                factor = ring.static(sympy.Rational(value.numerator, value.denominator))
+                _add(inertia, (i, j), place, factor)
     down = [ring_vector(v, ring) for v in gravity_in_frames(model.geometry, frames, ring)]
     return EnergyDynamics(
         _without_zeros(inertia),
@@ -80,20 +89,9 @@ def dynamics(model: SymbolicModel, ring: TrigRing, columns: Sequence[int]) -> En
 def carried_screws(
     geometry: Geometry, frames: Sequence[Pose], ring: TrigRing
 ) -> list[dict[int, Screw]]:
-    """For every row, the screw of each free variable that moves it, in normal form.
-
-    A row that follows others passes its screw on to them, times its coefficients.
-    """
+    """For every row, the screw of each free variable that moves it, in normal form."""
     found: list[dict[int, Screw]] = []
-    for rows in screws(geometry, frames, ring):
-        total: dict[int, Screw] = {}
-        for index, screw in rows.items():
-            for k, coefficient in geometry.forms[index].items():
-                factor = QQ(coefficient.numerator, coefficient.denominator)
-                e, m = times(factor, screw.e), times(factor, screw.m)
-                if k in total:
-                    e, m = plus(total[k].e, e), plus(total[k].m, m)
-                total[k] = Screw(e, m)
+    for total in free_screws(geometry, frames, ring, lambda c: QQ(c.numerator, c.denominator)):
         normal = {
             k: Screw(ring_vector(x.e, ring), ring_vector(x.m, ring)) for k, x in total.items()
         }
@@ -113,7 +111,7 @@ def _check_size(
 ) -> None:
     products = 0
     for k in {column.row for _, column in wanted if isinstance(column, LinkColumn)}:
-        sizes = {i: (_size(screw.e), _size(screw.m)) for i, screw in carried[k].items()}
+        sizes = {i: (sum(map(len, x.e)), sum(map(len, x.m))) for i, x in carried[k].items()}
         for i, j in _pairs(sizes):
             (e, m), (f, n) = sizes[i], sizes[j]
             products += e * f + e * n + m * f + m * n
@@ -125,29 +123,9 @@ def _check_size(
         )
 
 
-def _size(vector: Vector) -> int:
-    return sum(len(x) for x in vector)
-
-
 def _pairs(found: Mapping[int, object]) -> Iterator[tuple[int, int]]:
     order = sorted(found)
     return ((i, j) for i in order for j in order if i <= j)
-
-
-def _inertia(
-    carried: Sequence[Mapping[int, Screw]],
-    wanted: Sequence[tuple[int, StandardColumn]],
-    ring: TrigRing,
-) -> dict[tuple[int, ...], dict[int, Poly]]:
-    entries: dict[tuple[int, ...], dict[int, Poly]] = {}
-    for place, column in wanted:
-        if not isinstance(column, LinkColumn):
-            continue
-        link = carried[column.row]
-        for i, j in _pairs(link):
-            factor = ring.normal(_kinetic_factor(column.prefix, link[i], link[j], ring))
-            _add(entries, (i, j), place, factor)
-    return entries
 
 
 def _add(
@@ -158,7 +136,7 @@ def _add(
     entry[place] = entry[place] + factor if place in entry else factor
 
 
-def _kinetic_factor(prefix: str, a: Screw, b: Screw, ring: TrigRing) -> Poly:
+def _kinetic_factor(prefix: str, a: Screw, b: Screw) -> Poly:
     if prefix in _INERTIA:
         x, y = _INERTIA[prefix]
         product = a.e[x] * b.e[y]
@@ -172,21 +150,6 @@ def _kinetic_factor(prefix: str, a: Screw, b: Screw, ring: TrigRing) -> Poly:
 def _cross_entry(a: Vector, b: Vector, x: int) -> Poly:
     y, z = (x + 1) % 3, (x + 2) % 3
     return a[y] * b[z] - a[z] * b[y]
-
-
-def _add_rotors(
-    entries: dict[tuple[int, ...], dict[int, Poly]],
-    wanted: Sequence[tuple[int, StandardColumn]],
-    ring: TrigRing,
-) -> None:
-    """Inertia that turns with a shaft: constant entries c_i c_j."""
-    for place, column in wanted:
-        if not in_block(column, EnergyBlock.KINETIC):
-            continue
-        for i, j in _pairs(column.shaft):
-            value = column.shaft[i] * column.shaft[j]
-            factor = ring.static(sympy.Rational(value.numerator, value.denominator))
-            _add(entries, (i, j), place, factor)
 
 
 def _gravity(
@@ -226,17 +189,11 @@ def _christoffel(
                     parts.append((slopes.get((i, k, j), {}), 1))
                 else:
                     parts[1] = (parts[1][0], -ring.static(sympy.Rational(1, 2)))
-                entries[i, j, k] = _sum(parts)
+                for entry, factor in parts:
+                    for place, poly in entry.items():
+                        term = poly if isinstance(factor, int) and factor == 1 else poly * factor
+                        _add(entries, (i, j, k), place, term)
     return entries
-
-
-def _sum(parts: Sequence[tuple[Mapping[int, Poly], int | Poly]]) -> dict[int, Poly]:
-    total: dict[int, Poly] = {}
-    for entry, factor in parts:
-        for place, poly in entry.items():
-            term = poly if isinstance(factor, int) and factor == 1 else poly * factor
-            total[place] = total[place] + term if place in total else term
-    return total
 
 
 def _without_zeros(

@@ -119,16 +119,12 @@ class SheetWriter:
         if self._replaced(lines):
             names = self._chosen(nodes, trig)
             lines = self._ordered(names)
-        new = self._renumbered(lines)
+        given = [line.name for line in lines if line.name in self._own]
+        self._taken -= self._own
+        new = {name: self._own_name() for name in given}  # in the order in which they are read
         lines = tuple(replace(line, name=new.get(line.name, line.name)) for line in lines)
         names = {node: (new.get(name, name), sign) for node, (name, sign) in names.items()}
         return Sheet(self.graph, self.letters, names, lines, trig, angles)
-
-    def _renumbered(self, lines: Sequence[Definition]) -> dict[str, str]:
-        """Own names in the order in which they are read."""
-        given = [line.name for line in lines if line.name in self._own]
-        self._taken -= self._own
-        return {name: self._own_name() for name in given}
 
     def _replaced(self, lines: Sequence[Definition]) -> bool:
         """Another name for values that are read before the section of their name."""
@@ -143,17 +139,19 @@ class SheetWriter:
 
     def _chosen(self, nodes: Sequence[int], trig: Mapping[int, str]) -> dict[int, tuple[str, int]]:
         """Names that are worth their line, by node; arguments before their users."""
-        edges, length = self._edges(nodes), {0: 1}
+        edges = Counter(abs(arg) for node in nodes for arg in self._args(node))
+        edges.update(abs(line.ref) for line in self._lines if line.result)
+        length = {0: 1}
         chosen: dict[int, tuple[str, int]] = {}
         for node in nodes:
             length[node] = self._length(node, length, trig)
             if self._is_atom(node):
                 continue
             proposed = self._first.get(node)
-            if proposed is None and edges.get(node, 0) > 1 and length[node] > UNNAMED:
+            if proposed is None and edges[node] > 1 and length[node] > UNNAMED:
                 proposed = Definition("", self._own_name(), node, False)
                 self._first[node] = proposed
-            least = SHORT if edges.get(node, 0) > 1 else ONCE
+            least = SHORT if edges[node] > 1 else ONCE
             if proposed is not None and (proposed.result or length[node] > least):
                 chosen[node] = (proposed.name, 1 if proposed.ref > 0 else -1)
                 length[node] = len(proposed.name)
@@ -166,15 +164,6 @@ class SheetWriter:
         self._taken.add(f"k{count}")
         self._own.add(f"k{count}")
         return f"k{count}"
-
-    def _edges(self, nodes: Iterable[int]) -> dict[int, int]:
-        """How often each node is read, by others and as a result."""
-        read = [abs(arg) for node in nodes for arg in self._args(node)]
-        read += [abs(line.ref) for line in self._lines if line.result]
-        found: dict[int, int] = {}
-        for node in read:
-            found[node] = found.get(node, 0) + 1
-        return found
 
     def _length(self, node: int, length: Mapping[int, int], trig: Mapping[int, str]) -> int:
         """Characters that the node takes, about."""
@@ -303,75 +292,6 @@ _LATEX_NAMES = (
 """Names of speeds and of vectors, by frame."""
 
 
-@dataclass(frozen=True)
-class SheetStyle:
-    """How a sheet is written.
-
-    Attributes:
-        style: of products, powers and numbers.
-    """
-
-    style: TextStyle
-
-    @property
-    def latex(self) -> bool:
-        """True for LaTeX."""
-        return self.style.latex
-
-    def name(self, name: str) -> str:
-        """A letter: q, qd, qdd with dots, an underscore as a comma of the index."""
-        if not self.latex:
-            return name
-        for pattern, latex in _LATEX_NAMES:
-            if re.fullmatch(pattern, name):
-                return re.sub(pattern, latex, name)
-        split = re.fullmatch(r"([A-Za-z]+)(\d\w*)", name)
-        if split:
-            return f"{latex_name(split[1])}_{{{_index(split[2])}}}"
-        return latex_name(name)
-
-    def trig(self, name: str) -> str:
-        """A sine or cosine, m and p of its angle as signs."""
-        if self.latex:
-            signs = re.sub(r"(?<=\d)p(?=\d)", "+", re.sub(r"(?<=\d)m(?=\d)", "-", name[1:]))
-            return f"{name[0]}_{{{signs}}}"
-        return name
-
-    def call(self, function: str, argument: str) -> str:
-        """A function of one argument."""
-        if not self.latex:
-            return f"{function}({argument})"
-        known = function in ("sin", "cos", "tan", "exp", "tanh")
-        head = f"\\{function}" if known else f"\\operatorname{{{function}}}"
-        if function == "sqrt":
-            return f"\\sqrt{{{argument}}}"
-        return f"{head}({argument})"
-
-    def bracket(self, text: str) -> str:
-        """A sum as a factor."""
-        return rf"\left({text}\right)" if self.latex else f"({text})"
-
-    def quotient(self, above: str, below: str) -> str:
-        """above / below."""
-        if self.latex:
-            return rf"\frac{{{above}}}{{{below}}}"
-        return f"{_closed(above)}/{_closed(below)}"
-
-    def power(self, base: str, exponent: int) -> str:
-        """base ** exponent."""
-        if exponent == 1:
-            return base
-        return f"{base}^{{{exponent}}}" if self.latex else f"{base}**{exponent}"
-
-
-def _index(text: str) -> str:
-    return text.replace("_", ",")
-
-
-def _closed(text: str) -> str:
-    return text if re.fullmatch(r"\w+(\([^()]*\))?", text) else f"({text})"
-
-
 def _collected(terms: Iterable[Term]) -> dict[tuple[Factor, ...], Term]:
     """{factors in one order: term}, terms alike together."""
     found: dict[tuple[Factor, ...], Term] = {}
@@ -385,12 +305,26 @@ class SheetPrinter:
     """Writes the values of one sheet in one style."""
 
     def __init__(self, sheet: Sheet, style: TextStyle = TEXT) -> None:
-        self.sheet = sheet
-        self.style = SheetStyle(style)
+        self.sheet, self.style = sheet, style
 
-    def name(self, definition: Definition) -> str:
-        """The left side."""
-        return self.style.name(definition.name)
+    def letter(self, name: str) -> str:
+        """A name: q, qd, qdd with dots, an underscore as a comma of the index."""
+        if not self.style.latex:
+            return name
+        for pattern, latex in _LATEX_NAMES:
+            if re.fullmatch(pattern, name):
+                return re.sub(pattern, latex, name)
+        split = re.fullmatch(r"([A-Za-z]+)(\d\w*)", name)
+        if split:
+            return f"{latex_name(split[1])}_{{{split[2].replace('_', ',')}}}"
+        return latex_name(name)
+
+    def trig(self, name: str) -> str:
+        """A sine or cosine, m and p of its angle as signs."""
+        if self.style.latex:
+            signs = re.sub(r"(?<=\d)p(?=\d)", "+", re.sub(r"(?<=\d)m(?=\d)", "-", name[1:]))
+            return f"{name[0]}_{{{signs}}}"
+        return name
 
     def value(self, definition: Definition) -> str:
         """The right side."""
@@ -405,7 +339,7 @@ class SheetPrinter:
         terms = _collected(self._cancelled(self._terms(ref, Fraction(1), opened)))
         kept = [(number, self._product(factors)) for number, factors in terms.values() if number]
         kept.sort(key=lambda term: (term[0] < 0, not term[1]))
-        return signed_sum(kept, self.style.style)
+        return signed_sum(kept, self.style)
 
     def _cancelled(self, terms: list[Term]) -> list[Term]:
         """Brackets are opened where what is in them cancels: a (x + y) - a (x - y) is 2 a y."""
@@ -435,7 +369,7 @@ class SheetPrinter:
             return []
         if node in self.sheet.names and node != opened:
             name, sign = self.sheet.names[node]
-            return [(number * sign, ((_NAMED, self.style.name(name), 0),))]
+            return [(number * sign, ((_NAMED, self.letter(name), 0),))]
         if found.op == "add":
             return [term for arg in found.args for term in self._terms(arg, number, opened)]
         value, factors = self._factors(node, opened)
@@ -446,7 +380,7 @@ class SheetPrinter:
         found = self.sheet.graph.nodes[node]
         if node in self.sheet.names and node != opened:
             name, sign = self.sheet.names[node]
-            return Fraction(sign), [(_NAMED, self.style.name(name), 0)]
+            return Fraction(sign), [(_NAMED, self.letter(name), 0)]
         if found.op == "num":
             return found.args[0], []
         if found.op == "mul":
@@ -471,26 +405,40 @@ class SheetPrinter:
         else:
             value, factors = self._factors(abs(above), 0)
             number, text = number * value, self._product(factors) or "1"
-        return number, [(_NAMED, self.style.quotient(text, self.sum(below)), 0)]
+        lower = self.sum(below)
+        if self.style.latex:
+            return number, [(_NAMED, rf"\frac{{{text}}}{{{lower}}}", 0)]
+        closed = (
+            each if re.fullmatch(r"\w+(\([^()]*\))?", each) else f"({each})"
+            for each in (text, lower)
+        )
+        return number, [(_NAMED, "/".join(closed), 0)]
 
     def _atom(self, node: int) -> str:
         found = self.sheet.graph.nodes[node]
         if found.op == "sym":
-            return self.style.name(self.sheet.letters.get(found.args[0], found.args[0]))
+            return self.letter(self.sheet.letters.get(found.args[0], found.args[0]))
         if node in self.sheet.trig:
-            return self.style.trig(self.sheet.trig[node])
+            return self.trig(self.sheet.trig[node])
         if found.op == "pi":
             return r"\pi" if self.style.latex else "pi"
         if found.op == "pow":
             base, exponent = (self.sum(arg) for arg in found.args)
-            if self.style.latex:
-                return f"{self.style.bracket(base)}^{{{exponent}}}"
-            return f"({base})**({exponent})"
-        return self.style.call(found.op, self.sum(found.args[0]))
+            power = f"^{{{exponent}}}" if self.style.latex else f"**({exponent})"
+            return self.style.bracket(base) + power
+        argument = self.sum(found.args[0])
+        if not self.style.latex:
+            return f"{found.op}({argument})"
+        if found.op == "sqrt":
+            return f"\\sqrt{{{argument}}}"
+        known = found.op in ("sin", "cos", "tan", "exp", "tanh")
+        return f"\\{found.op}({argument})" if known else f"\\operatorname{{{found.op}}}({argument})"
 
     def _product(self, factors: Sequence[Factor]) -> str:
         order = sorted(Counter(factors).items(), key=lambda item: item[0][0])
-        return self.style.style.times.join(self.style.power(at[1], n) for at, n in order)
+        power = "{}^{{{}}}" if self.style.latex else "{}**{}"
+        texts = (at[1] if n == 1 else power.format(at[1], n) for at, n in order)
+        return self.style.times.join(texts)
 
 
 # A sheet as text that Python runs, as LaTeX, as Markdown, as JSON.
@@ -517,40 +465,37 @@ def sheet_markdown(sheet: Sheet) -> str:
 
 def _sections(sheet: Sheet) -> list[tuple[str, list[str]]]:
     """(title, lines of Python)."""
-    printer = SheetPrinter(sheet)
-    angles = _angle_lines(sheet)
+    printer, angles, section = SheetPrinter(sheet), list[str](), None
+    for name, function, angle in _turning(printer):
+        piece = f"{name} = {function}({angle})"
+        if angles and len(angles[-1]) + len(piece) + 2 <= _WIDTH:
+            angles[-1] += f"; {piece}"
+        else:
+            angles.append(piece)
     found = [("sines and cosines", angles)] if angles else []
-    section = None
     for definition in sheet.definitions:
         if definition.section != section:
             section = definition.section
             found.append((section, []))
-        line = f"{printer.name(definition)} = {printer.value(definition)}"
-        found[-1][1].extend(_wrapped(line))
+        line = f"{definition.name} = {printer.value(definition)}"
+        if len(line) > _WIDTH:
+            right = f"{definition.name} = ({printer.value(definition)})"
+            more = textwrap.wrap(right, _WIDTH, subsequent_indent="    ", break_on_hyphens=False)
+            found[-1][1].extend(more)
+        else:
+            found[-1][1].append(line)
     return found
 
 
-def _angle_lines(sheet: Sheet) -> list[str]:
-    printer, lines, line = SheetPrinter(sheet), list[str](), ""
-    known = set(sheet.trig.values())
-    for label, ref in sheet.angles.items():
-        for letter, function in (("s", "sin"), ("c", "cos")):
-            if letter + label in known:
-                piece = f"{letter}{label} = {function}({printer.sum(ref)})"
-                if line and len(line) + len(piece) + 2 > _WIDTH:
-                    lines.append(line)
-                    line = ""
-                line += f"; {piece}" if line else piece
-    return [*lines, line] if line else lines
-
-
-def _wrapped(line: str) -> list[str]:
-    if len(line) <= _WIDTH:
-        return [line]
-    head, right = line.split(" = ", 1)
-    return textwrap.wrap(
-        f"{head} = ({right})", _WIDTH, subsequent_indent="    ", break_on_hyphens=False
-    )
+def _turning(printer: SheetPrinter) -> list[tuple[str, str, str]]:
+    """(name, "sin" or "cos", angle) of every sine and cosine that is read."""
+    sheet, known = printer.sheet, set(printer.sheet.trig.values())
+    return [
+        (letter + label, function, printer.sum(ref))
+        for label, ref in sheet.angles.items()
+        for letter, function in (("s", "sin"), ("c", "cos"))
+        if letter + label in known
+    ]
 
 
 def sheet_latex(sheet: Sheet, heading: Callable[[str], str] | None = None) -> str:
@@ -560,40 +505,27 @@ def sheet_latex(sheet: Sheet, heading: Callable[[str], str] | None = None) -> st
         sheet: what to write.
         heading: how titles are written; None for comments.
     """
-    heading = heading or _comment
-    printer, known = SheetPrinter(sheet, LATEX), set(sheet.trig.values())
-    blocks: dict[str, list[DisplayedEquation]] = {"sines and cosines": []}
-    for label, ref in sheet.angles.items():
-        for letter, function in (("s", r"\sin"), ("c", r"\cos")):
-            if letter + label in known:
-                name = printer.style.trig(letter + label)
-                right = f"{function}({printer.sum(ref)})"
-                blocks["sines and cosines"].append(DisplayedEquation(name, (right,)))
+    heading, printer = heading or "% {}".format, SheetPrinter(sheet, LATEX)
+    angles = [
+        DisplayedEquation(printer.trig(name), (f"\\{function}({angle})",))
+        for name, function, angle in _turning(printer)
+    ]
+    blocks = {"sines and cosines": angles}
     for definition in sheet.definitions:
-        line = DisplayedEquation(printer.name(definition), (printer.value(definition),))
+        line = DisplayedEquation(printer.letter(definition.name), (printer.value(definition),))
         blocks.setdefault(definition.section, []).append(line)
     return "".join(
         f"{heading(title)}\n{display(lines)}\n" for title, lines in blocks.items() if lines
     )
 
 
-def _comment(title: str) -> str:
-    return f"% {title}"
-
-
 def sheet_json(sheet: Sheet) -> dict[str, Any]:
     """{"angles", "definitions": [{"section", "name", "formula", "result"}]}."""
     printer = SheetPrinter(sheet)
-
-    def entry(definition: Definition) -> dict[str, Any]:
-        return {
-            "section": definition.section,
-            "name": definition.name,
-            "formula": printer.value(definition),
-            "result": definition.result,
-        }
-
     return {
         "angles": {label: printer.sum(ref) for label, ref in sheet.angles.items()},
-        "definitions": [entry(definition) for definition in sheet.definitions],
+        "definitions": [
+            {"section": d.section, "name": d.name, "formula": printer.value(d), "result": d.result}
+            for d in sheet.definitions
+        ],
     }

@@ -1,6 +1,7 @@
 """Standard parameters as polynomials of masses, mass centres and inertias about them."""
 
-from collections.abc import Callable, Mapping
+import random
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -16,7 +17,7 @@ from modeler.core.expression import FUNCTIONS, Expression, parse
 from modeler.derivation.columns import LinkColumn, in_block
 from modeler.derivation.model import SymbolicModel
 from modeler.effects.effect import EnergyBlock
-from modeler.formulas.ring import Poly, TrigRing
+from modeler.formulas.ring import Poly, TrigRing, generators_of, independent_modulo
 from modeler.robot.robot import Joint, PhysicalLink
 
 _GENERIC = ("m", "cx", "cy", "cz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz")
@@ -58,7 +59,7 @@ class PhysicalParameters:
 
     def derivative(self, poly: Poly, letter: str) -> Poly:
         """D poly / d letter; that of an angle by its cosine and sine."""
-        places = {name: x for name, x in zip(self.names, self.ring.gens, strict=True)}
+        places = generators_of(self.ring)
         if letter in places:
             return poly.diff(places[letter])
         c, s = places[f"cos({letter})"], places[f"sin({letter})"]
@@ -86,18 +87,50 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
         if row in bodies
     }
     rotors = [c.name for c in model.columns if in_block(c, EnergyBlock.KINETIC)]
-    zeros = _zero_symbols(model)
+    zeros = {name for name, value in model.robot.symbol_values().items() if value == 0.0}
+    groups = [g for x in links.values() for g in ((x.mass,), x.centre, x.inertia)]
+    named = (name for g in groups for name in sorted(set().union(*(entry.names for entry in g))))
     known = {*static, *zeros}
-    letters = [name for name in _letters(links.values()) if name not in known] + rotors
+    letters = [name for name in dict.fromkeys(named) if name not in known] + rotors
     ring = PolyRing(letters + static, QQ, lex)
-    standard = _standard(model, links, _PhysicalReader(model, ring, zeros))
+    # Symbols given by an expression are no letters of the formulas.
+    derived = set(model.robot.symbols) - set(model.geometry.values) - zeros
+    values = generators_of(ring) | dict.fromkeys(zeros, ring.zero)
+
+    def read(entry: Expression, joint: str) -> Poly:
+        """An entry of `[physical]` as a polynomial."""
+        try:
+            if entry.names & derived or entry.names - values.keys():
+                raise ValueError
+            return ring(entry.fold(values, dict.fromkeys(FUNCTIONS, _refused), None, _rational))
+        except (TypeError, ValueError, ZeroDivisionError, ExactQuotientFailed):
+            raise RobotError(
+                f'robot {model.robot.name}, [physical.{joint}]: got "{entry.text}"; expected '
+                "a polynomial of the link's letters and of symbols that are given by a number"
+            ) from None
+
+    standard: dict[int, Poly] = {}
+    tables: dict[int, dict[str, Poly]] = {}
+    for place, column in enumerate(model.columns):
+        if isinstance(column, LinkColumn):
+            if column.row not in tables:
+                name = model.robot.joints[column.row].name
+                tables[column.row] = _at_origin(links[name], name, read)
+            standard[place] = tables[column.row][column.prefix]
+        elif in_block(column, EnergyBlock.KINETIC):
+            standard[place] = read(parse(column.name), column.name)
     masses = [x.mass.text for x in links.values() if x.mass.text in letters]
     alone = {x.inertia[i].text for x in links.values() for i in _DIAGONAL} | set(rotors)
     moments = tuple(name for name in letters if name in alone)
-    gravity = _gravity_only(algebra)
-    lengths = [name for name in _lengths(algebra) if name not in gravity]
-    kinds = dict.fromkeys(rotors, "rotor inertia") | dict.fromkeys(lengths, "length")
-    kinds = _kinds(links.values()) | kinds
+    lengths = _lengths(algebra)
+    kinds: dict[str, str] = {}  # one that is several is what is measured with more trouble
+    for kind, entries in (
+        ("mass", [x.mass for x in links.values()]),
+        ("centre", [entry for x in links.values() for entry in x.centre]),
+        ("inertia", [entry for x in links.values() for entry in x.inertia]),
+    ):
+        kinds |= {name: kind for entry in entries for name in entry.names}
+    kinds |= dict.fromkeys(rotors, "rotor inertia") | dict.fromkeys(lengths, "length")
     return PhysicalParameters(
         ring, tuple(letters + lengths), tuple(masses), moments, standard, kinds
     )
@@ -118,109 +151,33 @@ def _link(model: SymbolicModel, joint: Joint) -> PhysicalLink:
     return PhysicalLink(mass, (x, y, z), tuple(inertia))
 
 
-def _letters(links: Any) -> list[str]:
-    found: dict[str, None] = {}
-    for link in links:
-        for group in ((link.mass,), link.centre, link.inertia):
-            for name in sorted(set().union(*(entry.names for entry in group))):
-                found.setdefault(name)
-    return list(found)
-
-
-def _kinds(links: Any) -> dict[str, str]:
-    """What each letter is; one that is several is what is measured with more trouble."""
-    found: dict[str, str] = {}
-    for kind in ("mass", "centre", "inertia"):
-        for link in links:
-            entries = (link.mass,) if kind == "mass" else getattr(link, kind)
-            for entry in entries:
-                found |= dict.fromkeys(entry.names, kind)
-    return found
-
-
-def _zero_symbols(model: SymbolicModel) -> frozenset[str]:
-    values = model.robot.symbol_values()
-    return frozenset(name for name, value in values.items() if value == 0.0)
-
-
 def _lengths(algebra: TrigRing) -> list[str]:
-    """Letters of the geometry; an angle stands for its cosine and sine."""
+    """Letters of the geometry without those of gravity; an angle stands for its cosine and sine."""
+    geometry = algebra.geometry
+    gravity = {symbol.name for entry in geometry.gravity for symbol in entry.free_symbols}
+    for row in geometry.rows:
+        for entry in (row.gamma, row.b, row.alpha, row.d, row.theta, row.r):
+            gravity -= {symbol.name for symbol in entry.free_symbols}
     found: dict[str, None] = {}
     for atom in algebra.static_atoms:
         if atom.is_Symbol and atom.name != "pi":
             found.setdefault(atom.name)
         elif isinstance(atom, sympy.cos) and atom.free_symbols:
             found.setdefault(str(atom.args[0]))
-    return list(found)
+    return [name for name in found if name not in gravity]
 
 
-def _gravity_only(algebra: TrigRing) -> frozenset[str]:
-    geometry = algebra.geometry
-    used = {symbol.name for entry in geometry.gravity for symbol in entry.free_symbols}
-    for row in geometry.rows:
-        for entry in (row.gamma, row.b, row.alpha, row.d, row.theta, row.r):
-            used -= {symbol.name for symbol in entry.free_symbols}
-    return frozenset(used)
-
-
-@dataclass(frozen=True)
-class _PhysicalReader:
-    """Reads entries of `[physical]` as polynomials of `ring`."""
-
-    model: SymbolicModel
-    ring: PolyRing
-    zeros: frozenset[str]
-
-    def __call__(self, entry: Expression, joint: str) -> Poly:
-        generators = {
-            str(symbol): x for symbol, x in zip(self.ring.symbols, self.ring.gens, strict=True)
-        }
-        values = {name: QQ(0) if name in self.zeros else generators[name] for name in entry.names}
-        try:
-            derived = entry.names & self._derived()
-            if derived:
-                raise ValueError
-            return self.ring(entry.fold(values, _refused(), None, _rational))
-        except (TypeError, ValueError, ZeroDivisionError, ExactQuotientFailed):
-            raise RobotError(
-                f'robot {self.model.robot.name}, [physical.{joint}]: got "{entry.text}"; expected '
-                "a polynomial of the link's letters and of symbols that are given by a number"
-            ) from None
-
-    def _derived(self) -> set[str]:
-        """Symbols given by an expression: they are no letters of the formulas."""
-        geometry = self.model.geometry
-        return set(self.model.robot.symbols) - set(geometry.values) - self.zeros
-
-
-def _refused() -> dict[str, Callable[[Any], Any]]:
-    def refuse(_: Any) -> Any:
-        raise ValueError
-
-    return dict.fromkeys(FUNCTIONS, refuse)
+def _refused(_: Any) -> Any:
+    raise ValueError
 
 
 def _rational(value: Fraction) -> Any:
     return QQ(value.numerator, value.denominator)
 
 
-def _standard(
-    model: SymbolicModel, links: Mapping[str, PhysicalLink], read: _PhysicalReader
-) -> dict[int, Poly]:
-    found: dict[int, Poly] = {}
-    tables: dict[int, dict[str, Poly]] = {}
-    for place, column in enumerate(model.columns):
-        if isinstance(column, LinkColumn):
-            if column.row not in tables:
-                name = model.robot.joints[column.row].name
-                tables[column.row] = _at_origin(links[name], name, read)
-            found[place] = tables[column.row][column.prefix]
-        elif in_block(column, EnergyBlock.KINETIC):
-            found[place] = read(parse(column.name), column.name)
-    return found
-
-
-def _at_origin(link: PhysicalLink, joint: str, read: _PhysicalReader) -> dict[str, Poly]:
+def _at_origin(
+    link: PhysicalLink, joint: str, read: Callable[[Expression, str], Poly]
+) -> dict[str, Poly]:
     m = read(link.mass, joint)
     x, y, z = (read(entry, joint) for entry in link.centre)
     names = ("XX", "XY", "XZ", "YY", "YZ", "ZZ")
@@ -237,3 +194,119 @@ def _at_origin(link: PhysicalLink, joint: str, read: _PhysicalReader) -> dict[st
         "MZ": m * z,
         "M": m,
     }
+
+
+# Which physical parameters the coefficients show, and how many of them at most.
+
+
+SEED = 2000
+_LARGEST = 2**31
+
+
+@dataclass(frozen=True)
+class Identifiability:
+    """What the coefficients tell of the physical parameters.
+
+    Attributes:
+        letters: all physical parameters.
+        appearing: those that some coefficient depends on.
+        vanishing: the others.
+        sums: groups that enter only together, as {letter: +1 or -1}: bl1 and ct1 as bl1 + ct1.
+        jacobian_rank: generic rank of d coefficients / d appearing parameters: so many of them
+            follow at most from the coefficients; the others must be known.
+        points: number of random points, modulo a prime, of which the highest rank was taken.
+        seed: of the points.
+    """
+
+    letters: tuple[str, ...]
+    appearing: tuple[str, ...]
+    vanishing: tuple[str, ...]
+    sums: tuple[Mapping[str, int], ...]
+    jacobian_rank: int
+    points: int
+    seed: int
+
+
+def identifiability(
+    physical: PhysicalParameters, coefficients: Sequence[Poly], points: int = 2, seed: int = SEED
+) -> Identifiability:
+    """What those coefficients, polynomials of the physical parameters, tell of them."""
+    slopes = {
+        letter: tuple(physical.derivative(poly, letter) for poly in coefficients)
+        for letter in physical.letters
+    }
+    appearing = tuple(letter for letter, column in slopes.items() if any(column))
+    chance = random.Random(seed)
+    ranks = [_rank([slopes[x] for x in appearing], physical, chance) for _ in range(points)]
+    return Identifiability(
+        physical.letters,
+        appearing,
+        tuple(letter for letter in physical.letters if letter not in appearing),
+        _sums({letter: slopes[letter] for letter in appearing}),
+        max(ranks),
+        points,
+        seed,
+    )
+
+
+def _sums(slopes: Mapping[str, tuple[Poly, ...]]) -> tuple[dict[str, int], ...]:
+    """Letters whose columns of the Jacobian are the same polynomials up to the sign."""
+    groups: list[tuple[tuple[Poly, ...], dict[str, int]]] = []
+    for letter, column in slopes.items():
+        for other, members in groups:
+            if column == other:
+                members[letter] = 1
+                break
+            if all(a == -b for a, b in zip(column, other, strict=True)):
+                members[letter] = -1
+                break
+        else:
+            groups.append((column, {letter: 1}))
+    return tuple(members for _, members in groups if len(members) > 1)
+
+
+def _rank(
+    columns: Sequence[Sequence[Poly]], physical: PhysicalParameters, chance: random.Random
+) -> int:
+    prime, point = random_point(physical.names, chance)
+    vectors = [
+        {i: value_modulo(poly, point, prime) for i, poly in enumerate(column) if poly}
+        for column in columns
+    ]
+    return len(independent_modulo(vectors, prime))
+
+
+def random_point(names: Sequence[str], chance: random.Random) -> tuple[int, list[int]]:
+    """(prime, values of the generators modulo it): random letters, angles on the circle, roots."""
+    numbers = {name: sympy.sympify(name).args[0] for name in names if name.startswith("sqrt(")}
+    prime = sympy.prevprime(chance.randrange(_LARGEST // 2, _LARGEST))
+    while not all(sympy.is_quad_residue(_modulo(x, prime), prime) for x in numbers.values()):
+        prime = sympy.prevprime(prime)
+    values: dict[str, int] = {}
+    for name in names:
+        if name in numbers:
+            values[name] = int(sympy.sqrt_mod(_modulo(numbers[name], prime), prime))
+        elif name.startswith("cos("):
+            t = chance.randrange(2, 10**6)
+            down = pow(1 + t * t, -1, prime)
+            values[name] = (1 - t * t) * down % prime
+            values["sin" + name[3:]] = 2 * t * down % prime
+        elif name not in values:
+            values[name] = chance.randrange(1, prime)
+    return prime, [values[name] for name in names]
+
+
+def _modulo(value: sympy.Rational, prime: int) -> int:
+    return int(value.p) * pow(int(value.q), -1, prime) % prime
+
+
+def value_modulo(poly: Poly, point: Sequence[int], prime: int) -> int:
+    """The polynomial's value modulo the prime."""
+    total = 0
+    for at, value in poly.items():
+        term: Any = int(value.numerator) * pow(int(value.denominator), -1, prime)
+        for x, exponent in zip(point, at, strict=True):
+            if exponent:
+                term = term * pow(x, exponent, prime) % prime
+        total += term
+    return total % prime

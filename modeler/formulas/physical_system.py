@@ -16,15 +16,25 @@ from sympy.polys.rings import PolyRing
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError, RobotError
+from modeler.derivation.certificate import row_echelon
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
 from modeler.formulas.coefficients import CoefficientTable, coefficient_table
-from modeler.formulas.evaluation import poly_value
-from modeler.formulas.identifiability import random_point, value_modulo
-from modeler.formulas.physical import PhysicalParameters, physical_parameters
-from modeler.formulas.relations import independent_modulo
+from modeler.formulas.physical import (
+    PhysicalParameters,
+    physical_parameters,
+    random_point,
+    value_modulo,
+)
 from modeler.formulas.render import forward_lines
-from modeler.formulas.ring import Poly, TrigRing
+from modeler.formulas.ring import (
+    Poly,
+    TrigRing,
+    generators_of,
+    independent_modulo,
+    places_in,
+    poly_value,
+)
 
 _FEW = 3  # joints up to which the coefficients of the closed form are derived
 
@@ -90,6 +100,14 @@ class PhysicalSystem(Brief):
             letter: tuple(self.definitions[d].diff(gens[self.place[letter]]) for d in self.data)
             for letter in self.letters
         }
+
+    def point(self, values: Mapping[str, float]) -> np.ndarray:
+        """(generators,) the constants and these values, 0 for all others."""
+        found = np.zeros(len(self.names))
+        for name, value in (*self.constants.items(), *values.items()):
+            if name in self.place:
+                found[self.place[name]] = value
+        return found
 
     def consistent(self, values: Mapping[str, Any]) -> list[Any]:
         """Values of all generators: data follow from those of letters and constants."""
@@ -200,29 +218,14 @@ def _reduced(table: CoefficientTable, point: Sequence[int], prime: int) -> list[
         c.name: [value_modulo(c.base[k], point, prime) if k in c.base else 0 for k in used]
         for c in table.coefficients
     }
-    inverse = _inverse_modulo([rows[name] for name in table.map.rows], prime)
-    return [
-        [sum(a * b for a, b in zip(row, column, strict=True)) % prime for column in inverse]
-        for row in rows.values()
-    ]
-
-
-def _inverse_modulo(matrix: list[list[int]], prime: int) -> list[list[int]]:
-    """Columns of the inverse."""
-    n = len(matrix)
-    work = [[*row, *(int(i == k) for k in range(n))] for i, row in enumerate(matrix)]
-    for k in range(n):
-        at = next((i for i in range(k, n) if work[i][k]), None)
-        if at is None:
-            raise DerivationError("the map to the base parameters is singular at a random point")
-        work[k], work[at] = work[at], work[k]
-        factor = pow(work[k][k], -1, prime)
-        work[k] = [x * factor % prime for x in work[k]]
-        for i in range(n):
-            if i != k and work[i][k]:
-                f = work[i][k]
-                work[i] = [(x - f * y) % prime for x, y in zip(work[i], work[k], strict=True)]
-    return [[work[i][n + k] for i in range(n)] for k in range(n)]
+    size = len(table.map.rows)
+    # X B = A for X: the echelon form of [B' | A'] is [1 | X'].
+    both = [*(rows[name] for name in table.map.rows), *rows.values()]
+    matrix = np.array(both, dtype=np.int64).T
+    if len(row_echelon(matrix, range(size), prime)) < size:
+        raise DerivationError("the map to the base parameters is singular at a random point")
+    found: list[list[int]] = matrix[:, size:].T.tolist()
+    return found
 
 
 def _of_coefficients(
@@ -299,7 +302,7 @@ def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
             ]
     ring = PolyRing([*physical.names, *geometry.quotients], QQ, lex)
     lift = _lift(physical.ring, ring)
-    gens = dict(zip((str(s) for s in ring.symbols), ring.gens, strict=True))
+    gens = generators_of(ring)
     definitions = {}
     for name, terms in parts.items():
         total = ring.zero
@@ -379,7 +382,7 @@ def _system(
 
 def _used(polys: Iterable[Poly], names: Sequence[str]) -> set[str]:
     """Generators that occur, an angle with both its cosine and its sine."""
-    used = {names[i] for poly in polys for at in poly for i, e in enumerate(at) if e}
+    used = {names[i] for i in places_in(*polys)}
     used |= {"sin" + x[3:] for x in used if x.startswith("cos(")}
     return used | {"cos" + x[3:] for x in used if x.startswith("sin(")}
 

@@ -17,10 +17,16 @@ from modeler.derivation.kinematics import poses, screws
 from modeler.derivation.model import SymbolicModel
 from modeler.formulas.closed_form import Exponents, function_name
 from modeler.formulas.coefficients import CoefficientTable, vector_of
-from modeler.formulas.evaluation import poly_value
-from modeler.formulas.power import exact_state, example_values, power_balance
-from modeler.formulas.relations import combination_of, relations
-from modeler.formulas.ring import Poly, TrigRing
+from modeler.formulas.ring import (
+    Poly,
+    TrigRing,
+    as_fraction,
+    combination_of,
+    generators_of,
+    number,
+    poly_value,
+    relations,
+)
 from modeler.formulas.text import combination_text, monomial_text, polynomial_text
 
 
@@ -96,18 +102,15 @@ def wrong_functions(table: CoefficientTable) -> list[FunctionCheck]:
         joints = _joints(table, name)
         difference = _difference(table, name, printed)
         if difference:
+            algebra = table.closed.algebra
+            motion = algebra.names[: algebra.moving]
             texts = {
-                _monomial(table, at): _in_coefficients(table, vector)
+                monomial_text(at, motion): _in_coefficients(table, vector)
                 for at, vector in sorted(difference.items(), reverse=True)
             }
             power = _power_defect(table, joints, difference)
             found.append(FunctionCheck(name, printed.text, texts, power))
     return found
-
-
-def _monomial(table: CoefficientTable, at: Exponents) -> str:
-    algebra = table.closed.algebra
-    return monomial_text(at, algebra.names[: algebra.moving])
 
 
 def _in_coefficients(table: CoefficientTable, vector: Mapping[Any, Any]) -> str:
@@ -123,29 +126,18 @@ def _difference(
     table: CoefficientTable, name: str, printed: Expression
 ) -> dict[Exponents, dict[Any, Any]]:
     """Derived minus printed as {monomial: vector over Q}, both in normal form."""
-    total: dict[int, dict[Any, Any]] = {}
-    for coefficient in table.coefficients:
-        if coefficient.function == name:
-            _add(total, coefficient.name, coefficient.exponents, QQ(1))
-    for coefficient_name, at, value in _printed_terms(table, name, printed):
-        _add(total, coefficient_name, at, -value)
-    return _expanded(table, total)
-
-
-def _add(total: dict[Any, dict[Any, Any]], name: str, at: Exponents, value: Any) -> None:
-    part = total.setdefault(name, {})
-    part[at] = part.get(at, 0) + value
-
-
-def _expanded(
-    table: CoefficientTable, total: Mapping[Any, Mapping[Exponents, Any]]
-) -> dict[Exponents, dict[Any, Any]]:
+    terms = [(c.name, c.exponents, QQ(1)) for c in table.coefficients if c.function == name]
+    terms += [(c, at, -value) for c, at, value in _printed_terms(table, name, printed)]
+    total: dict[str, dict[Exponents, Any]] = {}
+    for coefficient, at, value in terms:
+        part = total.setdefault(coefficient, {})
+        part[at] = part.get(at, 0) + value
     algebra = table.closed.algebra
     rest = (0,) * algebra.static_ring.ngens
     found: dict[Exponents, dict[Any, Any]] = {}
-    for name, part in total.items():
+    for coefficient, part in total.items():
         poly = algebra.normal(algebra.ring.zero.new({at + rest: v for at, v in part.items() if v}))
-        vector = vector_of(table.by_name[name].standard)
+        vector = vector_of(table.by_name[coefficient].standard)
         for at, value in poly.items():
             sums = found.setdefault(at[: algebra.moving], {})
             for place, factor in vector.items():
@@ -161,7 +153,7 @@ def _printed_terms(
     motion = list(algebra.names[: algebra.moving])
     names = list(table.by_name)
     ring = PolyRing(motion + names, QQ, lex)
-    poly = _evaluated(table, _generators(ring), ring, printed, f"functions, {name}")
+    poly = _evaluated(table, generators_of(ring), ring, printed, f"functions, {name}")
     found = []
     for exponents, value in poly.items():
         which = exponents[len(motion) :]
@@ -172,10 +164,6 @@ def _printed_terms(
             )
         found.append((names[which.index(1)], exponents[: len(motion)], value))
     return found
-
-
-def _generators(ring: PolyRing) -> dict[str, Poly]:
-    return {str(symbol): x for symbol, x in zip(ring.symbols, ring.gens, strict=True)}
 
 
 def _evaluated(
@@ -224,7 +212,7 @@ def wrong_definitions(table: CoefficientTable) -> list[DefinitionCheck]:
     ring, found = table.physical.ring, []
     for name, printed in table.printed.definitions.items():
         _known(table, name, "definitions")
-        poly = _evaluated(table, _generators(ring), ring, printed, f"definitions, {name}")
+        poly = _evaluated(table, generators_of(ring), ring, printed, f"definitions, {name}")
         rest = table.by_name[name].physical - poly
         if rest:
             text = polynomial_text(rest, table.physical.names)
@@ -248,7 +236,7 @@ def check_solutions(table: CoefficientTable, as_printed: bool = False) -> list[S
         as_printed: put in the printed definitions of the coefficients, where there are some.
     """
     ring = table.physical.ring
-    letters = _generators(ring)
+    letters = generators_of(ring)
     values = {name: c.physical for name, c in table.by_name.items()} | letters
     for name, text in table.printed.definitions.items() if as_printed else ():
         values[name] = _evaluated(table, letters, ring, text, f"definitions, {name}")
@@ -261,25 +249,24 @@ def check_solutions(table: CoefficientTable, as_printed: bool = False) -> list[S
                 f"robot {table.closed.robot.name}, [terms], printed, solutions: {letter} is no "
                 f"physical parameter; expected one of {', '.join(table.physical.letters)}"
             )
+        if not denominator:
+            verdict = "divides by 0" if numerator else "0/0"
+        elif numerator == denominator * letters[letter]:
+            verdict = "right"
+        else:
+            opposite = numerator == -denominator * letters[letter]
+            verdict = f"returns -{letter}" if opposite else "wrong"
         quoted = above.text if below.text == "1" else f"({above.text}) / ({below.text})"
         found.append(
             SolutionCheck(
                 letter,
                 quoted,
-                _verdict(letter, numerator, denominator, letters[letter]),
+                verdict,
                 polynomial_text(numerator, table.physical.names),
                 polynomial_text(denominator, table.physical.names),
             )
         )
     return found
-
-
-def _verdict(letter: str, numerator: Poly, denominator: Poly, value: Poly) -> str:
-    if not denominator:
-        return "divides by 0" if numerator else "0/0"
-    if numerator == denominator * value:
-        return "right"
-    return f"returns -{letter}" if numerator == -denominator * value else "wrong"
 
 
 def check_independent(table: CoefficientTable) -> dict[str, str]:
@@ -332,3 +319,98 @@ def projected_motor_torques(model: SymbolicModel) -> list[str]:
                 text = f"({text})" if len(along) > 1 else text
                 forces[i].append(tau if text == "1" else f"{text}*{tau}")
     return [" + ".join(parts) or "0" for parts in forces]
+
+
+# The power balance at one exact state: the law that exposes a wrong Christoffel coefficient.
+
+
+_HALF_TANGENTS = (Fraction(1, 2), Fraction(-1, 3), Fraction(2, 5))
+_SPEEDS = (Fraction(1), Fraction(-2), Fraction(3))
+STATE = "tan(q/2) = (1/2, -1/3, 2/5), qd = (1, -2, 3) rad/s"
+"""The state, for people; more joints repeat it."""
+
+
+@dataclass(frozen=True)
+class PowerState:
+    """Rational numbers for everything, so that a law holds exactly or not at all.
+
+    Attributes:
+        motion: sines and cosines, rational points of the circle.
+        speeds: (joints,).
+        static: generators of the geometry.
+        chi: {column: standard parameter}.
+    """
+
+    motion: tuple[Fraction, ...]
+    speeds: tuple[Fraction, ...]
+    static: tuple[Fraction, ...]
+    chi: Mapping[int, Fraction]
+
+    def value(self, at: Exponents, vector: Mapping[Any, Any]) -> Fraction:
+        """monomial * linear form of the standard parameters."""
+        total = Fraction(0)
+        for (column, geometry), value in vector.items():
+            total += as_fraction(value) * number(geometry, self.static) * self.chi[column]
+        return total * number(at, self.motion)
+
+    def speed_product(self, joints: tuple[int, ...]) -> Fraction:
+        """qd_i qd_j qd_k."""
+        product = Fraction(1)
+        for joint in joints:
+            product *= self.speeds[joint]
+        return product
+
+
+def example_values(table: CoefficientTable, twin: bool = False) -> dict[str, Fraction]:
+    """Physical parameters of the example; lengths that it leaves out are nominal."""
+    nominal = table.closed.algebra.geometry.values
+    values = {name: Fraction(repr(float(value))) for name, value in nominal.items()}
+    values |= table.printed.example
+    return {**values, **table.printed.twin} if twin else values
+
+
+def exact_state(table: CoefficientTable) -> PowerState:
+    """The test state of the example; physical parameters that it leaves out are 0."""
+    motion: list[Fraction] = []
+    for index, joint in enumerate(table.closed.algebra.motions):
+        t = _HALF_TANGENTS[index % len(_HALF_TANGENTS)]
+        turning = [2 * t / (1 + t * t), (1 - t * t) / (1 + t * t)]
+        motion += turning if joint.variable is None else [t]
+    values = example_values(table)
+    physical = [values.get(name, Fraction(0)) for name in table.physical.names]
+    shift = len(physical) - table.closed.algebra.static_ring.ngens
+    chi = {c: poly_value(poly, physical) for c, poly in table.physical.standard.items()}
+    count = table.closed.algebra.geometry.coordinates
+    speeds = tuple(_SPEEDS[i % len(_SPEEDS)] for i in range(count))
+    return PowerState(tuple(motion), speeds, tuple(physical[shift:]), chi)
+
+
+def power_balance(table: CoefficientTable, state: PowerState) -> Fraction:
+    """qd'S - qd' (dM/dt) qd / 2 of the derived functions, which is 0 for any mechanism, W."""
+    total = Fraction(0)
+    for function in table.closed.functions:
+        for at, form in function.terms.items():
+            if function.kind == "christoffel":
+                total += state.value(at, vector_of(form)) * state.speed_product(function.joints)
+            elif function.kind == "inertia":
+                total -= _half_slope_power(table, state, function.joints, at, vector_of(form))
+    return total
+
+
+def _half_slope_power(
+    table: CoefficientTable,
+    state: PowerState,
+    joints: tuple[int, ...],
+    at: Exponents,
+    vector: Mapping[Any, Any],
+) -> Fraction:
+    """One term's part of qd' (dM/dt) qd / 2; entries beside the diagonal stand there twice."""
+    algebra = table.closed.algebra
+    rest = (0,) * algebra.static_ring.ngens
+    monomial = algebra.ring.zero.new({at + rest: QQ(1)})
+    total = Fraction(0)
+    for k in range(algebra.geometry.coordinates):
+        for moved, value in algebra.derivative(monomial, k).items():
+            slope = as_fraction(value) * state.value(moved[: algebra.moving], vector)
+            total += slope * state.speed_product((*joints, k))
+    return total / 2 if joints[0] == joints[1] else total

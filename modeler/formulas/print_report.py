@@ -9,18 +9,19 @@ from modeler.derivation.relations import relation_text
 from modeler.derivation.result import BaseParameters
 from modeler.formulas.closed_form import closed_form
 from modeler.formulas.coefficients import CoefficientTable, by_function, coefficient_table
-from modeler.formulas.power import STATE, exact_state, example_values, power_balance
 from modeler.formulas.print_checks import (
-    SolutionCheck,
+    STATE,
     check_independent,
     check_solutions,
     check_twin,
+    exact_state,
+    example_values,
+    power_balance,
     projected_motor_torques,
     wrong_definitions,
     wrong_functions,
 )
 from modeler.formulas.printed import Coupling
-from modeler.formulas.relations import classes
 from modeler.formulas.render import (
     backward_lines,
     coefficients_markdown,
@@ -28,6 +29,7 @@ from modeler.formulas.render import (
     equation,
     forward_lines,
 )
+from modeler.formulas.ring import classes
 from modeler.formulas.text import signed_sum
 
 # Coulomb friction of motors that turn with several joints: a printed term and virtual work.
@@ -183,19 +185,13 @@ def _solutions(table: CoefficientTable) -> str:
         "printed solutions return their parameter. The others:",
         "",
     ]
-    lines += [f"* {check.letter} = `{check.printed}`: {_explained(check)}" for check in wrong]
+    for check in wrong:
+        why = f"it gives `({check.numerator}) / ({check.denominator})`"
+        if check.denominator == "0":
+            why = f"the denominator is the zero polynomial, the numerator `{check.numerator}`"
+        sign = ", the overall sign is wrong" if check.verdict.startswith("returns") else f": {why}"
+        lines.append(f"* {check.letter} = `{check.printed}`: **{check.verdict}**{sign}.")
     return "\n".join([*lines, ""])
-
-
-def _explained(check: SolutionCheck) -> str:
-    if check.denominator == "0":
-        return (
-            f"**{check.verdict}**: the denominator is the zero polynomial, the numerator "
-            f"`{check.numerator}`."
-        )
-    if check.verdict.startswith("returns"):
-        return f"**{check.verdict}**, the overall sign is wrong."
-    return f"**{check.verdict}**: it gives `({check.numerator}) / ({check.denominator})`."
 
 
 def _vanishing(table: CoefficientTable) -> str:

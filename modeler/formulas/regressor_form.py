@@ -1,12 +1,16 @@
 """The equation of motion, and the regressor, in closed form with the words that explain them."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from modeler.core.errors import RobotError
+from modeler.core.errors import DerivationError, RobotError
 from modeler.core.formula import Formulas
+from modeler.derivation.closure import MEETING, Closure, meeting
+from modeler.derivation.columns import along
+from modeler.derivation.graph import Expr
+from modeler.derivation.kinematics import MotionState, motions, plus, poses, times
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.newton_euler import Motion, MotionState, motions
-from modeler.derivation.result import BaseParameter, BaseParameters
+from modeler.derivation.result import BaseParameters
 from modeler.formulas.closed_form import (
     fresh_model,
     letters_of,
@@ -21,7 +25,252 @@ from modeler.formulas.function_sheet import (
     sheet_lines,
     sheet_markdown,
 )
-from modeler.formulas.loop_form import LoopForm, write_loops
+from modeler.formulas.ring import TrigRing, poly_value
+
+# Loops that tie the free variables: J_t, J_p and the closure's Jacobian in closed form.
+#
+# The closure equations f(u) = 0 of the free variables u give df = 0. Where the robot has a
+# platform, its coordinates p are taken as given first: then every leg stands alone,
+#
+#     B_leg d(u_leg) = -A_leg dp,    L = -B^-1 A  (the inverse Jacobian of the leg),
+#
+# the rows of L that belong to the motors are the inverse Jacobian of the robot, K = J_p^-1, and
+#
+#     p' = J_p q',   u' = J_t q' = L J_p q',   tau = J_t' t_legs + J_p' t_p
+#
+# with the torques t of the opened tree, those along p being the force on the platform
+# (Guegan, Khalil and Lemoine 2003, eqs. 11 and 23 to 30; their G of eq. 42 is what the relations
+# say). Without a platform the actuated joints are given at once and J_t = -B^-1 A. Blocks of up to
+# four equations are inverted by cofactors, so that only singular postures divide by 0.
+
+
+_SOLVED = 4
+"""Equations up to which a block is inverted by cofactors."""
+
+Matrix = list[list[Expr]]
+
+
+Block = tuple[list[int], list[int]]
+"""Numbers of equations that share unknown speeds, and the places of these in u."""
+
+
+@dataclass(frozen=True)
+class LoopForm:
+    """What is printed of the loops.
+
+    Attributes:
+        lines: what the names mean, in words and formulas.
+        complete: True if J_t is written out; else its rows follow from the blocks by a solver.
+    """
+
+    lines: tuple[str, ...]
+    complete: bool
+
+
+def write_loops(model: SymbolicModel, writer: SheetWriter) -> LoopForm:
+    """The closure, its Jacobian, J_p, J_t and the bias of the accelerations on a sheet.
+
+    Results, with joints a (actuated), p (given first), u: f<r>, F<r>_<u> = df_r/dq_u, h<r> =
+    d/dt(F) u', L<u>_<p>, Jp<p>_<a>, Jt<u>_<a>, b<u> with u'' = J_t q'' + b.
+
+    Args:
+        model: of a robot with loops, on the graph of the sheet.
+        writer: of the sheet.
+    """
+    closure = model.closure
+    assert closure is not None
+    names = [joint.name for joint in model.robot.free]
+    given = closure.platform or closure.given
+    blocks = _blocks(closure, given, len(names))
+    _write_closure(closure, names, writer)
+    spheres = _write_spheres(model, closure, writer)
+    rates: dict[int, dict[int, Expr]] = {p: {p: model.graph.constant(1)} for p in given}
+    bias: dict[int, Expr] = {}
+    letter = "L" if closure.platform else "Jt"
+    for block in blocks:
+        if len(block[1]) <= _SOLVED:
+            _write_block(closure, block, given, names, letter, writer, rates, bias)
+    complete = all(len(unknown) <= _SOLVED for _, unknown in blocks)
+    if closure.platform and complete:
+        complete = _write_platform(model, closure, names, writer, rates, bias)
+    elif complete:
+        _write_bias(closure.solved, names, bias, writer)
+    return LoopForm(tuple(_words(model, closure, complete, spheres)), complete)
+
+
+def _blocks(closure: Closure, given: Sequence[int], count: int) -> list[Block]:
+    """Connected equations, in the order of their unknowns."""
+    unknown = [k for k in range(count) if k not in given]
+    found: list[tuple[set[int], set[int]]] = []
+    for r, line in enumerate(closure.jacobian):
+        reads = {k for k in unknown if not line[k].is_zero}
+        touched = [part for part in found if part[1] & reads]
+        found = [part for part in found if part not in touched]
+        rows = {r}.union(*(part[0] for part in touched))
+        found.append((rows, reads.union(*(part[1] for part in touched))))
+    blocks = [(sorted(rows), sorted(reads)) for rows, reads in found]
+    return sorted(blocks, key=lambda block: block[1])
+
+
+def _write_closure(closure: Closure, names: Sequence[str], writer: SheetWriter) -> None:
+    writer.section("closure equations, 0 where the loops are closed")
+    for r, equation in enumerate(closure.equations, start=1):
+        writer.result(f"f{r}", equation)
+    for r, (line, drift) in enumerate(zip(closure.jacobian, closure.drift, strict=True), start=1):
+        writer.section(f"Jacobian of f{r}, and d/dt(Jacobian) u'")
+        for name, entry in zip(names, line, strict=True):
+            writer.result(f"F{r}_{name}", entry)
+        writer.result(f"h{r}", drift)
+
+
+def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) -> bool:
+    """|e|^2 - |w|^2 of e + w = 0, all passive joints in w, where |w| is without; True if any is."""
+    try:
+        ring = TrigRing(model.geometry)
+    except DerivationError:  # lengths that are no polynomials
+        return False
+    writer.section("closure equations without the passive joints")
+    passive = {*closure.solved} - {*(closure.platform or ())}
+    places = [(m.sine, m.cosine, m.variable) for m in ring.motions if passive & {*m.form}]
+    turned = [k for each in places for k in each if k is not None]
+    generators, call = list[Expr](), model.graph.call  # of the ring, as expressions of the graph
+    for motion in ring.motions:
+        at = along(model, motion.form, "q")
+        generators += [at] if motion.variable is not None else [call("sin", at), call("cos", at)]
+    generators += [model.algebra.static(atom) for atom in ring.static_atoms]
+    frames, found = poses(model.geometry, ring), False
+    for number, loop in enumerate(model.robot.loops, start=1):
+        one, other = meeting(model.geometry, loop, frames, ring)
+        square, total = ring.ring.zero, model.graph.constant(0)
+        for entry in plus(one[1], times(-1, other[1])) if loop.kind in MEETING else ():
+            entry = ring.normal(ring.ring(entry))
+            moved = {e: x for e, x in entry.items() if any(e[k] for k in turned)}
+            w = ring.ring.zero.new(moved)
+            e = poly_value(entry - w, generators)
+            square, total = square + w**2, total + e * e
+        square = ring.normal(square)
+        if square and not any(at[k] for at in square for k in turned):
+            writer.result(f"fp{number}", total - poly_value(square, generators))
+            found = True
+    return found
+
+
+def _write_block(
+    closure: Closure, block: Block, given: Sequence[int], names: Sequence[str], letter: str,
+    writer: SheetWriter, rates: dict[int, dict[int, Expr]], bias: dict[int, Expr],
+) -> None:  # fmt: skip
+    """L = -B^-1 A and -B^-1 h of one block."""
+    equations, unknown = block
+    told = ", ".join(names[k] for k in unknown)
+    writer.section(f"speeds of {told} by those of {', '.join(names[k] for k in given)}")
+    B = [[closure.jacobian[r][k] for k in unknown] for r in equations]
+    inverse = _inverse(B, f"D{names[unknown[0]]}", writer)
+    for u, line in zip(unknown, inverse, strict=True):
+        rates[u] = {}
+        for p in given:
+            value = -_along(line, [closure.jacobian[r][p] for r in equations])
+            if not value.is_zero:
+                rates[u][p] = value
+                writer.result(f"{letter}{names[u]}_{names[p]}", value)
+        bias[u] = -_along(line, [closure.drift[r] for r in equations])
+
+
+def _along(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
+    total = a[0] * b[0]
+    for x, y in zip(a[1:], b[1:], strict=True):
+        total = total + x * y
+    return total
+
+
+def _inverse(B: Matrix, name: str, writer: SheetWriter) -> Matrix:
+    """The inverse by cofactors over the determinant, which gets the name."""
+    n = len(B)
+    if n == 1:
+        return [[1 / B[0][0]]]
+    cofactors = [[_cofactor(B, i, j) for j in range(n)] for i in range(n)]
+    determinant = _along(B[0], cofactors[0])
+    writer.propose(name, determinant)
+    return [[cofactors[j][i] / determinant for j in range(n)] for i in range(n)]
+
+
+def _cofactor(B: Matrix, i: int, j: int) -> Expr:
+    rest = [[x for k, x in enumerate(line) if k != j] for r, line in enumerate(B) if r != i]
+    minor = _determinant(rest)
+    return minor if (i + j) % 2 == 0 else -minor
+
+
+def _determinant(B: Matrix) -> Expr:
+    """By the first row; the graph shares minors."""
+    if len(B) == 1:
+        return B[0][0]
+    return _along(B[0], [_cofactor(B, 0, j) for j in range(len(B))])
+
+
+def _write_platform(
+    model: SymbolicModel, closure: Closure, names: Sequence[str], writer: SheetWriter,
+    rates: Mapping[int, Mapping[int, Expr]], bias: dict[int, Expr],
+) -> bool:  # fmt: skip
+    """J_p, J_t and the bias, if the inverse of K is worth printing."""
+    given, motors = closure.platform, closure.given
+    assert given is not None
+    if len(motors) > _SOLVED:
+        return False
+    zero = model.graph.constant(0)
+    writer.section("J_p, inverse of the motors' rows of L")
+    K = [[rates[a].get(p, zero) for p in given] for a in motors]
+    inverse = _inverse(K, "Dp", writer)
+    for p, line in zip(given, inverse, strict=True):
+        for a, value in zip(motors, line, strict=True):
+            writer.result(f"Jp{names[p]}_{names[a]}", value)
+    offsets = [bias.get(a, zero) for a in motors]
+    for p, line in zip(given, inverse, strict=True):
+        bias[p] = -_along(line, offsets)
+    writer.section("J_t of the legs' passive joints")
+    passive = [k for k in rates if k not in given and k not in motors]
+    for u in passive:
+        row = [rates[u].get(p, zero) for p in given]
+        for i, a in enumerate(motors):
+            value = _along(row, [line[i] for line in inverse])
+            writer.result(f"Jt{names[u]}_{names[a]}", value)
+        bias[u] = bias[u] + _along(row, [bias[p] for p in given])
+    _write_bias(closure.solved, names, bias, writer)
+    return True
+
+
+def _write_bias(
+    solved: Sequence[int], names: Sequence[str], bias: Mapping[int, Expr], writer: SheetWriter
+) -> None:
+    writer.section("accelerations where the motors' are 0: u'' = J_t q'' + b")
+    for u in solved:
+        writer.result(f"b{names[u]}", bias[u])
+
+
+def _words(model: SymbolicModel, closure: Closure, complete: bool, spheres: bool) -> list[str]:
+    """What the names mean."""
+    names = [joint.name for joint in model.robot.free]
+    motors = ", ".join(f"q{names[k]}" for k in closure.given)
+    lines = [
+        f"motors: {motors}; free variables u of the opened tree: "
+        + ", ".join(f"q{name}" for name in names)
+    ]
+    if model.robot.relations:
+        ties = [f"q{name} = {text.text}" for name, text in model.robot.relations.items()]
+        lines.append("joints that follow (matrix G): " + "; ".join(ties))
+    lines.append("f_r(u) = 0, F<r>_<u> = df_r/dq_u, h<r> = d/dt(F_r) u'")
+    if spheres:
+        lines.append("fp<k> = 0: loop k without its passive joints (Briot and Gautier 2012: f_p)")
+    given = ", ".join(f"q{names[k]}" for k in closure.platform or ())
+    if given:
+        lines.append(f"legs by the platform: u' = L p', p = ({given}); L<u>_<p>")
+    if complete:
+        rows = "Jp<p>_<a> of p, Jt<u>_<a> of the others" if given else "Jt<u>_<a>"
+        lines.append(f"u' = J_t q', u'' = J_t q'' + b; rows of J_t: {rows}; of motors: 1 and 0")
+    else:
+        lines.append("u' = J_t q', u'' = J_t q'' + b by a solver, too large to write: F J_t = 0, "
+                     "F b = -h, motors' rows of J_t 1 and 0, of b 0")  # fmt: skip
+    lines.append("tau = J_t' t, t: torques of the opened tree along u")
+    return lines
+
 
 _AXES = "xyz"
 
@@ -67,30 +316,25 @@ def equation_of(
     words = []
     if motion:
         write_short_form(model, base, writer)
-        words += _motion_words(base, "t_i" if loops else "tau_i")
+        words.append(
+            f"{'t_i' if loops else 'tau_i'} = sum_j J_ij qdd_j + sum_{{j<=k}} S_ijk qd_j qd_k + "
+            "g_i + e_i; e: friction, offsets and all other effects but rotor inertias, which are "
+            "in J; what is not listed is 0"
+        )
+        kinds = {column.name: column.kind for column in base.columns}
+        mixed = [
+            p.name
+            for p in base.parameters
+            if {kinds[term.parameter] for term in p.terms} >= {"inertial", "offset"}
+        ]
+        if mixed:
+            words.append(f"constant gravity and an offset in one, in e or in g: {', '.join(mixed)}")
     if columns:
         write_columns(model, base, writer)
         words.append(f"{'t' if loops else 'tau'} = phi beta, phi<joint>_<parameter>; what is not "
                      "listed is 0")  # fmt: skip
     words += [*_signals(model), *(loops.lines if loops else ())]
     return Equation(tuple(words), writer.finished(), loops)
-
-
-def _motion_words(base: BaseParameters, left: str) -> list[str]:
-    words = [
-        f"{left} = sum_j J_ij qdd_j + sum_{{j<=k}} S_ijk qd_j qd_k + g_i + e_i; e: friction, "
-        "offsets and all other effects but rotor inertias, which are in J; what is not listed is 0"
-    ]
-    mixed = [p.name for p in base.parameters if _kinds(base, p) >= {"inertial", "offset"}]
-    if mixed:
-        words.append(f"constant gravity and an offset in one, in e or in g: {', '.join(mixed)}")
-    return words
-
-
-def _kinds(base: BaseParameters, parameter: BaseParameter) -> set[str]:
-    """Of the standard parameters in a base parameter."""
-    kinds = {column.name: column.kind for column in base.columns}
-    return {kinds[term.parameter] for term in parameter.terms}
 
 
 def _signals(model: SymbolicModel) -> list[str]:
@@ -135,21 +379,17 @@ def _propose_motion(model: SymbolicModel, writer: SheetWriter) -> None:
     for row, motion, chain in zip(geometry.rows, moved, model.carried, strict=True):
         name = row.joint.name
         writer.section(f"motion of link {name}, in frame {name}")
-        _propose(motion, name, writer)
+        for letter, vector in (("w", motion.w), ("wd", motion.wd), ("vd", motion.vd)):
+            for axis, entry in zip(_AXES, vector, strict=True):
+                writer.propose(f"{letter}{axis}_{name}", entry)
+        for axis, line in zip(_AXES, motion.U, strict=True):
+            for other, entry in zip(_AXES, line, strict=True):
+                writer.propose(f"U{axis}{other}_{name}", entry)
         for k, screw in sorted(chain.items()):
             free = model.robot.free[k].name
             for axis, e, m in zip(_AXES, screw.e, screw.m, strict=True):
                 writer.propose(f"e{free}{axis}_{name}", e)
                 writer.propose(f"m{free}{axis}_{name}", m)
-
-
-def _propose(motion: Motion, name: str, writer: SheetWriter) -> None:
-    for letter, vector in (("w", motion.w), ("wd", motion.wd), ("vd", motion.vd)):
-        for axis, entry in zip(_AXES, vector, strict=True):
-            writer.propose(f"{letter}{axis}_{name}", entry)
-    for axis, line in zip(_AXES, motion.U, strict=True):
-        for other, entry in zip(_AXES, line, strict=True):
-            writer.propose(f"U{axis}{other}_{name}", entry)
 
 
 # Which base parameters are 0 at the nominal values: what printed models leave out.

@@ -9,9 +9,9 @@ from typing import Any
 from modeler.core.json import nulled
 from modeler.core.latex_display import DisplayedEquation, display
 from modeler.formulas.closed_form import ClosedForm, Function
-from modeler.formulas.coefficients import Coefficient, CoefficientTable
+from modeler.formulas.coefficients import CoefficientTable
 from modeler.formulas.function_sheet import sheet_json, sheet_latex, sheet_lines, sheet_markdown
-from modeler.formulas.relations import inverse_map
+from modeler.formulas.ring import as_fraction, inverse_map
 from modeler.formulas.text import (
     LATEX,
     TEXT,
@@ -57,8 +57,7 @@ def _signed(closed: ClosedForm, function: Function, style: TextStyle) -> list[tu
     found = []
     for form, monomial in _terms(closed, function, style):
         if " + " in form or " - " in form:
-            bracket = rf"\left({form}\right)" if style.latex else f"({form})"
-            found.append(("+", bracket, monomial))
+            found.append(("+", style.bracket(form), monomial))
         else:
             found.append(("-" if form.startswith("-") else "+", form.lstrip("-"), monomial))
     return found
@@ -134,21 +133,19 @@ class FormulaLine:
 
 def table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list[FormulaLine]:
     """All coefficients as strings, in order."""
-    return [_line(table, coefficient, style) for coefficient in table.coefficients]
-
-
-def _line(table: CoefficientTable, coefficient: Coefficient, style: TextStyle) -> FormulaLine:
-    algebra = table.closed.algebra
+    algebra, physical = table.closed.algebra, table.physical
     motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
-    combination = table.relations.combinations[coefficient.name]
-    return FormulaLine(
-        style.name(coefficient.name),
-        coefficient.function,
-        monomial_text(coefficient.exponents, motion, style),
-        combination_text(combination, style),
-        form_text(coefficient.base, table.base_names, static, style),
-        physical_text(coefficient.physical, table.physical.names, table.physical.masses, style),
-    )
+    return [
+        FormulaLine(
+            style.name(c.name),
+            c.function,
+            monomial_text(c.exponents, motion, style),
+            combination_text(table.relations.combinations[c.name], style),
+            form_text(c.base, table.base_names, static, style),
+            physical_text(c.physical, physical.names, physical.masses, style),
+        )
+        for c in table.coefficients
+    ]
 
 
 def coefficients_text(table: CoefficientTable) -> str:
@@ -270,8 +267,7 @@ def _row_text(row: Mapping[str, Any], static: tuple[str, ...]) -> str:
     for name, factor in row.items():
         above, below = factor.numer, factor.denom
         if len(above) == 1 and below.is_ground:
-            number = Fraction(int(above.LC.numerator), int(above.LC.denominator))
-            number /= Fraction(int(below.LC.numerator), int(below.LC.denominator))
+            number = as_fraction(above.LC) / as_fraction(below.LC)
             letters = polynomial_text(above.monic(), static)
             terms.append((number, name if letters == "1" else f"{letters}*{name}"))
         else:

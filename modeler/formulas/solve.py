@@ -13,10 +13,9 @@ from typing import Any, Literal
 from modeler.core.errors import ModelerError
 from modeler.core.formula import latex_name, latex_text
 from modeler.core.latex_display import DisplayedEquation, display
-from modeler.formulas.identifiability import SEED, value_modulo
+from modeler.formulas.physical import SEED, value_modulo
 from modeler.formulas.physical_system import PhysicalSystem
-from modeler.formulas.relations import independent_modulo
-from modeler.formulas.ring import Poly
+from modeler.formulas.ring import Poly, by_powers, independent_modulo, places_in
 from modeler.formulas.sufficient_sets import EASE
 from modeler.formulas.text import LATEX, TEXT, TextStyle, physical_text, polynomial_text
 
@@ -180,24 +179,20 @@ class _Elimination:
             keep = [i for i in order if rows[i]]
             for i in list(keep):
                 fewer = [k for k in keep if k != i]
-                if self._told([rows[k] for k in fewer], at):
+                if self._determines([rows[k] for k in fewer], at):
                     keep = fewer
             kind = _EASY.index(self.system.kinds[letter])
             found.append((len(keep), kind, letter, sorted(keep)))
         return [(letter, keep) for _, _, letter, keep in sorted(found)]
 
-    def _told(self, rows: Sequence[Mapping[int, int]], at: int) -> bool:
+    def _determines(self, rows: Sequence[Mapping[int, int]], at: int) -> bool:
         """Is the unit vector of that place a combination of the rows?"""
         rank = len(independent_modulo(rows, self.prime))
         return len(independent_modulo([*rows, {at: 1}], self.prime)) == rank
 
-    def _used(self, poly: Poly) -> set[str]:
-        names = self.system.names
-        return {names[i] for at in poly for i, e in enumerate(at) if e}
-
     def _unknowns(self, poly: Poly) -> set[str]:
         """Unknowns in it that have no formula yet."""
-        return self._used(poly) & self.open
+        return {self.system.names[i] for i in places_in(poly)} & self.open
 
     def _zero(self, poly: Poly) -> bool:
         """Is it zero for every robot, as far as a consistent random point tells?"""
@@ -227,11 +222,18 @@ class _Elimination:
         place = self.place[letter]
         if _degree(poly, place) != 1:
             return None
-        slope, rest = _split(poly, place)[1], _split(poly, place)[0]
+        parts, ring = by_powers(poly, place), poly.ring
+        rest, slope = parts.get(0, ring.zero), parts[1]
         if self._zero(slope):
             return None
-        numerator, denominator = _reduced(-rest, slope)
-        return SolvingStep(letter, numerator, denominator)
+        if slope.is_ground:
+            return SolvingStep(letter, (-rest).quo_ground(slope.LC), ring.one)
+        # In lowest terms, the denominator with whole numbers and a positive lead.
+        _, top, bottom = (-rest).cofactors(slope) if rest else (slope, rest, ring.one)
+        content, bottom = bottom.primitive()
+        if bottom.LC < 0:
+            content, bottom = -content, -bottom
+        return SolvingStep(letter, top.quo_ground(content), bottom)
 
     def _eliminate(self, wanted: str) -> bool:
         """Take an unknown out of all equations but one, where that is linear in it."""
@@ -255,7 +257,7 @@ class _Elimination:
     def _cost(self, poly: Poly, letter: str) -> tuple[int, ...]:
         """Small for what is quickly done: few other unknowns, few other places."""
         place = self.place[letter]
-        slope = _split(poly, place)[1]
+        slope = by_powers(poly, place)[1]
         return (
             len(self._unknowns(poly)),
             len(self._unknowns(slope)),
@@ -270,9 +272,8 @@ class _Elimination:
         top = _degree(poly, place)
         if top == 0:
             return poly
-        parts = _split(poly, place)
         total = poly.ring.zero
-        for degree, part in parts.items():
+        for degree, part in by_powers(poly, place).items():
             total += part * step.numerator**degree * step.denominator ** (top - degree)
         total = self.system.normal(total)
         if not self._unknowns(total):
@@ -291,29 +292,6 @@ def _degree(poly: Poly, place: int) -> int:
     return max((at[place] for at in poly), default=0)
 
 
-def _split(poly: Poly, place: int) -> dict[int, Poly]:
-    """{degree in a generator: factor}; degrees 0 and 1 always."""
-    found: dict[int, dict[tuple[int, ...], object]] = {0: {}, 1: {}}
-    for at, value in poly.items():
-        found.setdefault(at[place], {})[(*at[:place], 0, *at[place + 1 :])] = value
-    return {degree: poly.ring.zero.new(part) for degree, part in found.items()}
-
-
-def _reduced(numerator: Poly, denominator: Poly) -> tuple[Poly, Poly]:
-    """The quotient in lowest terms, the denominator with whole numbers and a positive lead."""
-    if denominator.is_ground:
-        return numerator.quo_ground(denominator.LC), denominator.ring.one
-    _, top, bottom = _cofactors(numerator, denominator)
-    content, bottom = bottom.primitive()
-    if bottom.LC < 0:
-        content, bottom = -content, -bottom
-    return top.quo_ground(content), bottom
-
-
-def _cofactors(a: Poly, b: Poly) -> tuple[Poly, Poly, Poly]:
-    return a.cofactors(b) if a else (b, a, b.ring.one)
-
-
 # A closed solution as text, LaTeX and Python, in an order that a person can check.
 
 
@@ -324,7 +302,13 @@ SolutionForm = Literal["text", "latex", "python"]
 def formula(step: SolvingStep, system: PhysicalSystem, style: TextStyle = TEXT) -> str:
     """The right side of a step's formula; the polynomial that is zero where there is none."""
     if step.equation is not None:
-        return _by_powers(step, system, style)
+        parts = []
+        for power, factor in sorted(by_powers(step.equation, system.place[step.letter]).items()):
+            text = polynomial_text(factor, system.names, style)
+            if power:
+                text = style.bracket(text) + style.times + style.power(step.letter, power)
+            parts.append(text)
+        return " + ".join(reversed(parts))
     top = physical_text(step.numerator, system.names, system.masses, style)
     if step.denominator == system.ring.one:
         return top
@@ -341,23 +325,6 @@ def _bracketed(text: str, factors: bool = False) -> str:
     if plain and not (factors and any(sign in text for sign in "*/-")):
         return text
     return f"({text})"
-
-
-def _by_powers(step: SolvingStep, system: PhysicalSystem, style: TextStyle) -> str:
-    """A polynomial in one letter, highest power first."""
-    assert step.equation is not None
-    at = system.place[step.letter]
-    by_power: dict[int, dict[tuple[int, ...], Any]] = {}
-    for exponents, value in step.equation.items():
-        rest = (*exponents[:at], 0, *exponents[at + 1 :])
-        by_power.setdefault(exponents[at], {})[rest] = value
-    parts = []
-    for power in sorted(by_power, reverse=True):
-        factor: Poly = step.equation.ring.zero.new(by_power[power])
-        text = polynomial_text(factor, system.names, style)
-        text = text if power == 0 else rf"\left({text}\right)" if style.latex else f"({text})"
-        parts.append(text if power == 0 else text + style.times + style.power(step.letter, power))
-    return " + ".join(parts)
 
 
 def solution_lines(solution: ClosedSolution, form: SolutionForm = "text") -> list[str]:
@@ -379,21 +346,18 @@ def _text(solution: ClosedSolution) -> list[str]:
 
 def _latex(solution: ClosedSolution) -> list[str]:
     system = solution.system
-    rows = [
-        DisplayedEquation(latex_name(name), (_latex_quotient(name, text, system),))
-        for name, text in system.abbreviations.items()
-    ]
+    rows = []
+    for name, text in system.abbreviations.items():
+        right = rf"\text{{{latex_text(text)}}}"
+        if name in system.inverse:
+            below = polynomial_text(system.inverse[name], system.names, LATEX)
+            right = rf"\frac{{1}}{{{below}}}"
+        rows.append(DisplayedEquation(latex_name(name), (right,)))
     for step in solution.steps:
         left = latex_name(step.letter) if step.equation is None else "0"
         rows.append(DisplayedEquation(left, (formula(step, system, LATEX),)))
     lines = display(rows).splitlines() if rows else []
     return [r"\begingroup\allowdisplaybreaks", *lines, r"\endgroup"]
-
-
-def _latex_quotient(name: str, text: str, system: PhysicalSystem) -> str:
-    if name not in system.inverse:
-        return rf"\text{{{latex_text(text)}}}"
-    return rf"\frac{{1}}{{{polynomial_text(system.inverse[name], system.names, LATEX)}}}"
 
 
 _ROOTS = """def real_roots(factors, positive=False):
@@ -405,7 +369,12 @@ def _python(solution: ClosedSolution) -> list[str]:
     """A function of data and known parameters that returns a dict, with roots a list of them."""
     system = solution.system
     rooted = any(step.equation is not None for step in solution.steps)
-    arguments = [*_used_data(solution), *solution.known, *_lengths(system)]
+    polys = [p for s in solution.steps for p in (s.numerator, s.denominator, s.equation) if p]
+    read = places_in(*polys)
+    data = [name for name in system.data if system.place[name] in read]
+    made_of = [w for name in (*system.constants, *system.abbreviations.values())
+               for w in _letters_of(name) if w not in system.abbreviations]  # fmt: skip
+    arguments = [*data, *solution.known, *dict.fromkeys(made_of)]
     where = "base parameters" if system.source == "base" else "coefficients PG, PJ"
     more = ": a list, every robot that fits" if rooted else ""
     lines = [f"def physical_parameters({', '.join(arguments)}):"]
@@ -417,7 +386,14 @@ def _python(solution: ClosedSolution) -> list[str]:
         if step.equation is None:
             lines.append(f"{indent}{step.letter} = {formula(step, system)}")
         else:
-            lines.append(f"{indent}for {step.letter} in {_python_roots(step, system)}:")
+            factors = by_powers(step.equation, system.place[step.letter])
+            texts = [
+                polynomial_text(factors.get(power, system.ring.zero), system.names)
+                for power in range(max(factors), -1, -1)
+            ]
+            positive = ", positive=True" if step.letter in system.masses else ""
+            found = f"real_roots([{', '.join(texts)}]{positive})"
+            lines.append(f"{indent}for {step.letter} in {found}:")
             indent += "    "
     told = "{" + ", ".join(f'"{x}": {x}' for x in solution.follows) + "}"
     lines += [f"{indent}found.append({told})", "    return found"] if rooted else [
@@ -428,36 +404,6 @@ def _python(solution: ClosedSolution) -> list[str]:
     head = [f"from math import {', '.join(some)}"] if some else []
     head += ["from numpy import roots", "", "", _ROOTS] if rooted else []
     return [*head, "", "", *lines] if head else lines
-
-
-def _python_roots(step: SolvingStep, system: PhysicalSystem) -> str:
-    assert step.equation is not None
-    at = system.place[step.letter]
-    top = max(exponents[at] for exponents in step.equation)
-    factors = []
-    for power in range(top, -1, -1):
-        part = {(*e[:at], 0, *e[at + 1 :]): v for e, v in step.equation.items() if e[at] == power}
-        factors.append(polynomial_text(step.equation.ring.zero.new(part), system.names))
-    positive = ", positive=True" if step.letter in system.masses else ""
-    return f"real_roots([{', '.join(factors)}]{positive})"
-
-
-def _used_data(solution: ClosedSolution) -> list[str]:
-    """Data that some formula reads."""
-    system = solution.system
-    polys = [p for s in solution.steps for p in (s.numerator, s.denominator, s.equation) if p]
-    used = {i for poly in polys for at in poly for i, e in enumerate(at) if e}
-    return [name for name in system.data if system.place[name] in used]
-
-
-def _lengths(system: PhysicalSystem) -> list[str]:
-    """Letters that the constants are made of."""
-    found: dict[str, None] = {}
-    for name in [*system.constants, *system.abbreviations.values()]:
-        for letter in _letters_of(name):
-            if letter not in system.abbreviations:
-                found.setdefault(letter)
-    return list(found)
 
 
 def _letters_of(text: str, functions: bool = False) -> list[str]:

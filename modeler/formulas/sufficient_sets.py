@@ -8,18 +8,126 @@ one in a million, and the count is repeated at another point with another prime.
 """
 
 import random
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import combinations, islice
-from math import comb
+from itertools import chain, combinations, islice, product
+from math import comb, prod
 
 import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import ModelerError
-from modeler.formulas.coefficients import BLOCK, components, reduced_by, span, spanning_sets
-from modeler.formulas.identifiability import SEED
+from modeler.derivation.certificate import row_echelon
+from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
+
+# Sets of columns of a matrix over a prime field that span its rows, many at once.
+
+
+BLOCK = 4000  # sets reduced together
+
+
+def components(kernel: np.ndarray) -> list[tuple[list[int], list[int]]]:
+    """(rows, columns) of the parts that share no entry; a column of zeros is its own part."""
+    label = list(range(len(kernel)))
+    for k in range(kernel.shape[1]):
+        merged = {label[r] for r in np.flatnonzero(kernel[:, k])}
+        label = [min(merged) if x in merged else x for x in label]
+    parts: list[tuple[list[int], list[int]]] = []
+    for x in sorted(set(label)):
+        rows = [r for r, y in enumerate(label) if y == x]
+        parts.append((rows, [int(k) for k in np.flatnonzero(kernel[rows].any(axis=0))]))
+    for k in np.flatnonzero(~kernel.any(axis=0)).tolist():
+        parts.append(([], [k]))
+    return parts
+
+
+def spanning_sets(matrix: np.ndarray, size: int, prime: int) -> Iterator[tuple[float, np.ndarray]]:
+    """(share done, sets of `size` columns that span the rows), in blocks.
+
+    Elimination grows with the set: a column joins a set that comes before it, and the rest of the
+    matrix is reduced by it; all sets of a block at once.
+    """
+    rows, n = matrix.shape
+    start = (matrix[None], np.zeros((1, 0), dtype=np.int64), np.zeros(1, dtype=np.int64))
+    stack = [start]
+    done = 0.0
+    total = float(comb(n, size))
+    while stack:
+        work, sets, rank = stack.pop()
+        k = sets.shape[1]
+        if k == size:
+            done += len(sets)
+            yield done / total, sets
+            continue
+        if k == size - 1 and rows:
+            sets = _last(work, sets, rank, rows)
+            done += len(sets)
+            yield min(1.0, done / total), sets
+            continue
+        grown = _grown(work, sets, rank, size, prime)
+        for at in range(0, len(grown[0]), BLOCK):
+            part = slice(at, at + BLOCK)
+            stack.append((grown[0][part], grown[1][part], grown[2][part]))
+
+
+def _last(work: np.ndarray, sets: np.ndarray, rank: np.ndarray, rows: int) -> np.ndarray:
+    """Sets made full by one column more, those that span."""
+    n = work.shape[2]
+    after = np.arange(n)[None] > (sets[:, -1:] if sets.shape[1] else -1)
+    joins: np.ndarray = np.any(work, axis=1)
+    fits = after & np.where((rank == rows)[:, None], True, joins & (rank == rows - 1)[:, None])
+    which, column = np.nonzero(fits)
+    return np.concatenate([sets[which], column[:, None]], axis=1)
+
+
+def _grown(
+    work: np.ndarray, sets: np.ndarray, rank: np.ndarray, size: int, prime: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Every set with every later column, if it can still span in the end."""
+    rows, n = work.shape[1:]
+    k = sets.shape[1]
+    columns = np.arange(n)[None]
+    after = (columns > (sets[:, -1:] if k else -1)) & (columns <= n - size + k)
+    joins: np.ndarray = np.any(work, axis=1)
+    reach = rank[:, None] + joins + (size - k - 1) >= rows
+    which, column = np.nonzero(after & reach)
+    joined = joins[which, column]
+    grown = work[which]
+    grown[joined] = reduced_by(grown[joined], column[joined], prime)
+    return grown, np.concatenate([sets[which], column[:, None]], axis=1), rank[which] + joined
+
+
+def reduced_by(work: np.ndarray, column: np.ndarray, prime: int) -> np.ndarray:
+    """Matrices reduced by one of their columns, its pivot row set to zero."""
+    if not len(work):
+        return work
+    at = np.arange(len(work))
+    entries = work[at, :, column]
+    pivot = (entries != 0).argmax(axis=1)
+    row = work[at, pivot]
+    # No inverse is needed: rows times the pivot have the same zeros.
+    scale = entries[at, pivot]
+    reduced = work * scale[:, None, None] % prime - entries[:, :, None] * row[:, None, :] % prime
+    reduced %= prime
+    reduced[at, pivot] = 0
+    return reduced
+
+
+def span(kernel: np.ndarray, sets: np.ndarray, prime: int) -> np.ndarray:
+    """Which sets of columns have the rank of the matrix."""
+    work = np.broadcast_to(kernel, (len(sets), *kernel.shape)).copy()
+    rank = np.zeros(len(sets), dtype=np.int64)
+    at = np.arange(len(sets))
+    for k in range(sets.shape[1]):
+        joins: np.ndarray = np.any(work[at, :, sets[:, k]], axis=1)
+        work[joins] = reduced_by(work[joins], sets[joins, k], prime)
+        rank += joins
+    return np.asarray(rank == len(kernel))
+
+
+# Sets of known parameters.
+
 
 EASE: Mapping[str, int] = {
     "mass": 0, "length": 0, "rotor inertia": 1, "centre": 2, "inertia": 3,
@@ -68,7 +176,8 @@ def easiest_set(system: PhysicalSystem, seed: int = SEED) -> tuple[str, ...]:
     Greedy, which is best for a matroid: fewest inertias, of these fewest mass centres.
     """
     kernel, prime = _kernel(system, seed)
-    order = sorted(range(len(system.letters)), key=lambda k: _trouble(system, k))
+    letters = system.letters
+    order = sorted(range(len(letters)), key=lambda k: (EASE[system.kinds[letters[k]]], k))
     chosen: list[int] = []
     work = kernel.copy()
     for k in order:
@@ -108,7 +217,8 @@ def known_sets(
     seeds = (seed, seed + 1)
     if size < smallest:
         return KnownSets(system, size, smallest, possible, 0, {}, (), {}, seeds)
-    tables = [_Counted(system, size, s, _part(tell, i)).table() for i, s in enumerate(seeds)]
+    halves = (lambda share: tell(share / 2), lambda share: tell((1 + share) / 2))
+    tables = [_Counted(system, size, *x).table() for x in zip(seeds, halves, strict=True)]
     if tables[0] != tables[1]:
         raise ModelerError(f"{system.robot}: two random points disagree; choose another seed")
     table = tables[0]
@@ -120,14 +230,6 @@ def known_sets(
     return KnownSets(system, size, smallest, possible, count, classes, easiest, contains, seeds)
 
 
-def _part(tell: Callable[[float], None], number: int) -> Callable[[float], None]:
-    return lambda share: tell((number + share) / 2)
-
-
-def _trouble(system: PhysicalSystem, k: int) -> tuple[int, int]:
-    return EASE[system.kinds[system.letters[k]]], k
-
-
 def _kernel(system: PhysicalSystem, seed: int) -> tuple[np.ndarray, int]:
     """Rows that span the kernel of the Jacobian modulo a prime: the matrix of the dual."""
     prime, columns = system.jacobian_modulo(random.Random(seed))
@@ -136,20 +238,7 @@ def _kernel(system: PhysicalSystem, seed: int) -> tuple[np.ndarray, int]:
     for k, letter in enumerate(system.letters):
         for i, value in columns[letter].items():
             work[i, k] = value
-    pivots: list[int] = []
-    for k in range(n):
-        rows = np.flatnonzero(work[len(pivots) :, k])
-        if not len(rows):
-            continue
-        r = len(pivots)
-        work[[r, r + rows[0]]] = work[[r + rows[0], r]]
-        work[r] = work[r] * pow(int(work[r, k]), -1, prime) % prime
-        for i in range(len(work)):
-            if i != r and work[i, k]:
-                work[i] = (work[i] - work[i, k] * work[r]) % prime
-        pivots.append(k)
-        if len(pivots) == len(work):
-            break
+    pivots = [column for _, column in row_echelon(work, range(n), prime)]
     free = [k for k in range(n) if k not in pivots]
     kernel = np.zeros((len(free), n), dtype=np.int64)
     for row, k in enumerate(free):
@@ -255,17 +344,10 @@ def _members(
     for k, letter in enumerate(system.letters):
         ease = EASE[system.kinds[letter]]
         groups[0 if ease < 2 else ease - 1].append(k)
-    number = 1
-    for group, count in zip(groups, wanted, strict=True):
-        number *= comb(len(group), count)
-    if number > most:
+    if prod(map(comb, map(len, groups), wanted)) > most:
         return ()
-    candidates = (
-        sorted((*a, *b, *c))
-        for a in combinations(groups[0], wanted[0])
-        for b in combinations(groups[1], wanted[1])
-        for c in combinations(groups[2], wanted[2])
-    )
+    members_of = map(combinations, groups, wanted)
+    candidates = (sorted(chain(*parts)) for parts in product(*members_of))
     found = []
     while block := list(islice(candidates, BLOCK)):
         sets = np.array(block, dtype=np.int64).reshape(len(block), size)

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core.formula import latex_name
-from modeler.formulas.ring import Poly
+from modeler.formulas.ring import Poly, as_fraction
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,10 @@ class TextStyle:
         if function:
             return f"\\{function[1]}^{{{exponent}}}{{({function[2]})}}"
         return f"{base}^{{{exponent}}}"
+
+    def bracket(self, text: str) -> str:
+        """A sum as a factor."""
+        return rf"\left({text}\right)" if self.latex else f"({text})"
 
     def fraction(self, value: Fraction) -> str:
         """A positive number."""
@@ -107,7 +111,11 @@ def physical_text(poly: Poly, names: Sequence[str], masses: Iterable[str],
             plain = _plain(at, names, style)
             terms.append((as_fraction(value), f"{letter}{style.times}{plain}" if plain else letter))
         else:
-            content = _content([as_fraction(value) for value in inside.values()])
+            values = [as_fraction(value) for value in inside.values()]
+            smallest = min(abs(value) for value in values)
+            shared = all((value / smallest).denominator == 1 for value in values)
+            content = smallest if shared else Fraction(1)
+            content = content if any(value > 0 for value in values) else -content
             parts = [
                 (as_fraction(v) / content, _plain(at, names, style)) for at, v in inside.items()
             ]
@@ -142,19 +150,6 @@ def signed_sum(terms: Iterable[tuple[Fraction, str]], style: TextStyle = TEXT) -
     return out or "0"
 
 
-def as_fraction(value: Any) -> Fraction:
-    """A coefficient of a polynomial as a `Fraction`."""
-    return Fraction(int(value.numerator), int(value.denominator))
-
-
 def _plain(at: Sequence[int], names: Sequence[str], style: TextStyle) -> str:
     """The monomial in the order of its generators; empty for 1."""
     return style.times.join(style.power(name, e) for name, e in zip(names, at, strict=True) if e)
-
-
-def _content(values: Sequence[Fraction]) -> Fraction:
-    """Common factor with the sign of the first value, if all are multiples of the smallest."""
-    smallest = min(abs(value) for value in values)
-    if any((value / smallest).denominator != 1 for value in values):
-        smallest = Fraction(1)
-    return smallest if any(value > 0 for value in values) else -smallest

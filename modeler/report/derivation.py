@@ -11,7 +11,7 @@ from modeler.core.formula import Formula
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.result import Figures, Presentation, Tables, present
 from modeler.core.table import MathCell, Table
-from modeler.derivation.home import HomeModes, written
+from modeler.derivation.derive import HomeModes, written
 from modeler.derivation.relations import relation_latex, relation_text
 from modeler.report.blocks import Block, FormulaBlock, PageTable, Paragraph
 from modeler.report.figures import robot_figure

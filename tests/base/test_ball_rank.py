@@ -6,16 +6,15 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import LoopError
-from modeler.derivation import ball_rank as balls
-from modeler.derivation.ball_rank import ball_rank
+from modeler.derivation import enclosed as balls
 from modeler.derivation.base_parameters import base_parameters
-from modeler.derivation.closed_states import closed_walk, closing_of
 from modeler.derivation.derive import derive_model
-from modeler.derivation.enclosed import Enclosures, NotEnclosed
+from modeler.derivation.enclosed import Enclosures, NotEnclosed, ball_rank
 from modeler.derivation.numeric_rank import carried, regressor_values, sampled
 from modeler.derivation.precise import flint, symbol_balls
 from modeler.derivation.relations import as_json, proof_text
 from modeler.derivation.result import BallRank, ModularRank, SampledRank
+from modeler.derivation.walks import closed_walk, closing_of
 from modeler.robot.read import read_robot, robot_from_text
 from tests.base.test_hard_tables import CASES, model_of
 from tests.loops.test_loops_implied import FOUR_BAR

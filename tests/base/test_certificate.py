@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import sympy
 
+from modeler.derivation.base_parameters import NotProved, certificate
 from modeler.derivation.certificate import PRIME, ModularState, inverse, modular_rank, power
 from modeler.derivation.derive import derive_model
 from modeler.derivation.field import ExactField, geometry_field
 from modeler.derivation.grouping import column_relations
-from modeler.derivation.proof import NotProved, certificate
 from modeler.robot.read import read_robot, robot_from_text
 
 

@@ -15,8 +15,7 @@ from modeler.derivation.certificate import (
     row_echelon,
     turned,
 )
-from modeler.derivation.elimination import TooLarge
-from modeler.derivation.field import ExactField
+from modeler.derivation.field import ExactField, TooLarge
 from modeler.derivation.tied import Probes, coefficient
 
 al, L, d, r = sympy.symbols("al L d r", real=True)

@@ -8,13 +8,11 @@ import pytest
 import sympy
 
 from modeler.core.builtin import builtin_text
-from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.base_parameters import NotProved, base_parameters, certificate
 from modeler.derivation.derive import derive_model
-from modeler.derivation.elimination import TooLarge, sparse_row_reduce
-from modeler.derivation.field import geometry_field
+from modeler.derivation.field import TooLarge, geometry_field, sparse_row_reduce
 from modeler.derivation.grouping import column_relations
 from modeler.derivation.numeric_rank import random_states, regressor_values
-from modeler.derivation.proof import NotProved, certificate
 from modeler.derivation.tied import tied_relations
 from modeler.robot.read import read_robot, robot_from_text
 from tests.base.ranks import seen

@@ -5,8 +5,8 @@ import pytest
 
 from modeler.codegen.closed import solving_of
 from modeler.codegen.fused import replaced
-from modeler.derivation.closed_states import closed_walk, closing_of
 from modeler.derivation.graph import Graph
+from modeler.derivation.walks import closed_walk, closing_of
 from tests.modules import module
 
 NAMES = ["five-bar", "orthoglide-2003", "stewart"]

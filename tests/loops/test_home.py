@@ -9,8 +9,7 @@ import pytest
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import LoopError
 from modeler.derivation.closing import SINGULAR
-from modeler.derivation.derive import derive_model, modes_near, with_home
-from modeler.derivation.home import HomeModes
+from modeler.derivation.derive import HomeModes, derive_model, modes_near, with_home
 from modeler.derivation.walks import linkage_of
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot

@@ -12,10 +12,10 @@ import pytest
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import LoopError
 from modeler.derivation.base_parameters import base_parameters
-from modeler.derivation.closed_states import closed_motion, closing_of
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import regressor_values
 from modeler.derivation.relations import as_json, proof_text
+from modeler.derivation.walks import closed_motion, closing_of
 from modeler.robot.read import read_robot, robot_from_text
 from tests.loops.own_walk import Linkage, evaluated
 from tests.modules import module

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.codegen.closed import solving_of
-from modeler.derivation.closed_states import closing_of
+from modeler.derivation.walks import closing_of
 from modeler.runtime.model import load
 from tests.modules import compiled, module
 

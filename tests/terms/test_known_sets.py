@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import ModelerError
-from modeler.formulas.set_sensitivity import rated
 from modeler.formulas.sufficient_sets import EASE, easiest_set, known_sets, smallest_number
-from modeler.formulas.values import SolvedNumbers
+from modeler.formulas.values import SolvedNumbers, rated
 from tests.terms.physical_cases import data_of, example, random_letters, system_of
 
 # Counted by another program: exact ranks modulo 2147483647 and 2147483629 at two points.

@@ -11,7 +11,7 @@ import pytest
 from modeler.api import load
 from modeler.cli import main
 from modeler.derivation.relations import as_latex
-from modeler.formulas.function_sheet import SheetStyle, sheet_latex, sheet_lines
+from modeler.formulas.function_sheet import SheetPrinter, sheet_latex, sheet_lines
 from modeler.formulas.regressor_form import regressor_form, short_form
 from modeler.formulas.text import LATEX
 from tests.base.formulas import written_value
@@ -111,7 +111,7 @@ def test_latex_has_the_values_of_the_text(every, name, form) -> None:
     sheet = form(derivation.model, derivation.base).sheet
     start |= {f"{signal}{j}": 0.5 for signal in "tTz" for j in "123"}
     text = run_lines(sheet_lines(sheet), start | {"exp": np.exp, "tanh": np.tanh})
-    latex = {SheetStyle(LATEX).name(key): value for key, value in start.items()}
+    latex = {SheetPrinter(sheet, LATEX).letter(key): value for key, value in start.items()}
     assert len(latex) == len(start)
     sides = equations(sheet_latex(sheet))
     assert len({left for left, _ in sides}) == len(sides)

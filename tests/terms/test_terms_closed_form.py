@@ -14,10 +14,10 @@ from modeler.derivation.geometry import geometric_symbol
 from modeler.derivation.model import SymbolicModel
 from modeler.effects.effect import EnergyBlock
 from modeler.formulas.closed_form import ClosedForm, closed_form
-from modeler.formulas.evaluation import evaluate
 from modeler.formulas.ring import TrigRing
 from modeler.robot.read import robot_from_text
 from tests.terms.cases import SMALL, edited_wrist, general, model_of, robot_text
+from tests.terms.closed_form_values import evaluate
 
 
 def graph_torque(model: SymbolicModel, q, qd, qdd, chi) -> np.ndarray:

@@ -8,11 +8,12 @@ import pytest
 from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import base_parameters
 from modeler.formulas.coefficients import coefficient_table
-from modeler.formulas.power import exact_state, power_balance
 from modeler.formulas.print_checks import (
     check_independent,
     check_solutions,
     check_twin,
+    exact_state,
+    power_balance,
     projected_motor_torques,
     wrong_definitions,
     wrong_functions,

@@ -9,7 +9,6 @@ import pytest
 import sympy
 
 from modeler.formulas.closed_form import closed_form
-from modeler.formulas.evaluation import evaluate
 from modeler.formulas.render import (
     closed_form_json,
     closed_form_latex,
@@ -23,6 +22,7 @@ from modeler.formulas.render import (
 from modeler.formulas.text import LATEX, latex_letter, signed_sum
 from tests.base.formulas import written_value
 from tests.terms.cases import model_of, table_of
+from tests.terms.closed_form_values import evaluate
 
 ROBOTS = ["wrist", "odd", "general3"]
 

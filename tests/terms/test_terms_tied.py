@@ -12,11 +12,10 @@ from sympy.polys.rings import PolyRing
 
 from modeler.formulas.closed_form import closed_form
 from modeler.formulas.coefficients import independent_coefficients
-from modeler.formulas.evaluation import evaluate
-from modeler.formulas.identifiability import value_modulo
-from modeler.formulas.relations import base_map
-from modeler.formulas.ring import motions_of
+from modeler.formulas.physical import value_modulo
+from modeler.formulas.ring import base_map, motions_of
 from tests.terms.cases import model_of, table_of
+from tests.terms.closed_form_values import evaluate
 from tests.terms.printed_lines import compiled, derived
 
 ROBOTS = ["orthoglide-leg", "geared", "sr400"]

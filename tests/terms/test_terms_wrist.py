@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import sympy
 
-from modeler.formulas.relations import classes, inverse_map
+from modeler.formulas.ring import classes, inverse_map
 from modeler.formulas.text import form_text, physical_text
 from tests.terms.cases import table_of
 

@@ -1,13 +1,12 @@
-"""Closed forms as numbers."""
+"""Closed forms as numbers: what the formulas say at one configuration."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from math import cos, sin
 from typing import Any
 
-from modeler.formulas.closed_form import ClosedForm, Exponents, Form
-from modeler.formulas.ring import Poly, TrigRing
+from modeler.formulas.closed_form import ClosedForm, Form
+from modeler.formulas.ring import TrigRing, number, poly_value
 
 
 @dataclass(frozen=True)
@@ -75,24 +74,6 @@ def motion_values(algebra: TrigRing, q: Sequence[float]) -> list[float]:
         at = sum(float(coefficient) * q[k] for k, coefficient in motion.form.items())
         values += [at] if motion.variable is not None else [sin(at), cos(at)]
     return values
-
-
-def number(exponents: Exponents, values: Sequence[Any]) -> Any:
-    """The monomial's value."""
-    product: Any = 1
-    for exponent, value in zip(exponents, values, strict=True):
-        if exponent:
-            product = product * value**exponent
-    return product
-
-
-def poly_value(poly: Poly, values: Sequence[Any]) -> Any:
-    """The polynomial's value."""
-    total: Any = 0
-    for exponents, coefficient in poly.items():
-        fraction = Fraction(int(coefficient.numerator), int(coefficient.denominator))
-        total = total + number(exponents, values) * fraction
-    return total
 
 
 def form_value(form: Form, chi: Sequence[Any], static: Sequence[Any]) -> Any:
