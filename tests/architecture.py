@@ -81,8 +81,8 @@ ONLY_IN = {
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
-MOST_MODULES = 368
-MOST_CODE_LINES = 57_750
+MOST_MODULES = 327
+MOST_CODE_LINES = 53_000
 MOST_CIRCLES = 0
 
 NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}
