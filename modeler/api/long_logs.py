@@ -93,7 +93,7 @@ def fit_long(
     progress: Callable[[float], None] = lambda share: None,
     reducer: chunked.Reducer | None = None,
 ) -> tuple[IdentifiedModel, chunked.Streamed]:
-    """The fitted model of logs of any length, in flat memory; see `fit.streamed.stream`.
+    """The fitted model of logs of any length, in flat memory; see `estimation.long_logs.stream`.
 
     Args:
         derivation: of the robot.

@@ -271,7 +271,6 @@ def _told(
 
 
 _WIDTH = 96
-_REPEATED = (argparse._AppendAction, argparse._ExtendAction)
 
 
 def usage_of(parser: argparse.ArgumentParser) -> str:

@@ -205,11 +205,6 @@ def errors_by_unit(parts: Iterable[Part]) -> dict[str, float]:
     }
 
 
-def effort(errors: Mapping[str, float]) -> str:
-    """What the joints of these units exert: "torque", "force", or "torque and force"."""
-    return " and ".join(WORDS[unit] for unit in errors) or "torque"
-
-
 def told_by_unit(errors: Mapping[str, float]) -> str:
     """Errors as text: "2.1 % of the torques (N m), 3 % of the forces (N)"; of one unit: "2.1 %"."""
     if len(errors) == 1:
@@ -236,7 +231,7 @@ def percent(share: float | None, digits: int = 3) -> str:
     if share is None or not math.isfinite(share):
         return "-"
     value = 100.0 * share if abs(share) >= 1e-6 else 0.0
-    return f"{value:.{digits}g} %" if abs(value) < 10**digits else f"{value:.0f} %"
+    return f"{value:.{digits}g} %" if abs(value) < 10**digits - 0.5 else f"{value:.0f} %"
 
 
 def printed(before: float, after: float) -> tuple[str, str]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, ManifestError
-from modeler.core.json import built, entries, nulled
+from modeler.core.json import entries, nulled
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Presented
 from modeler.core.table import POOLED, errors_by_unit, percent, told_by_unit
@@ -163,8 +163,12 @@ class EnergyReport(Brief):
 
 def energy_report_from_json(raw: Mapping[str, Any] | None) -> EnergyReport | None:
     """Read `EnergyReport.to_json` back; None for a fit of the torque model."""
-    fields = ("window", "relative_error", "figures", "parameters")
-    return None if raw is None else built(EnergyReport, {name: raw[name] for name in fields})
+    if raw is None:
+        return None
+    figures = tuple(ModelFigures(**entry) for entry in raw["figures"])
+    return EnergyReport(
+        float(raw["window"]), float(raw["relative_error"]), figures, int(raw["parameters"])
+    )
 
 
 # Friction by direction: what viscous, Coulomb, their asymmetry and the offset come to.

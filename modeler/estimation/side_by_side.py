@@ -103,8 +103,8 @@ def side_by_side(
         seconds = time.perf_counter() - start
         apart = [
             (own.name, abs(own.value - other.value) / max(own.sigma, other.sigma))
-            for own, other in zip(fit.parameters if fit else (), first.parameters, strict=False)
-            if method != FIRST and own.sigma and other.sigma
+            for own, other in zip((fit or first).parameters, first.parameters, strict=True)
+            if fit and method != FIRST and own.sigma and other.sigma
         ]
         tried.append(
             Tried(

@@ -114,16 +114,17 @@ def floors_of(
     `low_speed` times the shaft's top speed over all logs, which is its 98 % quantile: a short
     transient (an axis that slams into its first position) must not mask the motion after it.
     """
-    floors = dict(processing.speed_floors)
+    floors: dict[str, float] = {}
     for part in parts:
-        if part.name in floors:
+        if part.name in processing.speed_floors:
+            floors[part.name] = processing.speed_floors[part.name]
             continue
         speeds = np.concatenate([np.abs(part.speed(s.qd[s.whole])) for s in segments])
         travel = np.concatenate([part.speed(s.q[s.whole]) for s in segments])
         idle = not travel.size or np.ptp(travel) < IDLE_TRAVEL[part.unit]
         top = float(np.quantile(speeds, TOP)) if speeds.size else 0.0
         floors[part.name] = float("inf") if idle else processing.low_speed * top
-    return {part.name: floors[part.name] for part in parts}
+    return floors
 
 
 def moving(

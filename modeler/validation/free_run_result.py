@@ -11,7 +11,7 @@ from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
 from modeler.core.style import BLACK, GREY, ORANGE, VERMILLION, Style
-from modeler.core.table import percent
+from modeler.core.table import DIGITS, percent
 from modeler.core.thinning import thin_curves
 from modeler.validation.stability import Stability
 
@@ -181,7 +181,7 @@ class FreeRun(Presented):
 def _percent(value: float | None) -> str:
     if value is None:
         return "still"
-    return percent(0.01 * value) if value > -1000.0 else "below -999 %"
+    return percent(0.01 * value, DIGITS) if value > -1000.0 else "below -999 %"
 
 
 # Pictures of a free run: one a joint.

@@ -172,7 +172,7 @@ def compare_long(
         rows: of a chunk, at least.
 
     Raises:
-        DataError: as `fit.streamed.stream`.
+        DataError: as `estimation.long_logs.stream`.
     """
 
     def reduced(_: CompiledModel, chunk: Chunk, chosen: Chosen) -> _Part:

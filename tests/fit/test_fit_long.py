@@ -241,7 +241,7 @@ def test_no_verdict_promises_better_than_the_error_on_all_rows(small_windows, an
     assert verdict.usable
     promised = float(verdict.line.split(" % on every joint")[0].rsplit(" ", 1)[1])
     most = max(joint.relative_error for joint in fit.joints)
-    assert promised >= float(f"{100.0 * most:.2g}")
+    assert promised >= float(f"{100.0 * most:.3g}")
 
 
 def test_noise_is_a_larger_share_of_slower_motion_and_no_doubt(small_windows):
