@@ -9,6 +9,7 @@ from collections.abc import Mapping
 import casadi as ca
 import numpy as np
 
+from modeler.core.errors import RobotError
 from modeler.simulation.physics import (
     PHYSICS,
     Contribution,
@@ -212,6 +213,11 @@ def _draw_body(rng: np.random.Generator, site: Site) -> dict[str, float]:
 
 
 def _draw_force(rng: np.random.Generator, site: Site) -> dict[str, float]:
+    if site.lever == 0.0:
+        raise RobotError(
+            "external_force: the mass centre of the last link lies on every axis, where no force "
+            "moves a joint; expected one off the axes; hide another effect, such as friction"
+        )
     direction = rng.normal(size=3)
     force = rng.uniform(0.5, 0.9) / site.lever * direction / np.linalg.norm(direction)
     return {

@@ -497,6 +497,7 @@ def test_sensors_and_loads_of_robots_with_loops(five_bar):
         ("five-bar", "elasticity", r"not simulated for robots with loops.*expected one of"),
         ("five-bar", "external_force", r"not simulated for robots with loops"),
         ("emps", "counterbalance", r"no place for it; expected a joint that turns"),
+        ("wrist-coupled", "external_force", r"lies on every axis, where no force moves a joint"),
     ],
 )
 def test_effects_that_a_robot_cannot_have(source, text, message):
