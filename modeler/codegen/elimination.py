@@ -13,7 +13,6 @@ import numpy as np
 
 from modeler.derivation.graph import Expr, Graph
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.walks import closing_of
 
 SMALLEST = 1e-2
 """Share of its row's size below which a pivot counts as small when the code runs."""
@@ -134,8 +133,7 @@ def sampled_jacobians(model: SymbolicModel) -> np.ndarray:
     """(n, len(equations), len(u)) df/du at home, and at closed postures around it."""
     closure = model.closure
     assert closure is not None
-    closing, solved = closing_of(model), list(closure.solved)
-    scale = np.array([closure.size if long else 1.0 for long in closure.lengths])
+    solved, scale = list(closure.solved), closure.scale
     home = np.asarray(closure.home)
     moves = np.random.default_rng(_SEED).uniform(-_MOVED, _MOVED, (_POSTURES, len(closure.given)))
     u = np.tile(home, (_POSTURES, 1))
@@ -143,14 +141,14 @@ def sampled_jacobians(model: SymbolicModel) -> np.ndarray:
     good = np.ones(_POSTURES, dtype=bool)
     with np.errstate(all="ignore"):
         for _ in range(_ROUNDS):
-            f = closing.residuals(u)
-            inner = closing.jacobians(u)[:, :, solved]
+            f = closure.residuals(u)
+            inner = closure.jacobians(u)[:, :, solved]
             steps = [_step(A, b) for A, b in zip(inner, f, strict=True)]
             u[:, solved] -= np.array(steps)
             good &= np.isfinite(u).all(axis=1)
             u[~good] = home
-        good &= np.abs(closing.residuals(u)).max(axis=1) <= _CLOSED * closure.size
-    return closing.jacobians(np.concatenate([home[None], u[good]]))
+        good &= np.abs(closure.residuals(u)).max(axis=1) <= _CLOSED * closure.size
+    return closure.jacobians(np.concatenate([home[None], u[good]]))
 
 
 def _step(A: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -18,8 +18,7 @@ from modeler.derivation.closing import moved_postures
 from modeler.derivation.closure import Closure
 from modeler.derivation.enclosed import EnclosedState, Enclosures, NotEnclosed
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.precise import Ball, BallFunction, exact_ball, flint
-from modeler.derivation.walks import closing_of
+from modeler.derivation.precise import Ball, ball_function, exact_ball, flint
 
 STATES = 2
 PRODUCTS = ("regressor", "base_regressor", "base_regressor_nonzeros", "platform_base_regressor")
@@ -95,8 +94,8 @@ def _tables(
     symbols = {name: flint().arb(repr(x)) for name, x in model.geometry.values.items()}
 
     @cache
-    def steps(role: str) -> BallFunction:
-        return BallFunction(model.graph, [value for _, value in roles[role].entries], symbols)
+    def steps(role: str) -> Callable[[Mapping[str, Ball]], list[Ball]]:
+        return ball_function(model.graph, [value for _, value in roles[role].entries], symbols)
 
     def outputs(role: str, values: Mapping[str, Ball]) -> list[Ball]:
         out = [exact_ball(0)] * roles[role].output.size
@@ -122,7 +121,7 @@ def _tables(
     for name, places in sets.items():
         enclosures = Enclosures(model, symbols, places)
         for k, near in enumerate(postures):
-            u = near if closure is None else _closed(model, near, places, inputs[name][k])
+            u = near if closure is None else _closed(closure, near, places, inputs[name][k])
             qd, qdd = np.array(inputs["qd"][k]), np.array(inputs["qdd"][k])
             moving, standing = (enclosures.state(u, qd, a) for a in (qdd, 0.0 * qdd))
             signals = _named(**{each: inputs[each][k] for each in ("s", "dq", "dt")})
@@ -155,25 +154,25 @@ def _postures(
     model: SymbolicModel, closure: Closure, symbols: Mapping[str, Ball]
 ) -> list[np.ndarray]:
     """Closed postures around home, their coordinates rounded."""
-    enclosures, closing = Enclosures(model, symbols), closing_of(model)
+    enclosures = Enclosures(model, symbols)
     home, given = np.array(closure.home), list(closure.given)
     for reach in _REACHES:
         random = np.random.default_rng(_SEED)
-        near = moved_postures(closing, home, random, STATES, reach)
+        near = moved_postures(closure, home, random, STATES, reach)
         with suppress(NotEnclosed):
-            found = [_closed(model, u, given, [_fine(x) for x in u[given]]) for u in near]
+            found = [_closed(closure, u, given, [_fine(x) for x in u[given]]) for u in near]
             return [np.array([float(x) for x in enclosures.posture(u)]) for u in found]
     raise EmitError(f"{model.robot.name}: the loops do not close beside home; state another home")
 
 
 def _closed(
-    model: SymbolicModel, near: np.ndarray, places: Sequence[int], given: Sequence[float]
+    closure: Closure, near: np.ndarray, places: Sequence[int], given: Sequence[float]
 ) -> np.ndarray:
     """The closed posture next to `near` with these variables given; NaN if there is none."""
     u = near.copy()
     u[list(places)] = given
     solved = [k for k in range(len(u)) if k not in places]
-    return closing_of(model).closed(u[None], solved)[0]
+    return closure.closed(u[None], solved)[0]
 
 
 def _named(**arrays: Sequence[float]) -> dict[str, Ball]:

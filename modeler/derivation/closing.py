@@ -133,9 +133,21 @@ class Closing(Brief):
         """
         return np.asarray(np.linalg.svd(self.inner(u), compute_uv=False)[:, -1])
 
-    def evaluate(self, expressions: Sequence[Expr], u: np.ndarray) -> np.ndarray:
-        """(n, expressions) at (n, unknowns)."""
+    def following(self, u: np.ndarray, f: np.ndarray) -> np.ndarray:
+        """(n, solved, ...) J_s^-1 f of (n, equations, ...): what of the joints that follow does f.
+
+        For independent equations, as many as joints follow.
+        """
+        inner = self.jacobians(u)[:, :, list(self.solved)]
+        return np.linalg.solve(inner, f.reshape(len(u), len(self.equations), -1)).reshape(f.shape)
+
+    def evaluate(
+        self, expressions: Sequence[Expr], u: np.ndarray, ud: np.ndarray | None = None
+    ) -> np.ndarray:
+        """(n, expressions) at postures, and speeds if they read these, (n, unknowns)."""
         inputs = {f"q[{k}]": u[:, k] for k in range(self.unknowns)}
+        if ud is not None:
+            inputs |= {f"qd[{k}]": ud[:, k] for k in range(self.unknowns)}
         found = self.graph.evaluate(list(expressions), {**self.values, **inputs})
         out = np.empty((len(u), len(expressions)))
         for i, value in enumerate(found):
@@ -161,51 +173,11 @@ class Closing(Brief):
         return u
 
 
-def closed_near(
-    closing: Closing, start: np.ndarray, robot: Robot, owners: Sequence[str]
-) -> np.ndarray:
-    """A closed posture near `start`; all joints may move.
-
-    Raises:
-        LoopError: there is none near; names the loop that stays open.
-    """
-    found = closing.closed(start[None], range(closing.unknowns))[0]
-    if np.all(np.isfinite(found)):
-        return found
-    f = np.abs(closing.residuals(start[None])[0])
+def open_loop(closing: Closing, u: np.ndarray, owners: Sequence[str]) -> str:
+    """Which loop cannot close near a posture: the one that is open furthest there."""
+    f = np.abs(closing.residuals(u[None])[0])
     worst = int(np.argmax(f))
-    raise LoopError(
-        f'{robot.name}: [home]: loop "{owners[worst]}" cannot close near that posture (open by '
-        f"{f[worst]:.3g}); state values near a closed one, and check the lengths"
-    )
-
-
-def closed_home(closing: Closing, start: np.ndarray, near: np.ndarray, robot: Robot) -> np.ndarray:
-    """The posture [home], closed by the passive joints.
-
-    Args:
-        closing: the loops.
-        start: [home] as stated.
-        near: a closed posture near it.
-        robot: for the message.
-
-    Raises:
-        LoopError: the passive joints cannot close it, or only with axes opposite.
-    """
-    home = nearest_closed(closing, start)
-    if home is not None:
-        return home
-    names = [joint.name for joint in robot.free]
-    found = ", ".join(f"q{names[k]} = {near[k]:.4g}" for k in closing.given)
-    if closing.aligned(near[None])[0]:
-        raise LoopError(
-            f"{robot.name}: [home]: the loops do not close with the actuated joints as stated; "
-            f"they do with {found}"
-        )
-    raise LoopError(
-        f"{robot.name}: [home]: the loops close with axes opposite only; turn a passive joint of "
-        "[home] by pi"
-    )
+    return f'loop "{owners[worst]}" cannot close near that posture (open by {f[worst]:.3g})'
 
 
 def nearest_closed(closing: Closing, start: np.ndarray) -> np.ndarray | None:
@@ -226,13 +198,14 @@ def nearest_closed(closing: Closing, start: np.ndarray) -> np.ndarray | None:
     found = found[closing.aligned(found)]
     if len(found) == 0:
         return None
-    found[:, angles] = start[angles] + _wrapped(found[:, angles] - start[angles])
+    found[:, angles] = start[angles] + wrapped(found[:, angles] - start[angles])
     # Mirrored postures may be equally near: digits that no rounding reaches decide then.
     near = np.round(np.sum(np.abs(found - start), axis=1), _PLACES)
     return found[min(range(len(found)), key=lambda i: (near[i], *np.round(found[i], _PLACES)))]
 
 
-def _wrapped(angle: np.ndarray) -> np.ndarray:
+def wrapped(angle: np.ndarray) -> np.ndarray:
+    """Angles in [-pi, pi)."""
     return (angle + np.pi) % (2 * np.pi) - np.pi
 
 

@@ -14,15 +14,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import Brief
 from modeler.core.errors import LoopError
 from modeler.core.rounded import precise
 from modeler.derivation.closing import (
     SINGULAR,
     Closing,
-    closed_home,
-    closed_near,
     moved_postures,
+    nearest_closed,
+    open_loop,
     polished,
 )
 from modeler.derivation.geometry import Geometry
@@ -108,47 +107,25 @@ _SAMPLES = 12
 _SEED = 20120
 
 
-@dataclass(frozen=True)
-class Closure(Brief):
-    """The loops of a robot in its free variables u.
+@dataclass(frozen=True, kw_only=True)
+class Closure(Closing):
+    """The loops of a robot in its free variables u, by independent equations.
 
     Attributes:
-        given: places in u of the robot's coordinates q, in order.
-        solved: places in u of the others.
-        equations: len(solved) independent equations of the symbols `q[k]`.
-        jacobian: their derivatives by u, (len(solved), len(u)).
         drift: d/dt(jacobian) ud, of `q[k]` and `qd[k]`: jacobian udd + drift = 0.
         home: u where the loops are closed first; it says which assembly mode is meant.
-        lengths: by u, True for a travel in m, False for an angle.
-        size: a length of the robot, m, with which travels are compared to angles.
         platform: places in u that are given where the platform's motion is; None without one.
-        every: all equations of all loops, those that follow from others too, as expressions of
-            `q[k]`, m or 1.
-        alignments: expressions that are positive where axes point as they should.
+        redundant: number of equations that follow from the others.
     """
 
-    given: tuple[int, ...]
-    solved: tuple[int, ...]
     equations: tuple[Expr, ...]
     jacobian: tuple[tuple[Expr, ...], ...]
+    alignments: tuple[Expr, ...]
+    others: tuple[Expr, ...]
     drift: tuple[Expr, ...]
     home: tuple[float, ...]
-    lengths: tuple[bool, ...]
-    size: float
     platform: tuple[int, ...] | None
-    every: tuple[Expr, ...]
-    alignments: tuple[Expr, ...]
-
-    @property
-    def redundant(self) -> int:
-        """Number of equations that follow from the others."""
-        return len(self.every) - len(self.equations)
-
-    @property
-    def others(self) -> tuple[Expr, ...]:
-        """The equations that follow from the independent ones."""
-        held = {equation.ref for equation in self.equations}
-        return tuple(equation for equation in self.every if equation.ref not in held)
+    redundant: int
 
 
 def closure_of(
@@ -169,25 +146,38 @@ def closure_of(
         if closing.solved:
             raise LoopError(_mobility(closing, geometry, np.zeros((1, len(start))), owners))
         return None
-    near = closed_near(closing, start, robot, owners)
-    check_mobility(closing, near, geometry, owners)
-    home = closed_home(closing, start, near, robot)
+    if not check_freedom(closing, start, geometry, owners):
+        raise LoopError(
+            f"{robot.name}: [home]: {open_loop(closing, start, owners)}; state values near a "
+            "closed one, and check the lengths"
+        )
+    home = nearest_closed(closing, start)
+    if home is None:
+        raise LoopError(
+            f"{robot.name}: [home]: the passive joints do not close the loops there; state another "
+            "posture"
+        )
     if not closing.solved:
         return None
     chosen = _independent(closing, home, geometry)
+    equations = tuple(closing.equations[i] for i in chosen)
     jacobian = tuple(tuple(closing.jacobian[i]) for i in chosen)
+    held = {equation.ref for equation in equations}
     return Closure(
+        graph=graph,
+        values=closing.values,
+        equations=equations,
+        jacobian=jacobian,
         given=closing.given,
         solved=closing.solved,
-        equations=tuple(closing.equations[i] for i in chosen),
-        jacobian=jacobian,
-        drift=tuple(_drift(graph, jacobian, closing.unknowns)),
-        home=polished(closing, home, chosen, robot),
         lengths=closing.lengths,
         size=closing.size,
-        platform=_platform(closing, home, geometry),
-        every=tuple(closing.equations),
         alignments=tuple(closing.alignments),
+        others=tuple(e for e in closing.equations if e.ref not in held),
+        drift=tuple(_drift(graph, jacobian, closing.unknowns)),
+        home=polished(closing, home, chosen, robot),
+        platform=_platform(closing, home, geometry),
+        redundant=len(closing.equations) - len(equations),
     )
 
 
@@ -237,14 +227,20 @@ def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Exp
     return derivatives(rates, {f"q[{k}]": speeds[k] for k in range(n)})
 
 
-def check_mobility(
-    closing: Closing, near: np.ndarray, geometry: Geometry, owners: Sequence[str]
-) -> None:
+def check_freedom(
+    closing: Closing, start: np.ndarray, geometry: Geometry, owners: Sequence[str]
+) -> bool:
     """The loops leave as much free as is actuated, and the actuated joints drive it.
+
+    Returns:
+        False if no closed posture is near the start, all joints being free to move.
 
     Raises:
         LoopError: they do not.
     """
+    near = closing.closed(start[None], range(closing.unknowns))[0]
+    if not np.all(np.isfinite(near)):
+        return False
     postures = moved_postures(closing, near, np.random.default_rng(_SEED), _SAMPLES)
     J = closing.scaled_jacobian(postures)
     ranks = [_rank(sample) for sample in J]
@@ -258,6 +254,7 @@ def check_mobility(
             "actuated joints locked, and the actuated joints are tied to each other; actuate "
             "others (mu 1)"
         )
+    return True
 
 
 def _independent(closing: Closing, home: np.ndarray, geometry: Geometry) -> list[int]:

@@ -9,8 +9,8 @@ import numpy as np
 from modeler.core.errors import DerivationError, LoopError
 from modeler.core.result import Presented
 from modeler.derivation.assembly_modes import STARTS, AssemblyMode, assembly_modes, lengthened
-from modeler.derivation.closing import SINGULAR, nearest_closed
-from modeler.derivation.closure import check_mobility
+from modeler.derivation.closing import SINGULAR, nearest_closed, open_loop
+from modeler.derivation.closure import check_freedom
 from modeler.derivation.columns import standard_columns
 from modeler.derivation.geometry import exact_geometry
 from modeler.derivation.graph import Graph
@@ -101,7 +101,7 @@ def settled_home(model: SymbolicModel) -> Home:
     if _good_as_stated(linkage, stated) is not None:
         return Home(robot)
     start = np.nan_to_num(stated)
-    _check_free(linkage, start)
+    check_freedom(linkage.closing, start, linkage.geometry, linkage.owners)
     modes = assembly_modes(linkage, stated)
     found = nearest_closed(linkage.closing, start)
     if found is not None and linkage.closing.sigma(found[None])[0] <= SINGULAR:
@@ -133,7 +133,8 @@ def home_modes(model: SymbolicModel, near: Mapping[str, float]) -> HomeModes:
             "that no relations close already"
         )
     hints = linkage.vector(near)
-    _check_free(linkage, np.nan_to_num(hints))
+    start = np.nan_to_num(hints)
+    check_freedom(linkage.closing, start, linkage.geometry, linkage.owners)
     own = _good_as_stated(linkage, linkage.vector(robot.home))
     if own is not None and not near:  # [home] is left out where all joints at 0 will do
         hints[list(linkage.closing.given)] = own[list(linkage.closing.given)]
@@ -148,25 +149,11 @@ def home_modes(model: SymbolicModel, near: Mapping[str, float]) -> HomeModes:
     return HomeModes(linkage, modes, at if away[at] < _SAME_SHAPE else None)
 
 
-def _check_free(linkage: Linkage, start: np.ndarray) -> None:
-    """The loops leave as much free as is actuated, if a closed posture is near.
-
-    Raises:
-        LoopError: they do not.
-    """
-    closing = linkage.closing
-    near = closing.closed(start[None], range(closing.unknowns))[0]
-    if np.all(np.isfinite(near)):
-        check_mobility(closing, near, linkage.geometry, linkage.owners)
-
-
 def _nothing_found(linkage: Linkage, start: np.ndarray) -> LoopError:
-    f = np.abs(linkage.closing.residuals(start[None])[0])
-    worst = int(np.argmax(f))
+    found = open_loop(linkage.closing, start, linkage.owners)
     return LoopError(
-        f'{linkage.robot.name}: [home]: loop "{linkage.owners[worst]}" cannot close near that '
-        f"posture (open by {f[worst]:.3g}), nor from {STARTS} others without being singular; check "
-        "the lengths, and the joints of [loops]"
+        f"{linkage.robot.name}: [home]: {found}, nor from {STARTS} others without being singular; "
+        "check the lengths, and the joints of [loops]"
     )
 
 

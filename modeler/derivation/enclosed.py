@@ -20,7 +20,7 @@ from modeler.derivation.model import SymbolicModel
 from modeler.derivation.numeric_rank import Sample, States, carried, regressor_values, signal_values
 from modeler.derivation.precise import (
     Ball,
-    BallFunction,
+    ball_function,
     exact_ball,
     flint,
     proven_regular,
@@ -28,7 +28,6 @@ from modeler.derivation.precise import (
     symbol_balls,
 )
 from modeler.derivation.result import BallRank, ExactState, SampledRank
-from modeler.derivation.walks import closing_of
 
 _STEPS = 40
 _NEAR = 1e-6
@@ -79,7 +78,7 @@ class Enclosures:
             closure = self.closure
             functions = (closure.equations, slopes, closure.drift, closure.alignments)
             self.equations, self.slopes, self.drift, self.alignments = (
-                BallFunction(model.graph, found, symbols) for found in functions
+                ball_function(model.graph, found, symbols) for found in functions
             )
 
     def state(self, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> EnclosedState:
@@ -109,7 +108,7 @@ class Enclosures:
         assert self.closure is not None
         solved = list(self.closure.solved)
         try:
-            inner = closing_of(self.model).jacobians(u[None])[0][:, solved]
+            inner = self.closure.jacobians(u[None])[0][:, solved]
             Y = _matrix(np.linalg.inv(inner).tolist())
         except np.linalg.LinAlgError:
             raise NotEnclosed("the loops are singular at a posture") from None
@@ -273,7 +272,8 @@ class _Choice:
             reach = np.where(angular, np.pi, 1.0)
             drawn = rng.uniform(-reach, reach, (count, len(reach)))
             return np.asarray(np.round(drawn, _DIGITS))
-        u = closing_of(self.model).closed(np.round(sample.walk.postures[:count], _DIGITS))
+        assert self.closure is not None
+        u = self.closure.closed(np.round(sample.walk.postures[:count], _DIGITS))
         return np.asarray(u[np.all(np.isfinite(u), axis=1)])
 
     @property
@@ -312,7 +312,7 @@ class _Choice:
         enclosures = Enclosures(model, symbols)
         place = {column: i for i, column in enumerate(self.kept)}
         entries = {at: x for at, x in model.regressor.items() if at[1] in place}
-        regressor = BallFunction(model.graph, list(entries.values()), symbols)
+        regressor = ball_function(model.graph, list(entries.values()), symbols)
         found = {}
         for i in self.used:
             state = enclosures.state(self.u[i], self.qd[i], self.qdd[i])

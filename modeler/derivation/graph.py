@@ -31,11 +31,30 @@ from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
 # Values of expressions by steps that are listed once: closing loops asks hundreds of times.
 
 
-_FUNCTIONS: dict[str, Callable[..., Any]] = {
-    "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
-    "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh, "pow": np.power,
+OPERATIONS: Mapping[str, Callable[..., Any]] = {
     "add": operator.add, "mul": operator.mul, "div": operator.truediv,
 }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Arithmetic:
+    """Numbers in which expressions are evaluated.
+
+    Attributes:
+        number: a rational number as one of them.
+        pi: as one of them, with the precision of the caller.
+        functions: by name, `OPERATIONS` and "pow" of two arguments, the others of one.
+    """
+
+    number: Callable[[Fraction], Any]
+    pi: Callable[[], Any]
+    functions: Mapping[str, Callable[..., Any]]
+
+
+FLOATS = Arithmetic(float, lambda: np.pi, {
+    **OPERATIONS, "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
+    "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh, "pow": np.power,
+})  # fmt: skip
 
 _ALONE = -1
 """In place of the second argument of a function of one."""
@@ -44,31 +63,28 @@ _ALONE = -1
 class Plan:
     """Outputs as a function of numbers, or arrays of samples, for the symbols."""
 
-    def __init__(self, nodes: Sequence["Node"], needed: Sequence[int], refs: Sequence[int]) -> None:
-        """Steps for the references `refs` of a graph.
-
-        Args:
-            nodes: of the graph.
-            needed: those that the references need, arguments first.
-            refs: what is asked for.
-        """
+    def __init__(
+        self, graph: "Graph", outputs: Sequence["Expr"], arithmetic: Arithmetic = FLOATS
+    ) -> None:
+        needed = graph.reachable(outputs)
         place = {0: 0} | {index: k for k, index in enumerate(needed, start=1)}
-        self._start: list[Any] = [0.0] * len(place)
+        self._start: list[Any] = [arithmetic.number(Fraction(0))] * len(place)
         self._inputs: list[tuple[int, str]] = []
         self._steps: list[tuple[int, Callable[..., Any], int, int]] = []
         for index in needed:
-            node, at = nodes[index], place[index]
+            node, at = graph.nodes[index], place[index]
             if node.op == "num":
-                self._start[at] = float(node.args[0])
+                self._start[at] = arithmetic.number(node.args[0])
             elif node.op == "pi":
-                self._start[at] = np.pi
+                self._start[at] = arithmetic.pi()
             elif node.op == "sym":
                 self._inputs.append((at, node.args[0]))
             else:
                 a, b = (*node.args, None)[:2]
                 second = _ALONE if b is None else place[abs(b)]
-                self._steps.append((at, _signed(node.op, a, b), place[abs(a)], second))
-        self._outputs = [(place[abs(ref)], ref < 0) for ref in refs]
+                call = _signed(arithmetic.functions[node.op], node.op, a, b)
+                self._steps.append((at, call, place[abs(a)], second))
+        self._outputs = [(place[abs(output.ref)], output.ref < 0) for output in outputs]
 
     def __call__(self, values: Mapping[str, Any]) -> list[Any]:
         """The outputs; `values` by name."""
@@ -80,9 +96,8 @@ class Plan:
         return [-found[at] if negative else found[at] for at, negative in self._outputs]
 
 
-def _signed(op: str, a: int, b: int | None) -> Callable[..., Any]:
+def _signed(call: Callable[..., Any], op: str, a: int, b: int | None) -> Callable[..., Any]:
     """The operation on the values of the nodes of a and b, with the signs that these have."""
-    call = _FUNCTIONS[op]
     if b is None:
         return call if a >= 0 else lambda x: call(-x)
     if a >= 0 and b >= 0:
@@ -345,7 +360,7 @@ class Graph:
     def evaluate(self, outputs: Sequence["Expr"], values: Mapping[str, Any]) -> list[Any]:
         """Values of the outputs; `values` gives a number or an array of samples per symbol."""
         refs = tuple(output.ref for output in outputs)
-        plan = self._plans.pop(refs, None) or Plan(self.nodes, self.reachable(outputs), refs)
+        plan = self._plans.pop(refs, None) or Plan(self, outputs)
         self._plans[refs] = plan  # the last that was asked for is the last to go
         if len(self._plans) > _PLANS:
             del self._plans[next(iter(self._plans))]
@@ -359,26 +374,6 @@ def _composed(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
 
 def _random_residue(name: str) -> int:
     return int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], "big") % PRIME
-
-
-def combined(
-    node: Node, found: Mapping[int, Any], functions: Mapping[str, Callable[..., Any]]
-) -> Any:
-    """Value of an operation from those of its arguments, in any arithmetic.
-
-    Args:
-        node: an operation or a function.
-        found: values by node.
-        functions: "sin", "cos", ... and "pow", of two arguments.
-    """
-    args = [found[arg] if arg >= 0 else -found[-arg] for arg in node.args]
-    if node.op == "add":
-        return args[0] + args[1]
-    if node.op == "mul":
-        return args[0] * args[1]
-    if node.op == "div":
-        return args[0] / args[1]
-    return functions[node.op](*args)
 
 
 class Expr:

@@ -16,14 +16,20 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.expression import FUNCTIONS, Expression, parse
+from modeler.core.expression import Expression, parse
 from modeler.core.rounded import precise
 from modeler.derivation.closing import Closing
 from modeler.derivation.closure import Closure
 from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.precise import Number, decimal, precise_values
-from modeler.derivation.walks import closed_motion, closed_walk, closing_of
+from modeler.derivation.precise import (
+    Number,
+    as_precise,
+    decimal,
+    precise_functions,
+    precise_values,
+)
+from modeler.derivation.walks import closed_motion, closed_walk
 from modeler.robot.robot import Robot
 
 Term = tuple[Fraction, str]
@@ -123,10 +129,8 @@ class Constants:
             values[name][i] += _STEP
         moved = replace(closing, values=values)
         u = np.tile(self.home, (count, 1))
-        solved = list(closing.solved)
         for _ in range(_ITERATIONS):
-            inner, open_by = moved.jacobians(u)[:, :, solved], moved.residuals(u)
-            u[:, solved] -= np.linalg.solve(inner, open_by[:, :, None])[:, :, 0]
+            u[:, list(closing.solved)] -= moved.following(u, moved.residuals(u))
         return u
 
 
@@ -242,13 +246,8 @@ class Prover:
 
 
 def _folded(expression: Expression, known: Mapping[str, Number]) -> Number:
-    mp = precise()
-    functions = {name: getattr(mp, name) for name in FUNCTIONS if name != "abs"} | {"abs": abs}
-    return expression.fold(known, functions, +mp.pi, _number, mp.power)
-
-
-def _number(value: Fraction) -> Number:
-    return precise().mpf(value.numerator) / value.denominator
+    functions, pi = precise_functions(), +precise().pi
+    return expression.fold(known, functions, pi, as_precise, functions["pow"])
 
 
 def _rank(rows: Sequence[Sequence[Number]]) -> int:
@@ -328,7 +327,7 @@ def implied_relations(model: SymbolicModel) -> Implied:
     seen, proposals = [], []
     values = model.geometry.values
     derived = {n: x for n, x in robot.symbol_values().items() if n not in values}
-    constants = Constants(closing_of(model), np.array(closure.home), derived)
+    constants = Constants(closure, np.array(closure.home), derived)
     for row, pivot in _vanishing_rows(model):
         seen.append(names[pivot])
         terms = _terms(robot, row, pivot, constants)

@@ -5,7 +5,6 @@ expression system (CasADi): nothing here is shared with the Newton-Euler recursi
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import casadi
 import numpy as np
@@ -18,35 +17,17 @@ from modeler.derivation.walks import closed_motion
 from modeler.robot.robot import INERTIAL
 
 
-@dataclass(frozen=True)
-class LagrangeModel:
-    """Torques of the rigid links from kinetic and potential energy.
+def _torque_function(geometry: Geometry, parameters: Sequence[tuple[int, str]]) -> casadi.Function:
+    """(q, qd, qdd, chi) -> tau of the rigid links at the nominal geometry.
 
     tau = d/dt (dT/dqd) - dT/dq + dU/dq with T = 1/2 qd' M qd, which is M qdd + C qd + dU/dq; the
     Coriolis and centripetal part is the Jacobian of dT/dqd times qd, minus dT/dq.
+
+    Args:
+        geometry: the exact table.
+        parameters: (row, prefix) of each entry of chi, ten for every link.
     """
-
-    joints: int
-    parameters: tuple[tuple[int, str], ...]  # (row, prefix) of each entry of chi
-    function: casadi.Function  # (q, qd, qdd, chi) -> tau
-
-    def torque(self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, chi: np.ndarray) -> np.ndarray:
-        """(samples, joints) torques; q, qd, qdd (samples, joints), chi (10 links,)."""
-        many = self.function.map(len(q))
-        repeated = np.repeat(np.asarray(chi)[:, None], len(q), axis=1)
-        return np.array(many(q.T, qd.T, qdd.T, repeated)).T
-
-
-def lagrange_model(geometry: Geometry) -> LagrangeModel:
-    """Build it from the exact table at the nominal geometry."""
-    n = geometry.joints
-    q, qd, qdd = (casadi.SX.sym(name, n) for name in ("q", "qd", "qdd"))
-    parameters = tuple(
-        (k, prefix)
-        for k, row in enumerate(geometry.rows)
-        if row.index is not None
-        for prefix in INERTIAL
-    )
+    q, qd, qdd = (casadi.SX.sym(name, geometry.joints) for name in ("q", "qd", "qdd"))
     chi = casadi.SX.sym("chi", len(parameters))
     transforms = _base_transforms(geometry, q)
     T, U = casadi.SX(0), casadi.SX(0)
@@ -64,7 +45,7 @@ def lagrange_model(geometry: Geometry) -> LagrangeModel:
         - casadi.gradient(T, q)
         + casadi.gradient(U, q)
     )
-    return LagrangeModel(n, parameters, casadi.Function("tau", [q, qd, qdd, chi], [tau]))
+    return casadi.Function("tau", [q, qd, qdd, chi], [tau])
 
 
 def _number(value: sympy.Expr, values: Mapping[str, float]) -> float:
@@ -137,18 +118,21 @@ def lagrange_torque(
         chi: (columns,) standard parameters.
     """
     geometry = model.geometry
-    tree = lagrange_model(geometry)
+    moving = [k for k, row in enumerate(geometry.rows) if row.index is not None]
+    parameters = [(k, prefix) for k in moving for prefix in INERTIAL]
     values: dict[tuple[int, str], float] = {}
     for column, value in zip(model.columns, chi, strict=True):
         if isinstance(column, LinkColumn):
             for part in column.parts:
                 values[part.row, part.prefix] = value
-    links = np.array([values.get(at, 0.0) for at in tree.parameters])
+    links = np.array([values.get(at, 0.0) for at in parameters])
     F = np.zeros((geometry.joints, geometry.coordinates))
     for row, form in enumerate(geometry.forms):
         for k, coefficient in form.items():
             F[row, k] = float(coefficient)
-    tau = tree.torque(u @ F.T, ud @ F.T, udd @ F.T, links) @ F
+    function = _torque_function(geometry, parameters).map(len(u))
+    inputs = (F @ u.T, F @ ud.T, F @ udd.T, np.tile(links[:, None], len(u)))
+    tau = np.array(function(*inputs)).T @ F
     if model.closure is None:
         return tau
     none = np.zeros((len(u), len(model.closure.given)))

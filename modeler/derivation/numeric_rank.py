@@ -3,13 +3,14 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache, partial
 
 import numpy as np
 import sympy
 
 from modeler.derivation.grouping import named_parameters, priority_order
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.result import BaseParameter, BaseParameters, Term
+from modeler.derivation.result import BaseParameter, Term
 from modeler.derivation.walks import Walk, closed_motion, closed_walk, rounded_off
 
 TOLERANCE = 1e-9
@@ -266,29 +267,21 @@ def torque_agreement(
     rng = np.random.default_rng(seed)
     phi = regressor_values(model, random_states(model, 50, rng))
     chi = rng.normal(size=len(model.columns))
-    beta = _matrix(model, parameters) @ chi
+    beta = grouping_matrix(model, parameters) @ chi
     kept = [parameter.column for parameter in parameters]
     standard = phi @ chi
     largest = float(np.max(np.abs(standard)))
     return float(np.max(np.abs(phi[:, :, kept] @ beta - standard))) / largest if largest else 0.0
 
 
-def grouping_matrix(model: SymbolicModel, base: BaseParameters) -> np.ndarray:
+def grouping_matrix(model: SymbolicModel, parameters: Sequence[BaseParameter]) -> np.ndarray:
     """(rank, columns): beta = K chi at the nominal geometry."""
-    return _matrix(model, base.parameters)
-
-
-def _matrix(model: SymbolicModel, parameters: tuple[BaseParameter, ...]) -> np.ndarray:
     place = {name: i for i, name in enumerate(model.names)}
+    known = cache(partial(coefficient_value, values=model.geometry.values))
     K = np.zeros((len(parameters), len(model.columns)))
-    known: dict[sympy.Expr, float] = {}
     for i, parameter in enumerate(parameters):
         for term in parameter.terms:
-            value = known.get(term.coefficient)
-            if value is None:
-                value = coefficient_value(term.coefficient, model.geometry.values)
-                known[term.coefficient] = value
-            K[i, place[term.parameter]] = value
+            K[i, place[term.parameter]] = known(term.coefficient)
     return K
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from modeler.core.expression import FUNCTIONS
 from modeler.core.rounded import precise
-from modeler.derivation.graph import Expr, Graph, combined
+from modeler.derivation.graph import OPERATIONS, Arithmetic, Expr, Graph, Plan
 from modeler.robot.robot import Robot
 
 Ball = Any
@@ -44,57 +44,27 @@ def symbol_balls(robot: Robot) -> dict[str, Ball]:
     return known
 
 
-class BallFunction:
-    """Expressions of a graph as one function of their inputs, at the precision of the caller."""
-
-    def __init__(self, graph: Graph, outputs: Sequence[Expr], symbols: Mapping[str, Ball]) -> None:
-        """A function of what is neither a number nor among `symbols`.
-
-        Args:
-            graph: of the expressions.
-            outputs: the expressions.
-            symbols: geometric symbols by name.
-        """
-        self._refs = [output.ref for output in outputs]
-        self._fixed: dict[int, Ball] = {0: exact_ball(0)}
-        self._moving = []
-        for index in graph.reachable(outputs):
-            node = graph.nodes[index]
-            if node.static:
-                self._fixed[index] = _ball_value(node.op, node.args, symbols, self._fixed)
-            else:
-                self._moving.append((index, node.op, node.args))
-
-    def __call__(self, inputs: Mapping[str, Ball]) -> list[Ball]:
-        """The outputs' balls; `inputs` by name as `q[0]`."""
-        found = dict(self._fixed)
-        for index, op, args in self._moving:
-            found[index] = _ball_value(op, args, inputs, found)
-        return [found[ref] if ref >= 0 else -found[-ref] for ref in self._refs]
-
-
-def _ball_value(
-    op: str, args: tuple[Any, ...], values: Mapping[str, Ball], found: Mapping[int, Ball]
-) -> Ball:
-    if op == "num":
-        return exact_ball(args[0])
-    if op == "pi":
-        return flint().arb.pi()
-    if op == "sym":
-        return values[args[0]]
-    return _CALLS[op](*[found[arg] if arg >= 0 else -found[-arg] for arg in args])
-
-
 def _named(name: str) -> Callable[[Ball], Ball]:
     return operator.methodcaller({"sign": "sgn"}.get(name, name))
 
 
 _CALLS: Mapping[str, Callable[..., Ball]] = {
-    "add": operator.add,
-    "mul": operator.mul,
-    "div": operator.truediv,
-    "pow": operator.pow,
-} | {name: abs if name == "abs" else _named(name) for name in FUNCTIONS}
+    **OPERATIONS, "pow": operator.pow, **{name: _named(name) for name in FUNCTIONS}, "abs": abs,
+}  # fmt: skip
+
+
+def ball_function(
+    graph: Graph, outputs: Sequence[Expr], symbols: Mapping[str, Ball]
+) -> Callable[[Mapping[str, Ball]], list[Ball]]:
+    """Expressions as one function of their inputs by name, at the precision of the caller.
+
+    Args:
+        graph: of the expressions.
+        outputs: the expressions.
+        symbols: geometric symbols by name.
+    """
+    plan = Plan(graph, outputs, Arithmetic(exact_ball, lambda: flint().arb.pi(), _CALLS))
+    return lambda inputs: plan({**symbols, **inputs})
 
 
 def proven_regular(matrix: Sequence[Sequence[Ball]]) -> bool:
@@ -126,20 +96,10 @@ def surely_zero(expression: Expr, robot: Robot) -> bool:
             values[name] = text.fold(values, {}, None, Fraction)
         except (KeyError, TypeError, ZeroDivisionError):
             continue  # an angle: missed where it is needed
-    graph, found = expression.graph, {0: Fraction(0)}
+    rational = Arithmetic(Fraction, lambda: None, OPERATIONS)  # no roots, and nothing with pi
     try:
-        for index in graph.reachable([expression]):
-            node = graph.nodes[index]
-            if node.op == "num":
-                found[index] = Fraction(node.args[0])
-            elif node.op == "sym" and node.args[0] in values:
-                found[index] = values[node.args[0]]
-            elif node.op in ("add", "mul", "div"):
-                found[index] = combined(node, found, {})
-            else:
-                return False
-        return found[abs(expression.ref)] == 0
-    except ZeroDivisionError:
+        return bool(Plan(expression.graph, [expression], rational)(values)[0] == 0)
+    except (KeyError, TypeError, ZeroDivisionError):
         return False
 
 
@@ -161,19 +121,8 @@ def precise_values(
 
     A double counts as the decimal that it prints, which is what was written: 0.3 is 3/10.
     """
-    mp = precise()
-    found: dict[int, Number] = {0: mp.zero}
-    for index in graph.reachable(outputs):
-        node = graph.nodes[index]
-        if node.op == "num":
-            found[index] = mp.mpf(node.args[0].numerator) / node.args[0].denominator
-        elif node.op == "pi":
-            found[index] = +mp.pi
-        elif node.op == "sym":
-            found[index] = decimal(values[node.args[0]])
-        else:
-            found[index] = combined(node, found, _functions())
-    return [found[abs(o.ref)] if o.ref >= 0 else -found[-o.ref] for o in outputs]
+    plan = Plan(graph, outputs, Arithmetic(as_precise, lambda: +precise().pi, precise_functions()))
+    return plan({name: decimal(value) for name, value in values.items()})
 
 
 def decimal(value: float | Number) -> Number:
@@ -181,8 +130,14 @@ def decimal(value: float | Number) -> Number:
     return precise().mpf(repr(float(value)) if isinstance(value, float) else value)
 
 
+def as_precise(value: Fraction) -> Number:
+    """A rational number with 40 digits."""
+    return precise().mpf(value.numerator) / value.denominator
+
+
 @cache
-def _functions() -> Mapping[str, Callable[..., Number]]:
+def precise_functions() -> Mapping[str, Callable[..., Number]]:
+    """The operations of expressions on numbers of 40 digits."""
     mp = precise()
-    names = ("sin", "cos", "tan", "sqrt", "exp", "sign", "tanh")
-    return {name: getattr(mp, name) for name in names} | {"abs": abs, "pow": mp.power}
+    own = {name: getattr(mp, name) for name in FUNCTIONS if name != "abs"}
+    return {**OPERATIONS, **own, "abs": abs, "pow": mp.power}

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.derivation.closing import Closing
+from modeler.derivation.closing import Closing, wrapped
 from modeler.derivation.closure import Frame, loop_closing
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.kinematics import base_poses
@@ -95,8 +95,7 @@ def _closed(closing: Closing, u: np.ndarray) -> np.ndarray:
     solved = list(closing.solved)
     start, u = u, u.copy()
     for _ in range(_POLISHING):
-        inner = closing.jacobians(u)[:, :, solved]
-        u[:, solved] -= np.linalg.solve(inner, closing.residuals(u)[:, :, None])[:, :, 0]
+        u[:, solved] -= closing.following(u, closing.residuals(u))
     left = closing.openness(u)
     far = np.abs(u - start) / closing.scale
     return u[(left < _CLOSED * closing.size) & (np.max(far, axis=1) < _STEP)]
@@ -274,11 +273,6 @@ def linkage_of(model: SymbolicModel) -> Linkage | None:
     return Linkage(robot, model.geometry, closing, owners, frames)
 
 
-def wrapped(angle: np.ndarray) -> np.ndarray:
-    """Angles in [-pi, pi)."""
-    return (angle + np.pi) % (2 * np.pi) - np.pi
-
-
 # Closed states in floating point: postures, speeds and accelerations that the loops allow.
 
 
@@ -293,16 +287,6 @@ class ClosedStates:
 
     coupling: np.ndarray
     drift: np.ndarray
-
-
-def closing_of(model: SymbolicModel) -> Closing:
-    """The independent closure equations of a model with loops, as functions of arrays."""
-    closure = model.closure
-    assert closure is not None
-    return Closing(
-        model.graph, model.geometry.values, closure.equations, closure.jacobian,
-        closure.given, closure.solved, closure.lengths, closure.size, others=closure.others,
-    )  # fmt: skip
 
 
 def closed_walk(
@@ -328,7 +312,7 @@ def closed_walk(
         reach = reach if k in closure.given else np.inf
         low, high = (limits.lower, limits.upper) if limits else (at - reach, at + reach)
         ranges.append((min(low, at), max(high, at)))
-    return walked(closing_of(model), np.array(closure.home), ranges, samples, rng, share)
+    return walked(closure, np.array(closure.home), ranges, samples, rng, share)
 
 
 def rounded_off(model: SymbolicModel, u: np.ndarray, rng: np.random.Generator) -> np.ndarray:
@@ -339,13 +323,12 @@ def rounded_off(model: SymbolicModel, u: np.ndarray, rng: np.random.Generator) -
         u: (n, len(u)) closed postures.
         rng: of the signs.
     """
-    closing = closing_of(model)
-    solved = list(closing.solved)
-    error = float(np.finfo(float).eps) * closing.size
-    wrong = rng.choice([-error, error], (len(u), len(closing.equations)))
+    closure = model.closure
+    assert closure is not None
+    error = float(np.finfo(float).eps) * closure.size
+    wrong = rng.choice([-error, error], (len(u), len(closure.equations)))
     other = u.copy()
-    inner = closing.jacobians(u)[:, :, solved]
-    other[:, solved] += np.linalg.solve(inner, wrong[:, :, None])[:, :, 0]
+    other[:, list(closure.solved)] += closure.following(u, wrong)
     return other
 
 
@@ -360,15 +343,10 @@ def closed_motion(model: SymbolicModel, u: np.ndarray, qd: np.ndarray) -> Closed
     closure = model.closure
     assert closure is not None
     given, solved = list(closure.given), list(closure.solved)
-    J = closing_of(model).jacobians(u)
     G = np.zeros((*u.shape, len(given)))
     G[:, given, np.arange(len(given))] = 1.0
-    G[:, solved] = -np.linalg.solve(J[:, :, solved], J[:, :, given])
+    G[:, solved] = -closure.following(u, closure.jacobians(u)[:, :, given])
     ud = np.einsum("nij,nj->ni", G, qd)
-    inputs = {f"q[{k}]": u[:, k] for k in range(u.shape[1])}
-    inputs |= {f"qd[{k}]": ud[:, k] for k in range(u.shape[1])}
-    found = model.graph.evaluate(list(closure.drift), {**model.geometry.values, **inputs})
-    rate = np.stack([np.broadcast_to(value, len(u)) for value in found], axis=1)
     drift = np.zeros_like(u)
-    drift[:, solved] = -np.linalg.solve(J[:, :, solved], rate[:, :, None])[:, :, 0]
+    drift[:, solved] = -closure.following(u, closure.evaluate(closure.drift, u, ud))
     return ClosedStates(G, drift)

@@ -93,11 +93,6 @@ class CoefficientTable:
         """Coefficients by name."""
         return {coefficient.name: coefficient for coefficient in self.coefficients}
 
-    @cached_property
-    def name_at(self) -> Mapping[tuple[str, Exponents], str]:
-        """Name of the coefficient of a monomial of a function."""
-        return {(c.function, c.exponents): c.name for c in self.coefficients}
-
     @property
     def base_names(self) -> tuple[str, ...]:
         """Names of the base parameters."""

@@ -342,7 +342,7 @@ def _wrapped(head: str, terms: list[str]) -> list[str]:
     return [*lines, line]
 
 
-def _fewest(model: SymbolicModel, table: CoefficientTable) -> list[str]:
+def _fewest(model: SymbolicModel) -> list[str]:
     """How many monomials the free choice of squares needs, where a paper's choice is followed."""
     if "keep_sine_squares" not in model.robot.terms:
         return []
@@ -367,7 +367,7 @@ def _relations(model: SymbolicModel, table: CoefficientTable) -> str:
         f"**{len(table.coefficients)}** coefficients (gravity, inertia matrix, Christoffel). Up to "
         f"constant factors they are {len(classes(relations))} different functions of the "
         "parameters.",
-        *_fewest(model, table),
+        *_fewest(model),
         f"* Rank over Q, exact, with all lengths unknown: **{relations.rank}**. Independent, first "
         f"come first kept: {', '.join(relations.independent)}.",
         f"* Rank with the geometry known: {len(table.known_geometry)}; base parameters: "

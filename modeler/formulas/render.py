@@ -1,16 +1,14 @@
-"""The table of coefficients as text, LaTeX, Markdown and JSON."""
+"""The table of coefficients as text, LaTeX, and Markdown."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from modeler.core.json import nulled
 from modeler.core.latex_display import DisplayedEquation, display
 from modeler.formulas.closed_form import ClosedForm, Function
 from modeler.formulas.coefficients import CoefficientTable
-from modeler.formulas.function_sheet import sheet_json, sheet_latex, sheet_lines, sheet_markdown
+from modeler.formulas.function_sheet import sheet_latex, sheet_lines, sheet_markdown
 from modeler.formulas.ring import as_fraction, inverse_map
 from modeler.formulas.text import (
     LATEX,
@@ -24,7 +22,7 @@ from modeler.formulas.text import (
     signed_sum,
 )
 
-# A closed form as text, LaTeX, Markdown and JSON.
+# A closed form as text, LaTeX and Markdown.
 
 
 EQUATION = "tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k"
@@ -74,29 +72,6 @@ def closed_form_markdown(closed: ClosedForm) -> str:
         lines += [f"## {function.name}", "", "| monomial | coefficient |", "|---|---|"]
         lines += [f"| `{m}` | `{form}` |" for form, m in _terms(closed, function, TEXT)] + [""]
     return "\n".join([*lines, sheet_markdown(closed.effects)])
-
-
-def closed_form_json(closed: ClosedForm) -> str:
-    """{"robot", "equation", "gravity_factor", "functions": [{"name", "kind", "terms"}]}."""
-    functions = [
-        {
-            "name": function.name,
-            "kind": function.kind,
-            "terms": [
-                {"monomial": monomial, "coefficient": form}
-                for form, monomial in _terms(closed, function, TEXT)
-            ],
-        }
-        for function in closed.functions
-    ]
-    content = {
-        "robot": closed.robot.name,
-        "equation": equation(closed),
-        "gravity_factor": closed.gravity_factor,
-        "functions": functions,
-        "effects": sheet_json(closed.effects),
-    }
-    return json.dumps(nulled(content), indent=1, allow_nan=False) + "\n"
 
 
 def equation(closed: ClosedForm) -> str:
@@ -190,46 +165,6 @@ def coefficients_latex(table: CoefficientTable) -> str:
         for x in table_lines(table, LATEX)
     ]
     return display(equations) + "\n" if equations else ""
-
-
-def coefficients_json(table: CoefficientTable) -> str:
-    """{"robot", "equation", "coefficients", "rank", "independent", "physical", "map"}."""
-    found = table.identifiability
-    static = table.closed.algebra.names[table.closed.algebra.moving :]
-    determinant = table.map.determinant
-    content = {
-        "robot": table.closed.robot.name,
-        "equation": equation(table.closed),
-        "gravity_factor": table.closed.gravity_factor,
-        "coefficients": [
-            {
-                "name": line.name,
-                "function": line.function,
-                "monomial": line.monomial,
-                "combination": {
-                    k: str(v) for k, v in table.relations.combinations[line.name].items()
-                },
-                "base": line.base,
-                "physical": line.physical,
-            }
-            for line in table_lines(table)
-        ],
-        "rank": table.relations.rank,
-        "independent": list(table.relations.independent),
-        "independent_known_geometry": list(table.known_geometry),
-        "physical": {
-            "parameters": list(found.letters),
-            "vanishing": list(found.vanishing),
-            "only_together": [dict(group) for group in found.sums],
-            "jacobian_rank": found.jacobian_rank,
-        },
-        "map": {
-            "rows": list(table.map.rows),
-            "columns": list(table.map.columns),
-            "determinant": None if determinant is None else polynomial_text(determinant, static),
-        },
-    }
-    return json.dumps(nulled(content), indent=1, allow_nan=False) + "\n"
 
 
 # The map between independent coefficients and base parameters, as lines of text.

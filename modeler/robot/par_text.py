@@ -277,11 +277,6 @@ def formula(entry: str, place: Place) -> ParFormula:
     return ParFormula(tree, entry)
 
 
-def value(tree: ast.expr, values: Mapping[str, float]) -> float:
-    """The number that a formula without `INVERSE` functions is worth."""
-    return parse(ast.unparse(tree)).number(values)
-
-
 def rewritten(tree: ast.expr, replace: Callable[[ast.expr], ast.expr]) -> ast.expr:
     """A copy of the formula with its names and calls replaced, innermost first."""
 

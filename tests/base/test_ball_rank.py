@@ -14,7 +14,7 @@ from modeler.derivation.numeric_rank import carried, regressor_values, sampled
 from modeler.derivation.precise import flint, symbol_balls
 from modeler.derivation.relations import as_json, proof_text
 from modeler.derivation.result import BallRank, ModularRank, SampledRank
-from modeler.derivation.walks import closed_walk, closing_of
+from modeler.derivation.walks import closed_walk
 from modeler.robot.read import read_robot, robot_from_text
 from tests.base.test_hard_tables import CASES, model_of
 from tests.loops.test_loops_implied import FOUR_BAR
@@ -120,7 +120,7 @@ def test_anyone_can_run_the_certificate_again(name):
         np.array([[state[kind][k] for k in names] for state in states])
         for kind in ("speeds", "accelerations")
     )
-    closed = closing_of(model).closed(u)
+    closed = model.closure.closed(u)
     assert np.max(np.abs(closed - u)) < 1e-4
     phi = regressor_values(model, carried(model, closed, qd, qdd))
     rows = [phi[i, names.index(joint)] for i, joint in told["rows"]]
@@ -152,7 +152,7 @@ def test_what_is_sampled_only_says_so(monkeypatch):
 def test_a_planar_loop_on_a_body_that_turns_has_no_equation_too_many():
     """The swinging four-bar closes in the two equations of its plane, in the axes of that body."""
     model = derive_model(robot_from_text(FOUR_BAR, "four-bar"))
-    assert len(model.closure.every) == 2 and model.closure.redundant == 0
+    assert len(model.closure.equations) == 2 and model.closure.redundant == 0
     assert isinstance(base_parameters(model).proof.certificate, BallRank)
 
 
@@ -160,7 +160,7 @@ def test_equations_that_follow_for_other_reasons_are_not_taken_for_implied():
     """The Bennett linkage: rank 7 as the torques have it at postures that close all equations."""
     model = derive_model(robot_from_text(BENNETT, "bennett"))
     walk = closed_walk(model, 60, np.random.default_rng(3))
-    assert np.max(closing_of(model).openness(walk.postures)) < 1e-12
+    assert np.max(model.closure.openness(walk.postures)) < 1e-12
     base = base_parameters(model)
     found = base.proof.certificate
     assert base.rank == 7 and isinstance(found, SampledRank)

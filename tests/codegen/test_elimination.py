@@ -6,7 +6,7 @@ import pytest
 from modeler.codegen.closed import solving_of
 from modeler.codegen.fused import replaced
 from modeler.derivation.graph import Graph
-from modeler.derivation.walks import closed_walk, closing_of
+from modeler.derivation.walks import closed_walk
 from tests.modules import module
 
 NAMES = ["five-bar", "orthoglide-2003", "stewart"]
@@ -18,7 +18,7 @@ def solved_numbers(name, head=""):
     solving = solving_of(model, base)
     own, given = solving.eliminations[head], list(solving.sets[head])
     u = closed_walk(model, 6, np.random.default_rng(2), 0.3).postures
-    J = closing_of(model).jacobians(u)
+    J = model.closure.jacobians(u)
     values = dict(model.geometry.values)
     for k, (i, j) in enumerate(solving.pattern.places):
         values |= {f"J[{k}]": J[:, i, j], f"K[{k}]": np.roll(J, 1, axis=0)[:, i, j]}

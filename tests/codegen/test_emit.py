@@ -48,7 +48,7 @@ def beta_of(name: str) -> tuple[np.ndarray, np.ndarray]:
     """Random standard parameters and the base parameters that they are, by the exact relations."""
     made = module(name)
     chi = np.random.default_rng(8).normal(size=len(made.model.columns))
-    return chi, grouping_matrix(made.model, made.base) @ chi
+    return chi, grouping_matrix(made.model, made.base.parameters) @ chi
 
 
 def relative(got: np.ndarray, expected: np.ndarray) -> None:

@@ -32,7 +32,7 @@ def test_a_simulated_robot_with_passive_joints_comes_back(name, tmp_path):
     write_log(tmp_path / "run.csv", run)
     fit = identify(observe(compiled, [read_log(tmp_path / "run.csv", emitted.spec)]))
     chi = np.array([run.truth.parameters[parameter] for parameter in symbolic.names])
-    beta = grouping_matrix(symbolic, base) @ chi
+    beta = grouping_matrix(symbolic, base.parameters) @ chi
     assert fit.status == "ok" and fit.relative_error < 0.01
     sigma = np.array([parameter.sigma for parameter in fit.parameters])
     # Sensor errors in W and y: the share of values beyond 2 sigma is small, none is far off.

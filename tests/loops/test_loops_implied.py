@@ -15,7 +15,7 @@ from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import regressor_values
 from modeler.derivation.relations import as_json, proof_text
-from modeler.derivation.walks import closed_motion, closing_of
+from modeler.derivation.walks import closed_motion
 from modeler.robot.read import read_robot, robot_from_text
 from tests.loops.own_walk import Linkage, evaluated
 from tests.modules import module
@@ -70,7 +70,7 @@ def spectrum(model, u, seed=4):
     if model.closure is None:
         ud, udd = rng.normal(size=(2, *u.shape))
     else:
-        u = closing_of(model).closed(u)
+        u = model.closure.closed(u)
         qd, qdd = rng.normal(size=(2, len(u), len(model.closure.given)))
         motion = closed_motion(model, u, qd)
         ud = np.einsum("nij,nj->ni", motion.coupling, qd)

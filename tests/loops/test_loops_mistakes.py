@@ -80,8 +80,7 @@ def test_a_singular_home_is_told():
 
 
 NOT_SETTLED = [
-    ("R = 0.10", "R = 0.45", "the loops do not close with the actuated joints as stated; they do "
-     "with q1 = "),
+    ("R = 0.10", "R = 0.45", "the passive joints do not close the loops there"),
     ('"R", "q2", 0]', '"R", "q2", 0.2]', r'loop "pin" cannot close near that posture \(open by '),
 ]  # fmt: skip
 

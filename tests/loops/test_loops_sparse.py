@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from modeler.codegen.closed import solving_of
-from modeler.derivation.walks import closing_of
 from modeler.runtime.model import load
 from tests.modules import compiled, module
 
@@ -64,7 +63,7 @@ def largest_shares(q):
     model = module(NAME).model
     solving = solving_of(model, module(NAME).base)
     own, u = solving.eliminations[""], compiled(NAME).close(q)
-    J = closing_of(model).jacobians(u)
+    J = model.closure.jacobians(u)
     values = {f"J[{k}]": J[:, i, j] for k, (i, j) in enumerate(solving.pattern.places)}
     found = model.graph.evaluate(list(own.factors), model.geometry.values | values)
     return np.max(

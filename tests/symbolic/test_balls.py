@@ -8,7 +8,7 @@ import pytest
 
 from modeler.derivation.graph import Graph
 from modeler.derivation.precise import (
-    BallFunction,
+    ball_function,
     exact_ball,
     flint,
     precise_values,
@@ -41,7 +41,7 @@ def test_entries_of_the_regressor_are_inside(name):
     exact = precise_values(model.graph, outputs, values)
     with flint().ctx.workprec(100):
         decimal = {name: arb(repr(x)) for name, x in inputs.items()}
-        balls = BallFunction(model.graph, outputs, symbol_balls(model.robot))(decimal)
+        balls = ball_function(model.graph, outputs, symbol_balls(model.robot))(decimal)
         for ball, near, true in zip(balls, rough, exact, strict=True):
             assert ball.overlaps(around(true))
             assert float(ball.rad()) < 1e-24 * max(1.0, abs(near))
@@ -54,7 +54,7 @@ def test_every_function_of_the_language():
     names = ("sin", "cos", "tan", "sqrt", "exp", "abs", "sign", "tanh")
     outputs = [graph.call(name, x) for name in names]
     outputs += [graph.power(x, graph.constant(1) / 3), graph.pi() * x, 1 / x, -x, graph.constant(0)]
-    found = BallFunction(graph, outputs, {})({"x": exact_ball(0.75)})
+    found = ball_function(graph, outputs, {})({"x": exact_ball(0.75)})
     rough = [getattr(math, name)(0.75) for name in ("sin", "cos", "tan", "sqrt", "exp")]
     rough += [0.75, 1.0, math.tanh(0.75), 0.75 ** (1 / 3), math.pi * 0.75, 1 / 0.75, -0.75, 0.0]
     for ball, near in zip(found, rough, strict=True):

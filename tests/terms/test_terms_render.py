@@ -1,6 +1,5 @@
 """What people and machines read says the same as the formulas."""
 
-import json
 import re
 from fractions import Fraction
 from math import cos, sin
@@ -10,16 +9,16 @@ import sympy
 
 from modeler.formulas.closed_form import closed_form
 from modeler.formulas.render import (
-    closed_form_json,
     closed_form_latex,
     closed_form_markdown,
     closed_form_text,
-    coefficients_json,
     coefficients_latex,
     coefficients_markdown,
     coefficients_text,
+    determinant_text,
+    table_lines,
 )
-from modeler.formulas.text import LATEX, latex_letter, signed_sum
+from modeler.formulas.text import LATEX, combination_text, latex_letter, signed_sum
 from tests.base.formulas import written_value
 from tests.terms.cases import model_of, table_of
 from tests.terms.closed_form_values import evaluate
@@ -74,17 +73,6 @@ def test_text_can_be_read_back(name):
         assert value(text, names) == pytest.approx(expected(name, function, q, chi), rel=1e-9)
 
 
-@pytest.mark.parametrize("name", ROBOTS)
-def test_json_can_be_read_back(name):
-    names, q, chi = numbers_of(name)
-    content = json.loads(closed_form_json(closed_form(model_of(name))))
-    for function in content["functions"][::7]:
-        text = " + ".join(f"({t['coefficient']})*{t['monomial']}" for t in function["terms"])
-        assert value(text, names) == pytest.approx(
-            expected(name, function["name"], q, chi), rel=1e-9
-        )
-
-
 def test_equation_names_the_factored_letter():
     assert "+ g*g_i" in closed_form_text(closed_form(model_of("wrist")))
     assert "+ g_i" in closed_form_text(closed_form(model_of("odd")))
@@ -111,15 +99,13 @@ def test_latex_has_the_values_of_the_text(name):
         assert found == pytest.approx(value(function, names), rel=1e-9, abs=1e-12)
 
 
-def test_coefficients_as_json():
+def test_combinations_and_sums_are_known():
     table = table_of("wrist")
-    content = json.loads(coefficients_json(table))
-    assert content["rank"] == 17 and len(content["coefficients"]) == 101
-    by_name = {c["name"]: c for c in content["coefficients"]}
-    assert by_name["PS41"]["combination"] == {"PJ4": "-1/2"}
-    assert by_name["PJ4"]["base"] == "-2*YZ3 + 2*bl1*MY3"
-    assert content["map"]["determinant"] == "-16"
-    assert content["physical"]["only_together"] == [{"ct1": 1, "bl1": 1}]
+    assert table.relations.rank == 17 and len(table.coefficients) == 101
+    assert combination_text(table.relations.combinations["PS41"]) == "-PJ4/2"
+    base = next(line.base for line in table_lines(table) if line.name == "PJ4")
+    assert base == "-2*YZ3 + 2*bl1*MY3" and determinant_text(table) == "-16"
+    assert table.identifiability.sums == ({"ct1": 1, "bl1": 1},)
 
 
 def test_coefficients_as_tables():
