@@ -22,8 +22,8 @@ from modeler.codegen.functions import (
 )
 from modeler.core.errors import EmitError
 from modeler.core.manifest import FittedSpec, ModuleSpec
-from modeler.derivation.columns import ShaftColumn, along
-from modeler.derivation.model import SymbolicModel
+from modeler.derivation.columns import ShaftColumn
+from modeler.derivation.model import SymbolicModel, along
 from modeler.derivation.result import BaseParameters
 
 UNIT = "_fitted"

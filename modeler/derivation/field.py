@@ -6,14 +6,17 @@ constant (a square root, say) is a letter of its own.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 from functools import cache, lru_cache
 from itertools import product
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy
 from sympy import QQ
 from sympy.polys.fields import FracElement
 from sympy.polys.fields import field as rational_functions
+from sympy.polys.matrices import DomainMatrix
 from sympy.polys.rings import PolyElement, PolyRing, ring
 
 from modeler.derivation.geometry import Geometry, cos_sin
@@ -94,14 +97,7 @@ class _Target:
         """With s**2 = 1 - c**2 (keep cosines) or c**2 = 1 - s**2, per angle."""
         for slot, keep in zip(self.angles, keep_cosines, strict=True):
             gone, stays = (slot + 1, slot) if keep else (slot, slot + 1)
-            square = 1 - self.generators[stays] ** 2
-            total = self.ring.zero
-            for monomial, coefficient in poly.terms():
-                pairs, rest = divmod(monomial[gone], 2)
-                left = list(monomial)
-                left[gone] = rest
-                total = total + self.ring({tuple(left): coefficient}) * square**pairs
-            poly = total
+            poly = with_square(poly, gone, 1 - self.generators[stays] ** 2)
         return poly
 
     def shortest(self, poly: PolyElement) -> sympy.Expr:
@@ -134,10 +130,10 @@ class _Target:
 # 40 % of its time on the others.
 
 
-class Fraction(FracElement):
+class Quotient(FracElement):
     """numer / denom without common divisors, which are looked for among the letters in them."""
 
-    def new(self, numer: PolyElement, denom: PolyElement) -> "Fraction":
+    def new(self, numer: PolyElement, denom: PolyElement) -> "Quotient":
         """numer / denom, cancelled."""
         # sympy is quick where one of them has one term.
         found = numer.cancel(denom) if min(len(numer), len(denom)) < 2 else cancelled(numer, denom)
@@ -221,8 +217,8 @@ class ExactField:
         names = [f"u{i}" for i in range(len(self.letters))]
         if names:
             self._field, *generators = rational_functions(names, sympy.QQ)
-            generators = [Fraction(self._field, letter.numer) for letter in generators]
-            self._one = Fraction(self._field, self._field.ring.one)
+            generators = [Quotient(self._field, letter.numer) for letter in generators]
+            self._one = Quotient(self._field, self._field.ring.one)
         else:
             self._field, generators, self._one = None, [], sympy.QQ(1)
         self._zero = self._one - self._one
@@ -291,7 +287,7 @@ class ExactField:
         if not self._generator:
             return int(element.numerator) * pow(int(element.denominator), -1, prime) % prime
         point = [values[letter] for letter in self.letters]
-        top, bottom = (_residue(part, point, prime) for part in (element.numer, element.denom))
+        top, bottom = (value_modulo(part, point, prime) for part in (element.numer, element.denom))
         return top * pow(bottom, -1, prime) % prime
 
 
@@ -330,15 +326,35 @@ def cosine_letter(value: sympy.Expr) -> sympy.Expr:
     return sympy.cos(value.args[0], evaluate=False)
 
 
-def _residue(part: Any, point: list[int], prime: int) -> int:
+def value_modulo(poly: PolyElement, point: Sequence[int], prime: int) -> int:
+    """The polynomial's value modulo the prime."""
     total = 0
-    for monomial, coefficient in part.terms():
+    for monomial, coefficient in poly.items():
         term = int(coefficient.numerator) * pow(int(coefficient.denominator), -1, prime)
         for value, exponent in zip(point, monomial, strict=True):
             if exponent:
                 term = term * pow(value, exponent, prime) % prime
         total += term
     return total % prime
+
+
+def by_powers(poly: PolyElement, place: int) -> dict[int, PolyElement]:
+    """{degree in a generator: factor}, zeros left out."""
+    found: dict[int, dict[tuple[int, ...], Any]] = {}
+    for at, value in poly.items():
+        found.setdefault(at[place], {})[(*at[:place], 0, *at[place + 1 :])] = value
+    return {degree: poly.ring.zero.new(part) for degree, part in found.items()}
+
+
+def with_square(poly: PolyElement, place: int, square: PolyElement) -> PolyElement:
+    """The polynomial with `square` for x**2, of the generator x at that place."""
+    if all(monomial[place] < 2 for monomial in poly):
+        return poly
+    total = poly.ring.zero
+    for degree, part in by_powers(poly, place).items():
+        pairs, rest = divmod(degree, 2)
+        total = total + part * square**pairs * poly.ring.gens[place] ** rest
+    return total
 
 
 # Row reduction over an exact field, on small or sparse matrices.
@@ -429,3 +445,54 @@ def null_space(rows: Matrix, width: int, zero: Element, one: Element) -> Matrix:
 
 def _terms(value: Element) -> int:
     return len(value.numer) + len(value.denom) if isinstance(value, FracElement) else 1
+
+
+# Linear relations between vectors over Q, first come first kept.
+
+
+def as_fraction(value: Any) -> Fraction:
+    """A rational number of sympy as a `Fraction`."""
+    return Fraction(int(value.numerator), int(value.denominator))
+
+
+Vector: TypeAlias = Mapping[Any, Any]
+"""Sparse vector over Q: {place: rational number}."""
+
+
+@dataclass(frozen=True)
+class Relations:
+    """Every vector in terms of those that come first.
+
+    Attributes:
+        independent: keys of the independent vectors, in order.
+        combinations: {key: {independent key: rational factor}}, for all keys.
+    """
+
+    independent: tuple[Any, ...]
+    combinations: Mapping[Any, Mapping[Any, Fraction]]
+
+    @property
+    def rank(self) -> int:
+        """Dimension of the span over Q."""
+        return len(self.independent)
+
+
+def relations(vectors: Mapping[Any, Vector]) -> Relations:
+    """The independent vectors, first come first kept, and all the others in terms of them."""
+    names, places = list(vectors), places_of(vectors.values())
+    columns: dict[int, dict[int, Any]] = {}
+    for k, vector in enumerate(vectors.values()):
+        for place, value in vector.items():
+            if value:
+                columns.setdefault(places[place], {})[k] = value
+    reduced, pivots = DomainMatrix(columns, (len(places), len(names)), QQ).rref()
+    found: dict[Any, dict[Any, Fraction]] = {name: {} for name in names}
+    for row, line in sorted(reduced.to_dod().items()):
+        for k, value in line.items():
+            found[names[k]][names[pivots[row]]] = as_fraction(value)
+    return Relations(tuple(names[k] for k in pivots), found)
+
+
+def places_of(vectors: Iterable[Vector]) -> dict[Any, int]:
+    """Row by place, in order of appearance."""
+    return {place: i for i, place in enumerate(dict.fromkeys(p for v in vectors for p in v))}

@@ -425,6 +425,14 @@ class Expr:
         return result if exponent >= 0 else 1 / result
 
 
+def combination(graph: Graph, form: Mapping[int, Fraction], values: Any) -> Expr:
+    """Sum of coefficient * value over {place of the value: coefficient}."""
+    total = graph.constant(0)
+    for k, coefficient in form.items():
+        total = total + values[k] * coefficient
+    return total
+
+
 # What the kinematics needs of the numbers it computes with.
 #
 # The recursions are written once with Python operators; an algebra says what a constant, a joint
@@ -499,10 +507,8 @@ class GraphAlgebra:
     def combined(self, kind: str, row: GeometryRow) -> Expr:
         """The variable of a moving row ("q"), or its derivative ("qd", "qdd")."""
         assert row.index is not None
-        total = self.graph.constant(0)
-        for k, coefficient in self.geometry.forms[row.index].items():
-            total = total + self.graph.symbol(f"{kind}[{k}]") * coefficient
-        return total
+        form = self.geometry.forms[row.index]
+        return combination(self.graph, form, {k: self.graph.symbol(f"{kind}[{k}]") for k in form})
 
     def cos_sin(self, row: GeometryRow) -> tuple[Expr, Expr]:
         """Cosine and sine of theta; right angles are taken out exactly."""

@@ -5,12 +5,13 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 import sympy
 
 from modeler.core.errors import DerivationError
 from modeler.derivation.columns import LinkColumn, StandardColumn, in_block, link_column
-from modeler.derivation.field import Element, ExactField, sparse_row_reduce
+from modeler.derivation.field import Element, ExactField, relations, sparse_row_reduce
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.loop_relations import closure_relations, loop_relations, on_link
 from modeler.derivation.model import SymbolicModel
@@ -161,31 +162,19 @@ def _dependent(
     block: EnergyBlock,
     function: Callable[[Shaft], dict[Hashable, Fraction]],
 ) -> list[Relation]:
-    relations: list[Relation] = []
-    basis: list[tuple[dict[Hashable, Fraction], Relation]] = []
+    vectors: dict[int, dict[Hashable, Any]] = {}
     for place, column in enumerate(columns):
-        if not in_block(column, block):
-            continue
-        rest: dict[Hashable, Fraction] = {}
-        for part in column.parts:
-            rest = _minus(rest, function(part.shaft), Fraction(-1)) if part.shaft else rest
-        used = {place: Fraction(1)}
-        for known, combination in basis:
-            pivot = next(iter(known))
-            factor = rest.get(pivot, Fraction(0)) / known[pivot]
-            rest = _minus(rest, known, factor)
-            used = _minus(used, combination, factor)
-        if rest:
-            basis.append((rest, used))
-        else:
-            relations.append(used)
-    return relations
-
-
-def _minus(a: Mapping, b: Mapping, factor: Fraction) -> dict:
-    keys = list(a) + [key for key in b if key not in a]
-    found = {key: a.get(key, Fraction(0)) - factor * b.get(key, Fraction(0)) for key in keys}
-    return {key: value for key, value in found.items() if value}
+        if in_block(column, block):
+            total = vectors.setdefault(place, {})
+            for part in column.parts:
+                for key, c in function(part.shaft).items() if part.shaft else ():
+                    total[key] = total.get(key, 0) + sympy.QQ(c.numerator, c.denominator)
+    found = relations(vectors)
+    return [
+        {place: Fraction(1), **{kept: -factor for kept, factor in combination.items()}}
+        for place, combination in found.combinations.items()
+        if place not in found.independent
+    ]
 
 
 # Which parameters are kept first when they group: the user's order, else the table's.

@@ -1,22 +1,25 @@
 """The symbolic model: tau = phi chi, column by column, and what else is computed from it."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 
 from modeler.core.brief import Brief
+from modeler.core.errors import DerivationError
+from modeler.core.expression import FUNCTIONS
 from modeler.derivation.closure import Closure, closure_of
 from modeler.derivation.columns import (
     LinkColumn,
     ShaftColumn,
     Signal,
     StandardColumn,
-    effect_entries,
     signals_of,
+    signals_read,
 )
 from modeler.derivation.geometry import Geometry
-from modeler.derivation.graph import Expr, Graph, GraphAlgebra
+from modeler.derivation.graph import Expr, Graph, GraphAlgebra, combination, derivatives
 from modeler.derivation.kinematics import (
     Motion,
     MotionState,
@@ -31,6 +34,8 @@ from modeler.derivation.kinematics import (
     project,
     wrench_columns,
 )
+from modeler.effects.catalogue import ENCODERS
+from modeler.effects.effect import Acts
 from modeler.robot.robot import Robot
 
 _REFERRED = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
@@ -91,16 +96,6 @@ class SymbolicModel(Brief):
         """
         return closure_of(self.geometry, self.graph, self.frames, self.algebra)
 
-    def _row_values(self, free: Sequence[Expr]) -> list[Expr]:
-        """Speeds or accelerations of the moving rows from those of the free variables."""
-        found = []
-        for form in self.geometry.forms:
-            total = self.graph.constant(0)
-            for k, coefficient in form.items():
-                total = total + free[k] * coefficient
-            found.append(total)
-        return found
-
     def _free_efforts(self, rows: Sequence[Expr]) -> list[Expr]:
         """Torques along the free variables from those of the moving rows: F^T tau."""
         found = [self.graph.constant(0)] * self.geometry.coordinates
@@ -114,8 +109,12 @@ class SymbolicModel(Brief):
     ) -> list[Motion]:
         zero = self.graph.constant(0)
         down = [self.algebra.static(x) if gravity else zero for x in self.geometry.gravity]
-        rates = self._row_values(qd), self._row_values(qdd)
-        return motions(self.geometry, self.frames, MotionState(*rates, down), self.algebra)
+        speeds, rates = (
+            [combination(self.graph, form, free) for form in self.geometry.forms]
+            for free in (qd, qdd)
+        )
+        state = MotionState(speeds, rates, down)
+        return motions(self.geometry, self.frames, state, self.algebra)
 
     @cached_property
     def regressor(self) -> Entries:
@@ -236,3 +235,81 @@ class SymbolicModel(Brief):
             for row, (axes, origin) in zip(self.geometry.rows, found, strict=True)
             if row.index is not None
         ]
+
+
+# Columns of effects as expressions of the graph, from the equations that define them.
+
+
+def effect_entries(model: SymbolicModel, column: ShaftColumn) -> dict[int, Expr]:
+    """{free variable: torque along it per unit of the column's parameter}."""
+    if column.acts is Acts.POSITION:
+        return _moved(model, column)
+    torque = _equation(model, column)
+    return {k: torque * coefficient for k, coefficient in column.shaft.items()}
+
+
+def _equation(model: SymbolicModel, column: ShaftColumn) -> Expr:
+    """The equation of the column on its shaft."""
+    graph = model.graph
+    values: dict[str, Expr] = {
+        name: graph.constant(Fraction(repr(float(value)))) for name, value in column.shapes.items()
+    }
+    for name, kind in (("q", "q"), ("v", "qd"), ("a", "qdd")):
+        values[name] = along(model, column.shaft, kind)
+    names = column.equation.names
+    for name in ("load", "static", "torque"):
+        if name in names:
+            values[name] = _on_shaft(graph, column.shaft, model.reference_torque(name))
+    zero = graph.constant(0)
+    for signal in signals_read(column):
+        read = graph.symbol(f"s[{model.signals.index(signal)}]")
+        if signal.kind == "time":
+            values["t"] = read - values.get("t0", zero)
+        elif signal.kind == "temperature":
+            values["T"] = read - values.get("T0", zero)
+        else:
+            values["z"] = read
+    functions = {name: partial(graph.call, name) for name in FUNCTIONS}
+    pi = graph.constant(Fraction(repr(math.pi)))
+    return graph.lift(column.equation.fold(values, functions, pi, graph.constant))
+
+
+def along(model: SymbolicModel, shaft: Mapping[int, Fraction], kind: str) -> Expr:
+    """Position, speed or acceleration of a shaft."""
+    return combination(model.graph, shaft, model.inputs(kind))
+
+
+def _on_shaft(graph: Graph, shaft: Mapping[int, Fraction], torques: list[Expr]) -> Expr:
+    """Torque of the joint that the shaft is; effects on motors of several joints read no load."""
+    return combination(graph, {k: 1 / coefficient for k, coefficient in shaft.items()}, torques)
+
+
+def _moved(model: SymbolicModel, column: ShaftColumn) -> dict[int, Expr]:
+    """Torque of the links at the reference, differentiated along a small change of position.
+
+    The change is the column's equation, dq(q); speeds and accelerations change by its time
+    derivatives. An encoder's error moves the rotor too.
+
+    Raises:
+        DerivationError: the equation has a part without derivative.
+    """
+    n = model.geometry.coordinates
+    speeds = {f"q[{k}]": model.inputs("qd")[k] for k in range(n)}
+    rates = speeds | {f"qd[{k}]": model.inputs("qdd")[k] for k in range(n)}
+    dq = _equation(model, column)
+    try:
+        (dv,) = derivatives([dq], speeds)
+        (da,) = derivatives([dv], rates)
+    except DerivationError as error:
+        raise DerivationError(
+            f'{column.name}: "{column.equation.text}" moves the position and is '
+            f"differentiated twice, but {error}; expected sums, products, whole powers, sqrt, exp, "
+            "sin, cos, tan, tanh"
+        ) from None
+    direction: dict[str, Expr] = {}
+    for k, coefficient in column.shaft.items():
+        for kind, change in (("q", dq), ("qd", dv), ("qdd", da)):
+            direction[f"{kind}[{k}]"] = change * coefficient
+    kind = "axis" if column.effect in ENCODERS else "load"
+    moved = derivatives(model.reference_torque(kind), direction)
+    return {k: value for k, value in enumerate(moved) if not value.is_zero}

@@ -29,7 +29,8 @@ from typing import TypeAlias
 import sympy
 
 from modeler.core.errors import RobotError
-from modeler.derivation.columns import ShaftColumn, effect_entries, in_block
+from modeler.derivation.columns import ShaftColumn, in_block
+from modeler.derivation.field import with_square
 from modeler.derivation.geometry import Geometry, GeometryRow
 from modeler.derivation.graph import Expr, Graph, GraphAlgebra
 from modeler.derivation.kinematics import (
@@ -42,12 +43,12 @@ from modeler.derivation.kinematics import (
     plus,
     screws,
 )
-from modeler.derivation.model import SymbolicModel
+from modeler.derivation.model import SymbolicModel, effect_entries
 from modeler.derivation.result import BaseParameters
 from modeler.effects.effect import EnergyBlock
 from modeler.formulas.energy_form import dynamics
 from modeler.formulas.function_sheet import Sheet, SheetWriter
-from modeler.formulas.ring import Poly, TrigRing, without_squares
+from modeler.formulas.ring import Poly, TrigRing
 from modeler.robot.robot import Robot
 
 # A model on a graph of its own, prepared for formulas that people read; torques of its effects.
@@ -319,10 +320,8 @@ def _with_sines(entry: Form, algebra: TrigRing, joints: Sequence[int]) -> Form:
     for index in joints:
         motion = algebra.motions[index]
         assert motion.sine is not None and motion.cosine is not None
-        entry = {
-            column: without_squares(poly, motion.cosine, motion.sine)
-            for column, poly in entry.items()
-        }
+        square = 1 - algebra.ring.gens[motion.sine] ** 2
+        entry = {c: with_square(poly, motion.cosine, square) for c, poly in entry.items()}
     return entry
 
 

@@ -11,6 +11,7 @@ from sympy.polys.polyerrors import ExactQuotientFailed
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
+from modeler.derivation.field import Relations, relations, value_modulo
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
 from modeler.formulas.closed_form import ClosedForm, Exponents, Form, Function, closed_form
@@ -21,18 +22,9 @@ from modeler.formulas.physical import (
     identifiability,
     physical_parameters,
     random_point,
-    value_modulo,
 )
 from modeler.formulas.printed import Print, read_print
-from modeler.formulas.ring import (
-    BaseMap,
-    Poly,
-    Relations,
-    TrigRing,
-    base_map,
-    independent_modulo,
-    relations,
-)
+from modeler.formulas.ring import BaseMap, Poly, TrigRing, base_map, independent_modulo
 from modeler.formulas.text import monomial_text
 
 PREFIX = {"gravity": "PG", "inertia": "PJ", "christoffel": "PS"}

@@ -15,6 +15,7 @@ from sympy.polys.rings import PolyRing
 from modeler.core.errors import RobotError
 from modeler.core.expression import FUNCTIONS, Expression, parse
 from modeler.derivation.columns import LinkColumn, in_block
+from modeler.derivation.field import value_modulo
 from modeler.derivation.model import SymbolicModel
 from modeler.effects.effect import EnergyBlock
 from modeler.formulas.ring import Poly, TrigRing, generators_of, independent_modulo
@@ -67,8 +68,7 @@ class PhysicalParameters:
 
     def lifted(self, factor: Poly) -> Poly:
         """A polynomial of the geometry in this ring."""
-        shift = (0,) * (self.ring.ngens - factor.ring.ngens)
-        return self.ring.zero.new({shift + at: value for at, value in factor.items()})
+        return factor.set_ring(self.ring)
 
 
 def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalParameters:
@@ -298,15 +298,3 @@ def random_point(names: Sequence[str], chance: random.Random) -> tuple[int, list
 
 def _modulo(value: sympy.Rational, prime: int) -> int:
     return int(value.p) * pow(int(value.q), -1, prime) % prime
-
-
-def value_modulo(poly: Poly, point: Sequence[int], prime: int) -> int:
-    """The polynomial's value modulo the prime."""
-    total = 0
-    for at, value in poly.items():
-        term: Any = int(value.numerator) * pow(int(value.denominator), -1, prime)
-        for x, exponent in zip(point, at, strict=True):
-            if exponent:
-                term = term * pow(x, exponent, prime) % prime
-        total += term
-    return total % prime

@@ -1,7 +1,7 @@
 """What a fit tells of physical parameters: base parameters, or coefficients, as polynomials."""
 
 import random
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import count
@@ -17,15 +17,11 @@ from sympy.polys.rings import PolyRing
 from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError, RobotError
 from modeler.derivation.certificate import row_echelon
+from modeler.derivation.field import value_modulo
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
 from modeler.formulas.coefficients import CoefficientTable, coefficient_table
-from modeler.formulas.physical import (
-    PhysicalParameters,
-    physical_parameters,
-    random_point,
-    value_modulo,
-)
+from modeler.formulas.physical import PhysicalParameters, physical_parameters, random_point
 from modeler.formulas.render import forward_lines
 from modeler.formulas.ring import (
     Poly,
@@ -301,38 +297,19 @@ def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
                 for term, place in zip(parameter.terms, places, strict=True)
             ]
     ring = PolyRing([*physical.names, *geometry.quotients], QQ, lex)
-    lift = _lift(physical.ring, ring)
     gens = generators_of(ring)
     definitions = {}
     for name, terms in parts.items():
         total = ring.zero
         for factor, quotients, standard in terms:
-            total = total + prod([gens[x] for x in quotients], start=lift(factor) * lift(standard))
+            both = factor.set_ring(ring) * standard.set_ring(ring)
+            total = total + prod([gens[x] for x in quotients], start=both)
         if total:
             definitions[name] = total
     used = tuple(definitions)
     return _system(
         model.robot.name, geometry, definitions, None, (used, ()), np.eye(len(used)), tuple(alone)
     )
-
-
-def _lift(old: PolyRing, new: PolyRing) -> Callable[[Poly], Poly]:
-    """Polynomials of one ring in another that has all its generators."""
-    places = {str(symbol): i for i, symbol in enumerate(new.symbols)}
-    at = [places.get(str(symbol)) for symbol in old.symbols]
-
-    def lifted(poly: Poly) -> Poly:
-        found = {}
-        for exponents, value in poly.items():
-            key = [0] * new.ngens
-            for place, exponent in zip(at, exponents, strict=True):
-                if exponent:
-                    assert place is not None
-                    key[place] = exponent
-            found[tuple(key)] = value
-        return new.zero.new(found)
-
-    return lifted
 
 
 def _system(
@@ -361,7 +338,6 @@ def _system(
             "it in [physical] or [symbols]"
         )
     ring = PolyRing([*definitions, *letters, *constants], QQ, lex)
-    lift, lower = _lift(some, ring), _lift(physical.ring, ring)
     return PhysicalSystem(
         robot,
         "base" if free is None else "coefficients",
@@ -373,8 +349,8 @@ def _system(
         alone,
         constants,
         geometry.quotients,
-        {name: lower(poly) for name, poly in geometry.below.items()},
-        {name: lift(poly) for name, poly in definitions.items()},
+        {name: poly.set_ring(ring) for name, poly in geometry.below.items()},
+        {name: poly.set_ring(ring) for name, poly in definitions.items()},
         *base,
         to_data,
     )  # fmt: skip

@@ -13,20 +13,12 @@ from sympy.polys.rings import PolyRing
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
+from modeler.derivation.field import as_fraction, relations
 from modeler.derivation.kinematics import poses, screws
 from modeler.derivation.model import SymbolicModel
 from modeler.formulas.closed_form import Exponents, function_name
 from modeler.formulas.coefficients import CoefficientTable, vector_of
-from modeler.formulas.ring import (
-    Poly,
-    TrigRing,
-    as_fraction,
-    combination_of,
-    generators_of,
-    number,
-    poly_value,
-    relations,
-)
+from modeler.formulas.ring import Poly, TrigRing, combination_of, generators_of, number, poly_value
 from modeler.formulas.text import combination_text, monomial_text, polynomial_text
 
 

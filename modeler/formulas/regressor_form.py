@@ -6,10 +6,9 @@ from dataclasses import dataclass, replace
 from modeler.core.errors import DerivationError, RobotError
 from modeler.core.formula import Formulas
 from modeler.derivation.closure import MEETING, Closure, meeting
-from modeler.derivation.columns import along
 from modeler.derivation.graph import Expr
 from modeler.derivation.kinematics import MotionState, motions, plus, poses, times
-from modeler.derivation.model import SymbolicModel
+from modeler.derivation.model import SymbolicModel, along
 from modeler.derivation.result import BaseParameters
 from modeler.formulas.closed_form import (
     fresh_model,

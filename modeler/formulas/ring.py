@@ -5,10 +5,10 @@ a prismatic one), then what the geometry is made of: letters of lengths and of g
 cosine of every general constant angle, square roots of numbers. Normal form: no square of a sine.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import comb, lcm
+from math import lcm
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -20,6 +20,14 @@ from sympy.polys.rings import PolyElement, PolyRing
 
 from modeler.core.errors import DerivationError
 from modeler.derivation.certificate import row_echelon
+from modeler.derivation.field import (
+    Relations,
+    Vector,
+    as_fraction,
+    places_of,
+    relations,
+    with_square,
+)
 from modeler.derivation.geometry import Geometry, GeometryRow
 
 # Which sines, cosines and travels the configuration of a robot is written in.
@@ -162,8 +170,7 @@ class TrigRing:
         motions: angles and travels, with their generators.
         moving: number of generators that depend on q; they stand first.
         static_ring: the others alone.
-        squares: {place of a constant sine: place of its cosine}, in `ring`.
-        roots: {place of a square root: the number under it}, in `ring`.
+        squares: {place of a sine or of a square root: what its square is}, in `ring`.
     """
 
     def __init__(self, geometry: Geometry) -> None:
@@ -183,13 +190,14 @@ class TrigRing:
         self.ring = PolyRing(names + static, QQ, lex)
         self.static_ring = PolyRing(static, QQ, lex)
         self._place = {atom: self.moving + i for i, atom in enumerate(atoms)}
-        self.squares = {
+        turning = {m.sine: m.cosine for m in self.motions if m.sine is not None}
+        turning |= {
             self._place[atom]: self._place[sympy.cos(atom.args[0])]
             for atom in atoms
             if isinstance(atom, sympy.sin)
         }
-        self.roots = {
-            place: QQ(int(atom.base.p), int(atom.base.q))
+        self.squares = {s: 1 - self.ring.gens[c] ** 2 for s, c in turning.items()} | {
+            place: self.ring(QQ(int(atom.base.p), int(atom.base.q)))
             for atom, place in self._place.items()
             if atom.is_Pow
         }
@@ -232,13 +240,8 @@ class TrigRing:
 
     def normal(self, poly: Poly) -> Poly:
         """The same function without squares of sines and of roots."""
-        for motion in self.motions:
-            if motion.sine is not None and motion.cosine is not None:
-                poly = without_squares(poly, motion.sine, motion.cosine)
-        for sine, cosine in self.squares.items():
-            poly = without_squares(poly, sine, cosine)
-        for place, number in self.roots.items():
-            poly = _without_roots(poly, place, number)
+        for place, square in self.squares.items():
+            poly = with_square(poly, place, square)
         return poly
 
     def derivative(self, poly: Poly, index: int) -> Poly:
@@ -268,7 +271,7 @@ class TrigRing:
                     at[up] += 1
                     key = tuple(at)
                     found[key] = found.get(key, 0) + sign * exponents[down] * value
-        return without_squares(_clean(self.ring, found), s, c)
+        return with_square(_clean(self.ring, found), s, self.squares[s])
 
     def split(self, poly: Poly) -> dict[tuple[int, ...], Poly]:
         """{exponents of the motion generators: factor from the geometry}."""
@@ -289,11 +292,6 @@ class TrigRing:
         return tuple(self._place)
 
 
-def as_fraction(value: Any) -> Fraction:
-    """A coefficient of a polynomial as a `Fraction`."""
-    return Fraction(int(value.numerator), int(value.denominator))
-
-
 def generators_of(ring: PolyRing) -> dict[str, Poly]:
     """The generators by name."""
     return {str(symbol): x for symbol, x in zip(ring.symbols, ring.gens, strict=True)}
@@ -302,41 +300,6 @@ def generators_of(ring: PolyRing) -> dict[str, Poly]:
 def places_in(*polys: Poly) -> set[int]:
     """Places of the generators that occur."""
     return {i for poly in polys for at in poly for i, exponent in enumerate(at) if exponent}
-
-
-def by_powers(poly: Poly, place: int) -> dict[int, Poly]:
-    """{degree in a generator: factor}, zeros left out."""
-    found: dict[int, dict[tuple[int, ...], Any]] = {}
-    for at, value in poly.items():
-        found.setdefault(at[place], {})[(*at[:place], 0, *at[place + 1 :])] = value
-    return {degree: poly.ring.zero.new(part) for degree, part in found.items()}
-
-
-def without_squares(poly: Poly, square: int, other: int) -> Poly:
-    """x**2 -> 1 - y**2 for the generators x, y of sine and cosine, or cosine and sine."""
-    if all(exponents[square] < 2 for exponents in poly):
-        return poly
-    found: dict[tuple[int, ...], Any] = {}
-    for exponents, value in poly.items():
-        half, rest = divmod(exponents[square], 2)
-        for k in range(half + 1):
-            at = list(exponents)
-            at[square] = rest
-            at[other] += 2 * k
-            key = tuple(at)
-            found[key] = found.get(key, 0) + (-1) ** k * comb(half, k) * value
-    return _clean(poly.ring, found)
-
-
-def _without_roots(poly: Poly, place: int, number: Any) -> Poly:
-    if all(exponents[place] < 2 for exponents in poly):
-        return poly
-    found: dict[tuple[int, ...], Any] = {}
-    for exponents, value in poly.items():
-        half, rest = divmod(exponents[place], 2)
-        key = (*exponents[:place], rest, *exponents[place + 1 :])
-        found[key] = found.get(key, 0) + value * number**half
-    return _clean(poly.ring, found)
 
 
 def _clean(ring: PolyRing, found: Mapping[tuple[int, ...], Any]) -> Poly:
@@ -411,43 +374,6 @@ MOST_MONOMIALS = 150
 """Monomials of a map up to which its determinant is expanded: 67 for a PUMA 560, 106 for a tree of
 three joints with general angles (1 s); minutes at 216."""
 
-Vector: TypeAlias = Mapping[Any, Any]
-"""Sparse vector over Q: {place: rational number}."""
-
-
-@dataclass(frozen=True)
-class Relations:
-    """Every vector in terms of those that come first.
-
-    Attributes:
-        independent: keys of the independent vectors, in order.
-        combinations: {key: {independent key: rational factor}}, for all keys.
-    """
-
-    independent: tuple[str, ...]
-    combinations: Mapping[str, Mapping[str, Fraction]]
-
-    @property
-    def rank(self) -> int:
-        """Dimension of the span over Q."""
-        return len(self.independent)
-
-
-def relations(vectors: Mapping[str, Vector]) -> Relations:
-    """The independent vectors, first come first kept, and all the others in terms of them."""
-    names, places = list(vectors), _places(vectors.values())
-    columns: dict[int, dict[int, Any]] = {}
-    for k, vector in enumerate(vectors.values()):
-        for place, value in vector.items():
-            if value:
-                columns.setdefault(places[place], {})[k] = value
-    reduced, pivots = DomainMatrix(columns, (len(places), len(names)), QQ).rref()
-    found: dict[str, dict[str, Fraction]] = {name: {} for name in names}
-    for row, line in sorted(reduced.to_dod().items()):
-        for k, value in line.items():
-            found[names[k]][names[pivots[row]]] = as_fraction(value)
-    return Relations(tuple(names[k] for k in pivots), found)
-
 
 def combination_of(vectors: Mapping[str, Vector], vector: Vector) -> Mapping[str, Fraction] | None:
     """`vector` as a combination of `vectors`, None if it is outside their span."""
@@ -457,17 +383,12 @@ def combination_of(vectors: Mapping[str, Vector], vector: Vector) -> Mapping[str
 
 def independent_modulo(vectors: Sequence[Vector], prime: int) -> list[int]:
     """Places of the independent vectors of residues, first come first kept; the prime < 2**31."""
-    places = _places(vectors)
+    places = places_of(vectors)
     matrix = np.zeros((len(places), len(vectors)), dtype=np.int64)
     for k, vector in enumerate(vectors):
         for place, value in vector.items():
             matrix[places[place], k] = value
     return [k for _, k in row_echelon(matrix, range(len(vectors)), prime)]
-
-
-def _places(vectors: Iterable[Vector]) -> dict[Any, int]:
-    """Row by place, in order of appearance."""
-    return {place: i for i, place in enumerate(dict.fromkeys(p for v in vectors for p in v))}
 
 
 def classes(found: Relations) -> list[list[str]]:

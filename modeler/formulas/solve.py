@@ -13,9 +13,10 @@ from typing import Any, Literal
 from modeler.core.errors import ModelerError
 from modeler.core.formula import latex_name, latex_text
 from modeler.core.latex_display import DisplayedEquation, display
-from modeler.formulas.physical import SEED, value_modulo
+from modeler.derivation.field import by_powers, value_modulo
+from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
-from modeler.formulas.ring import Poly, by_powers, independent_modulo, places_in
+from modeler.formulas.ring import Poly, independent_modulo, places_in
 from modeler.formulas.sufficient_sets import EASE
 from modeler.formulas.text import LATEX, TEXT, TextStyle, physical_text, polynomial_text
 

@@ -7,7 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core.formula import latex_name
-from modeler.formulas.ring import Poly, as_fraction
+from modeler.derivation.field import as_fraction
+from modeler.formulas.ring import Poly
 
 
 @dataclass(frozen=True)

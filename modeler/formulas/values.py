@@ -14,10 +14,11 @@ import numpy as np
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import read_text
 from modeler.core.json import parse_toml
-from modeler.formulas.physical import SEED, value_modulo
+from modeler.derivation.field import as_fraction, by_powers, value_modulo
+from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
 from modeler.formulas.printed import read_print
-from modeler.formulas.ring import Poly, as_fraction, by_powers, poly_value
+from modeler.formulas.ring import Poly, poly_value
 from modeler.formulas.solve import ClosedSolution, SolvingStep
 from modeler.robot.robot import Robot, near
 

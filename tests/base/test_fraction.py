@@ -6,7 +6,7 @@ import pytest
 from sympy import QQ
 from sympy.polys.fields import field
 
-from modeler.derivation.field import Fraction, cancelled
+from modeler.derivation.field import Quotient, cancelled
 
 LETTERS = [f"u{i}" for i in range(9)]
 
@@ -35,8 +35,8 @@ def test_common_divisors_are_those_of_sympy(seed: int) -> None:
 def test_calculation_is_that_of_sympy() -> None:
     K, *letters = field(LETTERS, QQ)
     x, t = letters[2], letters[7]
-    a, b = Fraction(K, x.numer), Fraction(K, t.numer)
+    a, b = Quotient(K, x.numer), Quotient(K, t.numer)
     for e in ("(1 - b**2)/(1 + b**2)*a + 2*b/(1 + b**2)", "a/b - b/a", "(a**2 - b**2)/(a - b)/3"):
         found, told = eval(e, {"a": a, "b": b}), eval(e, {"a": x, "b": t})
-        assert type(found) is Fraction and found == told and hash(found) == hash(told)
+        assert type(found) is Quotient and found == told and hash(found) == hash(told)
         assert (found.numer, found.denom) == (told.numer, told.denom)

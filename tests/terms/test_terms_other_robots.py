@@ -8,9 +8,10 @@ import sympy
 from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
+from modeler.derivation.field import relations, value_modulo
 from modeler.formulas.coefficients import coefficient_table
-from modeler.formulas.physical import random_point, value_modulo
-from modeler.formulas.ring import independent_modulo, inverse_map, relations
+from modeler.formulas.physical import random_point
+from modeler.formulas.ring import independent_modulo, inverse_map
 from modeler.robot.read import robot_from_text
 from tests.terms.cases import TEXTS, edited_wrist, robot_text, table_of
 

@@ -10,9 +10,9 @@ from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
+from modeler.derivation.field import value_modulo
 from modeler.formulas.closed_form import closed_form
 from modeler.formulas.coefficients import independent_coefficients
-from modeler.formulas.physical import value_modulo
 from modeler.formulas.ring import base_map, motions_of
 from tests.terms.cases import model_of, table_of
 from tests.terms.closed_form_values import evaluate
