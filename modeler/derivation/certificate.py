@@ -148,58 +148,33 @@ def row_echelon(matrix: np.ndarray, order: Sequence[int], prime: int) -> list[tu
     return pivots
 
 
-# Vectors and rotations whose entries are residues, by random point: see `residues`.
+# Vectors (3, points) and rotations (3, 3, points) of residues; the columns of a rotation are the
+# axes of a frame.
 
 
-Vector = Sequence[Residues]
-"""Three entries."""
-Rotation = Sequence[Vector]
-"""Three lines; its columns are the axes of a frame."""
-
-
-def plus(a: Vector, b: Vector, prime: int) -> list[Residues]:
-    """a + b."""
-    return [(x + y) % prime for x, y in zip(a, b, strict=True)]
-
-
-def minus(a: Vector, b: Vector, prime: int) -> list[Residues]:
-    """a - b."""
-    return [(x - y) % prime for x, y in zip(a, b, strict=True)]
-
-
-def cross(a: Vector, b: Vector, prime: int) -> list[Residues]:
+def cross(a: Residues, b: Residues, prime: int) -> Residues:
     """a x b."""
-    return [
-        (a[(i + 1) % 3] * b[(i + 2) % 3] % prime - a[(i + 2) % 3] * b[(i + 1) % 3] % prime) % prime
-        for i in range(3)
-    ]
-
-
-def dot(a: Vector, b: Vector, prime: int) -> Residues:
-    """a . b."""
     (x, y, z), (u, v, w) = a, b
-    return (x * u % prime + y * v % prime + z * w % prime) % prime
+    return np.stack([y * w % prime - z * v, z * u % prime - x * w, x * v % prime - y * u]) % prime
 
 
-def in_axes(R: Rotation, v: Vector, prime: int) -> list[Residues]:
+def dot(a: Residues, b: Residues, prime: int) -> Residues:
+    """a . b."""
+    return np.asarray((a * b % prime).sum(axis=0) % prime)
+
+
+def in_axes(R: Residues, v: Residues, prime: int) -> Residues:
     """R^T v: the components of v along the axes of R."""
-    return [dot([R[j][i] for j in range(3)], v, prime) for i in range(3)]
+    return np.asarray((R * v[:, None] % prime).sum(axis=0) % prime)
 
 
-def turn(R: Rotation, axis: int, c: Residues, s: Residues, prime: int) -> list[list[Residues]]:
+def turn(R: Residues, axis: int, c: Residues, s: Residues, prime: int) -> Residues:
     """R times the rotation by (c, s) about its own axis x (0) or z (2)."""
     i, j = (1, 2) if axis == 0 else (0, 1)
-    out = [list(line) for line in R]
-    for line in out:
-        x, y = line[i], line[j]
-        line[i] = (c * x % prime + s * y % prime) % prime
-        line[j] = (c * y % prime - s * x % prime) % prime
+    out = R.copy()
+    out[:, i] = (c * R[:, i] % prime + s * R[:, j] % prime) % prime
+    out[:, j] = (c * R[:, j] % prime - s * R[:, i] % prime) % prime
     return out
-
-
-def shift(p: Vector, R: Rotation, axis: int, length: Residues, prime: int) -> list[Residues]:
-    """The point p moved along an axis of R."""
-    return [(p[i] + R[i][axis] * length % prime) % prime for i in range(3)]
 
 
 PRIME = SMALL
@@ -247,12 +222,12 @@ class ModularState:
                 for k, coefficient in geometry.forms[row.index].items():
                     self._scales[k] = lcm(self._scales[k], coefficient.denominator)
         self._units = [circle(t, prime) for t in drawn(rng, (count, points), prime)]
-        self.gravity = [self.value(entry) for entry in geometry.gravity]
-        # R (3, 3), p, angular and linear velocity of every row's frame, in the base frame.
+        self.gravity = np.stack([self.value(entry) for entry in geometry.gravity])
+        # R, p, angular and linear velocity of every row's frame, in the base frame.
         zero, one = (filled(n, points, prime) for n in (0, 1))
-        identity = [[one if i == j else zero for j in range(3)] for i in range(3)]
-        none = [zero] * 3
-        self.motion: list[tuple[list, list, list, list]] = []
+        none = np.stack([zero] * 3)
+        identity = np.stack([one, *[zero] * 3] * 2 + [one]).reshape(3, 3, points)
+        self.motion: list[tuple[Residues, ...]] = []
         for row in geometry.rows:
             at = (identity, none, none, none) if row.parent is None else self.motion[row.parent]
             self.motion.append(self._frame(row, *at))
@@ -283,12 +258,14 @@ class ModularState:
         base = power(self.value(e.base), abs(n), self.prime)
         return base if n >= 0 else inverse(base, self.prime)
 
-    def _frame(self, row: GeometryRow, R: list, p: list, w: list, v: list) -> tuple:
+    def _frame(
+        self, row: GeometryRow, R: Residues, p: Residues, w: Residues, v: Residues
+    ) -> tuple[Residues, ...]:
         p0, prime = p, self.prime
         R = turn(R, 2, *self._cos_sin(row.gamma), prime)
-        p = shift(p, R, 2, self.value(row.b), prime)
+        p = (p + R[:, 2] * self.value(row.b)) % prime
         R = turn(R, 0, *self._cos_sin(row.alpha), prime)
-        p = shift(p, R, 0, self.value(row.d), prime)
+        p = (p + R[:, 0] * self.value(row.d)) % prime
         moving = row.index is not None
         if not moving or not row.joint.angular or self.geometry.tied:
             # The constant part of a free angle only shifts the variable, which is random anyway.
@@ -299,12 +276,12 @@ class ModularState:
         r = self.value(row.r) if not slides or self.geometry.tied else self.value(sympy.Integer(0))
         if slides:
             r = (r + row.rate * self._combined(row, self.travel)) % prime
-        p = shift(p, R, 2, r, prime)
-        v = plus(v, cross(w, minus(p, p0, prime), prime), prime)
+        p = (p + R[:, 2] * r) % prime
+        v = (v + cross(w, p - p0, prime)) % prime
         if moving:
             speed = row.rate * self._combined(row, self.qd) % prime
-            own = [R[i][2] * speed % prime for i in range(3)]
-            w, v = (plus(w, own, prime), v) if row.joint.angular else (w, plus(v, own, prime))
+            own = R[:, 2] * speed
+            w, v = ((w + own) % prime, v) if row.joint.angular else (w, (v + own) % prime)
         return R, p, w, v
 
     def _combined(self, row: GeometryRow, free: Residues) -> Residues:

@@ -36,8 +36,6 @@ from modeler.derivation.certificate import (
     cross,
     filled,
     in_axes,
-    minus,
-    plus,
 )
 from modeler.derivation.columns import StandardColumn
 from modeler.derivation.field import Element, ExactField, TooLarge
@@ -145,19 +143,18 @@ class _Around:
 
     def products(self, state: ModularState) -> list[Residues]:
         """(2 points,) each: what vanishes by w and v of the bodies, and by gravity."""
-        nothing = filled(0, state.points, state.prime)
-        found = []
+        found: list[Residues] = []
         for end, vanishing in self._zeros(state):
+            nothing = 0 * vanishing
             for k in self.bodies:
                 for vector in state.motion[k][2:]:
                     for y in _turned(state, end, vector):
-                        product = [x * y % state.prime for x in vanishing]
-                        found += [np.concatenate([value, nothing]) for value in product]
+                        found += [*np.hstack([vanishing * y % state.prime, nothing])]
             for y in _turned(state, end, state.gravity):
-                found += [np.concatenate([nothing, x * y % state.prime]) for x in vanishing]
+                found += [*np.hstack([nothing, vanishing * y % state.prime])]
         return found
 
-    def _zeros(self, state: ModularState) -> list[tuple[int | None, list[Residues]]]:
+    def _zeros(self, state: ModularState) -> list[tuple[int | None, Residues]]:
         """Rows in whose axes components vanish, and these: velocities, then angular velocities."""
         found = []
         for place, along in enumerate(self.vanishing):
@@ -168,27 +165,27 @@ class _Around:
                 for ends in (self.ends, self.ends[::-1]):
                     vector = self._difference(state, ends, apart=True)[place]
                     axes = _turned(state, ends[0], vector)
-                    found.append((ends[0], [axes[i] for i in along]))
+                    found.append((ends[0], axes[list(along)]))
         return found
 
     def _difference(
         self, state: ModularState, ends: Sequence[int | None], apart: bool = False
-    ) -> tuple[list[Residues], list[Residues]]:
+    ) -> tuple[Residues, Residues]:
         """Of the second end from the first: velocity and angular velocity.
 
         If they are apart, the first velocity is that of its body where the second origin is.
         """
         prime = state.prime
-        nothing = [filled(0, state.points, prime)] * 3
+        nothing = np.stack([filled(0, state.points, prime)] * 3)
         (p, w, v), (p_other, w_other, v_other) = (
             (nothing,) * 3 if end is None else state.motion[end][1:] for end in ends
         )
         if apart:
-            v = plus(v, cross(w, minus(p_other, p, prime), prime), prime)
-        return minus(v_other, v, prime), minus(w_other, w, prime)
+            v = v + cross(w, p_other - p, prime)
+        return (v_other - v) % prime, (w_other - w) % prime
 
 
-def _turned(state: ModularState, row: int | None, vector: list[Residues]) -> list[Residues]:
+def _turned(state: ModularState, row: int | None, vector: Residues) -> Residues:
     """A vector in the axes of a row; None is the base."""
     return vector if row is None else in_axes(state.motion[row][0], vector, state.prime)
 
