@@ -148,6 +148,17 @@ def row_echelon(matrix: np.ndarray, order: Sequence[int], prime: int) -> list[tu
     return pivots
 
 
+def kernel_modulo(matrix: np.ndarray, prime: int) -> np.ndarray:
+    """(columns - rank, columns) rows that span {x: matrix x = 0}; reduces `matrix` in place."""
+    width = matrix.shape[1]
+    pivots = [column for _, column in row_echelon(matrix, range(width), prime)]
+    free = [k for k in range(width) if k not in pivots]
+    kernel = np.zeros((len(free), width), dtype=matrix.dtype)
+    kernel[range(len(free)), free] = 1
+    kernel[:, pivots] = -matrix[: len(pivots), free].T % prime
+    return kernel
+
+
 # Vectors (3, points) and rotations (3, 3, points) of residues; the columns of a rotation are the
 # axes of a frame.
 

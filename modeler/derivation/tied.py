@@ -20,6 +20,7 @@ from modeler.derivation.certificate import (
     ModularState,
     Residues,
     drawn,
+    kernel_modulo,
     reconstructed,
     row_echelon,
 )
@@ -170,15 +171,8 @@ def _fitted(
     values = np.array(function(points), dtype=object)[:, None]
     at = np.array(points, dtype=object)[:, list(letters)]
     matrix = np.hstack([_powers(at, above), -values * _powers(at, below)]) % LARGE
-    width = matrix.shape[1]
-    pivots = row_echelon(matrix, range(width), LARGE)
-    free = sorted(set(range(width)) - {column for _, column in pivots})
-    if not free:
-        return None
-    found = [0] * width
-    found[free[0]] = 1
-    for row, column in pivots:
-        found[column] = int(-matrix[row, free[0]] % LARGE)
+    kernel = kernel_modulo(matrix, LARGE)
+    found: list[int] = kernel[0].tolist() if len(kernel) else []
     return found if any(found[len(above) :]) else None
 
 

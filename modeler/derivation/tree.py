@@ -18,10 +18,18 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-import sympy
 from sympy import QQ
+from sympy.polys.rings import ring
 
-from modeler.derivation.field import Element, ExactField, Matrix, null_space, row_reduce, times
+from modeler.derivation.field import (
+    Element,
+    ExactField,
+    Matrix,
+    null_space,
+    row_reduce,
+    times,
+    with_square,
+)
 from modeler.derivation.geometry import Geometry, GeometryRow
 
 # How inertial parameters, twists and gravity pass through a joint, over the exact field.
@@ -142,59 +150,26 @@ def joint_motion(angular: bool) -> tuple[tuple[Matrix, Matrix], ...]:
         For each basis function (L, X): L (10, 10) acts on parameters, X (6, 6) on the coefficients
         of a linear function of the twist (v, w); both bring them to the frame before the motion.
     """
-    points = _TURNS if angular else _SLIDES
-    basis = _turn_basis if angular else _slide_basis
-    samples = [_turned(*x) if angular else _slid(*x) for x in points]
-    # The entries are polynomials of the basis: solve for their coefficients from sample points.
-    system = sympy.Matrix([basis(*x) for x in points]).inv()
-    found = []
-    for m in range(len(points)):
-        weights = [QQ(int(w.p), int(w.q)) for w in system[m, :]]
-        found.append(
-            (
-                _weighted([s[0] for s in samples], weights),
-                _weighted([s[1] for s in samples], weights),
-            )
-        )
-    return tuple(found)
+    Q, x, y = ring("x,y", QQ)  # cosine and sine, or the travel
+    zero, one = Q.zero, Q.one
+    if angular:
+        R, p = rotation_z(x, y, zero, one), [zero] * 3
+        X = [[*line, *p] for line in R] + [[*p, *line] for line in R]
+        basis = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1)]
+    else:
+        R, p = rotation_z(one, zero, zero, one), [zero, zero, x]
+        X = [[one if i == j else zero for j in range(6)] for i in range(6)]
+        # a.v + b.w of the moved frame, where v = v' + w' x (0, 0, r): b' = b + (0, 0, r) x a.
+        X[3][1], X[4][0] = -x, x
+        basis = [(0, 0), (1, 0), (2, 0)]
 
+    def factors(matrix: Matrix, at: tuple[int, int]) -> Matrix:
+        """What stands at a basis function, s**2 being 1 - c**2."""
+        reduced = [[with_square(entry, 1, 1 - x**2) for entry in line] for line in matrix]
+        return [[entry.get(at, QQ(0)) for entry in line] for line in reduced]
 
-# Rational points of the unit circle, as many as basis functions.
-_TURNS = (
-    (QQ(1), QQ(0)), (QQ(0), QQ(1)), (QQ(-1), QQ(0)), (QQ(3, 5), QQ(4, 5)), (QQ(4, 5), QQ(3, 5)),
-)  # fmt: skip
-_SLIDES = ((QQ(0),), (QQ(1),), (QQ(-1),))
-
-
-def _turn_basis(c: Element, s: Element) -> list[Element]:
-    return [QQ(1), c, s, c**2, c * s]
-
-
-def _slide_basis(r: Element) -> list[Element]:
-    return [QQ(1), r, r**2]
-
-
-def _turned(c: Element, s: Element) -> tuple[Matrix, Matrix]:
-    R = rotation_z(c, s, QQ(0), QQ(1))
-    nothing = [QQ(0)] * 3
-    X = [line + nothing for line in R] + [nothing + line for line in R]
-    return inertial_transfer(R, nothing, QQ(0), QQ(1)), X
-
-
-def _slid(r: Element) -> tuple[Matrix, Matrix]:
-    X = [[QQ(int(i == j)) for j in range(6)] for i in range(6)]
-    # a.v + b.w of the moved frame, where v = v' + w' x (0, 0, r): b' = b + (0, 0, r) x a.
-    X[3][1], X[4][0] = -r, r
-    R = rotation_z(QQ(1), QQ(0), QQ(0), QQ(1))
-    return inertial_transfer(R, [QQ(0), QQ(0), r], QQ(0), QQ(1)), X
-
-
-def _weighted(matrices: list[Matrix], weights: list[Element]) -> Matrix:
-    size = range(len(matrices[0]))
-    return [
-        [sum((m[i][j] * w for m, w in zip(matrices, weights, strict=True)), QQ(0)) for j in size]
-        for i in size
-    ]
+    L = inertial_transfer(R, p, zero, one)
+    return tuple((factors(L, at), factors(X, at)) for at in basis)
 
 
 INERTIA, OFFSET = 10, 11

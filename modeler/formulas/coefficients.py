@@ -3,11 +3,8 @@
 import random
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
-
-from sympy.polys.polyerrors import ExactQuotientFailed
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
@@ -24,7 +21,14 @@ from modeler.formulas.physical import (
     random_point,
 )
 from modeler.formulas.printed import Print, read_print
-from modeler.formulas.ring import BaseMap, Poly, TrigRing, base_map, independent_modulo
+from modeler.formulas.ring import (
+    BaseMap,
+    Poly,
+    TrigRing,
+    base_map,
+    independent_modulo,
+    polynomial_of,
+)
 from modeler.formulas.text import monomial_text
 
 PREFIX = {"gravity": "PG", "inertia": "PJ", "christoffel": "PS"}
@@ -170,19 +174,10 @@ def _monomials(
 def _exponents(cell: Expression, algebra: TrigRing) -> Exponents | None:
     """Exponents of a monomial; None if it is none."""
     generators = dict(zip(algebra.names, algebra.ring.gens[: algebra.moving], strict=False))
-    try:
-        value = algebra.ring(cell.fold(generators, {}, None, _integer))
-    except (KeyError, ValueError, TypeError, ZeroDivisionError, ExactQuotientFailed):
-        return None
-    if len(value) != 1 or value.LC != 1:
+    value = polynomial_of(cell, generators, algebra.ring)
+    if value is None or len(value) != 1 or value.LC != 1:
         return None
     return next(iter(value))[: algebra.moving]
-
-
-def _integer(value: Fraction) -> int:
-    if value.denominator != 1:
-        raise ValueError
-    return value.numerator
 
 
 def _known_geometry(coefficients: tuple[Coefficient, ...], algebra: TrigRing) -> tuple[str, ...]:

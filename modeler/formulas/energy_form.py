@@ -9,6 +9,7 @@ unit speed of joint i) the kinetic energy qd' M qd / 2 and the power of gravity 
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations_with_replacement
 
 import sympy
 from sympy.polys.domains import QQ
@@ -124,8 +125,7 @@ def _check_size(
 
 
 def _pairs(found: Mapping[int, object]) -> Iterator[tuple[int, int]]:
-    order = sorted(found)
-    return ((i, j) for i in order for j in order if i <= j)
+    return combinations_with_replacement(sorted(found), 2)
 
 
 def _add(
@@ -175,24 +175,19 @@ def _christoffel(
     inertia: Entries, joints: int, ring: TrigRing
 ) -> dict[tuple[int, ...], dict[int, Poly]]:
     """S_ijk = dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i for j < k, half of that for j = k."""
-    slopes: dict[tuple[int, int, int], dict[int, Poly]] = {}
-    for (i, j), entry in inertia.items():
-        for k in range(joints):
-            slope = {place: ring.derivative(factor, k) for place, factor in entry.items()}
-            slopes[i, j, k] = slopes[j, i, k] = {p: f for p, f in slope.items() if f}
+    slopes = {
+        (at, k): {p: slope for p, factor in entry.items() if (slope := ring.derivative(factor, k))}
+        for at, entry in inertia.items()
+        for k in range(joints)
+    }
+    half = -ring.static(sympy.Rational(1, 2))
     entries: dict[tuple[int, ...], dict[int, Poly]] = {}
     for i in range(joints):
-        for j in range(joints):
-            for k in range(j, joints):
-                parts = [(slopes.get((i, j, k), {}), 1), (slopes.get((j, k, i), {}), -1)]
-                if j < k:
-                    parts.append((slopes.get((i, k, j), {}), 1))
-                else:
-                    parts[1] = (parts[1][0], -ring.static(sympy.Rational(1, 2)))
-                for entry, factor in parts:
-                    for place, poly in entry.items():
-                        term = poly if isinstance(factor, int) and factor == 1 else poly * factor
-                        _add(entries, (i, j, k), place, term)
+        for j, k in combinations_with_replacement(range(joints), 2):
+            parts = [((i, j), k, 1), ((j, k), i, -1), ((i, k), j, 1)]
+            for at, by, factor in parts if j < k else [parts[0], ((j, j), i, half)]:
+                for place, slope in slopes.get((tuple(sorted(at)), by), {}).items():
+                    _add(entries, (i, j, k), place, slope * factor)
     return entries
 
 

@@ -3,22 +3,19 @@
 import random
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from typing import Any
 
 import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
-from sympy.polys.polyerrors import ExactQuotientFailed
 from sympy.polys.rings import PolyRing
 
 from modeler.core.errors import RobotError
-from modeler.core.expression import FUNCTIONS, Expression, parse
+from modeler.core.expression import Expression, parse
 from modeler.derivation.columns import LinkColumn, in_block
 from modeler.derivation.field import value_modulo
 from modeler.derivation.model import SymbolicModel
 from modeler.effects.effect import EnergyBlock
-from modeler.formulas.ring import Poly, TrigRing, generators_of, independent_modulo
+from modeler.formulas.ring import Poly, TrigRing, generators_of, independent_modulo, polynomial_of
 from modeler.robot.robot import Joint, PhysicalLink
 
 _GENERIC = ("m", "cx", "cy", "cz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz")
@@ -99,15 +96,13 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
 
     def read(entry: Expression, joint: str) -> Poly:
         """An entry of `[physical]` as a polynomial."""
-        try:
-            if entry.names & derived or entry.names - values.keys():
-                raise ValueError
-            return ring(entry.fold(values, dict.fromkeys(FUNCTIONS, _refused), None, _rational))
-        except (TypeError, ValueError, ZeroDivisionError, ExactQuotientFailed):
+        found = None if entry.names & derived else polynomial_of(entry, values, ring)
+        if found is None:
             raise RobotError(
                 f'robot {model.robot.name}, [physical.{joint}]: got "{entry.text}"; expected '
                 "a polynomial of the link's letters and of symbols that are given by a number"
-            ) from None
+            )
+        return found
 
     standard: dict[int, Poly] = {}
     tables: dict[int, dict[str, Poly]] = {}
@@ -165,14 +160,6 @@ def _lengths(algebra: TrigRing) -> list[str]:
         elif isinstance(atom, sympy.cos) and atom.free_symbols:
             found.setdefault(str(atom.args[0]))
     return [name for name in found if name not in gravity]
-
-
-def _refused(_: Any) -> Any:
-    raise ValueError
-
-
-def _rational(value: Fraction) -> Any:
-    return QQ(value.numerator, value.denominator)
 
 
 def _at_origin(

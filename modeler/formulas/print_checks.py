@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
+from math import prod
 from typing import Any
 
 from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
-from sympy.polys.polyerrors import ExactQuotientFailed
 from sympy.polys.rings import PolyRing
 
 from modeler.core.errors import RobotError
@@ -18,7 +18,15 @@ from modeler.derivation.kinematics import poses, screws
 from modeler.derivation.model import SymbolicModel
 from modeler.formulas.closed_form import Exponents, function_name
 from modeler.formulas.coefficients import CoefficientTable, vector_of
-from modeler.formulas.ring import Poly, TrigRing, combination_of, generators_of, number, poly_value
+from modeler.formulas.ring import (
+    Poly,
+    TrigRing,
+    combination_of,
+    generators_of,
+    number,
+    poly_value,
+    polynomial_of,
+)
 from modeler.formulas.text import combination_text, monomial_text, polynomial_text
 
 
@@ -161,15 +169,15 @@ def _printed_terms(
 def _evaluated(
     table: CoefficientTable, values: Mapping[str, Any], ring: PolyRing, text: Expression, where: str
 ) -> Poly:
-    try:
-        return ring(text.fold(values, {}, None, lambda x: QQ(x.numerator, x.denominator)))
-    except (KeyError, TypeError, ValueError, ZeroDivisionError, ExactQuotientFailed):
+    found = polynomial_of(text, values, ring)
+    if found is None:
         unknown = ", ".join(sorted(text.names - set(values)))
         raise RobotError(
             f'robot {table.closed.robot.name}, [terms], printed, {where}: got "{text.text}"'
             + (f", where {unknown} is unknown" if unknown else "")
             + "; expected a polynomial of this robot's coefficients, sines, cosines and parameters"
-        ) from None
+        )
+    return found
 
 
 def _power_defect(
@@ -347,10 +355,7 @@ class PowerState:
 
     def speed_product(self, joints: tuple[int, ...]) -> Fraction:
         """qd_i qd_j qd_k."""
-        product = Fraction(1)
-        for joint in joints:
-            product *= self.speeds[joint]
-        return product
+        return prod((self.speeds[joint] for joint in joints), start=Fraction(1))
 
 
 def example_values(table: CoefficientTable, twin: bool = False) -> dict[str, Fraction]:

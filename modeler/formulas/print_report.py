@@ -4,6 +4,8 @@ import dataclasses
 from dataclasses import dataclass
 from fractions import Fraction
 
+import numpy as np
+
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.relations import relation_text
 from modeler.derivation.result import BaseParameters
@@ -56,22 +58,16 @@ class FrictionCheck:
 
 def check_friction(coupling: Coupling) -> FrictionCheck:
     """The printed friction term and the one that follows from virtual work, at one motion."""
-    G, C, qd = coupling.motor_from_joint, coupling.coulomb, coupling.speed
-    motor = [sum((g * v for g, v in zip(row, qd, strict=True)), Fraction(0)) for row in G]
-    force = [c * _sign(v) for c, v in zip(C, motor, strict=True)]
-    count = range(len(qd))
-    printed = tuple(G[i][i] * C[i] * _sign(qd[i]) for i in count)
-    derived = tuple(sum((G[j][i] * force[j] for j in count), Fraction(0)) for i in count)
-    powers = [
-        sum((v * f for v, f in zip(qd, each, strict=True)), Fraction(0))
-        for each in (printed, derived)
-    ]
-    dissipated = sum((c * abs(v) for c, v in zip(C, motor, strict=True)), Fraction(0))
-    return FrictionCheck(printed, derived, powers[0], dissipated, powers[1])
+    G, C, qd = map(np.array, (coupling.motor_from_joint, coupling.coulomb, coupling.speed))
+    motor = G @ qd
+    printed, derived = np.diag(G) * C * _signs(qd), G.T @ (C * _signs(motor))
+    return FrictionCheck(
+        tuple(printed), tuple(derived), qd @ printed, C @ np.abs(motor), qd @ derived
+    )
 
 
-def _sign(value: Fraction) -> int:
-    return (value > 0) - (value < 0)
+def _signs(values: np.ndarray) -> np.ndarray:
+    return (values > 0).astype(int) - (values < 0).astype(int)
 
 
 def print_sections(model: SymbolicModel, table: CoefficientTable) -> list[str]:

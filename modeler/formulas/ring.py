@@ -16,9 +16,11 @@ import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.orderings import lex
+from sympy.polys.polyerrors import ExactQuotientFailed
 from sympy.polys.rings import PolyElement, PolyRing
 
 from modeler.core.errors import DerivationError
+from modeler.core.expression import Expression
 from modeler.derivation.certificate import row_echelon
 from modeler.derivation.field import (
     Relations,
@@ -459,6 +461,14 @@ def _domain_matrix(entries: Mapping[tuple[int, int], Poly], size: int, ring: Any
     for (r, c), factor in entries.items():
         rows.setdefault(r, {})[c] = factor
     return DomainMatrix(rows, (size, size), ring.to_domain())
+
+
+def polynomial_of(expression: Expression, values: Mapping[str, Any], ring: PolyRing) -> Poly | None:
+    """The expression as a polynomial, `values` for its names; None if it is none."""
+    try:
+        return ring(expression.fold(values, {}, None, lambda x: QQ(x.numerator, x.denominator)))
+    except (KeyError, TypeError, ValueError, ZeroDivisionError, ExactQuotientFailed):
+        return None
 
 
 def number(exponents: Sequence[int], values: Sequence[Any]) -> Any:

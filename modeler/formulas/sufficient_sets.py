@@ -17,7 +17,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import ModelerError
-from modeler.derivation.certificate import row_echelon
+from modeler.derivation.certificate import kernel_modulo
 from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
 
@@ -238,14 +238,7 @@ def _kernel(system: PhysicalSystem, seed: int) -> tuple[np.ndarray, int]:
     for k, letter in enumerate(system.letters):
         for i, value in columns[letter].items():
             work[i, k] = value
-    pivots = [column for _, column in row_echelon(work, range(n), prime)]
-    free = [k for k in range(n) if k not in pivots]
-    kernel = np.zeros((len(free), n), dtype=np.int64)
-    for row, k in enumerate(free):
-        kernel[row, k] = 1
-        for r, pivot in enumerate(pivots):
-            kernel[row, pivot] = -work[r, k] % prime
-    return kernel, prime
+    return kernel_modulo(work, prime), prime
 
 
 Entry = tuple[int, tuple[int, ...]]
