@@ -10,7 +10,7 @@ from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE, effect_named
 from modeler.effects.effect import Acts, Effect, Form
 from modeler.robot.edit import with_effects, with_home_text
-from modeler.robot.library import conversion_notes
+from modeler.robot.par_convert import conversion_notes
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.robot.robot import Robot, near
 

@@ -10,7 +10,7 @@ from modeler.core.errors import ModelerError
 from modeler.core.files import Kind, destination, write_atomically
 from modeler.report.robot_page import posture_json, posture_lines
 from modeler.report.showing import show
-from modeler.robot.library import converted
+from modeler.robot.par_convert import converted
 from modeler.robot.read import robot_from_text
 
 

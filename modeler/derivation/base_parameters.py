@@ -96,7 +96,12 @@ def base_parameters(model: SymbolicModel, seed: int = SEED) -> BaseParameters:
     sample = sampled(model, samples, seed)
     numeric = numeric_rank(sample, range(len(model.columns)))
     try:
-        _check_general(model)
+        if model.special:  # loops that close at the given values only
+            joints = "joint" if len(model.special) == 1 else "joints"
+            raise NotProved(
+                f"the loops tie {joints} {', '.join(model.special)} to others at the given values "
+                "only"
+            )
         return _exact(model, model.geometry, sample, numeric, seed, "")
     except (NotProved, TooLarge) as error:
         why = str(error)
@@ -108,15 +113,6 @@ def base_parameters(model: SymbolicModel, seed: int = SEED) -> BaseParameters:
         if str(error) != why:
             why += f"; with these, {error}" if model.special else f"; in numbers, {error}"
         return _numeric(model, sample, numeric, seed, why)
-
-
-def _check_general(model: SymbolicModel) -> None:
-    """Raises NotProved where the given values make the loops close, not any values."""
-    if model.special:
-        joints = "joint" if len(model.special) == 1 else "joints"
-        raise NotProved(
-            f"the loops tie {joints} {', '.join(model.special)} to others at the given values only"
-        )
 
 
 def _exact(
@@ -135,7 +131,7 @@ def _exact(
         proved = ball_rank(model, relations.kept, sample, seed)
     else:
         proved = certificate(geometry, model.columns, K, relations, seed)
-    parameters, unidentifiable = base_from_relations(model.columns, relations, K)
+    found = base_from_relations(model.columns, relations, K)
     kind = "exact at the given values" if statement else "exact"
     if isinstance(proved, SampledRank):
         kind = f"relations {kind}, rank sampled"
@@ -145,7 +141,6 @@ def _exact(
     else:
         argument = _LOOPS.format(tree=_OPEN[tied])
     statement = argument + _independent(model, proved, numeric) + statement
-    found = parameters, unidentifiable
     base = _proved(model, found, kind, statement, proved, sample, numeric, seed)
     if base.proof.agreement > _AGREEMENT:
         raise NotProved(f"base and standard torque differ by {base.proof.agreement:.1e}")

@@ -270,19 +270,21 @@ def _independent(closing: Closing, home: np.ndarray, geometry: Geometry) -> list
             f"{geometry.robot.name}: the loops are singular at [home]: {moving} could move there "
             "with the actuated joints locked; state another posture"
         )
-    return sorted(_spanning_rows(at_home, len(closing.solved)))
+    return sorted(spanning_rows(at_home, len(closing.solved), _ALIKE))
 
 
-def _spanning_rows(matrix: np.ndarray, count: int) -> list[int]:
-    """Numbers of `count` rows that span the others, each the longest of what the rows before leave.
+def spanning_rows(matrix: np.ndarray, count: int, alike: float = 0.0) -> list[int]:
+    """Numbers of up to `count` rows, each the longest of what the rows before leave of it.
 
-    Gram-Schmidt with pivoting, as LAPACK has it; but rows of all but the same length are the rule
-    here, and the first of them is taken, where LAPACK would let the last digit choose.
+    Gram-Schmidt with pivoting, as LAPACK has it; but of rows whose lengths differ by less than the
+    share `alike` the first is taken, where LAPACK would let the last digit choose.
     """
     rest, chosen = matrix.copy(), list[int]()
     for _ in range(count):
         lengths = np.linalg.norm(rest, axis=1)
-        best = int(np.argmax(lengths >= (1.0 - _ALIKE) * lengths.max()))
+        best = int(np.argmax(lengths >= (1.0 - alike) * lengths.max()))
+        if lengths[best] == 0.0:
+            break
         chosen.append(best)
         direction = rest[best] / lengths[best]
         rest -= np.outer(rest @ direction, direction)

@@ -115,18 +115,19 @@ def settled_home(model: SymbolicModel) -> Home:
     return Home(dataclasses.replace(robot, home=home), _told(linkage, modes, stated))
 
 
-def home_modes(model: SymbolicModel, near: Mapping[str, float]) -> HomeModes:
-    """The assembly modes of a robot near to a posture.
+def modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
+    """The assembly modes of a robot with loops, the best one near to a posture first.
 
     Args:
-        model: of the robot.
-        near: values that are meant, by row.
+        robot: as read.
+        near: values that are meant, by row; what is left out is found.
 
     Raises:
+        DerivationError: an entry of the table has no exact value.
         LoopError: the robot has no loops that are left to close, they leave more or less free than
             is actuated, or no closed posture is found that is not singular.
     """
-    robot, linkage = model.robot, linkage_of(model)
+    linkage = linkage_of(_model(robot))
     if linkage is None:
         raise LoopError(
             f"{robot.name}: there is no loop to close; [home] is asked for robots with [loops] "
@@ -257,20 +258,6 @@ def with_home(robot: Robot) -> Home:
         LoopError: see `settled_home`.
     """
     return settled_home(_model(robot))
-
-
-def modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
-    """The assembly modes of a robot with loops, the best one near to a posture first.
-
-    Args:
-        robot: as read.
-        near: values that are meant, by row; what is left out is found.
-
-    Raises:
-        DerivationError: an entry of the table has no exact value.
-        LoopError: see `home_modes`.
-    """
-    return home_modes(_model(robot), near)
 
 
 def _model(robot: Robot) -> SymbolicModel:

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler.derivation.closure import spanning_rows
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.numeric_rank import Sample, States, carried, regressor_values, signal_values
 from modeler.derivation.precise import (
@@ -334,13 +335,4 @@ def _independent_rows(matrix: np.ndarray) -> tuple[list[int], np.ndarray]:
     rest = matrix * scale
     sizes = np.linalg.norm(rest, axis=1)
     rest = rest / np.where(sizes > 0.0, sizes, 1.0)[:, None]
-    rows: list[int] = []
-    for _ in range(matrix.shape[1]):
-        left = np.linalg.norm(rest, axis=1)
-        best = int(np.argmax(left))
-        if left[best] == 0.0:
-            break
-        rows.append(best)
-        direction = rest[best] / left[best]
-        rest -= np.outer(rest @ direction, direction)
-    return rows, scale
+    return spanning_rows(rest, matrix.shape[1]), scale

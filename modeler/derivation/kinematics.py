@@ -184,9 +184,7 @@ def base_poses(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> 
     From the base outwards, R_j = R_a Rz(gamma) Rx(alpha) Rz(theta): each plane rotation turns two
     axes, and what one frame costs serves all that follow.
     """
-    found: dict[int | None, AxesOrigin] = {None: _still(algebra)}
-    for k, (row, frame) in enumerate(zip(geometry.rows, frames, strict=True)):
-        found[k] = _carried(found[row.parent], frame)
+    found = poses_from(geometry, frames, algebra, None, set(range(len(frames))))
     return [found[k] for k in range(len(frames))]
 
 
@@ -406,6 +404,13 @@ class Composite:
         self.MS = plus(self.MS, plus(S, times(other.M, p)))
         self.M = self.M + other.M
 
+    def momentum(self, row: GeometryRow) -> tuple[Vector, Vector]:
+        """Linear and angular momentum for unit speed of the joint of the row, in its frame."""
+        zero, (x, y, _) = 0 * self.M, self.MS
+        if row.joint.angular:
+            return [-y * row.rate, x * row.rate, zero], [line[2] * row.rate for line in self.J]
+        return [zero, zero, self.M * row.rate], [y * row.rate, -x * row.rate, zero]
+
 
 def _steiner(p: Vector, S: Vector, M: Scalar, i: int, j: int) -> Scalar:
     total = -(p[i] * S[j] + S[i] * p[j] + M * (p[i] * p[j]))
@@ -449,17 +454,7 @@ def _fill(
 ) -> None:
     row = geometry.rows[k]
     assert row.index is not None
-    z = [axis * row.rate for axis in (0, 0, 1)]
-    if row.joint.angular:
-        f, n = (
-            [row.rate * x for x in (-link.MS[1], link.MS[0], 0 * link.M)],
-            [line[2] * row.rate for line in link.J],
-        )
-    else:
-        f, n = (
-            [link.M * x for x in z],
-            [row.rate * x for x in (link.MS[1], -link.MS[0], 0 * link.M)],
-        )
+    f, n = link.momentum(row)
     for at in geometry.ancestors(k):
         other = geometry.rows[at]
         if other.index is not None:

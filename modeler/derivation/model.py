@@ -104,9 +104,10 @@ class SymbolicModel(Brief):
                 found[k] = found[k] + torque * coefficient
         return found
 
-    def _motions(
+    def link_motions(
         self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: bool = True
     ) -> list[Motion]:
+        """Motion of every row's link for these speeds and accelerations of the free variables."""
         zero = self.graph.constant(0)
         down = [self.algebra.static(x) if gravity else zero for x in self.geometry.gravity]
         speeds, rates = (
@@ -123,7 +124,7 @@ class SymbolicModel(Brief):
         Inertial columns by Newton-Euler in screw form: the wrench of one unit of a parameter,
         projected on every joint below; effect columns from their definition.
         """
-        moved = self._motions(self.inputs("qd"), self.inputs("qdd"))
+        moved = self.link_motions(self.inputs("qd"), self.inputs("qdd"))
         carried = self.carried
         wrenches = [wrench_columns(motion) for motion in moved]
         entries: dict[tuple[int, int], Expr] = {}
@@ -189,7 +190,7 @@ class SymbolicModel(Brief):
         qdd = self.inputs("qdd") if accelerations else none
         tau = list(none)
         if links:
-            moved = self._motions(qd, qdd, gravity)
+            moved = self.link_motions(qd, qdd, gravity)
             rows = self.link_parameters(parameters)
             torques = inverse_dynamics(self.geometry, self.frames, moved, rows, zero)
             tau = self._free_efforts(torques)

@@ -428,15 +428,10 @@ def _rows(model: SymbolicModel, bodies: Sequence[Composite], writer: SheetWriter
         writer.section(f"axes and gravity in frame {name}")
         for i, screw in sorted(chain.items()):
             other = geometry.robot.moving[i].name
-            _name_vector(writer, f"e{other}{{}}_{name}", screw.e)
-            _name_vector(writer, f"m{other}{{}}_{name}", screw.m)
-        _name_vector(writer, f"g{{}}_{name}", g)
-        # Angular and linear momentum of the composite body for unit speed of its own joint.
-        zero, (x, y, _) = body.M * 0, body.MS
-        if row.joint.angular:
-            n, f = [line[2] * row.rate for line in body.J], [-y * row.rate, x * row.rate, zero]
-        else:
-            n, f = [y * row.rate, -x * row.rate, zero], [zero, zero, body.M * row.rate]
+            name_vector(writer, f"e{other}{{}}_{name}", screw.e)
+            name_vector(writer, f"m{other}{{}}_{name}", screw.m)
+        name_vector(writer, f"g{{}}_{name}", g)
+        f, n = body.momentum(row)
         gravity[k] = -_along(chain[k], [*cross(body.MS, g)], [x * body.M for x in g])
         for i, j in combinations_with_replacement(sorted(chain), 2):
             turned[i, j, k] = _turned(body, chain[i], chain[j], row.joint.angular) * row.rate
@@ -449,7 +444,8 @@ def _rows(model: SymbolicModel, bodies: Sequence[Composite], writer: SheetWriter
     return _Rows(inertia, turned, carried, gravity)
 
 
-def _name_vector(writer: SheetWriter, pattern: str, vector: Vector) -> None:
+def name_vector(writer: SheetWriter, pattern: str, vector: Vector) -> None:
+    """Proposes the pattern with x, y, z in its braces for the entries."""
     for axis, entry in zip(_AXES, vector, strict=True):
         writer.propose(pattern.format(axis), entry)
 

@@ -7,12 +7,13 @@ from modeler.core.errors import DerivationError, RobotError
 from modeler.core.formula import Formulas
 from modeler.derivation.closure import MEETING, Closure, meeting
 from modeler.derivation.graph import Expr
-from modeler.derivation.kinematics import MotionState, motions, plus, poses, times
+from modeler.derivation.kinematics import plus, poses, times
 from modeler.derivation.model import SymbolicModel, along
 from modeler.derivation.result import BaseParameters
 from modeler.formulas.closed_form import (
     fresh_model,
     letters_of,
+    name_vector,
     named_columns,
     signal_letters,
     write_short_form,
@@ -371,19 +372,14 @@ def write_columns(model: SymbolicModel, base: BaseParameters, writer: SheetWrite
 def _propose_motion(model: SymbolicModel, writer: SheetWriter) -> None:
     """Names of the recursion's quantities, link after link."""
     geometry = model.geometry
-    speeds = [model.algebra.combined("qd", row) for row in geometry.rows if row.index is not None]
-    growth = [model.algebra.combined("qdd", row) for row in geometry.rows if row.index is not None]
-    gravity = [model.algebra.static(entry) for entry in geometry.gravity]
-    moved = motions(geometry, model.frames, MotionState(speeds, growth, gravity), model.algebra)
+    moved = model.link_motions(model.inputs("qd"), model.inputs("qdd"))
     for row, motion, chain in zip(geometry.rows, moved, model.carried, strict=True):
         name = row.joint.name
         writer.section(f"motion of link {name}, in frame {name}")
         for letter, vector in (("w", motion.w), ("wd", motion.wd), ("vd", motion.vd)):
-            for axis, entry in zip(_AXES, vector, strict=True):
-                writer.propose(f"{letter}{axis}_{name}", entry)
+            name_vector(writer, f"{letter}{{}}_{name}", vector)
         for axis, line in zip(_AXES, motion.U, strict=True):
-            for other, entry in zip(_AXES, line, strict=True):
-                writer.propose(f"U{axis}{other}_{name}", entry)
+            name_vector(writer, f"U{axis}{{}}_{name}", line)
         for k, screw in sorted(chain.items()):
             free = model.robot.free[k].name
             for axis, e, m in zip(_AXES, screw.e, screw.m, strict=True):

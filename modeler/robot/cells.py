@@ -160,6 +160,34 @@ def form_at(
     return form
 
 
+def joint_sum(
+    expression: Expression, symbols: Mapping[str, float], variables: Collection[str], place: Place,
+    example: str, only: str = "",
+) -> Linear:  # fmt: skip
+    """The expression as a sum of joint variables, none of which is turned far up or down.
+
+    Args:
+        expression: of symbols and variables.
+        symbols: their values.
+        variables: names of the joint variables that may stand there.
+        place: of the expression.
+        example: of such a sum.
+        only: what to say of a constant in it; empty where there may be one.
+
+    Raises:
+        RobotError: an unknown name, not linear, a coefficient beyond `LARGEST_RATIO`, a constant.
+    """
+    check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, place)
+    form = form_at(expression, symbols, place, example)
+    check_size(expression, form.coefficients.values(), LARGEST_RATIO, place)
+    if only and form.constant != 0.0:
+        raise place.error(
+            f"got {shown(expression.text)}, with the constant {form.constant:g}; expected a sum of "
+            f"joint variables only{only}"
+        )
+    return form
+
+
 def length_at(expression: Expression, symbols: Mapping[str, float], place: Place) -> float:
     """Value of a constant that is a length, m, or an acceleration of gravity, m/s2.
 

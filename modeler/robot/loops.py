@@ -9,14 +9,7 @@ from typing import Any
 
 from modeler.core.expression import Expression
 from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.robot.cells import (
-    LARGEST_RATIO,
-    check_declared,
-    check_size,
-    form_at,
-    name_of,
-    number_at,
-)
+from modeler.robot.cells import joint_sum, name_of, number_at
 from modeler.robot.robot import LOOP_KINDS, Joint, Loop
 from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
 
@@ -198,12 +191,10 @@ def read_relations(
             raise here.error(f"{key} stands as a relation in the table too; keep one of them")
         found[variables[key]] = (here.expression(), here)
     for name, (expression, here) in found.items():
-        check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, here)
         got = f"got {shown(expression.text)}"
         if f"q{name}" in expression.names:
             raise here.error(f"{got}, which holds q{name} itself; expected other joints")
-        form = form_at(expression, symbols, here, "-q2 - pi/2")
-        check_size(expression, form.coefficients.values(), LARGEST_RATIO, here)
+        form = joint_sum(expression, symbols, variables, here, "-q2 - pi/2")
         if not form.coefficients:
             raise here.error(f"{got}, a constant; a joint that does not move has sigma 2")
         row, spot = by_name[name]

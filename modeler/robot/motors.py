@@ -10,14 +10,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.robot.cells import (
-    LARGEST_RATIO,
-    check_declared,
-    check_name_length,
-    check_size,
-    form_at,
-    name_of,
-)
+from modeler.robot.cells import LARGEST_RATIO, check_name_length, joint_sum, name_of
 from modeler.robot.loops import MARK
 from modeler.robot.robot import INERTIAL, Joint, JointKind, Robot, SharedParameter
 from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
@@ -90,14 +83,8 @@ def read_motors(
     ratios: dict[str, dict[str, Fraction]] = {}
     for motor, here in place.items(_EXAMPLE):
         expression = here.expression()
-        check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, here)
-        form = form_at(expression, symbols, here, "q2 - 0.4*q1")
-        check_size(expression, form.coefficients.values(), LARGEST_RATIO, here)
-        if form.constant != 0.0:
-            raise here.error(
-                f"got {shown(expression.text)}, with the constant {form.constant:g}; expected a "
-                "sum of joint variables only: the motor reads 0 where the joints do"
-            )
+        only = ": the motor reads 0 where the joints do"
+        form = joint_sum(expression, symbols, variables, here, "q2 - 0.4*q1", only)
         ratios[motor] = {variables[name]: _fraction(c) for name, c in form.coefficients.items()}
     joints = [name for name in names if any(name in row for row in ratios.values())]
     if len(ratios) != len(joints):

@@ -271,11 +271,14 @@ def new_names(letters: Iterable[str], taken: Collection[str], symbols: Symbols) 
     return names
 
 
-def without_inverse(cells: list[ParFormula], symbols: Symbols) -> list[ParFormula]:
+def without_inverse(cells: list[ParFormula], symbols: Symbols, place: Place) -> list[ParFormula]:
     """The formulas without atan2, atan, acos and asin, which robot files do not have.
 
     `atan2(y, x)` of two letters becomes an angle A, with y = L*sin(A) and x = L*cos(A): exact,
     and `sqrt(x**2 + y**2)` is L. Any other becomes a symbol with its number.
+
+    Raises:
+        RobotError: one of a joint variable, or without a value.
     """
     polar: dict[frozenset[str], tuple[str, str]] = {}
 
@@ -290,7 +293,15 @@ def without_inverse(cells: list[ParFormula], symbols: Symbols) -> list[ParFormul
                 # atan2(up*sin A, along*cos A)
                 forms = {(1, 1): "{}", (-1, 1): "-{}", (1, -1): "pi - {}", (-1, -1): "{} - pi"}
                 return parsed(forms[up, along].format(polar[frozenset((y, x))][1]))
-        worth = INVERSE[name](*(symbols.value(argument) for argument in call.args))
+        if moving := ParFormula(call, "").names - symbols.values.keys():
+            raise place.error(
+                f"got {written(call)}, which moves with {listed(sorted(moving))}; robot files have "
+                f"no {name}: expected one of lengths and numbers only"
+            )
+        try:
+            worth = INVERSE[name](*(symbols.value(argument) for argument in call.args))
+        except ValueError:
+            raise place.error(f"got {written(call)}, which has no value at these lengths") from None
         made = symbols.add("ang1", float(f"{worth:.12g}"), f"rad, {written(call)}")
         symbols.notes.append(
             f"{written(call)} is a symbol {made} with the value at the lengths above: change it "
@@ -360,7 +371,7 @@ def table_cells(
     """
     _name_letters(made, found, variables, symbols)
     cells = [(frame, column) for frame in made for column in GEOMETRY]
-    exact = without_inverse([frame.cells[column] for frame, column in cells], symbols)
+    exact = without_inverse([frame.cells[column] for frame, column in cells], symbols, place)
     for (frame, column), cell in zip(cells, exact, strict=True):
         frame.cells[column] = cell
     rounded: dict[str, str] = {}

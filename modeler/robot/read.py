@@ -18,7 +18,6 @@ from modeler.core.json import TomlError, parse_toml
 from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import check_name_length, form_at, read_gravity, read_symbols
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
-from modeler.robot.library import check_known_format, converted
 from modeler.robot.loops import (
     expanded,
     leg_names,
@@ -35,6 +34,7 @@ from modeler.robot.motors import (
     read_shared,
     shared_names,
 )
+from modeler.robot.par_convert import check_known_format, converted
 from modeler.robot.robot import Joint, Robot
 from modeler.robot.sections import (
     read_coupling,

@@ -5,14 +5,7 @@ from typing import Any
 
 from modeler.core.expression import Expression
 from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.robot.cells import (
-    LARGEST_RATIO,
-    check_declared,
-    check_size,
-    form_at,
-    name_of,
-    number_at,
-)
+from modeler.robot.cells import joint_sum, name_of, number_at
 from modeler.robot.robot import Joint, Limits, PhysicalLink
 
 Coupling = dict[str, dict[str, float]]
@@ -57,15 +50,8 @@ def read_coupling(
     for motor, here in _by_joint(place, moving, '[coupling] "6" = "q5 + q6"'):
         expression = here.expression()
         variables = {joint.variable: joint for joint in moving.values()}
-        known = {**symbols, **dict.fromkeys(variables, 0.0)}
-        check_declared(expression, known, here)
-        form = form_at(expression, symbols, here)
-        check_size(expression, form.coefficients.values(), LARGEST_RATIO, here)
-        if form.constant != 0.0:
-            raise here.error(
-                f"got {shown(expression.text)}, with the constant {form.constant:g}; expected a "
-                'sum of joint variables only, such as "q5 + q6"'
-            )
+        only = ', such as "q5 + q6"'
+        form = joint_sum(expression, symbols, variables, here, "q5 + q6", only)
         if motor.variable not in form.coefficients:
             raise here.error(
                 f"got {shown(expression.text)}, without {motor.variable}; the motor of joint "

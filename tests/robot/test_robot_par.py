@@ -440,6 +440,8 @@ MISTAKES = [
     ("d  = {\n        0,0,0}", "d = 0", 'd: got "0"; expected a list in braces'),
     ("(* End", "nonsense (* End", 'got "nonsense"; expected KEY = {...} or KEY = number'),
     ("(* End of definition *)", "(* End", 'the comment "(*" is not closed'),
+    ("t1,t2,t3}", "t1,t2 + atan(2*t1),t3}", "got atan(2*q1), which moves with q1; robot files"),
+    ("t1,t2,t3}", "t1,t2 + acos(2),t3}", "got acos(2), which has no value at these lengths"),
     ("Ant  = {\n        0,1,2}", "", "is no SYMORO file: the list Ant is missing"),
 ]  # fmt: skip
 
