@@ -157,7 +157,9 @@ def _proved(
         statement += _UNPROVEN.format(joints=", ".join(model.unproven))
     sampling, walk = None, sample.walk
     if walk is not None:
-        ends = zip(model.robot.coordinates, walk.lowest, walk.highest, strict=True)
+        assert model.closure is not None
+        moved = walk.postures[:, list(model.closure.given)]
+        ends = zip(model.robot.coordinates, moved.min(axis=0), moved.max(axis=0), strict=True)
         ranges = {joint.name: (float(low), float(high)) for joint, low, high in ends}
         sampling = Sampling(len(walk.postures), ranges, walk.distance)
     proof = Proof(

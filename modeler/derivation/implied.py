@@ -18,9 +18,7 @@ import numpy as np
 
 from modeler.core.expression import Expression, parse
 from modeler.core.rounded import precise
-from modeler.derivation.closing import Closing
 from modeler.derivation.closure import Closure
-from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.precise import (
     Number,
@@ -51,15 +49,9 @@ _TWELFTHS = 24
 class Constants:
     """Constants of relations of one robot at its home."""
 
-    def __init__(self, closing: Closing, home: np.ndarray, derived: Mapping[str, float]) -> None:
-        """Constants at a closed posture.
-
-        Args:
-            closing: the independent equations of the robot's loops, which say its symbols.
-            home: the posture.
-            derived: values of symbols that are given by expressions of others.
-        """
-        self.closing, self.home, self.derived = closing, home, derived
+    def __init__(self, closure: Closure, derived: Mapping[str, float]) -> None:
+        """Constants of loops at home; `derived` symbols are given by expressions of others."""
+        self.closing, self.home, self.derived = closure, np.array(closure.home), derived
 
     def terms(self, coefficients: np.ndarray, angular: bool) -> list[Term] | None:
         """The constant coefficients . home as a sum of terms; None where none is found.
@@ -187,18 +179,8 @@ class Proposal:
 class Prover:
     """Tells which relations the loops of a robot imply on the branch of home."""
 
-    def __init__(
-        self, closure: Closure, graph: Graph, robot: Robot, values: Mapping[str, float]
-    ) -> None:
-        """A prover for the loops of a robot.
-
-        Args:
-            closure: the loops.
-            graph: of their equations.
-            robot: whose symbols and variables the relations name.
-            values: of the geometric symbols of the equations.
-        """
-        self.closure, self.graph, self.robot, self.values = closure, graph, robot, values
+    def __init__(self, closure: Closure, robot: Robot) -> None:
+        self.closure, self.robot = closure, robot
 
     def proves(self, relations: Sequence[Proposal], letters: bool) -> bool:
         """True if the loops imply all these relations together.
@@ -213,16 +195,16 @@ class Prover:
         rows = []
         for _ in range(left + _SPARE):
             at = {**geometry, **self._posture(relations, rng, geometry)}
-            rows.append(precise_values(self.graph, self.closure.equations, at))
+            rows.append(precise_values(self.closure.graph, self.closure.equations, at))
         return _rank(rows) <= left
 
     def _symbols(self, rng: np.random.Generator, letters: bool) -> dict[str, Number]:
         """Numbers for all symbols: as given, or random near that."""
         known: dict[str, Number] = {}
         for name, expression in self.robot.symbols.items():
-            if name in self.values:
+            if name in self.closure.values:
                 change = float(rng.uniform(-_CHANGE, _CHANGE)) if letters else 0.0
-                known[name] = decimal(self.values[name]) * (1 + decimal(change))
+                known[name] = decimal(self.closure.values[name]) * (1 + decimal(change))
             else:
                 known[name] = _folded(expression, known)
         return known
@@ -325,9 +307,8 @@ def implied_relations(model: SymbolicModel) -> Implied:
     assert closure is not None
     names = [joint.name for joint in robot.free]
     seen, proposals = [], []
-    values = model.geometry.values
-    derived = {n: x for n, x in robot.symbol_values().items() if n not in values}
-    constants = Constants(closure, np.array(closure.home), derived)
+    derived = {n: x for n, x in robot.symbol_values().items() if n not in closure.values}
+    constants = Constants(closure, derived)
     for row, pivot in _vanishing_rows(model):
         seen.append(names[pivot])
         terms = _terms(robot, row, pivot, constants)
@@ -335,7 +316,7 @@ def implied_relations(model: SymbolicModel) -> Implied:
             proposals.append(Proposal(pivot, parse(_sum_text(terms))))
     if not seen:
         return Implied()
-    prover = Prover(closure, model.graph, robot, values)
+    prover = Prover(closure, robot)
     proven = general = largest_proven(prover, proposals, letters=True)
     if len(general) < len(proposals):
         at_values = largest_proven(prover, proposals, letters=False)

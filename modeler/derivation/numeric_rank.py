@@ -11,7 +11,7 @@ import sympy
 from modeler.derivation.grouping import named_parameters, priority_order
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameter, Term
-from modeler.derivation.walks import Walk, closed_motion, closed_walk, rounded_off
+from modeler.derivation.walks import Walk, closed_motion, closed_walk
 
 TOLERANCE = 1e-9
 """Relative to the largest singular value of the scaled matrix, of a robot without loops; see
@@ -103,13 +103,17 @@ def sampled(model: SymbolicModel, samples: int, seed: int) -> Sample:
         return Sample(phi.reshape(-1, phi.shape[2]))
     walk = closed_walk(model, samples, rng)
     qd, qdd = rng.normal(size=(2, len(walk.postures), len(model.closure.given)))
+    # Closed as another machine might have closed them: each equation wrong by rounding.
+    closure, eps = model.closure, float(np.finfo(float).eps)
+    error = eps * closure.size
+    wrong = rng.choice([-error, error], (len(walk.postures), len(closure.equations)))
+    rounded = walk.postures.copy()
+    rounded[:, list(closure.solved)] += closure.following(walk.postures, wrong)
     phi, other = (
-        regressor_values(model, carried(model, u, qd, qdd))
-        for u in (walk.postures, rounded_off(model, walk.postures, rng))
+        regressor_values(model, carried(model, u, qd, qdd)) for u in (walk.postures, rounded)
     )
     lengths = np.linalg.norm(phi.reshape(-1, phi.shape[2]), axis=0)
     scale = np.where(lengths > ZERO * lengths.max(initial=0.0), lengths, np.inf)
-    eps = float(np.finfo(float).eps)
     error = np.linalg.norm((other - phi) / scale, axis=(1, 2))
     error = np.maximum(error, eps * np.linalg.norm(phi / scale, axis=(1, 2)))
     weight = (np.median(error) / error)[:, None, None]

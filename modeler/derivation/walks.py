@@ -43,48 +43,12 @@ class Walk:
 
     Attributes:
         postures: (samples, unknowns), home first; they come again where few are reached.
-        lowest: (coordinates,) of the postures' actuated joints.
-        highest: likewise.
         distance: least singular value of J_s over the postures; rows of J scaled to usual length 1,
             travels counted in sizes of the robot. 0 is a singularity.
     """
 
     postures: np.ndarray
-    lowest: np.ndarray
-    highest: np.ndarray
     distance: float
-
-
-def walked(
-    closing: Closing,
-    home: np.ndarray,
-    ranges: Sequence[tuple[float, float]],
-    samples: int,
-    rng: np.random.Generator,
-    share: float = 0.0,
-) -> Walk:
-    """Closed postures that are reached from home by motions of the actuated joints.
-
-    Args:
-        closing: independent equations, as many as there are solved variables.
-        home: a closed posture.
-        ranges: by free variable, within which the walk stays.
-        samples: number of postures.
-        rng: of the motion.
-        share: of home's distance to a singularity that all postures keep.
-    """
-    walkers = max(_WALKERS, -(-2 * samples // _STEPS))
-    with np.errstate(all="ignore"):  # steps that go astray are taken back
-        path = _Paths(closing, np.tile(home, (walkers, 1)), np.array(ranges), rng)
-        reached = np.concatenate([path.step() for _ in range(_STEPS)])
-        rng.shuffle(reached)
-        found = _closed(closing, np.concatenate([reached[: 3 * samples], home[None]]))
-    distance = closing.sigma(found)
-    far = np.flatnonzero(distance >= min(max(_NEAREST, share * distance[-1]), distance[-1]))
-    kept = np.resize(far[::-1], samples)  # home first; few of them come again
-    found, distance = found[kept], distance[kept]
-    moved = found[:, list(closing.given)]
-    return Walk(found, moved.min(axis=0), moved.max(axis=0), float(distance.min()))
 
 
 def _closed(closing: Closing, u: np.ndarray) -> np.ndarray:
@@ -312,24 +276,16 @@ def closed_walk(
         reach = reach if k in closure.given else np.inf
         low, high = (limits.lower, limits.upper) if limits else (at - reach, at + reach)
         ranges.append((min(low, at), max(high, at)))
-    return walked(closure, np.array(closure.home), ranges, samples, rng, share)
-
-
-def rounded_off(model: SymbolicModel, u: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """Closed postures as another machine might have closed them: each equation wrong by rounding.
-
-    Args:
-        model: with loops.
-        u: (n, len(u)) closed postures.
-        rng: of the signs.
-    """
-    closure = model.closure
-    assert closure is not None
-    error = float(np.finfo(float).eps) * closure.size
-    wrong = rng.choice([-error, error], (len(u), len(closure.equations)))
-    other = u.copy()
-    other[:, list(closure.solved)] += closure.following(u, wrong)
-    return other
+    walkers, home = max(_WALKERS, -(-2 * samples // _STEPS)), np.array(closure.home)
+    with np.errstate(all="ignore"):  # steps that go astray are taken back
+        path = _Paths(closure, np.tile(home, (walkers, 1)), np.array(ranges), rng)
+        reached = np.concatenate([path.step() for _ in range(_STEPS)])
+        rng.shuffle(reached)
+        found = _closed(closure, np.concatenate([reached[: 3 * samples], home[None]]))
+    distance = closure.sigma(found)
+    far = np.flatnonzero(distance >= min(max(_NEAREST, share * distance[-1]), distance[-1]))
+    kept = np.resize(far[::-1], samples)  # home first; few of them come again
+    return Walk(found[kept], float(distance[kept].min()))
 
 
 def closed_motion(model: SymbolicModel, u: np.ndarray, qd: np.ndarray) -> ClosedStates:

@@ -367,10 +367,7 @@ class SheetPrinter:
         found = self.sheet.graph.nodes[node]
         if node == 0:
             return []
-        if node in self.sheet.names and node != opened:
-            name, sign = self.sheet.names[node]
-            return [(number * sign, ((_NAMED, self.letter(name), 0),))]
-        if found.op == "add":
+        if found.op == "add" and (node == opened or node not in self.sheet.names):
             return [term for arg in found.args for term in self._terms(arg, number, opened)]
         value, factors = self._factors(node, opened)
         return [(number * value, tuple(factors))]

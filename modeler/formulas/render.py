@@ -1,7 +1,6 @@
 """The table of coefficients as text, LaTeX, and Markdown."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -95,24 +94,12 @@ def latex_function(name: str) -> str:
     return f"{name[0]}_{{{name[1:].strip('_').replace('_', ',')}}}"
 
 
-@dataclass(frozen=True)
-class FormulaLine:
-    """One coefficient, printed but not yet laid out."""
-
-    name: str
-    function: str
-    monomial: str
-    relation: str
-    base: str
-    physical: str
-
-
-def table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list[FormulaLine]:
-    """All coefficients as strings, in order."""
+def table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list[tuple[str, ...]]:
+    """(name, function, monomial, relation, base, physical) of every coefficient, in order."""
     algebra, physical = table.closed.algebra, table.physical
     motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
     return [
-        FormulaLine(
+        (
             style.name(c.name),
             c.function,
             monomial_text(c.exponents, motion, style),
@@ -126,10 +113,10 @@ def table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list[Formul
 
 def coefficients_text(table: CoefficientTable) -> str:
     """Aligned columns for a terminal."""
-    rows = [("name", "in", "monomial", "relation", "base parameters", "physical parameters")]
-    rows += [
-        (x.name, x.function, x.monomial, x.relation, x.base, x.physical) for x in table_lines(table)
+    rows: list[tuple[str, ...]] = [
+        ("name", "in", "monomial", "relation", "base parameters", "physical parameters")
     ]
+    rows += table_lines(table)
     widths = [max(len(row[i]) for row in rows) for i in range(5)]
     lines = [
         "  ".join([*(cell.ljust(w) for cell, w in zip(row, widths, strict=False)), row[5]]).rstrip()
@@ -144,27 +131,19 @@ def coefficients_markdown(table: CoefficientTable) -> str:
         "| name | function | monomial | relation | base parameters | physical parameters |",
         "|---|---|---|---|---|---|",
     ]
-    lines += [
-        f"| {x.name} | {x.function} | `{x.monomial}` | "
-        f"{'independent' if x.relation == x.name else f'`{x.relation}`'} | `{x.base}` | "
-        f"`{x.physical}` |"
-        for x in table_lines(table)
-    ]
+    for name, function, monomial, relation, base, physical in table_lines(table):
+        told = "independent" if relation == name else f"`{relation}`"
+        lines.append(f"| {name} | {function} | `{monomial}` | {told} | `{base}` | `{physical}` |")
     return "\n".join(lines) + "\n"
 
 
 def coefficients_latex(table: CoefficientTable) -> str:
     """An `align*` of LaTeX: every coefficient, of which monomial in which function it is."""
-    equations = [
-        DisplayedEquation(
-            x.name,
-            (
-                f"{x.relation if x.relation != x.name else x.physical}"
-                rf" \quad \text{{of }} {x.monomial} \text{{ in }} {latex_function(x.function)}",
-            ),
-        )
-        for x in table_lines(table, LATEX)
-    ]
+    equations = []
+    for name, function, monomial, relation, _, physical in table_lines(table, LATEX):
+        where = rf"\text{{of }} {monomial} \text{{ in }} {latex_function(function)}"
+        right = relation if relation != name else physical
+        equations.append(DisplayedEquation(name, (rf"{right} \quad {where}",)))
     return display(equations) + "\n" if equations else ""
 
 

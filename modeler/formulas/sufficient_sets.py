@@ -224,7 +224,7 @@ def known_sets(
     table = tables[0]
     order = sorted(table, key=lambda key: (key[2], key[1], key[0]))
     classes = {key: table[key][0] for key in order}
-    contains = {x: sum(e[1][k] for e in table.values()) for k, x in enumerate(letters)}
+    contains = {x: sum(e[k + 1] for e in table.values()) for k, x in enumerate(letters)}
     easiest = _members(system, size, order[0], seed) if order else ()
     count = sum(classes.values())
     return KnownSets(system, size, smallest, possible, count, classes, easiest, contains, seeds)
@@ -241,9 +241,8 @@ def _kernel(system: PhysicalSystem, seed: int) -> tuple[np.ndarray, int]:
     return kernel_modulo(work, prime), prime
 
 
-Entry = tuple[int, tuple[int, ...]]
-Table = dict[tuple[int, int, int], Entry]
-"""{class: (number of sets, per letter the number of them with it)}."""
+Table = dict[tuple[int, int, int], np.ndarray]
+"""{class: (1 + letters,) number of sets, then for each letter of those with it}."""
 
 
 class _Counted:
@@ -256,11 +255,11 @@ class _Counted:
         self.kernel, self.prime = _kernel(system, seed)
         self.parts = components(self.kernel)
 
-    def table(self) -> Table:
-        """Counts of sets of the wanted size."""
+    def table(self) -> dict[tuple[int, int, int], list[int]]:
+        """Counts of sets of the wanted size, and of those with each letter."""
         spare = self.size - len(self.kernel)
         n = len(self.system.letters)
-        total: dict[int, Table] = {0: {(0, 0, 0): (1, (0,) * n)}}
+        total: dict[int, Table] = {0: {(0, 0, 0): np.array([1] + [0] * n, dtype=object)}}
         work = sum(self._work(part, spare) for part in self.parts)
         if work > MOST:
             raise ModelerError(
@@ -273,7 +272,7 @@ class _Counted:
             share = self._work(part, spare)
             total = _product(total, self._part_table(part, spare, done / work, share / work), spare)
             done += share
-        return total.get(spare, {})
+        return {key: [int(x) for x in entry] for key, entry in total.get(spare, {}).items()}
 
     def _work(self, part: tuple[list[int], list[int]], spare: int) -> float:
         rows, columns = part
@@ -292,39 +291,32 @@ class _Counted:
         n = len(self.system.letters)
         ease = np.array([EASE[self.system.kinds[self.system.letters[k]]] for k in columns])
         for more in range(min(spare, len(columns) - len(rows)) + 1):
-            counts: dict[tuple[int, int, int], np.ndarray] = {}
+            counts = found[more] = {}
             for at, sets in spanning_sets(matrix, len(rows) + more, self.prime):
                 kinds = ease[sets]
-                easy, centres, hard = ((kinds < 2).sum(1), (kinds == 2).sum(1), (kinds == 3).sum(1))
-                keys = (easy * 1000 + centres) * 1000 + hard
-                for key in np.unique(keys):
-                    chosen = sets[keys == key]
-                    name = (int(key) // 1000000, int(key) // 1000 % 1000, int(key) % 1000)
-                    entry = counts.setdefault(name, np.zeros(n + 1, dtype=np.int64))
+                sums = np.stack([(kinds < 2).sum(1), (kinds == 2).sum(1), (kinds == 3).sum(1)], 1)
+                for name in np.unique(sums, axis=0):
+                    chosen = sets[(sums == name).all(axis=1)]
+                    key = (int(name[0]), int(name[1]), int(name[2]))
+                    entry = counts.setdefault(key, np.zeros(n + 1, dtype=object))
                     entry[0] += len(chosen)
-                    entry[1:][columns] += np.bincount(chosen.ravel(), minlength=len(columns))
+                    having = np.bincount(chosen.ravel(), minlength=len(columns))
+                    entry[1:][columns] += having.astype(object)
                 self.tell(start + share * at)
-            found[more] = {k: (int(e[0]), tuple(map(int, e[1:]))) for k, e in counts.items()}
         return found
 
 
 def _product(a: Mapping[int, Table], b: Mapping[int, Table], spare: int) -> dict[int, Table]:
     """Counts of the unions of sets of two parts."""
     found: dict[int, Table] = {}
-    for i, first in a.items():
-        for j, second in b.items():
-            if i + j > spare:
-                continue
+    for (i, first), (j, second) in product(a.items(), b.items()):
+        if i + j <= spare:
             table = found.setdefault(i + j, {})
-            for key, (count, with_it) in first.items():
-                for other, (times, with_other) in second.items():
-                    name = (key[0] + other[0], key[1] + other[1], key[2] + other[2])
-                    old, old_with = table.get(name, (0, (0,) * len(with_it)))
-                    new = tuple(
-                        x + p * times + q * count
-                        for x, p, q in zip(old_with, with_it, with_other, strict=True)
-                    )
-                    table[name] = (old + count * times, new)
+            for (key, one), (other, two) in product(first.items(), second.items()):
+                name = (key[0] + other[0], key[1] + other[1], key[2] + other[2])
+                both = one * two[0] + two * one[0]
+                both[0] = one[0] * two[0]
+                table[name] = table.get(name, 0) + both
     return found
 
 

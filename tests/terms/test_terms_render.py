@@ -103,7 +103,7 @@ def test_combinations_and_sums_are_known():
     table = table_of("wrist")
     assert table.relations.rank == 17 and len(table.coefficients) == 101
     assert combination_text(table.relations.combinations["PS41"]) == "-PJ4/2"
-    base = next(line.base for line in table_lines(table) if line.name == "PJ4")
+    base = next(line[4] for line in table_lines(table) if line[0] == "PJ4")
     assert base == "-2*YZ3 + 2*bl1*MY3" and determinant_text(table) == "-16"
     assert table.identifiability.sums == ({"ct1": 1, "bl1": 1},)
 
