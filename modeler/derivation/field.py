@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, lru_cache
 from itertools import product
+from operator import add
 from typing import Any, TypeAlias
 
 import sympy
@@ -149,28 +150,14 @@ def cancelled(numer: PolyElement, denom: PolyElement) -> tuple[PolyElement, Poly
     if len(used) == ring.ngens or not used:
         return numer.cancel(denom)
     small = _of(ring, used)
-    top, bottom = (
-        small.from_dict({tuple(m[i] for i in used): c for m, c in part.items()})
-        for part in (numer, denom)
-    )
-    top, bottom = top.cancel(bottom)
-    return _returned(top, ring, used), _returned(bottom, ring, used)
+    top, bottom = numer.set_ring(small).cancel(denom.set_ring(small))
+    return top.set_ring(ring), bottom.set_ring(ring)
 
 
 @cache
 def _of(ring: PolyRing, used: tuple[int, ...]) -> PolyRing:
     """The ring of these letters alone, in the same order."""
     return ring.clone(symbols=[ring.symbols[i] for i in used])
-
-
-def _returned(part: PolyElement, ring: PolyRing, used: tuple[int, ...]) -> PolyElement:
-    found: dict[tuple[int, ...], Any] = {}
-    for monomial, coefficient in part.items():
-        whole = [0] * ring.ngens
-        for place, exponent in zip(used, monomial, strict=True):
-            whole[place] = exponent
-        found[tuple(whole)] = coefficient
-    return ring.from_dict(found)
 
 
 Element = Any
@@ -350,11 +337,16 @@ def with_square(poly: PolyElement, place: int, square: PolyElement) -> PolyEleme
     """The polynomial with `square` for x**2, of the generator x at that place."""
     if all(monomial[place] < 2 for monomial in poly):
         return poly
-    total = poly.ring.zero
-    for degree, part in by_powers(poly, place).items():
-        pairs, rest = divmod(degree, 2)
-        total = total + part * square**pairs * poly.ring.gens[place] ** rest
-    return total
+    most = max(monomial[place] for monomial in poly) // 2
+    powers = [sorted((square**n).items()) for n in range(most + 1)]
+    found: dict[tuple[int, ...], Any] = {}  # in the order of the terms, on which sums depend
+    for monomial, coefficient in poly.items():
+        pairs, rest = divmod(monomial[place], 2)
+        left = (*monomial[:place], rest, *monomial[place + 1 :])
+        for at, factor in powers[pairs]:
+            key = tuple(map(add, left, at))
+            found[key] = found.get(key, 0) + coefficient * factor
+    return poly.ring.zero.new({key: value for key, value in found.items() if value})
 
 
 # Row reduction over an exact field, on small or sparse matrices.
