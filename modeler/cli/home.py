@@ -129,7 +129,7 @@ def _near(args: argparse.Namespace, robot: Robot) -> dict[str, float] | None:
 
 def _table(found: HomeModes) -> list[str]:
     linkage, modes = found.linkage, found.modes
-    given = list(linkage.closing.given)
+    given = list(linkage.loops.given)
     count = f"{len(modes)} assembly mode{'s' if len(modes) > 1 else ''}"
     lines = [
         f"{linkage.robot.name}: {count} with {_values(linkage, modes[0].posture, given)}",
@@ -138,7 +138,7 @@ def _table(found: HomeModes) -> list[str]:
     # The joints by which people tell modes apart: the platform's, else the first that follow.
     names = [joint.name for joint in linkage.free]
     shown = [names.index(name) for name in linkage.robot.platform if name in names]
-    shown = shown or list(linkage.closing.solved)[:_MOST_VALUES]
+    shown = shown or list(linkage.loops.solved)[:_MOST_VALUES]
     for k, mode in enumerate(modes):
         facts = [f"singular value {mode.sigma:.2g}"]
         if linkage.robot.limits:

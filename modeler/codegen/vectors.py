@@ -14,8 +14,7 @@ import numpy as np
 
 from modeler.codegen.functions import CFunction, Closed, name_lines
 from modeler.core.errors import EmitError
-from modeler.derivation.closing import moved_postures
-from modeler.derivation.closure import Closure
+from modeler.derivation.closure import Closure, moved_postures
 from modeler.derivation.enclosed import EnclosedState, Enclosures, NotEnclosed
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.precise import Ball, ball_function, exact_ball, flint

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.derivation.closing import SINGULAR
+from modeler.derivation.closure import SINGULAR
 from modeler.derivation.walks import Linkage
 
 # Closed postures from many starts: Levenberg and Marquardt's method, all starts at once.
@@ -44,12 +44,12 @@ def starts(linkage: Linkage, hints: np.ndarray, count: int = STARTS) -> np.ndarr
     """
     rng = np.random.default_rng(_POSTURE_SEED)
     lower, upper = linkage.bounds()
-    reach = np.where(linkage.lengths, _REACH * linkage.closing.size, np.pi)
+    reach = np.where(linkage.lengths, _REACH * linkage.loops.size, np.pi)
     low = np.where(np.isfinite(lower), lower, -reach)
     high = np.where(np.isfinite(upper), upper, reach)
     u = rng.uniform(low, high, (count, len(low)))
     known = np.isfinite(hints)
-    spread = np.resize(_SPREADS, count)[:, None] * linkage.closing.scale
+    spread = np.resize(_SPREADS, count)[:, None] * linkage.loops.scale
     around = np.where(known, hints, 0.0) + spread * rng.normal(size=u.shape)
     near = known & (np.arange(count) % 2 == 0)[:, None]
     u = np.where(near, around, u)
@@ -64,17 +64,17 @@ def closed_from(linkage: Linkage, u: np.ndarray, places: np.ndarray) -> np.ndarr
         u: starts.
         places: numbers of the joints that may move.
     """
-    closing, u = linkage.closing, np.array(u, dtype=float)
-    scale, limit = linkage.closing.scale[places], _ROUGH * closing.size
+    loops, u = linkage.loops, np.array(u, dtype=float)
+    scale, limit = linkage.loops.scale[places], _ROUGH * loops.size
     done = []
     for _ in range(_ITERATIONS):
-        f = closing.residuals(u)
+        f = loops.residuals(u)
         closed = np.max(np.abs(f), axis=1, initial=0.0) < limit
         done.append(u[closed])
         u, f = u[~closed], f[~closed]
         if not len(u):
             break
-        J = closing.jacobians(u)[:, :, places] * scale
+        J = loops.jacobians(u)[:, :, places] * scale
         damping = np.clip(np.sum(f**2, axis=1), _LEAST_DAMPING, _MOST_DAMPING)
         normal = J @ J.transpose(0, 2, 1) + damping[:, None, None] * np.eye(J.shape[1])
         step = -np.einsum("nji,nj->ni", J, np.linalg.solve(normal, f[..., None])[..., 0])
@@ -83,8 +83,8 @@ def closed_from(linkage: Linkage, u: np.ndarray, places: np.ndarray) -> np.ndarr
     found = np.concatenate(done)
     if not len(found):
         return found
-    found = closing.closed(found, list(places))
-    return in_a_turn(linkage, found[closing.aligned(found)])
+    found = loops.closed(found, list(places))
+    return in_a_turn(linkage, found[loops.aligned(found)])
 
 
 def in_a_turn(linkage: Linkage, u: np.ndarray) -> np.ndarray:
@@ -108,8 +108,8 @@ def at_rest(
         hints: (u,) NaN for joints without.
         closed: closed postures by which those joints are found; `u` itself if left out.
     """
-    J = linkage.closing.jacobians(u if closed is None else closed) * linkage.closing.scale
-    loose = np.max(np.abs(J), axis=(0, 1)) < _LOOSE * linkage.closing.size
+    J = linkage.loops.jacobians(u if closed is None else closed) * linkage.loops.scale
+    loose = np.max(np.abs(J), axis=(0, 1)) < _LOOSE * linkage.loops.size
     rest = np.where(np.isfinite(hints), hints, np.nan_to_num(linkage.middles))
     return np.where(loose, rest, u)
 
@@ -147,7 +147,7 @@ def lengthened(linkage: Linkage, u: np.ndarray, hints: np.ndarray) -> np.ndarray
     meant = (hints < 0.0) | (np.isfinite(lower) & (lower < 0.0))
     u = np.array(u)
     for k in np.flatnonzero(linkage.lengths & linkage.tied & ~meant):
-        short = np.flatnonzero(u[:, k] < -1e-9 * linkage.closing.size)
+        short = np.flatnonzero(u[:, k] < -1e-9 * linkage.loops.size)
         u[short] = _turned_over(linkage, u[short], int(k))
     return u
 
@@ -209,10 +209,10 @@ def best_copy(linkage: Linkage, copies: np.ndarray, ranks: Ranks) -> np.ndarray:
 
 def _are_copies(linkage: Linkage, others: np.ndarray, u: np.ndarray) -> np.ndarray:
     """(n,) True for closed postures that have the shape of those of u, (n, u) or (1, u)."""
-    closing = linkage.closing
-    open_by = np.max(np.abs(closing.residuals(others)), axis=1)
+    loops = linkage.loops
+    open_by = np.max(np.abs(loops.residuals(others)), axis=1)
     different = np.max(np.abs(linkage.shape(others) - linkage.shape(u)), axis=1)
-    return (open_by < _CLOSED * closing.size) & (different < _SAME) & closing.aligned(others)
+    return (open_by < _CLOSED * loops.size) & (different < _SAME) & loops.aligned(others)
 
 
 def _legs(linkage: Linkage) -> list[list[int]]:
@@ -256,24 +256,24 @@ def steady_ties(linkage: Linkage, u: np.ndarray) -> np.ndarray:
         linkage: the robot.
         u: (n, u) regular closed postures.
     """
-    closing, given = linkage.closing, list(linkage.closing.given)
-    solved = list(closing.solved)
-    count = max(_FEWEST, _TIMES * -(-closing.unknowns // len(given)))
+    loops, given = linkage.loops, list(linkage.loops.given)
+    solved = list(loops.solved)
+    count = max(_FEWEST, _TIMES * -(-loops.unknowns // len(given)))
     steps = np.random.default_rng(_TIE_SEED).uniform(-_STEP, _STEP, (count, len(given)))
     around = np.repeat(u[:, None], count, axis=1)
-    around[:, :, given] += steps * linkage.closing.scale[given]
-    around = closing.closed(around.reshape(-1, closing.unknowns))
+    around[:, :, given] += steps * linkage.loops.scale[given]
+    around = loops.closed(around.reshape(-1, loops.unknowns))
     closed = np.all(np.isfinite(around), axis=1)
-    J = closing.jacobians(around[closed]) * linkage.closing.scale
-    speeds = np.zeros((len(around), closing.unknowns, len(given)))
+    J = loops.jacobians(around[closed]) * linkage.loops.scale
+    speeds = np.zeros((len(around), loops.unknowns, len(given)))
     speeds[np.ix_(closed, given)] = np.eye(len(given))
     speeds[np.ix_(closed, solved)] = -np.linalg.pinv(J[:, :, solved]) @ J[:, :, given]
-    every = speeds.reshape(len(u), count, closing.unknowns, len(given))
-    flat = every.transpose(0, 2, 1, 3).reshape(len(u), closing.unknowns, -1)
+    every = speeds.reshape(len(u), count, loops.unknowns, len(given))
+    flat = every.transpose(0, 2, 1, 3).reshape(len(u), loops.unknowns, -1)
     values = np.linalg.svd(flat, compute_uv=False)
     moving = np.sum(values > _TOLERANCE * values[:, :1], axis=1)
     enough = 2 * np.sum(closed.reshape(len(u), count), axis=1) >= count
-    return np.where(enough, closing.unknowns - moving, 0)
+    return np.where(enough, loops.unknowns - moving, 0)
 
 
 _GOOD = 0.2
@@ -293,7 +293,7 @@ class AssemblyMode:
     Attributes:
         letter: A for the one that is best to start from, B, ...
         posture: (u,) values of the free joints, rad and m, loops closed.
-        sigma: distance to a singularity, 0 at one; see `Closing.sigma`.
+        sigma: distance to a singularity, 0 at one; see `LoopEquations.sigma`.
         kept: True within [limits].
         copies: number of ways in which the same was found written, itself included.
         away: from what was stated, rad and sizes, summed over the joints that were.
@@ -329,7 +329,7 @@ def assembly_modes(linkage: Linkage, hints: np.ndarray) -> tuple[AssemblyMode, .
     if not len(found):
         return ()
     groups = [found[group] for group in shapes_apart(linkage, found)]
-    best = max(float(np.max(linkage.closing.sigma(group))) for group in groups)
+    best = max(float(np.max(linkage.loops.sigma(group))) for group in groups)
     ranked = []
     for group in groups:
         u = best_copy(linkage, group, lambda some: _ranks(linkage, some, hints, best))
@@ -341,7 +341,7 @@ def assembly_modes(linkage: Linkage, hints: np.ndarray) -> tuple[AssemblyMode, .
         AssemblyMode(
             letter=_letter(k),
             posture=u,
-            sigma=float(linkage.closing.sigma(u[None])[0]),
+            sigma=float(linkage.loops.sigma(u[None])[0]),
             kept=bool(linkage.outside(u[None])[0] < _KEPT),
             copies=copies,
             away=float(np.sum(linkage.apart(u[None], hints))),
@@ -359,10 +359,10 @@ def _ranks(
     linkage: Linkage, u: np.ndarray, hints: np.ndarray, best: float
 ) -> list[tuple[float, ...]]:
     """By posture, what sorts the better one first."""
-    sigma = linkage.closing.sigma(u)
+    sigma = linkage.loops.sigma(u)
     own = np.array([joint.name not in linkage.robot.platform for joint in linkage.free])
     negative = np.sum(
-        (u < -1e-9 * linkage.closing.size) & linkage.lengths & linkage.tied & own, axis=1
+        (u < -1e-9 * linkage.loops.size) & linkage.lengths & linkage.tied & own, axis=1
     )
     angles = np.sum(np.abs(np.where(linkage.lengths, 0.0, u)), axis=1)
     columns = np.column_stack([
@@ -386,7 +386,7 @@ def _place(linkage: Linkage, u: np.ndarray, hints: np.ndarray) -> np.ndarray:
 
     Ties take long to count: they are for the best postures, and some others down to the worst.
     """
-    keys = _ranks(linkage, u, hints, float(np.max(linkage.closing.sigma(u))))
+    keys = _ranks(linkage, u, hints, float(np.max(linkage.loops.sigma(u))))
     order = sorted((k for k, key in enumerate(keys) if not key[1]), key=keys.__getitem__)
     spread = np.linspace(0, len(order) - 1, _COUNTED).astype(int)
     some = [order[k] for k in sorted({*range(min(_COUNTED, len(order))), *spread.tolist()})]
@@ -396,7 +396,7 @@ def _place(linkage: Linkage, u: np.ndarray, hints: np.ndarray) -> np.ndarray:
 
 def _together(linkage: Linkage, hints: np.ndarray) -> np.ndarray:
     """(n, u) regular closed postures that all have the actuated joints at the same place."""
-    given = np.array(linkage.closing.given)
+    given = np.array(linkage.loops.given)
     wanted = np.full(len(hints), np.nan)
     wanted[given] = np.where(np.isfinite(hints), hints, linkage.middles)[given]
     wanted = np.where(linkage.tied, wanted, np.nan)
@@ -414,7 +414,7 @@ def _together(linkage: Linkage, hints: np.ndarray) -> np.ndarray:
         u = np.concatenate([starts(linkage, meant), around, place[None]])
         u = at_rest(linkage, u, meant, around)
         u[:, given] = place[given]
-        found = closed_from(linkage, u, np.array(linkage.closing.solved))
+        found = closed_from(linkage, u, np.array(linkage.loops.solved))
         return _regular(linkage, np.concatenate([place[None], found]), hints)
     return np.empty((0, len(hints)))
 
@@ -423,22 +423,22 @@ def _regular(linkage: Linkage, u: np.ndarray, hints: np.ndarray) -> np.ndarray:
     """Those that are not singular, cylinders longer than zero."""
     if not len(u):
         return u
-    return lengthened(linkage, u[linkage.closing.sigma(u) > SINGULAR], hints)
+    return lengthened(linkage, u[linkage.loops.sigma(u) > SINGULAR], hints)
 
 
 def _rounded(linkage: Linkage, u: np.ndarray, places: np.ndarray) -> np.ndarray:
     """The posture with actuated joints at short numbers, as short as leaves it where it is."""
-    before = float(linkage.closing.sigma(u[None])[0])
-    unit = np.where(linkage.lengths, 10.0 ** np.floor(np.log10(linkage.closing.size)), 1.0)
+    before = float(linkage.loops.sigma(u[None])[0])
+    unit = np.where(linkage.lengths, 10.0 ** np.floor(np.log10(linkage.loops.size)), 1.0)
     for step in _STEPS:
         trial = u.copy()
         trial[places] = [
             float(f"{round(x / (step * one)) * step * one:.10g}")
             for x, one in zip(u[places], unit[places], strict=True)
         ]
-        closed = linkage.closing.closed(trial[None])
-        if np.all(np.isfinite(closed)) and linkage.closing.aligned(closed)[0]:
+        closed = linkage.loops.closed(trial[None])
+        if np.all(np.isfinite(closed)) and linkage.loops.aligned(closed)[0]:
             near = np.max(linkage.apart(closed, u)) < 5 * step
-            if near and linkage.closing.sigma(closed)[0] > 0.5 * before:
+            if near and linkage.loops.sigma(closed)[0] > 0.5 * before:
                 return closed[0]
     return u

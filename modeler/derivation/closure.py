@@ -11,24 +11,291 @@ and torques follow by the principle of virtual power, tau_q = G^T tau_u with ud 
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.errors import LoopError
 from modeler.core.rounded import precise
-from modeler.derivation.closing import (
-    SINGULAR,
-    Closing,
-    moved_postures,
-    nearest_closed,
-    open_loop,
-    polished,
-)
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.graph import Algebra, Expr, Graph, GraphAlgebra, derivatives
 from modeler.derivation.kinematics import Pose, dot, plus, poses_from, times
-from modeler.derivation.precise import precise_values
-from modeler.robot.robot import Loop
+from modeler.derivation.precise import decimal, precise_values
+from modeler.robot.robot import Loop, Robot
+
+# The loops in floating point, for many postures at once: Newton on all equations, redundant ones
+# included, in the sense of least squares; what the emitted C does with an independent set of them
+# is checked against this.
+
+
+SINGULAR = 1e-4
+"""Of `LoopEquations.sigma`. Newton's method that ends at a residual of 1e-9 leaves a posture of
+loops that only touch wrong by the square root of that: a posture whose value is of this order
+cannot be told from a singular one."""
+
+_CLOSED = 1e-12
+"""Residual of a closed loop, relative to the robot's size."""
+_ZERO = 1e-9
+"""Length of a row of the Jacobian that counts as none, over the longest."""
+_ITERATIONS = 60
+_STEPS = 12
+_SEED = 7
+_ROWS = 1876  # Reuleaux
+_SAMPLES = 32
+_STARTS = 200
+_PLACES = 6
+"""Decimals of rad and m in which two closed postures are told apart."""
+_POLISHED = 1e-25
+"""Last step of the polishing, in sizes of the robot or rad: far below the digits of a double."""
+_POLISHING = 20
+
+
+@dataclass(frozen=True)
+class LoopEquations(Brief):
+    """The closure equations as functions of arrays.
+
+    Attributes:
+        graph: of the expressions.
+        values: of the geometric symbols.
+        equations: all, redundant ones included.
+        jacobian: their derivatives by u.
+        given: places in u of the coordinates q.
+        solved: places in u of the others.
+        lengths: by u, True for a travel in m.
+        size: of the robot, m: the longest way from a frame to the next with all joints at 0.
+        alignments: positive where the loops are closed as meant.
+        others: equations that follow from `equations` where the loops are closed, but perhaps not
+            where these alone hold.
+    """
+
+    graph: Graph
+    values: Mapping[str, float]
+    equations: Sequence[Expr]
+    jacobian: Sequence[Sequence[Expr]]
+    given: tuple[int, ...]
+    solved: tuple[int, ...]
+    lengths: tuple[bool, ...]
+    size: float
+    alignments: Sequence[Expr] = ()
+    others: Sequence[Expr] = ()
+
+    @property
+    def unknowns(self) -> int:
+        """Number of free variables u."""
+        return len(self.lengths)
+
+    @property
+    def scale(self) -> np.ndarray:
+        """By u, what counts as 1: a rad, or `size`."""
+        return np.where(self.lengths, self.size, 1.0)
+
+    @cached_property
+    def rows(self) -> np.ndarray:
+        """(equations,) usual lengths of the rows of the Jacobian.
+
+        Those at a posture would not do: an equation that changes only in second order there, as
+        along a stretched chain, makes it singular, however small the row is.
+        """
+        u = np.random.default_rng(_ROWS).uniform(-np.pi, np.pi, (_SAMPLES, self.unknowns))
+        J = self.jacobians(u * self.scale) * self.scale
+        length = np.median(np.linalg.norm(J, axis=2), axis=0)
+        # An equation that follows from relations is 0 = 0 up to rounding: not to be scaled up.
+        return np.where(length > _ZERO * np.max(length, initial=0.0), length, np.inf)
+
+    def residuals(self, u: np.ndarray) -> np.ndarray:
+        """(n, equations) of (n, unknowns)."""
+        return self.evaluate(self.equations, u)
+
+    def openness(self, u: np.ndarray) -> np.ndarray:
+        """(n,) largest residual, that of the other equations included."""
+        found = self.evaluate([*self.equations, *self.others], u)
+        return np.asarray(np.max(np.abs(found), axis=1, initial=0.0))
+
+    def aligned(self, u: np.ndarray) -> np.ndarray:
+        """(n,) True where no loop is closed with axes opposite; NaN postures are not."""
+        values = self.evaluate(self.alignments, u)
+        return np.all(np.isfinite(u), axis=1) & np.all(values > 0.0, axis=1)
+
+    def jacobians(self, u: np.ndarray) -> np.ndarray:
+        """(n, equations, unknowns)."""
+        flat = self.evaluate([entry for line in self.jacobian for entry in line], u)
+        return flat.reshape(len(u), len(self.equations), self.unknowns)
+
+    def linearised(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """`residuals`, `openness` and `jacobians` of (n, unknowns), which share most steps."""
+        slopes = [entry for line in self.jacobian for entry in line]
+        count, every = len(self.equations), len(self.equations) + len(self.others)
+        found = self.evaluate([*self.equations, *self.others, *slopes], u)
+        openness = np.max(np.abs(found[:, :every]), axis=1, initial=0.0)
+        return found[:, :count], openness, found[:, every:].reshape(len(u), count, self.unknowns)
+
+    def scaled_jacobian(self, u: np.ndarray) -> np.ndarray:
+        """Jacobians with travels counted in sizes of the robot and rows of usual length 1."""
+        return np.asarray(self.jacobians(u) * self.scale / self.rows[:, None])
+
+    def inner(self, u: np.ndarray) -> np.ndarray:
+        """(n, equations, solved) columns of `scaled_jacobian` of the joints that follow."""
+        return self.scaled_jacobian(u)[:, :, list(self.solved)]
+
+    def sigma(self, u: np.ndarray) -> np.ndarray:
+        """(n,) distances to a singularity: smallest singular values of `inner`.
+
+        0 where joints can move with the actuated ones locked.
+        """
+        return np.asarray(np.linalg.svd(self.inner(u), compute_uv=False)[:, -1])
+
+    def following(self, u: np.ndarray, f: np.ndarray) -> np.ndarray:
+        """(n, solved, ...) J_s^-1 f of (n, equations, ...): what of the joints that follow does f.
+
+        For independent equations, as many as joints follow.
+        """
+        inner = self.jacobians(u)[:, :, list(self.solved)]
+        return np.linalg.solve(inner, f.reshape(len(u), len(self.equations), -1)).reshape(f.shape)
+
+    def evaluate(
+        self, expressions: Sequence[Expr], u: np.ndarray, ud: np.ndarray | None = None
+    ) -> np.ndarray:
+        """(n, expressions) at postures, and speeds if they read these, (n, unknowns)."""
+        inputs = {f"q[{k}]": u[:, k] for k in range(self.unknowns)}
+        if ud is not None:
+            inputs |= {f"qd[{k}]": ud[:, k] for k in range(self.unknowns)}
+        found = self.graph.evaluate(list(expressions), {**self.values, **inputs})
+        out = np.empty((len(u), len(expressions)))
+        for i, value in enumerate(found):
+            out[:, i] = value
+        return out
+
+    def closed(self, u: np.ndarray, solved: Sequence[int] | None = None) -> np.ndarray:
+        """Newton from u with the others held; rows that do not close come back as NaN."""
+        places = list(self.solved if solved is None else solved)
+        u = np.array(u, dtype=float)
+        scale = self.scale[places]
+        for _ in range(_ITERATIONS):
+            f = self.residuals(u)
+            if np.all(np.max(np.abs(f), axis=1, initial=0.0) < _CLOSED * self.size):
+                break
+            J = self.jacobians(u)[:, :, places] * scale
+            step = -np.einsum("nij,nj->ni", np.linalg.pinv(J, rcond=1e-12), f)
+            longest = np.max(np.abs(step), axis=1, keepdims=True)
+            step *= np.minimum(1.0, 0.4 / np.maximum(longest, 1e-300))
+            u[:, places] += step * scale
+        bad = ~(np.max(np.abs(self.residuals(u)), axis=1, initial=0.0) < 1e-9 * self.size)
+        u[bad] = np.nan
+        return u
+
+
+def open_loop(loops: LoopEquations, u: np.ndarray, owners: Sequence[str]) -> str:
+    """Which loop cannot close near a posture: the one that is open furthest there."""
+    f = np.abs(loops.residuals(u[None])[0])
+    worst = int(np.argmax(f))
+    return f'loop "{owners[worst]}" cannot close near that posture (open by {f[worst]:.3g})'
+
+
+def nearest_closed(loops: LoopEquations, start: np.ndarray) -> np.ndarray | None:
+    """The closed posture that Newton finds from `start`; where its axes are opposite, another near.
+
+    Other starts differ in the solved angles.
+    """
+    home = loops.closed(start[None])
+    if loops.aligned(home)[0]:
+        return home[0]
+    if not np.all(np.isfinite(home)):
+        return None
+    rng = np.random.default_rng(_SEED)
+    others = np.tile(start, (_STARTS, 1))
+    angles = [k for k in loops.solved if not loops.lengths[k]]
+    others[:, angles] += rng.uniform(-np.pi, np.pi, (_STARTS, len(angles)))
+    found = loops.closed(others)
+    found = found[loops.aligned(found)]
+    if len(found) == 0:
+        return None
+    found[:, angles] = start[angles] + wrapped(found[:, angles] - start[angles])
+    # Mirrored postures may be equally near: digits that no rounding reaches decide then.
+    near = np.round(np.sum(np.abs(found - start), axis=1), _PLACES)
+    return found[min(range(len(found)), key=lambda i: (near[i], *np.round(found[i], _PLACES)))]
+
+
+def wrapped(angle: np.ndarray) -> np.ndarray:
+    """Angles in [-pi, pi)."""
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+def polished(
+    loops: LoopEquations, home: np.ndarray, chosen: Sequence[int], robot: Robot
+) -> tuple[float, ...]:
+    """The doubles next to the closed posture that `home` is up to rounding: the same everywhere.
+
+    Newton on the independent equations, their residuals with 40 digits, the given variables held.
+
+    Args:
+        loops: the loops.
+        home: a closed posture.
+        chosen: numbers of the independent equations.
+        robot: for the message.
+
+    Raises:
+        LoopError: it does not settle; loops so near to singular have no certain digits.
+    """
+    mp, solved = precise(), list(loops.solved)
+    count = len(solved)
+    equations = [loops.equations[i] for i in chosen]
+    slopes = [loops.jacobian[i][k] for i in chosen for k in solved]
+    u = [decimal(float(x)) for x in home]
+    for _ in range(_POLISHING):
+        inputs = {f"q[{k}]": x for k, x in enumerate(u)}
+        found = precise_values(loops.graph, [*equations, *slopes], {**loops.values, **inputs})
+        # The step is good to a double, what is left is known to 40 digits: so it goes on shrinking.
+        f, J = (np.array(part, dtype=float) for part in (found[:count], found[count:]))
+        try:
+            step = np.linalg.solve(J.reshape(count, count), f)
+        except np.linalg.LinAlgError:
+            break
+        for k, change in zip(solved, step, strict=True):
+            u[k] -= float(change)
+        if max(abs(change) for change in step) < _POLISHED * loops.size:
+            for k in solved:  # what should be 0 is left at the size of the last step, not at 0
+                u[k] = mp.nint(u[k] / _POLISHED) * _POLISHED
+            return tuple(float(x) for x in u)
+    raise LoopError(
+        f"{robot.name}: [home]: the closed posture is not certain to the last digit, the loops are "
+        "all but singular there; state another posture"
+    )
+
+
+def moved_postures(
+    loops: LoopEquations,
+    home: np.ndarray,
+    rng: np.random.Generator,
+    samples: int,
+    reach: float = 0.3,
+) -> np.ndarray:
+    """(samples, unknowns) closed postures around home: random actuated motion, in small steps.
+
+    A sample stops where the loops would not close any further.
+    """
+    scale = loops.scale * reach
+    scale = np.where(loops.lengths, 0.5 * scale, scale)
+    u = np.tile(home, (samples, 1))
+    target = rng.uniform(-1.0, 1.0, u.shape) * scale
+    step = _tangent(loops, u, target) / _STEPS
+    for _ in range(_STEPS):
+        trial = loops.closed(u + step, range(loops.unknowns))
+        jump = np.max(np.abs(trial - u) / loops.scale, axis=1)
+        good = np.isfinite(jump) & (jump < 4 * reach / _STEPS * 3)
+        u[good] = trial[good]
+        step = _tangent(loops, u, target) / _STEPS
+    return u
+
+
+def _tangent(loops: LoopEquations, u: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """`wanted` projected on the motions that the loops allow."""
+    scale = loops.scale
+    J = loops.jacobians(u) * scale
+    w = wanted / scale
+    along = np.einsum("nij,nj->ni", np.linalg.pinv(J, rcond=1e-9), np.einsum("nij,nj->ni", J, w))
+    return (w - along) * scale
+
 
 # Closure equations of the loops, from the poses of the frames that meet.
 
@@ -101,14 +368,14 @@ compare directions by right angles, which opposite axes fulfil too."""
 
 
 _RANK = 1e-9
-"""Singular value of `Closing.scaled_jacobian` that counts as none at generic postures."""
+"""Singular value of `LoopEquations.scaled_jacobian` that counts as none at generic postures."""
 _ALIKE = 1e-6
-_SAMPLES = 12
-_SEED = 20120
+_POSTURES = 12
+_MOBILITY_SEED = 20120
 
 
 @dataclass(frozen=True, kw_only=True)
-class Closure(Closing):
+class Closure(LoopEquations):
     """The loops of a robot in its free variables u, by independent equations.
 
     Attributes:
@@ -140,50 +407,50 @@ def closure_of(
     robot = geometry.robot
     if not robot.loops:
         return None
-    closing, owners = loop_closing(geometry, graph, frames, algebra)
+    loops, owners = loop_equations(geometry, graph, frames, algebra)
     start = np.array([robot.home.get(joint.name, 0.0) for joint in robot.free])
-    if not closing.equations:
-        if closing.solved:
-            raise LoopError(_mobility(closing, geometry, np.zeros((1, len(start))), owners))
+    if not loops.equations:
+        if loops.solved:
+            raise LoopError(_mobility(loops, geometry, np.zeros((1, len(start))), owners))
         return None
-    if not check_freedom(closing, start, geometry, owners):
+    if not check_freedom(loops, start, geometry, owners):
         raise LoopError(
-            f"{robot.name}: [home]: {open_loop(closing, start, owners)}; state values near a "
+            f"{robot.name}: [home]: {open_loop(loops, start, owners)}; state values near a "
             "closed one, and check the lengths"
         )
-    home = nearest_closed(closing, start)
+    home = nearest_closed(loops, start)
     if home is None:
         raise LoopError(
             f"{robot.name}: [home]: the passive joints do not close the loops there; state another "
             "posture"
         )
-    if not closing.solved:
+    if not loops.solved:
         return None
-    chosen = _independent(closing, home, geometry)
-    equations = tuple(closing.equations[i] for i in chosen)
-    jacobian = tuple(tuple(closing.jacobian[i]) for i in chosen)
+    chosen = _independent(loops, home, geometry)
+    equations = tuple(loops.equations[i] for i in chosen)
+    jacobian = tuple(tuple(loops.jacobian[i]) for i in chosen)
     held = {equation.ref for equation in equations}
     return Closure(
         graph=graph,
-        values=closing.values,
+        values=loops.values,
         equations=equations,
         jacobian=jacobian,
-        given=closing.given,
-        solved=closing.solved,
-        lengths=closing.lengths,
-        size=closing.size,
-        alignments=tuple(closing.alignments),
-        others=tuple(e for e in closing.equations if e.ref not in held),
-        drift=tuple(_drift(graph, jacobian, closing.unknowns)),
-        home=polished(closing, home, chosen, robot),
-        platform=_platform(closing, home, geometry),
-        redundant=len(closing.equations) - len(equations),
+        given=loops.given,
+        solved=loops.solved,
+        lengths=loops.lengths,
+        size=loops.size,
+        alignments=tuple(loops.alignments),
+        others=tuple(e for e in loops.equations if e.ref not in held),
+        drift=tuple(_drift(graph, jacobian, loops.unknowns)),
+        home=polished(loops, home, chosen, robot),
+        platform=_platform(loops, home, geometry),
+        redundant=len(loops.equations) - len(equations),
     )
 
 
-def loop_closing(
+def loop_equations(
     geometry: Geometry, graph: Graph, frames: Sequence[Pose], algebra: GraphAlgebra
-) -> tuple[Closing, list[str]]:
+) -> tuple[LoopEquations, list[str]]:
     """The equations of all loops, and the name of the loop that each comes from."""
     robot = geometry.robot
     equations: list[Expr] = []
@@ -209,10 +476,10 @@ def loop_closing(
     precisely = precise_values(graph, ways, {**geometry.values, **still})
     norms = map(precise().norm, zip(*[iter(precisely)] * 3, strict=True))
     size = float(max(norms)) or 1.0
-    closing = Closing(
+    loops = LoopEquations(
         graph, geometry.values, equations, jacobian, given, solved, lengths, size, aligned
     )
-    return closing, owners
+    return loops, owners
 
 
 def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Expr]:
@@ -228,7 +495,7 @@ def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Exp
 
 
 def check_freedom(
-    closing: Closing, start: np.ndarray, geometry: Geometry, owners: Sequence[str]
+    loops: LoopEquations, start: np.ndarray, geometry: Geometry, owners: Sequence[str]
 ) -> bool:
     """The loops leave as much free as is actuated, and the actuated joints drive it.
 
@@ -238,39 +505,39 @@ def check_freedom(
     Raises:
         LoopError: they do not.
     """
-    near = closing.closed(start[None], range(closing.unknowns))[0]
+    near = loops.closed(start[None], range(loops.unknowns))[0]
     if not np.all(np.isfinite(near)):
         return False
-    postures = moved_postures(closing, near, np.random.default_rng(_SEED), _SAMPLES)
-    J = closing.scaled_jacobian(postures)
+    postures = moved_postures(loops, near, np.random.default_rng(_MOBILITY_SEED), _POSTURES)
+    J = loops.scaled_jacobian(postures)
     ranks = [_rank(sample) for sample in J]
-    if closing.unknowns - max(ranks) != len(closing.given):
-        raise LoopError(_mobility(closing, geometry, J[int(np.argmax(ranks))], owners))
-    inner = J[:, :, list(closing.solved)]
+    if loops.unknowns - max(ranks) != len(loops.given):
+        raise LoopError(_mobility(loops, geometry, J[int(np.argmax(ranks))], owners))
+    inner = J[:, :, list(loops.solved)]
     best = inner[max(range(len(inner)), key=lambda i: _rank(inner[i]))]
-    if _rank(best) < len(closing.solved):
+    if _rank(best) < len(loops.solved):
         raise LoopError(
-            f"{geometry.robot.name}: {_moving_names(closing, geometry, best)} can move with all "
+            f"{geometry.robot.name}: {_moving_names(loops, geometry, best)} can move with all "
             "actuated joints locked, and the actuated joints are tied to each other; actuate "
             "others (mu 1)"
         )
     return True
 
 
-def _independent(closing: Closing, home: np.ndarray, geometry: Geometry) -> list[int]:
+def _independent(loops: LoopEquations, home: np.ndarray, geometry: Geometry) -> list[int]:
     """Numbers of as many independent equations as there are variables to solve for.
 
     Raises:
         LoopError: they are singular at home.
     """
-    at_home = closing.inner(home[None])[0]
-    if _rank(at_home, SINGULAR) < len(closing.solved):
-        moving = _moving_names(closing, geometry, at_home, SINGULAR)
+    at_home = loops.inner(home[None])[0]
+    if _rank(at_home, SINGULAR) < len(loops.solved):
+        moving = _moving_names(loops, geometry, at_home, SINGULAR)
         raise LoopError(
             f"{geometry.robot.name}: the loops are singular at [home]: {moving} could move there "
             "with the actuated joints locked; state another posture"
         )
-    return sorted(spanning_rows(at_home, len(closing.solved), _ALIKE))
+    return sorted(spanning_rows(at_home, len(loops.solved), _ALIKE))
 
 
 def spanning_rows(matrix: np.ndarray, count: int, alike: float = 0.0) -> list[int]:
@@ -296,7 +563,7 @@ def _rank(matrix: np.ndarray, tolerance: float = _RANK) -> int:
 
 
 def _moving_names(
-    closing: Closing, geometry: Geometry, inner: np.ndarray, tolerance: float = _RANK
+    loops: LoopEquations, geometry: Geometry, inner: np.ndarray, tolerance: float = _RANK
 ) -> str:
     """The solved joints that take part in a motion which the equations do not stop."""
     _, _, vt = np.linalg.svd(inner, full_matrices=True)
@@ -304,20 +571,22 @@ def _moving_names(
     share = np.max(np.abs(vt[rank:]), axis=0)
     free = geometry.robot.free
     names = [
-        free[k].name for k, s in zip(closing.solved, share, strict=True) if s > 0.1 * share.max()
+        free[k].name for k, s in zip(loops.solved, share, strict=True) if s > 0.1 * share.max()
     ]
     return f"joint{'s' if len(names) > 1 else ''} " + ", ".join(names)
 
 
-def _mobility(closing: Closing, geometry: Geometry, J: np.ndarray, owners: Sequence[str]) -> str:
-    robot, free = geometry.robot, closing.unknowns - _rank(J)
+def _mobility(
+    loops: LoopEquations, geometry: Geometry, J: np.ndarray, owners: Sequence[str]
+) -> str:
+    robot, free = geometry.robot, loops.unknowns - _rank(J)
     actuated = ", ".join(joint.name for joint in robot.coordinates)
     told = f"{robot.name}: the loops leave {free} degree{'s' if free != 1 else ''} of freedom"
-    if free > len(closing.given):
-        inner = J[:, list(closing.solved)]
+    if free > len(loops.given):
+        inner = J[:, list(loops.solved)]
         return (
-            f"{told}, {len(closing.given)} joints are actuated ({actuated}): under-constrained, "
-            f"{_moving_names(closing, geometry, inner)} could move with these locked; actuate one "
+            f"{told}, {len(loops.given)} joints are actuated ({actuated}): under-constrained, "
+            f"{_moving_names(loops, geometry, inner)} could move with these locked; actuate one "
             "of them (mu 1), add a relation, or close the loop by a joint that lets less free"
         )
     # The loops without which more would be free.
@@ -325,25 +594,25 @@ def _mobility(closing: Closing, geometry: Geometry, J: np.ndarray, owners: Seque
     blamed = [name for name in names if _rank(J[[o != name for o in owners]]) < full]
     strictest = ", ".join(f'"{name}"' for name in blamed or names)
     return (
-        f"{told}, {len(closing.given)} joints are actuated ({actuated}): over-constrained by "
+        f"{told}, {len(loops.given)} joints are actuated ({actuated}): over-constrained by "
         f"loop {strictest}; close it by a joint that lets more free, or make "
         "actuated joints passive (mu 0)"
     )
 
 
-def _platform(closing: Closing, home: np.ndarray, geometry: Geometry) -> tuple[int, ...] | None:
+def _platform(loops: LoopEquations, home: np.ndarray, geometry: Geometry) -> tuple[int, ...] | None:
     """Platform coordinates, and as many actuated ones as are still to be given with them."""
     names = [joint.name for joint in geometry.robot.free]
     chosen = [names.index(name) for name in geometry.robot.platform if name in names]
-    if not chosen or len(chosen) > len(closing.given):
+    if not chosen or len(chosen) > len(loops.given):
         return None
-    J = closing.scaled_jacobian(home[None])[0]
+    J = loops.scaled_jacobian(home[None])[0]
 
     def solvable(places: Sequence[int]) -> bool:
-        others = [k for k in range(closing.unknowns) if k not in places]
-        return _rank(J[:, others], SINGULAR) == len(closing.solved)
+        others = [k for k in range(loops.unknowns) if k not in places]
+        return _rank(J[:, others], SINGULAR) == len(loops.solved)
 
-    for k in closing.given:
-        if len(chosen) < len(closing.given) and k not in chosen and solvable([*chosen, k]):
+    for k in loops.given:
+        if len(chosen) < len(loops.given) and k not in chosen and solvable([*chosen, k]):
             chosen.append(k)
-    return tuple(chosen) if len(chosen) == len(closing.given) and solvable(chosen) else None
+    return tuple(chosen) if len(chosen) == len(loops.given) and solvable(chosen) else None

@@ -9,8 +9,7 @@ import numpy as np
 from modeler.core.errors import DerivationError, LoopError
 from modeler.core.result import Presented
 from modeler.derivation.assembly_modes import STARTS, AssemblyMode, assembly_modes, lengthened
-from modeler.derivation.closing import SINGULAR, nearest_closed, open_loop
-from modeler.derivation.closure import check_freedom
+from modeler.derivation.closure import SINGULAR, check_freedom, nearest_closed, open_loop
 from modeler.derivation.columns import standard_columns
 from modeler.derivation.geometry import exact_geometry
 from modeler.derivation.graph import Graph
@@ -37,8 +36,8 @@ def lost_directions(linkage: Linkage, u: np.ndarray) -> list[str]:
         linkage: the robot.
         u: (u,) closed posture.
     """
-    names = [f"q{linkage.free[k].name}" for k in linkage.closing.solved]
-    _, values, turned = np.linalg.svd(linkage.closing.inner(u[None])[0])
+    names = [f"q{linkage.free[k].name}" for k in linkage.loops.solved]
+    _, values, turned = np.linalg.svd(linkage.loops.inner(u[None])[0])
     told = []
     for motion in turned[values <= SINGULAR]:
         motion = motion / motion[np.argmax(np.abs(motion) > (1 - 1e-6) * np.max(np.abs(motion)))]
@@ -101,12 +100,12 @@ def settled_home(model: SymbolicModel) -> Home:
     if _good_as_stated(linkage, stated) is not None:
         return Home(robot)
     start = np.nan_to_num(stated)
-    check_freedom(linkage.closing, start, linkage.geometry, linkage.owners)
+    check_freedom(linkage.loops, start, linkage.geometry, linkage.owners)
     modes = assembly_modes(linkage, stated)
-    found = nearest_closed(linkage.closing, start)
-    if found is not None and linkage.closing.sigma(found[None])[0] <= SINGULAR:
+    found = nearest_closed(linkage.loops, start)
+    if found is not None and linkage.loops.sigma(found[None])[0] <= SINGULAR:
         # Meant, if all actuated joints on which the loops depend are stated.
-        given = [k for k in linkage.closing.given if linkage.tied[k]]
+        given = [k for k in linkage.loops.given if linkage.tied[k]]
         if np.all(np.isfinite(stated[given])):
             raise LoopError(_singular(linkage, found, modes))
     if not modes:
@@ -135,10 +134,10 @@ def modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
         )
     hints = linkage.vector(near)
     start = np.nan_to_num(hints)
-    check_freedom(linkage.closing, start, linkage.geometry, linkage.owners)
+    check_freedom(linkage.loops, start, linkage.geometry, linkage.owners)
     own = _good_as_stated(linkage, linkage.vector(robot.home))
     if own is not None and not near:  # [home] is left out where all joints at 0 will do
-        hints[list(linkage.closing.given)] = own[list(linkage.closing.given)]
+        hints[list(linkage.loops.given)] = own[list(linkage.loops.given)]
     modes = assembly_modes(linkage, hints)
     if not modes:
         raise _nothing_found(linkage, np.nan_to_num(hints))
@@ -151,7 +150,7 @@ def modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
 
 
 def _nothing_found(linkage: Linkage, start: np.ndarray) -> LoopError:
-    found = open_loop(linkage.closing, start, linkage.owners)
+    found = open_loop(linkage.loops, start, linkage.owners)
     return LoopError(
         f"{linkage.robot.name}: [home]: {found}, nor from {STARTS} others without being singular; "
         "check the lengths, and the joints of [loops]"
@@ -163,7 +162,7 @@ def written(linkage: Linkage, u: np.ndarray) -> dict[str, float]:
 
     Rows that follow others are stated where they were before.
     """
-    robot, given = linkage.robot, linkage.closing.given
+    robot, given = linkage.robot, linkage.loops.given
     home = {
         joint.name: float(u[k]) if k in given else round(float(u[k]), 6) + 0.0
         for k, joint in enumerate(linkage.free)
@@ -179,8 +178,8 @@ def written(linkage: Linkage, u: np.ndarray) -> dict[str, float]:
 
 def _good_as_stated(linkage: Linkage, stated: np.ndarray) -> np.ndarray | None:
     """The closed posture that was stated, rows left out at 0; None if it is no good one."""
-    found = nearest_closed(linkage.closing, np.nan_to_num(stated))
-    if found is None or linkage.closing.sigma(found[None])[0] <= SINGULAR:
+    found = nearest_closed(linkage.loops, np.nan_to_num(stated))
+    if found is None or linkage.loops.sigma(found[None])[0] <= SINGULAR:
         return None
     moved = linkage.apart(found[None], np.nan_to_num(stated))
     turned = lengthened(linkage, found[None], stated)
@@ -195,7 +194,7 @@ def _told(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np.ndarray)
     if not modes[0].kept:
         others += "; it is outside [limits], which none keeps there: check the lengths"
     if not np.any(np.isfinite(stated)):
-        given = linkage.closing.given
+        given = linkage.loops.given
         return f"{robot.name}: [home] found: mode A at {_values(linkage, posture, given)}; {others}"
     moved = linkage.apart(posture[None], stated)[0]
     far = [k for k in np.argsort(-moved, kind="stable") if moved[k] > 0.01]
@@ -214,7 +213,7 @@ def _singular(linkage: Linkage, u: np.ndarray, modes: tuple[AssemblyMode, ...]) 
     names = [f"q{joint.name}" for joint in linkage.free]
     motions = lost_directions(linkage, u)
     lost = [name for name in names if any(name in m.split(" = ")[0].split(" : ") for m in motions)]
-    away = linkage.closing.sigma(u[None])[0]
+    away = linkage.loops.sigma(u[None])[0]
     advice = "state another posture"
     if modes:
         advice += f", such as {_values(linkage, modes[0].posture, range(len(names)))}"

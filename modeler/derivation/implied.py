@@ -51,7 +51,7 @@ class Constants:
 
     def __init__(self, closure: Closure, derived: Mapping[str, float]) -> None:
         """Constants of loops at home; `derived` symbols are given by expressions of others."""
-        self.closing, self.home, self.derived = closure, np.array(closure.home), derived
+        self.loops, self.home, self.derived = closure, np.array(closure.home), derived
 
     def terms(self, coefficients: np.ndarray, angular: bool) -> list[Term] | None:
         """The constant coefficients . home as a sum of terms; None where none is found.
@@ -90,39 +90,39 @@ class Constants:
         """What a symbol may be multiplied by: text and value."""
         yield "", 1.0
         if not angular:
-            for other, value in self.closing.values.items():
+            for other, value in self.loops.values.items():
                 if other not in (name, "g"):
                     yield f"*cos({other})", math.cos(value)
                     yield f"*sin({other})", math.sin(value)
 
     def _value(self, text: str) -> float:
         name, _, factor = text.partition("*")
-        value = float(self.closing.values[name])
+        value = float(self.loops.values[name])
         if not factor:
             return value
         function, other = factor[:3], factor[4:-1]
-        return value * getattr(math, function)(self.closing.values[other])
+        return value * getattr(math, function)(self.loops.values[other])
 
     @cached_property
     def _perturbed(self) -> Mapping[str, np.ndarray]:
         """By symbol, home closed anew with another value of it; where it does not, left out."""
-        names = list(self.closing.values)
+        names = list(self.loops.values)
         with np.errstate(all="ignore"):  # the root of a length that became negative
             moved = self._closed_anew(names)
-        far = np.abs(moved - self.home) / self.closing.scale
+        far = np.abs(moved - self.home) / self.loops.scale
         near = np.max(far, axis=1, initial=0.0) < _NEAR
         return {name: u for name, u, good in zip(names, moved, near, strict=True) if good}
 
     def _closed_anew(self, names: Sequence[str]) -> np.ndarray:
         """(names, unknowns): Newton from home, one sample for each symbol."""
-        closing, count = self.closing, len(names)
-        values: dict[str, Any] = {n: np.full(count, self.closing.values[n]) for n in names}
+        loops, count = self.loops, len(names)
+        values: dict[str, Any] = {n: np.full(count, self.loops.values[n]) for n in names}
         for i, name in enumerate(names):
             values[name][i] += _STEP
-        moved = replace(closing, values=values)
+        moved = replace(loops, values=values)
         u = np.tile(self.home, (count, 1))
         for _ in range(_ITERATIONS):
-            u[:, list(closing.solved)] -= moved.following(u, moved.residuals(u))
+            u[:, list(loops.solved)] -= moved.following(u, moved.residuals(u))
         return u
 
 

@@ -14,8 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.derivation.closing import Closing, wrapped
-from modeler.derivation.closure import Frame, loop_closing
+from modeler.derivation.closure import Frame, LoopEquations, loop_equations, wrapped
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.kinematics import base_poses
 from modeler.derivation.model import SymbolicModel
@@ -51,29 +50,29 @@ class Walk:
     distance: float
 
 
-def _closed(closing: Closing, u: np.ndarray) -> np.ndarray:
+def _closed(loops: LoopEquations, u: np.ndarray) -> np.ndarray:
     """The postures, all but closed, closed to rounding; those that do not settle are left out.
 
     So are those that go far to close: near a singularity Newton may end in another assembly mode.
     """
-    solved = list(closing.solved)
+    solved = list(loops.solved)
     start, u = u, u.copy()
     for _ in range(_POLISHING):
-        u[:, solved] -= closing.following(u, closing.residuals(u))
-    left = closing.openness(u)
-    far = np.abs(u - start) / closing.scale
-    return u[(left < _CLOSED * closing.size) & (np.max(far, axis=1) < _STEP)]
+        u[:, solved] -= loops.following(u, loops.residuals(u))
+    left = loops.openness(u)
+    far = np.abs(u - start) / loops.scale
+    return u[(left < _CLOSED * loops.size) & (np.max(far, axis=1) < _STEP)]
 
 
 class _Paths:
     """Walkers on their way, each to its own target."""
 
     def __init__(
-        self, closing: Closing, u: np.ndarray, ranges: np.ndarray, rng: np.random.Generator
+        self, loops: LoopEquations, u: np.ndarray, ranges: np.ndarray, rng: np.random.Generator
     ) -> None:
-        self.closing, self.rng, self.ranges = closing, rng, ranges
-        self.scale = closing.scale
-        self.given, self.solved = list(closing.given), list(closing.solved)
+        self.loops, self.rng, self.ranges = loops, rng, ranges
+        self.scale = loops.scale
+        self.given, self.solved = list(loops.given), list(loops.solved)
         self.u = self.before = self.home = u
         self.sign = self._linearised(u)[2]
         self.pace = np.ones(len(u))
@@ -87,14 +86,14 @@ class _Paths:
 
     def _linearised(self, u: np.ndarray) -> tuple[np.ndarray, ...]:
         """Residuals, Jacobian with travels in sizes of the robot, sign of det J_s, openness."""
-        f, openness, J = self.closing.linearised(u)
+        f, openness, J = self.loops.linearised(u)
         J = J * self.scale
         return f, J, np.linalg.slogdet(J[:, :, self.solved])[0], openness
 
     def step(self) -> np.ndarray:
         """One step of every walker; the postures, all but closed, that are reached by it."""
         f, J, sign, openness = self._linearised(self.u)
-        lost = openness > _OPEN * self.closing.size
+        lost = openness > _OPEN * self.loops.size
         lost |= (sign != self.sign) | self._outside(self.u)
         self.pace = np.where(lost, self.pace / 4, np.minimum(1.0, 2 * self.pace))
         stuck = self.pace < _SLOWEST
@@ -149,14 +148,14 @@ class Linkage(Brief):
     Attributes:
         robot: as read.
         geometry: its exact table.
-        closing: the loop equations.
+        loops: the loop equations.
         owners: by equation, the loop that it comes from.
         frames: axes and origin of every row in frame 0, as expressions.
     """
 
     robot: Robot
     geometry: Geometry
-    closing: Closing
+    loops: LoopEquations
     owners: Sequence[str]
     frames: Sequence[Frame]
 
@@ -168,12 +167,12 @@ class Linkage(Brief):
     @cached_property
     def lengths(self) -> np.ndarray:
         """By u, True for a travel in m."""
-        return np.array(self.closing.lengths, dtype=bool)
+        return np.array(self.loops.lengths, dtype=bool)
 
     @cached_property
     def tied(self) -> np.ndarray:
         """By u, True for a joint that a loop depends on; the others stand anywhere."""
-        columns = zip(*self.closing.jacobian, strict=True)
+        columns = zip(*self.loops.jacobian, strict=True)
         return np.array([any(not entry.is_zero for entry in column) for column in columns])
 
     def vector(self, values: Mapping[str, float]) -> np.ndarray:
@@ -198,7 +197,7 @@ class Linkage(Brief):
     def origins(self, u: np.ndarray) -> np.ndarray:
         """(n, rows, 3) origins of all frames in frame 0, m."""
         flat = [x for _, origin in self.frames for x in origin]
-        return self.closing.evaluate(flat, u).reshape(len(u), len(self.frames), 3)
+        return self.loops.evaluate(flat, u).reshape(len(u), len(self.frames), 3)
 
     def shape(self, u: np.ndarray) -> np.ndarray:
         """(n, numbers) where all frames and joint axes are, an axis being a line without a sense.
@@ -206,23 +205,23 @@ class Linkage(Brief):
         Postures of one shape are symmetric copies: a fork turned over with its universal joint, a
         cylinder of negative length that points the other way.
         """
-        z = self.closing.evaluate([x for axes, _ in self.frames for x in axes[2]], u)
+        z = self.loops.evaluate([x for axes, _ in self.frames for x in axes[2]], u)
         z = z.reshape(len(u), len(self.frames), 3)
         lines = np.einsum("nri,nrj->nrij", z, z)[:, :, *np.triu_indices(3)]
-        points = self.origins(u) / self.closing.size
+        points = self.origins(u) / self.loops.size
         return np.concatenate([points, lines], axis=2).reshape(len(u), 9 * len(self.frames))
 
     def apart(self, u: np.ndarray, other: np.ndarray) -> np.ndarray:
         """(n, u) distances of joints, rad and sizes, angles the shorter way round; NaN as 0."""
         way = u - other
-        way = np.where(self.lengths, way / self.closing.size, wrapped(way))
+        way = np.where(self.lengths, way / self.loops.size, wrapped(way))
         return np.abs(np.nan_to_num(way))
 
     def outside(self, u: np.ndarray) -> np.ndarray:
         """(n,) by how much [limits] are left, rad and sizes."""
         lower, upper = self.bounds()
         beyond = np.maximum(np.maximum(lower - u, u - upper), 0.0)
-        return np.asarray(np.sum(beyond / self.closing.scale, axis=1))
+        return np.asarray(np.sum(beyond / self.loops.scale, axis=1))
 
 
 def linkage_of(model: SymbolicModel) -> Linkage | None:
@@ -230,11 +229,11 @@ def linkage_of(model: SymbolicModel) -> Linkage | None:
     robot = model.robot
     if not robot.loops:
         return None
-    closing, owners = loop_closing(model.geometry, model.graph, model.frames, model.algebra)
-    if not closing.equations or not closing.solved:
+    loops, owners = loop_equations(model.geometry, model.graph, model.frames, model.algebra)
+    if not loops.equations or not loops.solved:
         return None
     frames = base_poses(model.geometry, model.frames, model.algebra)
-    return Linkage(robot, model.geometry, closing, owners, frames)
+    return Linkage(robot, model.geometry, loops, owners, frames)
 
 
 # Closed states in floating point: postures, speeds and accelerations that the loops allow.

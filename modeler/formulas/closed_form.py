@@ -41,6 +41,7 @@ from modeler.derivation.kinematics import (
     dot,
     gravity_in_frames,
     plus,
+    project,
     screws,
 )
 from modeler.derivation.model import SymbolicModel, effect_entries
@@ -432,15 +433,16 @@ def _rows(model: SymbolicModel, bodies: Sequence[Composite], writer: SheetWriter
             name_vector(writer, f"m{other}{{}}_{name}", screw.m)
         name_vector(writer, f"g{{}}_{name}", g)
         f, n = body.momentum(row)
-        gravity[k] = -_along(chain[k], [*cross(body.MS, g)], [x * body.M for x in g])
+        pull = cross(body.MS, g)
+        gravity[k] = -project(chain[k], [x * body.M for x in g], pull)
         for i, j in combinations_with_replacement(sorted(chain), 2):
             turned[i, j, k] = _turned(body, chain[i], chain[j], row.joint.angular) * row.rate
             if j == k:
-                inertia[i, k] = _along(chain[i], n, f)
+                inertia[i, k] = project(chain[i], f, n)
             if i < j:
                 a, b = chain[j], chain[i]  # a x b: how screw b changes while all turns by a
                 moved = Screw(cross(a.e, b.e), plus(cross(a.e, b.m), cross(a.m, b.e)))
-                carried[i, j, k] = -_along(moved, n, f)
+                carried[i, j, k] = -project(moved, f, n)
     return _Rows(inertia, turned, carried, gravity)
 
 
@@ -448,11 +450,6 @@ def name_vector(writer: SheetWriter, pattern: str, vector: Vector) -> None:
     """Proposes the pattern with x, y, z in its braces for the entries."""
     for axis, entry in zip(_AXES, vector, strict=True):
         writer.propose(pattern.format(axis), entry)
-
-
-def _along(screw: Screw, n: Vector, f: Vector) -> Expr:
-    total: Expr = dot(screw.e, n) + dot(screw.m, f)
-    return total
 
 
 def _turned(body: Composite, a: Screw, b: Screw, angular: bool) -> Expr:

@@ -18,13 +18,18 @@ from modeler.core.errors import DerivationError
 from modeler.derivation.columns import LinkColumn, StandardColumn, in_block
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.kinematics import (
+    Composite,
     Pose,
     Screw,
     Vector,
+    cross,
     dot,
     free_screws,
     gravity_in_frames,
+    plus,
     poses,
+    project,
+    times,
 )
 from modeler.derivation.model import SymbolicModel
 from modeler.effects.effect import EnergyBlock
@@ -36,9 +41,6 @@ for 5R with general angles and lengths (6 s)."""
 
 Entries = Mapping[tuple[int, ...], Mapping[int, Poly]]
 """{indices: {column of the standard parameter: factor}}, in normal form; zeros left out."""
-
-_INERTIA = {"XX": (0, 0), "XY": (0, 1), "XZ": (0, 2), "YY": (1, 1), "YZ": (1, 2), "ZZ": (2, 2)}
-_MOMENTS = {"MX": 0, "MY": 1, "MZ": 2}
 
 
 @dataclass(frozen=True)
@@ -69,9 +71,9 @@ def dynamics(model: SymbolicModel, ring: TrigRing, columns: Sequence[int]) -> En
     inertia: dict[tuple[int, ...], dict[int, Poly]] = {}
     for place, column in wanted:
         if isinstance(column, LinkColumn):
-            link = carried[column.row]
+            link, body = carried[column.row], _unit_body(column, ring)
             for i, j in _pairs(link):
-                factor = ring.normal(_kinetic_factor(column.prefix, link[i], link[j]))
+                factor = ring.normal(_kinetic_factor(body, link[i], link[j]))
                 _add(inertia, (i, j), place, factor)
     for place, column in wanted:  # inertia that turns with a shaft: constant entries c_i c_j
         if in_block(column, EnergyBlock.KINETIC):
@@ -136,20 +138,15 @@ def _add(
     entry[place] = entry[place] + factor if place in entry else factor
 
 
-def _kinetic_factor(prefix: str, a: Screw, b: Screw) -> Poly:
-    if prefix in _INERTIA:
-        x, y = _INERTIA[prefix]
-        product = a.e[x] * b.e[y]
-        return product if x == y else product + a.e[y] * b.e[x]
-    if prefix in _MOMENTS:
-        x = _MOMENTS[prefix]
-        return _cross_entry(a.m, b.e, x) + _cross_entry(b.m, a.e, x)
-    return dot(a.m, b.m)
+def _unit_body(column: LinkColumn, ring: TrigRing) -> Composite:
+    """A link of which only that parameter is there, and is 1."""
+    return Composite({column.prefix: ring.ring.one}, ring.ring.zero)
 
 
-def _cross_entry(a: Vector, b: Vector, x: int) -> Poly:
-    y, z = (x + 1) % 3, (x + 2) % 3
-    return a[y] * b[z] - a[z] * b[y]
+def _kinetic_factor(body: Composite, a: Screw, b: Screw) -> Poly:
+    """Along screw a, the momentum of the body for unit speed along b."""
+    f = plus(times(body.M, b.m), cross(b.e, body.MS))
+    return project(a, f, plus([dot(line, b.e) for line in body.J], cross(body.MS, b.m)))
 
 
 def _gravity(
@@ -160,13 +157,10 @@ def _gravity(
 ) -> dict[tuple[int, ...], dict[int, Poly]]:
     entries: dict[tuple[int, ...], dict[int, Poly]] = {}
     for place, column in wanted:
-        if isinstance(column, LinkColumn) and column.prefix in (*_MOMENTS, "M"):
-            g = down[column.row]
+        if isinstance(column, LinkColumn):
+            g, body = down[column.row], _unit_body(column, ring)
             for i, screw in carried[column.row].items():
-                if column.prefix == "M":
-                    factor = -dot(screw.m, g)
-                else:
-                    factor = -_cross_entry(g, screw.e, _MOMENTS[column.prefix])
+                factor = -project(screw, times(body.M, g), cross(body.MS, g))
                 _add(entries, (i,), place, ring.normal(factor))
     return entries
 

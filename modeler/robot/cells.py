@@ -15,7 +15,7 @@ from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 # Expressions that are linear in the joint variables, taken apart.
 
 
-class NotLinear(ValueError):
+class NotLinear(ArithmeticError):
     """The expression is not linear in the variables."""
 
 
@@ -105,8 +105,6 @@ def _lifted(name: str) -> Callable[["Linear"], "Linear"]:
     def lifted(argument: Linear) -> Linear:
         try:
             return Linear(function(argument._number()))
-        except NotLinear:
-            raise
         except ValueError as error:  # sqrt(-1)
             raise ArithmeticError from error
 
@@ -318,8 +316,10 @@ C_WORDS = """
 """
 
 
-def read_symbols(place: Place, variables: Collection[str]) -> dict[str, Expression]:
-    """Symbols and their values, so ordered that each stands after those its value uses.
+def read_symbols(
+    place: Place, variables: Collection[str]
+) -> tuple[dict[str, Expression], dict[str, float]]:
+    """Symbols, so ordered that each stands after those its value uses, and what they are worth.
 
     Args:
         place: the table.
@@ -377,7 +377,9 @@ def read_gravity(
     return x, y, z
 
 
-def _ordered(symbols: Mapping[str, Expression], place: Place) -> dict[str, Expression]:
+def _ordered(
+    symbols: Mapping[str, Expression], place: Place
+) -> tuple[dict[str, Expression], dict[str, float]]:
     ordered: dict[str, Expression] = {}
     values: dict[str, float] = {}
     waiting = dict(symbols)
@@ -390,4 +392,4 @@ def _ordered(symbols: Mapping[str, Expression], place: Place) -> dict[str, Expre
             )
         ordered[ready] = waiting.pop(ready)
         values[ready] = form_at(ordered[ready], values, place.at(ready)).constant
-    return ordered
+    return ordered, values

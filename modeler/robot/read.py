@@ -16,7 +16,7 @@ from modeler.core.errors import RobotError
 from modeler.core.files import read_text
 from modeler.core.json import TomlError, parse_toml
 from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.robot.cells import check_name_length, form_at, read_gravity, read_symbols
+from modeler.robot.cells import check_name_length, read_gravity, read_symbols
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.loops import (
     expanded,
@@ -117,10 +117,7 @@ def robot_from_text(text: str, where: str) -> Robot:
     rows = table_rows(section("mdh"), platform_rows)
     rows += motor_rows(section("motors", {}), rows)
     variables = _joint_columns(rows)
-    symbols = read_symbols(section("symbols", {}), variables)
-    values: dict[str, float] = {}
-    for symbol, expression in symbols.items():
-        values[symbol] = form_at(expression, values, place).constant
+    symbols, values = read_symbols(section("symbols", {}), variables)
     motors, driven = read_motors(section("motors", {}), rows, values)
     relations = read_relations(section("relations", {}), driven, rows, values)
     title = place.at("title", document.get("title", document["name"])).text('"my robot"')

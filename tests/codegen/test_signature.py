@@ -20,7 +20,7 @@ from modeler.core.expression import parse
 from modeler.core.manifest import code_digest
 from modeler.core.rounded import FUNCTIONS, power
 from modeler.derivation.base_parameters import base_parameters
-from modeler.derivation.closing import Closing, polished
+from modeler.derivation.closure import LoopEquations, polished
 from modeler.derivation.derive import derive_model
 from modeler.derivation.graph import Graph
 from modeler.robot.read import read_robot, robot_from_text
@@ -158,9 +158,9 @@ def test_a_home_without_certain_digits_is_refused(start):
     """q0**2 = 0: a double root, near which every posture is closed up to rounding."""
     graph = Graph()
     q = graph.symbol("q[0]")
-    closing = Closing(graph, {}, [q * q], [[q * 2]], (), (0,), (False,), 1.0)
+    loops = LoopEquations(graph, {}, [q * q], [[q * 2]], (), (0,), (False,), 1.0)
     with pytest.raises(LoopError, match=r"two-link: \[home\]: .* all but singular there; state"):
-        polished(closing, np.array([start]), [0], read_robot("two-link"))
+        polished(loops, np.array([start]), [0], read_robot("two-link"))
 
 
 @pytest.mark.parametrize("name", [name for name in ROBOTS if module(name).model.closure])

@@ -8,7 +8,7 @@ import pytest
 
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import LoopError
-from modeler.derivation.closing import SINGULAR
+from modeler.derivation.closure import SINGULAR
 from modeler.derivation.derive import HomeModes, derive_model, modes_near, with_home
 from modeler.derivation.walks import linkage_of
 from modeler.robot.read import robot_from_text
@@ -42,9 +42,9 @@ def check(found: HomeModes) -> None:
     """Laws of assembly modes: closed, regular, with the actuated joints together, all different."""
     linkage = found.linkage
     u = np.array([mode.posture for mode in found.modes])
-    assert np.max(np.abs(linkage.closing.residuals(u))) < CLOSED * linkage.closing.size
-    assert np.all(linkage.closing.aligned(u)) and np.min(linkage.closing.sigma(u)) > SINGULAR
-    given = list(linkage.closing.given)
+    assert np.max(np.abs(linkage.loops.residuals(u))) < CLOSED * linkage.loops.size
+    assert np.all(linkage.loops.aligned(u)) and np.min(linkage.loops.sigma(u)) > SINGULAR
+    given = list(linkage.loops.given)
     assert np.ptp(u[:, given], axis=0).max() == 0.0
     shapes = linkage.shape(u)
     apart = np.max(np.abs(shapes[:, None] - shapes), axis=2) + np.eye(len(u))
@@ -252,7 +252,7 @@ def test_small_singular_values_are_told_from_large_ones() -> None:
     model = derive_model(of_text(text.replace("LENGTH", "0.61")))
     linkage = linkage_of(model)
     assert linkage is not None and model.closure is not None
-    assert 0.01 < linkage.closing.sigma(np.array([model.closure.home]))[0] < 0.3
+    assert 0.01 < linkage.loops.sigma(np.array([model.closure.home]))[0] < 0.3
 
 
 def test_a_found_home_is_the_same_as_a_written_one() -> None:
