@@ -546,7 +546,7 @@ def spanning_rows(matrix: np.ndarray, count: int, alike: float = 0.0) -> list[in
     Gram-Schmidt with pivoting, as LAPACK has it; but of rows whose lengths differ by less than the
     share `alike` the first is taken, where LAPACK would let the last digit choose.
     """
-    rest, chosen = matrix.copy(), list[int]()
+    rest, chosen = matrix.copy("K"), list[int]()
     for _ in range(count):
         lengths = np.linalg.norm(rest, axis=1)
         best = int(np.argmax(lengths >= (1.0 - alike) * lengths.max()))
