@@ -1,11 +1,13 @@
 """From the symbolic model to the base parameters and their proof."""
 
+from functools import cache, partial
+
 import numpy as np
 
 from modeler.derivation.certificate import PRIME, ModularState, modular_rank
 from modeler.derivation.columns import StandardColumn, in_block
 from modeler.derivation.enclosed import ball_rank
-from modeler.derivation.field import Element, ExactField, TooLarge, geometry_field
+from modeler.derivation.field import ExactField, TooLarge, geometry_field
 from modeler.derivation.geometry import Geometry, exact_geometry
 from modeler.derivation.grouping import (
     GroupingRelations,
@@ -248,14 +250,11 @@ def _check_relations(
 ) -> None:
     rows = np.vstack([state.energy_rows(columns), state.rayleigh_rows(columns)])
     dry = {place for place, c in enumerate(columns) if in_block(c, EnergyBlock.COULOMB)}
-    known: dict[Element, int] = {}
+    residue = cache(partial(K.residue, values=state.residues, prime=PRIME))
     for relation, dropped in zip(relations.rows, relations.dropped, strict=True):
         total = np.zeros(rows.shape[0], dtype=np.int64)
         for place, coefficient in relation.items():
-            residue = known.get(coefficient)
-            if residue is None:
-                residue = known[coefficient] = K.residue(coefficient, state.residues, PRIME)
-            total = (total + rows[:, place] * residue) % PRIME
+            total = (total + rows[:, place] * residue(coefficient)) % PRIME
         if np.any(total) and dropped not in dry:
             raise NotProved(f"the relation of {columns[dropped].name} does not hold")
 

@@ -9,6 +9,7 @@ the rank from above, this proves the number of base parameters.
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from functools import cache
 from itertools import accumulate
 from math import isqrt, lcm
 
@@ -222,7 +223,7 @@ class ModularState:
         self.letters = letters or {
             letter: filled(residue, points, prime) for letter, residue in self.residues.items()
         }
-        self._values: dict[sympy.Expr, Residues] = {}
+        self.value = cache(self._evaluated)
         count = geometry.coordinates
         self.qd = drawn(rng, (count, points), prime)
         self.travel = drawn(rng, (count, points), prime)
@@ -243,14 +244,8 @@ class ModularState:
             at = (identity, none, none, none) if row.parent is None else self.motion[row.parent]
             self.motion.append(self._frame(row, *at))
 
-    def value(self, expression: sympy.Expr) -> Residues:
-        """Residues of a constant expression."""
-        found = self._values.get(expression)
-        if found is None:
-            found = self._values[expression] = self._evaluated(expression)
-        return found
-
     def _evaluated(self, e: sympy.Expr) -> Residues:
+        """Residues of a constant expression."""
         if e.is_Rational:
             number = rational(Fraction(int(e.p), int(e.q)), self.prime)
             return filled(number, self.points, self.prime)

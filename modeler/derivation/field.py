@@ -210,8 +210,9 @@ class ExactField:
             self._field, generators, self._one = None, [], sympy.QQ(1)
         self._zero = self._one - self._one
         self._generator = dict(zip(self.letters, generators, strict=True))
-        self._found: dict[sympy.Expr, Element] = {}
-        self._told: dict[Element, sympy.Expr] = {}
+        # Most constants and coefficients of a long chain are the same few.
+        self.element = cache(self._convert)
+        self.expression = cache(self._written)
 
     @property
     def one(self) -> Element:
@@ -223,14 +224,6 @@ class ExactField:
         """0."""
         return self._zero
 
-    def element(self, value: sympy.Expr) -> Element:
-        """The field element of a constant expression."""
-        found = self._found.get(value)
-        if found is None:
-            found = self._convert(value)
-            self._found[value] = found
-        return found
-
     def generator(self, place: int) -> Element:
         """The generator of the letter at that place of `letters`."""
         return self._generator[list(self.letters)[place]]
@@ -241,6 +234,7 @@ class ExactField:
         return self.element(c), self.element(s)
 
     def _convert(self, value: sympy.Expr) -> Element:
+        """The field element of a constant expression."""
         if value.is_Rational:
             return self._one * sympy.QQ(int(value.p), int(value.q))
         if self.letters.get(value) in ("symbol", "opaque"):
@@ -258,16 +252,11 @@ class ExactField:
         t = self._generator[cosine_letter(value)]
         return (1 - t**2 if value.func is sympy.cos else 2 * t) / (1 + t**2)
 
-    def expression(self, element: Element) -> sympy.Expr:
+    def _written(self, element: Element) -> sympy.Expr:
         """The element as a sympy expression in the symbols, cosines and sines."""
         if not self._generator:
             return sympy.Rational(int(element.numerator), int(element.denominator))
-        # Most coefficients of a long chain are the same few.
-        found = self._told.get(element)
-        if found is None:
-            found = in_cosines(element.numer, element.denom, self.letters)
-            self._told[element] = found
-        return found
+        return in_cosines(element.numer, element.denom, self.letters)
 
     def residue(self, element: Element, values: Mapping[sympy.Expr, int], prime: int) -> int:
         """The element modulo a prime, with residues for the letters (tan(a/2) for cos(a))."""

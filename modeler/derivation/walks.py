@@ -194,22 +194,20 @@ class Linkage(Brief):
             middle = np.where(np.isfinite(lower + upper), 0.5 * (lower + upper), np.nan)
         return np.array([float(f"{x:.12g}") for x in middle])
 
-    def origins(self, u: np.ndarray) -> np.ndarray:
-        """(n, rows, 3) origins of all frames in frame 0, m."""
-        flat = [x for _, origin in self.frames for x in origin]
-        return self.loops.evaluate(flat, u).reshape(len(u), len(self.frames), 3)
-
     def shape(self, u: np.ndarray) -> np.ndarray:
         """(n, numbers) where all frames and joint axes are, an axis being a line without a sense.
 
         Postures of one shape are symmetric copies: a fork turned over with its universal joint, a
         cylinder of negative length that points the other way.
         """
-        z = self.loops.evaluate([x for axes, _ in self.frames for x in axes[2]], u)
-        z = z.reshape(len(u), len(self.frames), 3)
+        z, points = (
+            self.loops.evaluate([x for frame in found for x in frame], u).reshape(len(u), -1, 3)
+            for found in zip(*((axes[2], origin) for axes, origin in self.frames), strict=True)
+        )
         lines = np.einsum("nri,nrj->nrij", z, z)[:, :, *np.triu_indices(3)]
-        points = self.origins(u) / self.loops.size
-        return np.concatenate([points, lines], axis=2).reshape(len(u), 9 * len(self.frames))
+        return np.concatenate([points / self.loops.size, lines], axis=2).reshape(
+            len(u), 9 * len(self.frames)
+        )
 
     def apart(self, u: np.ndarray, other: np.ndarray) -> np.ndarray:
         """(n, u) distances of joints, rad and sizes, angles the shorter way round; NaN as 0."""

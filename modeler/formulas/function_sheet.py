@@ -66,11 +66,6 @@ class Sheet:
     trig: Mapping[int, str]
     angles: Mapping[str, int]
 
-    @property
-    def results(self) -> Mapping[str, Expr]:
-        """The results by name."""
-        return {d.name: Expr(self.graph, d.ref) for d in self.definitions if d.result}
-
 
 class SheetWriter:
     """Collects proposals and results; `finished` decides which names stay."""

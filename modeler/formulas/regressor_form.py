@@ -54,20 +54,7 @@ Block = tuple[list[int], list[int]]
 """Numbers of equations that share unknown speeds, and the places of these in u."""
 
 
-@dataclass(frozen=True)
-class LoopForm:
-    """What is printed of the loops.
-
-    Attributes:
-        lines: what the names mean, in words and formulas.
-        complete: True if J_t is written out; else its rows follow from the blocks by a solver.
-    """
-
-    lines: tuple[str, ...]
-    complete: bool
-
-
-def write_loops(model: SymbolicModel, writer: SheetWriter) -> LoopForm:
+def write_loops(model: SymbolicModel, writer: SheetWriter) -> list[str]:
     """The closure, its Jacobian, J_p, J_t and the bias of the accelerations on a sheet.
 
     Results, with joints a (actuated), p (given first), u: f<r>, F<r>_<u> = df_r/dq_u, h<r> =
@@ -95,7 +82,7 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> LoopForm:
         complete = _write_platform(model, closure, names, writer, rates, bias)
     elif complete:
         _write_bias(closure.solved, names, bias, writer)
-    return LoopForm(tuple(_words(model, closure, complete, spheres)), complete)
+    return _words(model, closure, complete, spheres)
 
 
 def _blocks(closure: Closure, given: Sequence[int], count: int) -> list[Block]:
@@ -282,12 +269,12 @@ class Equation:
     Attributes:
         words: sentences: the equation in which they stand.
         sheet: the formulas, with their abbreviations.
-        loops: what closes the tree whose formulas these are; None without loops.
+        loops: what the names of its loops mean; empty without loops.
     """
 
     words: tuple[str, ...]
     sheet: Sheet
-    loops: LoopForm | None
+    loops: tuple[str, ...]
 
     def formulas(self) -> Formulas:
         """As text, LaTeX and Markdown."""
@@ -312,7 +299,7 @@ def equation_of(
     """The equation of motion, the columns, or both on one sheet, where each name is one thing."""
     model = fresh_model(model)
     writer = SheetWriter(model.graph, letters_of(model, named_columns(base)))
-    loops = write_loops(model, writer) if model.closure is not None else None
+    loops = write_loops(model, writer) if model.closure is not None else []
     words = []
     if motion:
         write_short_form(model, base, writer)
@@ -333,8 +320,8 @@ def equation_of(
         write_columns(model, base, writer)
         words.append(f"{'t' if loops else 'tau'} = phi beta, phi<joint>_<parameter>; what is not "
                      "listed is 0")  # fmt: skip
-    words += [*_signals(model), *(loops.lines if loops else ())]
-    return Equation(tuple(words), writer.finished(), loops)
+    words += [*_signals(model), *loops]
+    return Equation(tuple(words), writer.finished(), tuple(loops))
 
 
 def _signals(model: SymbolicModel) -> list[str]:
