@@ -22,7 +22,7 @@ from modeler.derivation.geometry import Geometry
 from modeler.derivation.graph import Algebra, Expr, Graph, GraphAlgebra, derivatives
 from modeler.derivation.kinematics import Pose, dot, plus, poses_from, times
 from modeler.derivation.precise import decimal, precise_values
-from modeler.robot.robot import Loop, Robot
+from modeler.robot.robot import INERTIAL, Loop, Robot
 
 # The loops in floating point, for many postures at once: Newton on all equations, redundant ones
 # included, in the sense of least squares; what the emitted C does with an independent set of them
@@ -343,28 +343,60 @@ def _on_axis(a: Frame, b: Frame) -> list[Expr]:
     return [dot(a[0][0], way), dot(a[0][1], way)]
 
 
-_KINDS: Mapping[str, Callable[[Frame, Frame], list[Expr]]] = {
-    "position": _position,
-    "spherical": _position,
-    "universal": lambda a, b: [*_position(a, b), dot(a[0][2], b[0][2])],
-    "revolute": lambda a, b: [*_position(a, b), *_parallel(a, b)],
-    "cylindrical": lambda a, b: [*_on_axis(a, b), *_parallel(a, b)],
-    "prismatic": lambda a, b: [*_on_axis(a, b), *_aligned(a, b)],
-    "planar": lambda a, b: [dot(a[0][2], _position(b, a)), *_parallel(a, b)],
-    "rigid": lambda a, b: [*_position(a, b), *_aligned(a, b)],
-}
-"""By kind of loop: expressions that vanish where it is closed, some perhaps redundant; lengths in m
-where positions are compared, cosines where directions are."""
+ALL, ACROSS, ALONG = (0, 1, 2), (0, 1), (2,)
+"""Components by axes of a frame: all, x and y, z."""
+_ROUND = ("XX", "YY")
 
-MEETING = ("position", "spherical", "universal", "revolute", "rigid")
-"""Kinds of loops whose origins coincide."""
 
-_SAME_AXES: Mapping[str, tuple[int, ...]] = {
-    "position": (), "spherical": (), "universal": (), "revolute": (2,), "cylindrical": (2,),
-    "planar": (2,), "prismatic": (0, 2), "rigid": (0, 2),
+@dataclass(frozen=True)
+class LoopJoint:
+    """A joint that closes a loop, by the two frames that meet in it.
+
+    Attributes:
+        equations: expressions that vanish where it is closed, some perhaps redundant; lengths in m
+            where positions are compared, cosines where directions are.
+        axes: whose product is 1 where it is closed as meant, -1 with axes opposite: the equations
+            compare directions by right angles, which opposite axes fulfil too.
+        velocity: components of the difference of the frames' velocities that vanish; all where
+            their origins coincide.
+        turning: of the difference of their angular velocities.
+        bodies: at the meeting frames that move alike with both: parameters that are 1.
+    """
+
+    equations: Callable[[Frame, Frame], list[Expr]]
+    axes: tuple[int, ...]
+    velocity: tuple[int, ...]
+    turning: tuple[int, ...]
+    bodies: tuple[tuple[str, ...], ...]
+
+
+_SPHERICAL = LoopJoint(_position, (), ALL, (), (("M",),))
+LOOP_JOINTS: Mapping[str, LoopJoint] = {
+    "position": _SPHERICAL,
+    "spherical": _SPHERICAL,
+    "universal": LoopJoint(
+        lambda a, b: [*_position(a, b), dot(a[0][2], b[0][2])], (), ALL, (), (("M",),)
+    ),
+    "revolute": LoopJoint(
+        lambda a, b: [*_position(a, b), *_parallel(a, b)], (2,), ALL, ACROSS,
+        (("M",), ("MZ",), _ROUND),
+    ),
+    "cylindrical": LoopJoint(
+        lambda a, b: [*_on_axis(a, b), *_parallel(a, b)], (2,), ACROSS, ACROSS, (_ROUND,)
+    ),
+    "prismatic": LoopJoint(
+        lambda a, b: [*_on_axis(a, b), *_aligned(a, b)], (0, 2), ACROSS, ALL,
+        tuple((name,) for name in INERTIAL[:6]),
+    ),
+    "planar": LoopJoint(
+        lambda a, b: [dot(a[0][2], _position(b, a)), *_parallel(a, b)], (2,), ALONG, ACROSS,
+        (_ROUND,),
+    ),
+    "rigid": LoopJoint(
+        lambda a, b: [*_position(a, b), *_aligned(a, b)], (0, 2), ALL, ALL,
+        tuple((name,) for name in INERTIAL),
+    ),
 }  # fmt: skip
-"""Axes whose product is 1 where the loop is closed as meant, -1 with axes opposite: the equations
-compare directions by right angles, which opposite axes fulfil too."""
 
 
 _RANK = 1e-9
@@ -458,8 +490,9 @@ def loop_equations(
     aligned: list[Expr] = []
     for loop in robot.loops:
         one, other = meeting(geometry, loop, frames, algebra)
-        found = [value for value in _KINDS[loop.kind](one, other) if not value.is_zero]
-        aligned += [dot(one[0][axis], other[0][axis]) for axis in _SAME_AXES[loop.kind]]
+        joint = LOOP_JOINTS[loop.kind]
+        found = [value for value in joint.equations(one, other) if not value.is_zero]
+        aligned += [dot(one[0][axis], other[0][axis]) for axis in joint.axes]
         equations += found
         owners += [loop.name] * len(found)
     n = geometry.coordinates

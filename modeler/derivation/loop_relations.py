@@ -37,26 +37,13 @@ from modeler.derivation.certificate import (
     filled,
     in_axes,
 )
+from modeler.derivation.closure import ALL, LOOP_JOINTS
 from modeler.derivation.columns import StandardColumn
 from modeler.derivation.field import Element, ExactField, TooLarge
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.tied import dependent_columns
 from modeler.derivation.tree import joint_constant, placement, transferred
 from modeler.robot.robot import INERTIAL
-
-_ALL, _ACROSS, _ALONG, _NONE = (0, 1, 2), (0, 1), (2,), ()
-_VANISHING: Mapping[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
-    "position": (_ALL, _NONE),
-    "spherical": (_ALL, _NONE),
-    "universal": (_ALL, _NONE),
-    "revolute": (_ALL, _ACROSS),
-    "cylindrical": (_ACROSS, _ACROSS),
-    "planar": (_ALONG, _ACROSS),
-    "prismatic": (_ACROSS, _ALL),
-    "rigid": (_ALL, _ALL),
-}
-"""By kind of joint: components of the difference of velocities, and of angular velocities, that
-vanish; by axes of the frames that meet."""
 
 _POINTS = 4
 _MOST = 800
@@ -130,7 +117,8 @@ class _Around:
 
     def __init__(self, geometry: Geometry, one: int | None, other: int | None, kind: str) -> None:
         """For the numbers of the rows that meet; None is the base."""
-        self.ends, self.vanishing = (one, other), _VANISHING[kind]
+        self.ends, joint = (one, other), LOOP_JOINTS[kind]
+        self.vanishing = (joint.velocity, joint.turning)
         sides = [[] if end is None else geometry.ancestors(end) for end in self.ends]
         in_common = [k for k in sides[0] if k in sides[1]]
         self.root = in_common[0] if in_common else None
@@ -158,7 +146,7 @@ class _Around:
         """Rows in whose axes components vanish, and these: velocities, then angular velocities."""
         found = []
         for place, along in enumerate(self.vanishing):
-            if along == _ALL:
+            if along == ALL:
                 vector = self._difference(state, self.ends)[place]
                 found.append((self.root, _turned(state, self.root, vector)))
             elif along:
@@ -200,21 +188,6 @@ def _turned(state: ModularState, row: int | None, vector: Residues) -> Residues:
 # the torques tells.
 
 
-_POINT: tuple[tuple[str, ...], ...] = (("M",),)
-_ROUND = ("XX", "YY")
-_COMMON: Mapping[str, tuple[tuple[str, ...], ...]] = {
-    "position": _POINT,
-    "spherical": _POINT,
-    "universal": _POINT,
-    "revolute": (("M",), ("MZ",), _ROUND),
-    "cylindrical": (_ROUND,),
-    "planar": (_ROUND,),
-    "prismatic": tuple((name,) for name in INERTIAL[:6]),
-    "rigid": tuple((name,) for name in INERTIAL),
-}
-"""Bodies at the meeting frames that move alike with both: parameters that are 1."""
-
-
 def loop_relations(
     geometry: Geometry, K: ExactField, places: Mapping[tuple[int, int], int]
 ) -> list[dict[int, Element]]:
@@ -228,7 +201,7 @@ def loop_relations(
     names = {joint.name: k for k, joint in enumerate(geometry.robot.joints)}
     relations = []
     for loop in geometry.robot.loops:
-        for body in _COMMON[loop.kind]:
+        for body in LOOP_JOINTS[loop.kind].bodies:
             vector = [K.one if prefix in body else K.zero for prefix in INERTIAL]
             relation: dict[int, Element] = {}
             for frame, sign in ((loop.frame, 1), (loop.meets, -1)):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from modeler.core.errors import DerivationError, RobotError
 from modeler.core.formula import Formulas
-from modeler.derivation.closure import MEETING, Closure, meeting
+from modeler.derivation.closure import ALL, LOOP_JOINTS, Closure, meeting
 from modeler.derivation.graph import Expr
 from modeler.derivation.kinematics import plus, poses, times
 from modeler.derivation.model import SymbolicModel, along
@@ -127,9 +127,9 @@ def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) 
     generators += [model.algebra.static(atom) for atom in ring.static_atoms]
     frames, found = poses(model.geometry, ring), False
     for number, loop in enumerate(model.robot.loops, start=1):
-        one, other = meeting(model.geometry, loop, frames, ring)
+        joint, (one, other) = LOOP_JOINTS[loop.kind], meeting(model.geometry, loop, frames, ring)
         square, total = ring.ring.zero, model.graph.constant(0)
-        for entry in plus(one[1], times(-1, other[1])) if loop.kind in MEETING else ():
+        for entry in plus(one[1], times(-1, other[1])) if joint.velocity == ALL else ():
             entry = ring.normal(ring.ring(entry))
             moved = {e: x for e, x in entry.items() if any(e[k] for k in turned)}
             w = ring.ring.zero.new(moved)
