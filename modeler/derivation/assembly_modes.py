@@ -344,7 +344,7 @@ def assembly_modes(linkage: Linkage, hints: np.ndarray) -> tuple[AssemblyMode, .
             sigma=float(linkage.loops.sigma(u[None])[0]),
             kept=bool(linkage.outside(u[None])[0] < _KEPT),
             copies=copies,
-            away=float(np.sum(linkage.apart(u[None], hints))),
+            away=float(np.sum(linkage.distances(u[None], hints))),
         )
         for k, (_, u, copies) in enumerate(ranked)
     )
@@ -368,7 +368,7 @@ def _ranks(
     columns = np.column_stack([
         np.round(linkage.outside(u), _DIGITS),
         sigma < _GOOD * best,
-        np.round(np.sum(linkage.apart(u, hints), axis=1), _DIGITS),
+        np.round(np.sum(linkage.distances(u, hints), axis=1), _DIGITS),
         negative,
         np.round(np.log2(best / sigma)),
         np.round(angles, _DIGITS),
@@ -438,7 +438,7 @@ def _rounded(linkage: Linkage, u: np.ndarray, places: np.ndarray) -> np.ndarray:
         ]
         closed = linkage.loops.closed(trial[None])
         if np.all(np.isfinite(closed)) and linkage.loops.aligned(closed)[0]:
-            near = np.max(linkage.apart(closed, u)) < 5 * step
+            near = np.max(linkage.distances(closed, u)) < 5 * step
             if near and linkage.loops.sigma(closed)[0] > 0.5 * before:
                 return closed[0]
     return u

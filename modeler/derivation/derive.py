@@ -111,7 +111,7 @@ def settled_home(model: SymbolicModel) -> Home:
     if not modes:
         raise _nothing_found(linkage, start)
     home = written(linkage, modes[0].posture)
-    return Home(dataclasses.replace(robot, home=home), _told(linkage, modes, stated))
+    return Home(dataclasses.replace(robot, home=home), _home_note(linkage, modes, stated))
 
 
 def modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
@@ -181,12 +181,12 @@ def _good_as_stated(linkage: Linkage, stated: np.ndarray) -> np.ndarray | None:
     found = nearest_closed(linkage.loops, np.nan_to_num(stated))
     if found is None or linkage.loops.sigma(found[None])[0] <= SINGULAR:
         return None
-    moved = linkage.apart(found[None], np.nan_to_num(stated))
+    moved = linkage.distances(found[None], np.nan_to_num(stated))
     turned = lengthened(linkage, found[None], stated)
     return found if np.max(moved) <= NEAR and np.array_equal(turned[0], found) else None
 
 
-def _told(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np.ndarray) -> str:
+def _home_note(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np.ndarray) -> str:
     robot, posture = linkage.robot, modes[0].posture
     others = f"{len(modes)} assembly modes: `modeler home` shows them, --write writes one down"
     if len(modes) == 1:
@@ -196,7 +196,7 @@ def _told(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np.ndarray)
     if not np.any(np.isfinite(stated)):
         given = linkage.loops.given
         return f"{robot.name}: [home] found: mode A at {_values(linkage, posture, given)}; {others}"
-    moved = linkage.apart(posture[None], stated)[0]
+    moved = linkage.distances(posture[None], stated)[0]
     far = [k for k in np.argsort(-moved, kind="stable") if moved[k] > 0.01]
     change = ", ".join(
         f"q{linkage.free[k].name} {stated[k]:.4g} -> {posture[k]:.4g}" for k in far[:_MOST_NAMED]

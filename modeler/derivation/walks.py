@@ -209,7 +209,7 @@ class Linkage(Brief):
             len(u), 9 * len(self.frames)
         )
 
-    def apart(self, u: np.ndarray, other: np.ndarray) -> np.ndarray:
+    def distances(self, u: np.ndarray, other: np.ndarray) -> np.ndarray:
         """(n, u) distances of joints, rad and sizes, angles the shorter way round; NaN as 0."""
         way = u - other
         way = np.where(self.lengths, way / self.loops.size, wrapped(way))
