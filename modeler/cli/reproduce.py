@@ -8,7 +8,7 @@ from dataclasses import asdict
 from modeler.cli.console import Json, progress, say, working
 from modeler.core.errors import ModelerError
 from modeler.papers.check import Line, LineVerdict, check_paper
-from modeler.papers.method_report import MethodTable, Outcome
+from modeler.papers.methods import MethodTable, Outcome
 from modeler.papers.paper import SLIPS, DerivedPaper, Paper, derived_robot, read_paper
 from modeler.papers.run import run_methods
 

@@ -21,7 +21,6 @@ from modeler.diagnosis.added_model import (
     rows_of,
     with_shapes,
 )
-from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.candidates import Candidate, Known, links_of
 from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
@@ -30,7 +29,7 @@ from modeler.diagnosis.result import Pick
 from modeler.diagnosis.score import Score, Unseen, error_changes, errors_of, rms_error, scored
 from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
-from modeler.diagnosis.state import SearchData, state_of
+from modeler.diagnosis.state import SearchData, analysed, state_of
 from modeler.diagnosis.timing import instrumental
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Acts, Effect

@@ -103,9 +103,10 @@ class Candidate(Brief):
         return [f"{column.prefix}{self.joint or ''}" for column in self.form.columns]
 
     def refinable(self, shape: Shape) -> bool:
-        """True if values beside that of the candidate make sense: orders are, if not given."""
-        waves = shape.scale == "waves"
-        return shape.smooth or (waves and self.shapes[shape.name] not in shape.grid)
+        """True if values beside that of the candidate make sense: of waves, if no grid gave it."""
+        if shape.scale == "waves":
+            return self.shapes[shape.name] not in shape.grid
+        return shape.smooth
 
     def moved(self, shapes: Sequence[Shape], x: Sequence[float] | np.ndarray) -> "Candidate":
         """The same effect with other coded values of some shapes."""

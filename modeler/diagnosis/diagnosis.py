@@ -8,16 +8,15 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from modeler.core.errors import DataError
-from modeler.diagnosis.analyse import analysed, bands_line
 from modeler.diagnosis.assemble import assembled
 from modeler.diagnosis.candidates import Known
 from modeler.diagnosis.cross_checks import looked_again, other_looks
 from modeler.diagnosis.data_checks import channel_faults
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
-from modeler.diagnosis.holdout_error import vetoing
+from modeler.diagnosis.judge import vetoing
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.search import MOST, Search, search
-from modeler.diagnosis.state import SearchData, state_of
+from modeler.diagnosis.state import SearchData, analysed, bands_line, state_of
 from modeler.diagnosis.timing import logger_shift
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Acts, Effect

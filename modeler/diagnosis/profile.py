@@ -26,7 +26,7 @@ import numpy as np
 
 from modeler.diagnosis.candidates import Candidate, JointScale, coded
 from modeler.diagnosis.effect_columns import Columns, Rows, body_parameters, dense
-from modeler.diagnosis.gram import blocks_of
+from modeler.diagnosis.ranking import blocks_of
 from modeler.diagnosis.signals import tilt_basis
 from modeler.diagnosis.state import State
 from modeler.effects.effect import Acts, Shape

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.table import printed
-from modeler.diagnosis.gram import BLOCK, MOST
+from modeler.diagnosis.ranking import BLOCK, MOST
 
 SURE = 2.0
 """Standard errors beyond which differences over blocks of time are more than chance."""

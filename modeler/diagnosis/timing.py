@@ -7,7 +7,7 @@ import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import Rows, base_columns, dense, width
-from modeler.diagnosis.gram import pieces
+from modeler.diagnosis.ranking import pieces
 from modeler.diagnosis.signals import Signals
 from modeler.diagnosis.state import State, picked_columns
 from modeler.effects.effect import Acts

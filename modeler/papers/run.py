@@ -6,7 +6,7 @@ from modeler.papers.briot import briot_methods
 from modeler.papers.guegan import guegan_methods
 from modeler.papers.hanssen import hanssen_methods
 from modeler.papers.houda import houda_methods
-from modeler.papers.method_report import MethodTable
+from modeler.papers.methods import MethodTable
 from modeler.papers.paper import Paper
 
 Report = Callable[[float], None]

@@ -8,7 +8,7 @@ import pytest
 from modeler.cli import main
 from modeler.core.builtin import paper_names
 from modeler.core.errors import RobotError
-from modeler.papers.method_report import MethodTable, Outcome, Row, figures, quoted, recovered
+from modeler.papers.methods import MethodTable, Outcome, Row, figures, quoted, recovered
 from modeler.papers.paper import read_paper
 from modeler.papers.run import METHODS
 
