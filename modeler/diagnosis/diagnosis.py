@@ -62,10 +62,6 @@ class Meter:
         self._share += _STRIDE * (self._end - self._share)
         self._tell(self._share)
 
-    def done(self) -> None:
-        """All is done."""
-        self._tell(1.0)
-
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
 def diagnose(
@@ -110,7 +106,9 @@ def diagnose(
     looks = looked_again(found, _looks(data, mending, other, window), meter.tick)
     meter.stage(1.0)
     diagnosis = assembled(model, found, other, window, looks, doubted, meter.tick)
-    meter.done()
+    if progress is not None:
+        progress(1.0)
+
     line = bands_line(model.processing, data.observation.report.processing)
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 

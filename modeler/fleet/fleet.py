@@ -142,7 +142,9 @@ def _followed(found: JudgedQuantity, logs: Sequence[LogSummary]) -> tuple[Follow
         known = found.values[np.isfinite(found.values[:, i]), i]
         level = float(np.median(known)) if known.size else float("nan")
         factor = found.scatters[i].factor
-        followed.append(Followed(quantity, level, factor, found.told(i), machines, scores))
+        followed.append(
+            Followed(quantity, level, factor, found.smallest_drift(i), machines, scores)
+        )
     return tuple(followed)
 
 

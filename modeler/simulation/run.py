@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -50,7 +51,14 @@ from modeler.simulation.plant import (
 )
 from modeler.simulation.settings import HiddenEffect, SimulationSettings, check_settings
 from modeler.simulation.shafts import settled
-from modeler.simulation.trajectory import Reference, motion_limits, reference_motion, widened
+from modeler.simulation.trajectory import (
+    Reference,
+    exciting_reference,
+    motion_limits,
+    one_joint_reference,
+    point_to_point_reference,
+    widened,
+)
 
 _REPORT_EVERY = 500  # ticks between looks at the tracking error, and calls of the callback
 _THERMOMETER = 0.01  # K, resolution
@@ -176,12 +184,19 @@ def _closed_command(
         closed = followed(robot, constraints, asked.q, progress)
         return widened(limits, asked), ClosedMotion(asked, closed, 1.0)
 
-    def motion(near: tuple[Limits, ...]) -> Reference:
-        return reference_motion(
-            settings.motion, near, settings.duration, settings.rate, settings.seed
-        )
+    commanded = partial(_commanded, settings)
+    return limits, closed_motion(robot, constraints, limits, commanded, progress)
 
-    return limits, closed_motion(robot, constraints, limits, motion, progress)
+
+def _commanded(
+    settings: SimulationSettings, limits: tuple[Limits, ...], directions: np.ndarray | None = None
+) -> Reference:
+    """The motion of that name within limits."""
+    timed = limits, settings.duration, settings.rate, settings.seed
+    if settings.motion == "one-joint":
+        return one_joint_reference(*timed, directions)
+    alike = settings.motion == "point-to-point"
+    return point_to_point_reference(*timed) if alike else exciting_reference(*timed)
 
 
 def task_of(
@@ -207,9 +222,7 @@ def task_of(
         ways = np.array([*joint_directions(robot).values()])
         passive = [k for k, joint in enumerate(robot.coordinates) if not joint.actuated]
         driven = ways[~np.any(ways[:, passive] != 0, axis=1)]
-        reference = reference_motion(
-            settings.motion, limits, settings.duration, settings.rate, settings.seed, driven
-        )
+        reference = _commanded(settings, limits, driven)
     plant = build_plant(*real, every, hidden)
     return PlantTask(plant, limits, reference, np.zeros((len(reference.time), plant.states)), 1.0)
 

@@ -1,12 +1,13 @@
 """A free run: windows from measured states, whole logs, and what the robot's nature adds."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError
+from modeler.core.manifest import JointSpec
 from modeler.core.table import percent
 from modeler.estimation.direct_model import ControlLoop, DirectModel
 from modeler.estimation.model_file import IdentifiedModel
@@ -67,8 +68,7 @@ def controlled(
                 "no controller that was tried brings the robot nearer to the log than "
                 "the command is"
             )
-        motions = robot.followed(beta, loop)
-        return _measured(observation, robot, loop, motions, beta, gains is not None), ""
+        return _measured(robot, observation, loop, beta, gains is not None), ""
     except (DataError, LoopError):
         if gains is not None:
             raise DataError(
@@ -82,13 +82,9 @@ def controlled(
 
 
 def _measured(
-    observation: Observation,
-    robot: DirectModel,
-    loop: ControlLoop,
-    motions: list[np.ndarray],
-    beta: np.ndarray,
-    given: bool,
+    robot: DirectModel, observation: Observation, loop: ControlLoop, beta: np.ndarray, given: bool
 ) -> Controlled:
+    motions = robot.followed(beta, loop)
     kept = [segment.whole for segment in robot.segments]
     q = np.concatenate([s.q[own] for s, own in zip(robot.segments, kept, strict=True)])
     simulated = np.concatenate([m[0][own] for m, own in zip(motions, kept, strict=True)])
@@ -357,9 +353,9 @@ def free_run(
     ranges = ranges_of(every, [joint.unit for joint in observation.joints])
     finest = min(_LONGEST, _STABLE / nature.fastest if nature.fastest > 0.0 else _LONGEST)
     signals = [signals_of(compiled.spec, segment) for segment in segments]
-    field = _MotionField(plant, segments, signals, ranges, finest)
+    field = _MotionField(plant, segments, signals, ranges, finest, asked)
     tell(0.1)
-    runs = _windows(field, starts, asked, tell)
+    runs = _windows(field, starts, tell)
     whole = _whole(field, lambda share: tell(0.5 + 0.3 * share))
     tell(0.8)
     under, doubt = controlled(compiled, model.beta, observation, asked.gains)
@@ -373,13 +369,13 @@ def free_run(
         windows=len(runs.paths),
         longest=_FOLLOWED * asked.window,
         joints=tuple(
-            _joint(j, observation, runs, whole, asked, ranges) for j in range(len(ranges))
+            _joint(field, j, joint, runs, whole) for j, joint in enumerate(observation.joints)
         ),
         stability=nature,
         numerical=runs.numerical,
         controlled=under,
         paths=runs.paths,
-        doubts=tuple(_doubts(runs.numerical, segments, starts, asked, nature, doubt)),
+        doubts=tuple(_doubts(field, runs.numerical, starts, nature, doubt)),
     )
 
 
@@ -439,6 +435,7 @@ class _MotionField:
     signals: Sequence[np.ndarray | None]  # of each segment
     ranges: np.ndarray
     finest: float  # s, of a step
+    asked: FreeRunSettings
 
     def run(
         self,
@@ -493,12 +490,9 @@ class _RunWindows:
 
 
 def _windows(
-    field: _MotionField,
-    starts: Sequence[_Start],
-    asked: FreeRunSettings,
-    tell: Callable[[float], None],
+    field: _MotionField, starts: Sequence[_Start], tell: Callable[[float], None]
 ) -> _RunWindows:
-    window, bound = asked.window, asked.bound
+    window = field.asked.window
     simulated, measured = field.run(
         starts, _FOLLOWED * window, tell=lambda share: tell(0.1 + 0.4 * share)
     )
@@ -519,21 +513,15 @@ def _windows(
         np.concatenate(straight),
         tuple(a - b for a, b in zip(simulated, measured, strict=True)),
         tuple(field.segments[start.segment].step for start in starts),
-        _changed(coarse, fine, aside, bound * field.ranges, field.ranges),
+        _changed(field, zip(coarse, fine, aside, strict=True)),
     )
 
 
-def _changed(
-    coarse: Sequence[np.ndarray],
-    fine: Sequence[np.ndarray],
-    measured: Sequence[np.ndarray],
-    bound: np.ndarray,
-    ranges: np.ndarray,
-) -> float:
+def _changed(field: _MotionField, runs: Iterable[tuple[np.ndarray, ...]]) -> float:
     """Largest change of a position by halving the step, in ranges, while its error is in bounds."""
-    largest = 0.0
-    for ours, halved, theirs in zip(coarse, fine, measured, strict=True):
-        near = np.logical_and.accumulate(np.abs(halved - theirs) <= bound)
+    largest, ranges = 0.0, field.ranges
+    for ours, halved, theirs in runs:
+        near = np.logical_and.accumulate(np.abs(halved - theirs) <= field.asked.bound * ranges)
         change = np.abs(ours - halved)[near] / np.broadcast_to(ranges, near.shape)[near]
         largest = max(largest, float(change[np.isfinite(change)].max(initial=0.0)))
     return largest
@@ -547,21 +535,15 @@ def _whole(field: _MotionField, tell: Callable[[float], None]) -> tuple[np.ndarr
 
 
 def _joint(
-    j: int,
-    observation: Observation,
-    runs: _RunWindows,
-    whole: tuple[np.ndarray, np.ndarray],
-    asked: FreeRunSettings,
-    ranges: np.ndarray,
+    field: _MotionField, j: int, joint: JointSpec, runs: _RunWindows, whole: tuple[np.ndarray, ...]
 ) -> JointFreeRun:
-    joint = observation.joints[j]
     measured = np.concatenate([path.measured[:, j] for path in runs.paths])
     simulated = np.concatenate([path.simulated[:, j] for path in runs.paths])
     error = np.abs(simulated - measured)
     largest = float(error[np.isfinite(error)].max(initial=0.0))
-    if not np.isfinite(ranges[j]):
+    if not np.isfinite(field.ranges[j]):
         return JointFreeRun(joint.name, joint.unit, None, None, None, None, 0, largest)
-    bound = asked.bound * ranges[j : j + 1]
+    bound = field.asked.bound * field.ranges[j : j + 1]
     pairs = zip(runs.longer, runs.steps, strict=True)
     until = np.array([horizons(e[:, None, j : j + 1], bound, step)[0, 0] for e, step in pairs])
     middle = float(np.quantile(until, 0.5, method="higher"))
@@ -578,26 +560,21 @@ def _joint(
 
 
 def _doubts(
-    numerical: float,
-    segments: Sequence[Segment],
-    starts: Sequence[_Start],
-    asked: FreeRunSettings,
-    nature: Stability,
-    doubt: str,
+    field: _MotionField, numerical: float, starts: Sequence[_Start], nature: Stability, doubt: str
 ) -> list[str]:
-    found = [doubt] if doubt else []
+    found, window = [doubt] if doubt else [], field.asked.window
     if numerical > _DOUBTFUL:
         found.append(
             "the integration is not exact: halving its step moves a joint by "
             f"{percent(numerical)} of its range within a window"
         )
-    if nature.unstable and nature.rate * asked.window > np.log(10.0):
+    if nature.unstable and nature.rate * window > np.log(10.0):
         shorter = float(f"{1.0 / nature.rate:.1g}")
         found.append(
-            f"within a window of {asked.window:g} s an error grows tenfold and more by nature; "
+            f"within a window of {window:g} s an error grows tenfold and more by nature; "
             f"`--window {shorter:g}` judges the model"
         )
-    if any(_seconds(segment) > _WHOLE for segment in segments):
+    if any(_seconds(segment) > _WHOLE for segment in field.segments):
         found.append(f"whole runs: the first {_WHOLE:g} s of each log")
     if len(starts) == _MOST_WINDOWS:
         found.append(f"{_MOST_WINDOWS} windows, evenly spread over the logs")
