@@ -109,10 +109,6 @@ class Judgement(Brief):
     ranked: tuple[Judged, ...]
     best: Judged | None
 
-    def others(self, best: Judged) -> tuple[Judged, ...]:
-        """All but that effect on its joint."""
-        return tuple(j for j in self.ranked if j.key != best.key)
-
 
 @dataclass(frozen=True, eq=False)
 class Trial(Brief):

@@ -363,7 +363,8 @@ def search(
             continue
         survey = scan_catalogue(later, without)
         doubted, refused = _doubted(refused, best), survey.still_refused(refused)
-        after, rivals = survey.judged(refused, tick), judgement.others(best)
+        after = survey.judged(refused, tick)
+        rivals = tuple(j for j in judgement.ranked if j.key != best.key)
         ties = (*alternatives(best, rivals, after), *doubted)
         steps.append(Step(best, rivals, state, ties))
         state, judgement = later, after

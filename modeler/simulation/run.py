@@ -132,9 +132,8 @@ def simulate(
     samples = [each.T for each in (q, qd, z, tau + random)]
     qdd = plant.acceleration.map(len(q))(*samples)[0].full().T.copy()
     logged = logged_torques(faults, reference.time, tau)
-    made, moved = (robot, parameters, settings, hidden), (q, qd, qdd, tau)
-    heat = _thermometers(plant, z)
-    return _log(*made, reference, task.share, measured, logged, moved, heat)
+    truth = Truth(q, qd, qdd, tau, *by_shared_names(robot, parameters), hidden)
+    return _log(robot, settings, task, truth, measured, logged, _thermometers(plant, z))
 
 
 def _on_command(
@@ -166,8 +165,8 @@ def _on_command(
     measured = quantised(reference.q, encoder_resolution(robot.coordinates, settings))
     logged = sampled_torques(faults, reference.time, tau)
     moved = (reference.q, reference.qd, reference.qdd, tau)
-    made = (robot, parameters, settings, hidden)
-    return _log(*made, reference, motion.share, measured, logged, moved)
+    truth = Truth(*moved, *by_shared_names(robot, parameters), hidden)
+    return _log(robot, settings, motion, truth, measured, logged, {})
 
 
 def _closed_command(
@@ -314,32 +313,29 @@ def _check_kept(task: PlantTask, begin: int, q: np.ndarray) -> None:
 
 def _log(
     robot: Robot,
-    parameters: PlantParameters,
     settings: SimulationSettings,
-    hidden: tuple[HiddenEffect, ...],
-    reference: Reference,
-    share: float,
+    made: PlantTask | ClosedMotion,
+    truth: Truth,
     measured: np.ndarray,
     logged: np.ndarray,
-    moved: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray],
-    further: Mapping[str, np.ndarray] | None = None,
+    further: Mapping[str, np.ndarray],
 ) -> SimulatedLog:
-    """Of encoder positions, torques before noise, and the true q, qd, qdd, tau."""
+    """Of encoder positions and torques before noise."""
     rms = np.sqrt(np.mean(logged**2, axis=0))
     noise = np.random.default_rng([settings.seed, 3]).normal(size=logged.shape)
-    values, drawn = by_shared_names(robot, parameters.standard, parameters.drawn)
+
     return SimulatedLog(
         robot=robot.name,
         joints=tuple(joint.name for joint in robot.coordinates),
         driven=np.array([joint.actuated for joint in robot.coordinates]),
-        time=reference.time,
+        time=made.reference.time,
         q=measured,
-        qc=reference.q,
+        qc=made.reference.q,
         tau=logged + settings.torque_noise * rms * noise,
         settings=settings,
-        truth=Truth(*moved, values, drawn, hidden),
-        further=further or {},
-        range_share=share,
+        truth=truth,
+        further=further,
+        range_share=made.share,
     )
 
 
