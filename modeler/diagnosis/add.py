@@ -21,7 +21,7 @@ from modeler.diagnosis.added_model import (
     rows_of,
     with_shapes,
 )
-from modeler.diagnosis.candidates import Candidate, Known, links_of
+from modeler.diagnosis.candidates import Candidate, Known, links_of, passive_joints
 from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.effect_columns import body_parameters
@@ -45,17 +45,6 @@ if TYPE_CHECKING:
 
 
 # Effects on joints without motor: robot files may have them there.
-
-
-def passive_joints(spec: ModuleSpec) -> dict[str, int]:
-    """Joints without motor by name, and their places among the variables of the loops.
-
-    In a robot without loops, their places among the joints.
-    """
-    if spec.closure is None:
-        return {joint.name: j for j, joint in enumerate(spec.joints) if not joint.actuated}
-    driven = {*spec.closure.given, *spec.closure.platform}
-    return {name: i for i, name in enumerate(spec.closure.variables) if i not in driven}
 
 
 def reads_speed_only(effect: Effect) -> bool:

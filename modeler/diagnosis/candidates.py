@@ -129,6 +129,17 @@ def links_of(spec: ModuleSpec) -> list[str]:
     return list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
 
 
+def passive_joints(spec: ModuleSpec) -> dict[str, int]:
+    """Joints without motor by name, and their places among the variables of the loops.
+
+    In a robot without loops, their places among the joints.
+    """
+    if spec.closure is None:
+        return {joint.name: j for j, joint in enumerate(spec.joints) if not joint.actuated}
+    driven = {*spec.closure.given, *spec.closure.platform}
+    return {name: i for i, name in enumerate(spec.closure.variables) if i not in driven}
+
+
 def coded(shape: Shape, value: float) -> float:
     """Positive shapes by their logarithm."""
     return float(np.log(value)) if shape.limits[0] > 0.0 else value
@@ -224,11 +235,9 @@ def _motors(
 def _passive(
     spec: ModuleSpec, effect: Effect, present: Set[tuple[str, str]]
 ) -> Iterator[Candidate]:
-    assert spec.closure is not None
     rubbing = {joint for of, joint in present if of in (*PASSIVE_FRICTION_IS, effect.id)}
-    driven = {*spec.closure.given, *spec.closure.platform}
-    for place, name in enumerate(spec.closure.variables):
-        if place not in driven and name not in rubbing:
+    for name, place in passive_joints(spec).items():
+        if name not in rubbing:
             yield Candidate(effect, effect.forms[0], name, place)
 
 

@@ -349,10 +349,10 @@ def free_run(
     plant = FittedPlant(compiled, model.beta)
     every = np.concatenate([segment.q[segment.whole] for segment in segments])
     plant.check_inertia(every[:: max(1, len(every) // 500)])
-    nature = stability(plant, _along(observation, segments, compiled))
+    signals = [signals_of(compiled.spec, segment) for segment in segments]
+    nature = stability(plant, _along(observation, segments, signals))
     ranges = ranges_of(every, [joint.unit for joint in observation.joints])
     finest = min(_LONGEST, _STABLE / nature.fastest if nature.fastest > 0.0 else _LONGEST)
-    signals = [signals_of(compiled.spec, segment) for segment in segments]
     field = _MotionField(plant, segments, signals, ranges, finest, asked)
     tell(0.1)
     runs = _windows(field, starts, tell)
@@ -407,22 +407,17 @@ def _starts(segments: Sequence[Segment], window: float) -> list[_Start]:
 
 
 def _along(
-    observation: Observation, segments: Sequence[Segment], compiled: CompiledModel
+    observation: Observation, segments: Sequence[Segment], signals: Sequence[np.ndarray | None]
 ) -> list[Along]:
     samples = sum(segment.samples for segment in segments)
     found = []
-    for segment in segments:
+    for segment, read in zip(segments, signals, strict=True):
         first, stop = _inside(segment)
         thinned = slice(first, stop, max(1, samples // _POINTS))
-        signals = signals_of(compiled.spec, segment)
-        if len(segment.time[thinned]) > 1:
-            found.append(
-                Along(
-                    observation.logs[segment.run], segment.time[thinned], segment.q[thinned],
-                    segment.qd[thinned], segment.tau[thinned],
-                    None if signals is None else signals[thinned],
-                )
-            )  # fmt: skip
+        q, qd, tau = (values[thinned] for values in (segment.q, segment.qd, segment.tau))
+        if len(time := segment.time[thinned]) > 1:
+            log, s = observation.logs[segment.run], None if read is None else read[thinned]
+            found.append(Along(log, time, q, qd, tau, s))
     return found
 
 
