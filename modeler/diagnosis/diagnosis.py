@@ -92,16 +92,21 @@ def diagnose(
     )
     without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
     doubted = channel_faults(model, data, other, mending)
-    options = model.beta, without, 0 if any(f.certain for f in doubted) else most, meter
-    found = _searched(data, other, *options)
+    limit = 0 if any(fault.certain for fault in doubted) else most
+
+    def searched(data: SearchData, other: SearchData | None) -> Search:
+        meter.stage(_SEARCHED)
+        return search(data, model.beta, without, limit, vetoing(other), meter.tick)
+
+    found = searched(data, other)
     aligned = _aligned(data, found, model, mending)
     if aligned is not None:
         data, other = aligned, _held_out(aligned, holdout)
-        found = _searched(data, other, *options)
+        found = searched(data, other)
     may_push = [e for e in data.known.catalogue if e.acts is Acts.WINDOW and e.id not in without]
     window = _push(data, found) if may_push else None
     if window is not None:
-        found = _searched(_masked(data, window), other, *options)
+        found = searched(_masked(data, window), other)
     meter.stage(_LOOKED)
     looks = looked_again(found, _looks(data, mending, other, window), meter.tick)
     meter.stage(1.0)
@@ -120,14 +125,6 @@ def _looks(
     for what, look in other_looks(data, mending, other):
         yield what, look if window is None or look is other else _masked(look, window)
         del look  # or it would live beside the next
-
-
-def _searched(
-    data: SearchData, other: SearchData | None, beta: np.ndarray, without: Sequence[str], most: int,
-    meter: Meter,
-) -> Search:  # fmt: skip
-    meter.stage(_SEARCHED)
-    return search(data, beta, without, most, vetoing(other), meter.tick)
 
 
 def _aligned(
