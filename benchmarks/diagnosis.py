@@ -19,8 +19,8 @@ from typing import Any
 from modeler.api import compile_model, derive, fit, generate, load, observe
 from modeler.diagnosis.add import add_effect
 from modeler.diagnosis.added_model import Logs
-from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.state import analysed
 from modeler.observation.log import Log
 from modeler.observation.read import read_log
 from modeler.robot.read import robot_from_text

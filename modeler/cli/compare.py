@@ -21,8 +21,7 @@ from modeler.report.figure_page import write_files
 from modeler.report.page import Origin, after_compare
 from modeler.runtime.model import CompiledModel
 from modeler.validation.comparison import Comparison, compare
-from modeler.validation.controlled import Gains
-from modeler.validation.free_run import FreeRunSettings, free_run
+from modeler.validation.free_run import FreeRunSettings, Gains, free_run
 from modeler.validation.free_run_result import free_run_pictures
 from modeler.validation.models import check_joints, contest_lines
 from modeler.validation.verdict import looks_like_noise, verdict

@@ -21,8 +21,7 @@ from modeler.diagnosis.added_model import (
     rows_of,
     with_shapes,
 )
-from modeler.diagnosis.analyse import analysed
-from modeler.diagnosis.candidates import Candidate, Known, links_of
+from modeler.diagnosis.candidates import Candidate, Known, links_of, passive_joints
 from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.effect_columns import body_parameters
@@ -30,7 +29,7 @@ from modeler.diagnosis.result import Pick
 from modeler.diagnosis.score import Score, Unseen, error_changes, errors_of, rms_error, scored
 from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
-from modeler.diagnosis.state import SearchData, state_of
+from modeler.diagnosis.state import SearchData, analysed, state_of
 from modeler.diagnosis.timing import instrumental
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Acts, Effect
@@ -46,17 +45,6 @@ if TYPE_CHECKING:
 
 
 # Effects on joints without motor: robot files may have them there.
-
-
-def passive_joints(spec: ModuleSpec) -> dict[str, int]:
-    """Joints without motor by name, and their places among the variables of the loops.
-
-    In a robot without loops, their places among the joints.
-    """
-    if spec.closure is None:
-        return {joint.name: j for j, joint in enumerate(spec.joints) if not joint.actuated}
-    driven = {*spec.closure.given, *spec.closure.platform}
-    return {name: i for i, name in enumerate(spec.closure.variables) if i not in driven}
 
 
 def reads_speed_only(effect: Effect) -> bool:

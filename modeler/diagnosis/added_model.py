@@ -8,8 +8,8 @@ import numpy as np
 
 from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.gram import base_of, blocks_of
 from modeler.diagnosis.profile import Profile, ProfileProblem, profile
+from modeler.diagnosis.ranking import base_of, blocks_of
 from modeler.diagnosis.score import Unseen, error_changes
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.signals import SignalReference, tilt_basis

@@ -13,11 +13,11 @@ from modeler.diagnosis.detected import detected
 from modeler.diagnosis.drive_gains import gain_deviations, gain_visible, is_gain
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.generate import generate_candidates, ruled_out
-from modeler.diagnosis.gram import VISIBLE
-from modeler.diagnosis.holdout_error import compared, holdout_residuals, touched_joints
+from modeler.diagnosis.judge import compared, holdout_residuals, touched_joints
 from modeler.diagnosis.orders import systematic_share
 from modeler.diagnosis.plausible import objection
 from modeler.diagnosis.profile import named_intervals, profile_of, shape_units, values_of
+from modeler.diagnosis.ranking import VISIBLE
 from modeler.diagnosis.result import (
     Diagnosis,
     Finding,

@@ -103,9 +103,10 @@ class Candidate(Brief):
         return [f"{column.prefix}{self.joint or ''}" for column in self.form.columns]
 
     def refinable(self, shape: Shape) -> bool:
-        """True if values beside that of the candidate make sense: orders are, if not given."""
-        waves = shape.scale == "waves"
-        return shape.smooth or (waves and self.shapes[shape.name] not in shape.grid)
+        """True if values beside that of the candidate make sense: of waves, if no grid gave it."""
+        if shape.scale == "waves":
+            return self.shapes[shape.name] not in shape.grid
+        return shape.smooth
 
     def moved(self, shapes: Sequence[Shape], x: Sequence[float] | np.ndarray) -> "Candidate":
         """The same effect with other coded values of some shapes."""
@@ -126,6 +127,17 @@ class Candidate(Brief):
 def links_of(spec: ModuleSpec) -> list[str]:
     """Names of the links that have inertial parameters."""
     return list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
+
+
+def passive_joints(spec: ModuleSpec) -> dict[str, int]:
+    """Joints without motor by name, and their places among the variables of the loops.
+
+    In a robot without loops, their places among the joints.
+    """
+    if spec.closure is None:
+        return {joint.name: j for j, joint in enumerate(spec.joints) if not joint.actuated}
+    driven = {*spec.closure.given, *spec.closure.platform}
+    return {name: i for i, name in enumerate(spec.closure.variables) if i not in driven}
 
 
 def coded(shape: Shape, value: float) -> float:
@@ -223,11 +235,9 @@ def _motors(
 def _passive(
     spec: ModuleSpec, effect: Effect, present: Set[tuple[str, str]]
 ) -> Iterator[Candidate]:
-    assert spec.closure is not None
     rubbing = {joint for of, joint in present if of in (*PASSIVE_FRICTION_IS, effect.id)}
-    driven = {*spec.closure.given, *spec.closure.platform}
-    for place, name in enumerate(spec.closure.variables):
-        if place not in driven and name not in rubbing:
+    for name, place in passive_joints(spec).items():
+        if name not in rubbing:
             yield Candidate(effect, effect.forms[0], name, place)
 
 

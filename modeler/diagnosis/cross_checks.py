@@ -14,12 +14,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.generate import generate_candidates, ruled_out
 from modeler.diagnosis.judge import Judged, decide, numbers, tied
 from modeler.diagnosis.search import Search, Step, Tick, about_itself, scan_candidates
-from modeler.diagnosis.state import SearchData, State, state_of
+from modeler.diagnosis.state import SearchData, State, analysed, state_of
 from modeler.observation.motion import HIGHEST
 from modeler.observation.observation import Observation
 from modeler.observation.prepare import Mending

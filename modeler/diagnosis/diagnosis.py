@@ -8,16 +8,15 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from modeler.core.errors import DataError
-from modeler.diagnosis.analyse import analysed, bands_line
 from modeler.diagnosis.assemble import assembled
 from modeler.diagnosis.candidates import Known
 from modeler.diagnosis.cross_checks import looked_again, other_looks
 from modeler.diagnosis.data_checks import channel_faults
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
-from modeler.diagnosis.holdout_error import vetoing
+from modeler.diagnosis.judge import vetoing
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.search import MOST, Search, search
-from modeler.diagnosis.state import SearchData, state_of
+from modeler.diagnosis.state import SearchData, analysed, bands_line, state_of
 from modeler.diagnosis.timing import logger_shift
 from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Acts, Effect
@@ -63,10 +62,6 @@ class Meter:
         self._share += _STRIDE * (self._end - self._share)
         self._tell(self._share)
 
-    def done(self) -> None:
-        """All is done."""
-        self._tell(1.0)
-
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
 def diagnose(
@@ -97,21 +92,28 @@ def diagnose(
     )
     without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
     doubted = channel_faults(model, data, other, mending)
-    options = model.beta, without, 0 if any(f.certain for f in doubted) else most, meter
-    found = _searched(data, other, *options)
+    limit = 0 if any(fault.certain for fault in doubted) else most
+
+    def searched(data: SearchData, other: SearchData | None) -> Search:
+        meter.stage(_SEARCHED)
+        return search(data, model.beta, without, limit, vetoing(other), meter.tick)
+
+    found = searched(data, other)
     aligned = _aligned(data, found, model, mending)
     if aligned is not None:
         data, other = aligned, _held_out(aligned, holdout)
-        found = _searched(data, other, *options)
+        found = searched(data, other)
     may_push = [e for e in data.known.catalogue if e.acts is Acts.WINDOW and e.id not in without]
     window = _push(data, found) if may_push else None
     if window is not None:
-        found = _searched(_masked(data, window), other, *options)
+        found = searched(_masked(data, window), other)
     meter.stage(_LOOKED)
     looks = looked_again(found, _looks(data, mending, other, window), meter.tick)
     meter.stage(1.0)
     diagnosis = assembled(model, found, other, window, looks, doubted, meter.tick)
-    meter.done()
+    if progress is not None:
+        progress(1.0)
+
     line = bands_line(model.processing, data.observation.report.processing)
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
@@ -123,14 +125,6 @@ def _looks(
     for what, look in other_looks(data, mending, other):
         yield what, look if window is None or look is other else _masked(look, window)
         del look  # or it would live beside the next
-
-
-def _searched(
-    data: SearchData, other: SearchData | None, beta: np.ndarray, without: Sequence[str], most: int,
-    meter: Meter,
-) -> Search:  # fmt: skip
-    meter.stage(_SEARCHED)
-    return search(data, beta, without, most, vetoing(other), meter.tick)
 
 
 def _aligned(

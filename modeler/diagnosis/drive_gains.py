@@ -73,12 +73,9 @@ def likeliest(state: State, candidates: Sequence[Candidate]) -> Candidate | None
     Where a wrong gain bends the model, the weights of the state say more of the bend than of the
     joints. None where no gain can be settled.
     """
-    found = {}
-    for k, candidate in enumerate(candidates):
-        best = _best(_problem(state, _gains((*state.picks, candidate))))
-        if best is not None:
-            found[k] = best.order
-    return candidates[min(found, key=lambda k: found[k])] if found else None
+    each = ((c, _best(_problem(state, _gains((*state.picks, c))))) for c in candidates)
+    found = [(candidate, best.order) for candidate, best in each if best is not None]
+    return min(found, key=lambda pair: pair[1])[0] if found else None
 
 
 def with_gains(state: State, joints: Sequence[int]) -> tuple[np.ndarray, np.ndarray] | None:

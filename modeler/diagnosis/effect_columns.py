@@ -30,53 +30,30 @@ UNFELT = 1e-12
 """Columns that are nowhere larger are felt by no joint."""
 
 
-def own_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -> np.ndarray:
-    """(n, k) equations of its k columns on its joint, over a window of the samples."""
-    values: dict[str, object] = {**candidate.shapes, **_read(candidate, signals, window)}
-    memory = candidate.form.memory
-    if memory is not None:
-        values["z"] = signals.state(memory, candidate.index, candidate.shapes)[window]
-    ones = np.ones(len(signals.q[window]))
-    with np.errstate(all="ignore"):  # columns that are not finite are not looked at
-        return np.column_stack(
-            [
-                ones * column.equation.fold(values, FUNCTIONS, np.pi, float)
-                for column in candidate.form.columns
-            ]
-        )
-
-
-def _read(candidate: Candidate, signals: Signals, window: slice) -> dict[str, np.ndarray | None]:
-    """(n,) what its equations read of the motion and the model, by name."""
-    j, names = candidate.index, candidate.form.names
-    read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
-    values: dict[str, np.ndarray | None]
-    values = {name: getattr(signals, name)[window, j] for name in read}
-    if "t" in names:
-        values["t"] = signals.time[window]
-    if "T" in names:
-        warmth = signals.temperature(candidate.joint or "")
-        values["T"] = None if warmth is None else warmth[window]
-    return values
-
-
-def own_columns_of(
+def own_columns(
     candidates: Sequence[Candidate], signals: Signals, window: slice = EVERY
 ) -> np.ndarray:
-    """(n, k) of candidates of one form on one joint, that of the first, then the next."""
+    """(n, k) equations of candidates of one form on one joint, that of the first, then the next.
+
+    Over a window of the samples.
+    """
     first = candidates[0]
-    if first.form.memory is not None or len(candidates) == 1 or not first.shapes:
-        return np.hstack([own_columns(candidate, signals, window) for candidate in candidates])
+    j, names, memory = first.index, first.form.names, first.form.memory
     values: dict[str, object] = {
         name: np.array([candidate.shapes[name] for candidate in candidates])
         for name in first.shapes
     }
-    values |= {
-        name: value[:, None]
-        for name, value in _read(first, signals, window).items() if value is not None
-    }  # fmt: skip
+    read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
+    values |= {name: getattr(signals, name)[window, j, None] for name in read}
+    if "t" in names:
+        values["t"] = signals.time[window, None]
+    if "T" in names and (warmth := signals.temperature(first.joint or "")) is not None:
+        values["T"] = warmth[window, None]
+    if memory is not None:
+        states = [signals.state(memory, j, candidate.shapes) for candidate in candidates]
+        values["z"] = np.column_stack(states)[window]
     found = np.empty((len(signals.q[window]), len(candidates), len(first.form.columns)))
-    with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"):  # columns that are not finite are not looked at
         for k, column in enumerate(first.form.columns):
             found[:, :, k] = column.equation.fold(values, FUNCTIONS, np.pi, float)
     return found.reshape(len(found), -1)
@@ -102,9 +79,9 @@ def all_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -
         own = _shaft(candidate, speed, np.zeros_like(speed))
         return own[:, None, :] * row[:, :, None]
     if acts is Acts.POSITION:
-        dq = own_columns(candidate, signals)
+        dq = own_columns([candidate], signals)
         return signals.moved(candidate.index, dq, candidate.effect.whole_axis, window)
-    own = own_columns(candidate, signals, window)
+    own = own_columns([candidate], signals, window)
     result = np.zeros((len(own), signals.q.shape[1], own.shape[1]))
     result[:, candidate.index] = own
     return result
@@ -229,10 +206,8 @@ class Rows(Brief):
         first, signals = candidates[0], self.signals
         width = len(candidates) * len(first.form.columns)
         if first.local and first.form.memory is None:
-            return self._on(
-                first.index, lambda i, w: own_columns_of(candidates, signals[i], w), width
-            )
-        own = [own_columns_of(candidates, s) for s in signals]
+            return self._on(first.index, lambda i, w: own_columns(candidates, signals[i], w), width)
+        own = [own_columns(candidates, s) for s in signals]
         if first.local:
             return self._on(first.index, lambda i, w: own[i][w], 0)
         j, whole = first.index, first.effect.whole_axis

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.diagnosis.holdout_error import compared, left_of
+from modeler.diagnosis.judge import compared, left_of
 from modeler.diagnosis.score import Change
 from modeler.diagnosis.state import SearchData, State
 

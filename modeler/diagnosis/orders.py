@@ -58,7 +58,7 @@ def _extra(state: State, number: int, j: int) -> np.ndarray:
         if pick.local and pick.index != j:
             continue
         if pick.local:
-            total = total + own_columns(pick, signals) @ values
+            total = total + own_columns([pick], signals) @ values
             continue
         key = "torques", number, column_key(state.rows, pick)  # (n, J, k), for all joints
         if key not in state.rows.known:

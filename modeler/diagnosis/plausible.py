@@ -138,7 +138,6 @@ def _turns(state: State, pick: Candidate) -> bool:
 
 def _no_rest(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """Far from its rest a spring is a constant torque, unless the model has one already."""
-    del parameters
     having = {(p.effect, p.joint) for p in state.spec.standard}
     scale = state.scales[pick.index]
     if ("offset", pick.joint) in having or abs(
@@ -170,7 +169,6 @@ def _no_body(state: State, pick: Candidate, parameters: Mapping[str, float]) -> 
 
 def _no_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """A torque of the other sign, or off by that much, is no matter of its torque constant."""
-    del state
     eps = parameters[pick.parameter_names()[0]]
     if 1.0 / TENFOLD < 1.0 - eps < TENFOLD:
         return ""
@@ -180,7 +178,6 @@ def _no_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> 
 
 def _nothing_to_balance(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """A lever with a spring is built where gravity turns a joint."""
-    del parameters
     weight = np.concatenate([s.static[::20, pick.index] for s in state.rows.signals])
     torque = state.rows.y[pick.index]
     if np.mean(weight**2) > WEIGHTLESS**2 * np.mean(torque**2):

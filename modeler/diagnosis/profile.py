@@ -26,7 +26,7 @@ import numpy as np
 
 from modeler.diagnosis.candidates import Candidate, JointScale, coded
 from modeler.diagnosis.effect_columns import Columns, Rows, body_parameters, dense
-from modeler.diagnosis.gram import blocks_of
+from modeler.diagnosis.ranking import blocks_of
 from modeler.diagnosis.signals import tilt_basis
 from modeler.diagnosis.state import State
 from modeler.effects.effect import Acts, Shape
@@ -330,7 +330,7 @@ def _around(
         return problem.at(start.moved(smooth, x))
 
     # a root of the covariance of the coded shapes, by the slopes of the columns
-    _, slopes = _slopes(problem, start, smooth, middle)
+    _, slopes = _slopes(problem, start, smooth)
     values, vectors = np.linalg.eigh(slopes.T @ slopes)
     floor = 1e-9 * max(float(values.max(initial=0.0)), 1e-300)
     axes = vectors / np.sqrt(np.maximum(values, floor)) * _REACHED
@@ -340,10 +340,7 @@ def _around(
 
 
 def _slopes(
-    problem: ProfileProblem,
-    told: Candidate,
-    smooth: Sequence[Shape],
-    middle: Sequence[float] | np.ndarray,
+    problem: ProfileProblem, told: Candidate, smooth: Sequence[Shape]
 ) -> tuple[np.ndarray, np.ndarray]:
     """Own columns, and slopes of the effect by its coded shapes, off all else; rows of all joints.
 
@@ -356,7 +353,7 @@ def _slopes(
     for i in range(len(smooth)):
         ends = []
         for sign in (-1.0, 1.0):
-            x = np.array(middle, dtype=float)
+            x = np.array([coded(shape, told.shapes[shape.name]) for shape in smooth])
             x[i] += sign * _STEP
             moved = problem.rows.columns(told.moved(smooth, x))
             ends.append(problem.off(problem.weighted(moved)) @ here.values)
@@ -375,8 +372,7 @@ def _factors(
     blocks of time, V = sum_b g_b g_b^T with g_b = sum_t u_t e_t, u_t the influence of a row on the
     parameters (White 1980, Econometrica 48(4); Arellano 1987).
     """
-    middle = [coded(shape, told.shapes[shape.name]) for shape in smooth]
-    own, slopes = _slopes(problem, told, smooth, middle)
+    own, slopes = _slopes(problem, told, smooth)
     left = problem.off([t[:, None] for t in problem.target[0]])[:, 0] - own @ first.values
     both = np.column_stack([own, slopes])
     influence = both @ np.linalg.pinv(both.T @ both, rcond=1e-12, hermitian=True)

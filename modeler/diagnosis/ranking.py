@@ -1,11 +1,369 @@
-"""Ranking: how much of the residual each candidate explains on motion it was not fitted to."""
+"""Ranking: how much of the residual each candidate explains on motion it was not fitted to.
 
+The rows are there as small matrices by block of time.
+"""
+
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
-from modeler.diagnosis.gram import VISIBLE, Base, Pool, but_one, solved
+from modeler.core.brief import Brief
+from modeler.diagnosis.effect_columns import Columns, Rows, width
+from modeler.numerics.least_squares import ReducedRows, turn_of, whitening
+from modeler.numerics.spectra import lap
+from modeler.observation.observation import Observation
+
+RIDGE = 1e-10
+"""Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""
+
+_FEW = 4
+"""Columns up to which their products are summed at once, and not block by block."""
+
+_MANY = 20
+"""Blocks from which on that is faster."""
+
+_AT_ONCE = 48
+"""Candidates whose columns are multiplied at once: they stay in the cache."""
+
+VISIBLE = 0.005
+"""A direction of candidate columns that the base hides beyond this share is not seen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Base(Brief):
+    """The base columns as an orthonormal set over all weighted rows; c columns, r of them kept.
+
+    Attributes:
+        columns: (rows_j, r) by joint, weighted: W turn / sigma.
+        y: (rows_j,) by joint, weighted.
+        turn: (c, r) of the base columns W.
+        sigma: (J,) rms residual of each joint, N m or N: the weights are its inverse.
+        block: (rows_j,) by joint, number of the block of time.
+        fold: (blocks,) number of the fold of each block.
+        G: (blocks, r, r) Gram matrices of the columns.
+        u: (blocks, r) their products with y.
+    """
+
+    columns: tuple[np.ndarray, ...]
+    y: tuple[np.ndarray, ...]
+    turn: np.ndarray
+    sigma: np.ndarray
+    block: tuple[np.ndarray, ...]
+    fold: np.ndarray
+    G: np.ndarray
+    u: np.ndarray
+
+    @property
+    def blocks(self) -> int:
+        """How many blocks of time there are."""
+        return len(self.fold)
+
+    @cached_property
+    def pieces(self) -> list[list[tuple[int, slice]]]:
+        """Blocks and their rows, by joint."""
+        return [pieces(own) for own in self.block]
+
+    @cached_property
+    def crossed(self) -> "GramFolds":
+        """Fits of the base to all folds but one."""
+        place = np.unique(self.fold, return_inverse=True)[1]
+        count = int(place.max()) + 1
+        inverse, beta = solved(but_one(self.G, place, count), but_one(self.u, place, count))
+        return GramFolds(place, inverse, beta)
+
+    @cached_property
+    def left_out(self) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint, weighted: each row less what the fit to the other folds predicts."""
+        fits = self.crossed
+        return tuple(
+            y - np.einsum("ij,ij->i", columns, fits.beta[fits.place[block]])
+            for columns, y, block in zip(self.columns, self.y, self.block, strict=True)
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class GramFolds(Brief):
+    """Fits of the base to all folds but one, F of them.
+
+    Attributes:
+        place: (blocks,) index of the fit that a block is held out of.
+        inverse: (F, r, r) of the Gram matrices.
+        beta: (F, r) parameters.
+    """
+
+    place: np.ndarray
+    inverse: np.ndarray
+    beta: np.ndarray
+
+
+def but_one(values: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
+    """(F, ...) sums of values (blocks, ...) over all folds but one."""
+    whole = len(place) == count and bool((np.diff(place) == 1).all())
+    own = values if whole else np.stack([values[place == f].sum(axis=0) for f in range(count)])
+    return np.asarray(own.sum(axis=0) - own)
+
+
+def solved(G: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(F, r, r) and (F, r) inverses of Gram matrices of the base, and parameters."""
+    inverse = np.linalg.inv(G + RIDGE * np.eye(G.shape[1])) if G.shape[1] else np.zeros_like(G)
+    return inverse, np.einsum("frs,fs->fr", inverse, u)
+
+
+def base_of(
+    W: Sequence[np.ndarray],
+    y: Sequence[np.ndarray],
+    sigma: np.ndarray,
+    block: Sequence[np.ndarray],
+    fold: np.ndarray,
+    turn: np.ndarray | None = None,
+) -> Base:
+    """The weighted base.
+
+    Args:
+        W: (rows_j, c) by joint.
+        y: (rows_j,) by joint.
+        sigma: (J,) of each joint.
+        block: (rows_j,) by joint.
+        fold: (blocks,) of each block.
+        turn: (c, r) of the columns, where it is known.
+    """
+    turn = turn_of(W, sigma) if turn is None else turn
+    columns = tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True))
+    target = tuple(t / s for t, s in zip(y, sigma, strict=True))
+    G, u = np.zeros((len(fold), *turn.shape[1:] * 2)), np.zeros((len(fold), turn.shape[1]))
+    base = Base(columns, target, turn, sigma, tuple(block), fold, G, u)
+    for w, t, own in zip(columns, target, base.pieces, strict=True):
+        for b, rows in own:
+            G[b] += w[rows].T @ w[rows]
+            u[b] += w[rows].T @ t[rows]
+    return base
+
+
+def folded(base: Base) -> Base:
+    """The same with whole folds as blocks: enough where only sums over all blocks count."""
+    place, count = base.crossed.place, len(base.crossed.beta)
+    block = tuple(place[own] for own in base.block)
+    G, u = (np.stack([x[place == f].sum(axis=0) for f in range(count)]) for x in (base.G, base.u))
+    return dataclasses.replace(base, block=block, fold=np.arange(count), G=G, u=u)
+
+
+def pieces(block: np.ndarray) -> list[tuple[int, slice]]:
+    """The runs of equal block number, in row order."""
+    if not block.size:
+        return []
+    edges = [0, *(np.flatnonzero(np.diff(block)) + 1).tolist(), block.size]
+    return [(int(block[a]), slice(a, b)) for a, b in pairwise(edges)]
+
+
+@dataclass(frozen=True, eq=False)
+class Pool:
+    """The columns of many candidates beside the base; K columns of N candidates.
+
+    Attributes:
+        owner: (K,) candidate of each column, ascending.
+        sizes: (N,) columns of each candidate.
+        first: (N,) the first of them.
+        scale: (K,) columns were divided by this to have length one.
+        T: (blocks, r, K) base' columns.
+        w: (blocks, K) columns' y.
+        pairs: (P, 2) columns of one candidate, both orders.
+        D: (blocks, P) products of these pairs.
+    """
+
+    owner: np.ndarray
+    sizes: np.ndarray
+    first: np.ndarray
+    scale: np.ndarray
+    T: np.ndarray
+    w: np.ndarray
+    pairs: np.ndarray
+    D: np.ndarray
+
+    @property
+    def count(self) -> int:
+        """Number of candidates, N."""
+        return len(self.first)
+
+    @cached_property
+    def first_pairs(self) -> np.ndarray:
+        """(N,) first pair of each candidate."""
+        return np.cumsum(self.sizes**2) - self.sizes**2
+
+
+def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
+    """The Gram matrices of candidates' columns, all of them finite and none zero."""
+    sizes = np.array([width(columns) for columns in every], dtype=int)
+    first = np.cumsum(sizes) - sizes
+    owner = np.repeat(np.arange(len(sizes)), sizes)
+    K, r = len(owner), base.turn.shape[1]
+    pairs = np.array(
+        [(f + i, f + k) for f, size in zip(first, sizes, strict=True)
+         for i in range(size) for k in range(size)]
+    ).reshape(-1, 2).astype(int)  # fmt: skip
+    T, w = np.zeros((base.blocks, r, K)), np.zeros((base.blocks, K))
+    D, square = np.zeros((base.blocks, len(pairs))), np.zeros(K)
+    pool = Pool(owner, sizes, first, np.ones(K), T, w, pairs, D)
+    for j in range(len(base.sigma)):
+        own = [i for i, columns in enumerate(every) if columns[j] is not None]
+        for some in (own[k : k + _AT_ONCE] for k in range(0, len(own), _AT_ONCE)):
+            if not base.y[j].size:
+                continue
+            places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in some])
+            stacked = np.concatenate([np.asarray(every[i][j]).T for i in some])
+            stacked /= base.sigma[j]
+            square[places] += np.einsum("ij,ij->i", stacked, stacked)
+            _add_joint(base, pool, j, places, stacked)
+    pool.scale[:] = np.sqrt(np.where(square > 0.0, square, 1.0))
+    T /= pool.scale
+    w /= pool.scale
+    D /= pool.scale[pairs].prod(axis=1)
+    return pool
+
+
+def _add_joint(base: Base, pool: Pool, j: int, places: np.ndarray, columns: np.ndarray) -> None:
+    """Adds the rows of one joint, columns (k, rows_j), to the products of a pool."""
+    T, w, D, pairs = pool.T, pool.w, pool.D, pool.pairs
+    where = np.full(T.shape[2], -1)
+    where[places] = np.arange(len(places))
+    here = np.flatnonzero((where[pairs] >= 0).all(axis=1))
+    left, right = where[pairs[here, 0]], where[pairs[here, 1]]
+    small = len(places) <= _FEW and base.blocks >= _MANY
+    if small and np.all(np.diff(base.block[j]) >= 0):
+        number, start = np.unique(base.block[j], return_index=True)
+        products = base.columns[j].T[:, None] * columns
+        T[np.ix_(number, np.arange(len(products)), places)] += np.moveaxis(
+            _sums(products, start), -1, 0
+        )
+        w[np.ix_(number, places)] += _sums(columns * base.y[j], start).T
+        D[np.ix_(number, here)] += _sums(columns[left] * columns[right], start).T
+        return
+    own = np.zeros((len(T), T.shape[1], len(places)))
+    for b, rows in base.pieces[j]:
+        part = columns[:, rows]
+        own[b] += base.columns[j][rows].T @ part.T
+        w[b, places] += part @ base.y[j][rows]
+        D[b, here] += np.einsum("ij,ij->i", part[left], part[right])
+    if len(places) == T.shape[2]:
+        T += own
+    else:
+        T[:, :, places] += own
+
+
+def sigma_of(rows: Rows | ReducedRows, beta: np.ndarray | None = None) -> np.ndarray:
+    """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
+
+    Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
+    fit (see `estimation.least_squares`): their sigma beside the torques that cancel in them is at
+    least that of the others beside the torques that are measured.
+
+    Args:
+        rows: of the analysis.
+        beta: (c,) parameters that are kept; None: fitted.
+    """
+    count = rows.count if isinstance(rows, ReducedRows) else np.array([len(y) for y in rows.y])
+    size = np.array([_rms(y, n) if n else 1.0 for y, n in zip(rows.y, count, strict=True)])
+    floor = 1e-6 * np.maximum(size, 1e-6 * size.max()) + 1e-300
+    free = size == 0.0
+    sigma = np.maximum(np.where(free, size.max(), size), floor)
+    grams = [w.T @ w for w in rows.W]
+    sides = [w.T @ y for w, y in zip(rows.W, rows.y, strict=True)]
+    for _ in range(50):
+        found = beta if beta is not None else _least_squares(grams, sides, sigma)
+        every = zip(rows.y, rows.W, count, strict=True)
+        updated = np.array([_rms(y - w @ found, n) if n else 1.0 for y, w, n in every])
+        if free.any() and not free.all():
+            error = float(np.sqrt(np.mean((updated[~free] / size[~free]) ** 2)))
+            parts = [
+                np.diag(gram) @ found**2 / max(n, 1) for gram, n in zip(grams, count, strict=True)
+            ]
+            updated = np.where(free, np.maximum(updated, error * np.sqrt(parts)), updated)
+        updated = np.maximum(updated, floor)
+        settled = np.all(np.abs(updated / sigma - 1.0) < 1e-4)
+        sigma = updated
+        if settled or beta is not None:
+            break
+    return sigma
+
+
+def _rms(values: np.ndarray, count: int) -> float:
+    return float(np.sqrt(values @ values / count)) if count else 0.0
+
+
+def _least_squares(
+    grams: Sequence[np.ndarray], sides: Sequence[np.ndarray], sigma: np.ndarray
+) -> np.ndarray:
+    """Weighted least squares from the Gram matrices of the joints."""
+    if not len(sides[0]):
+        return np.zeros(0)
+    gram = np.asarray(sum(g / s**2 for g, s in zip(grams, sigma, strict=True)))
+    right = sum(u / s**2 for u, s in zip(sides, sigma, strict=True))
+    turn = whitening(gram, 1e-11)
+    return np.asarray(turn @ (turn.T @ right))
+
+
+# Blocks of time, and folds that hold out different motion.
+
+
+BLOCK = 0.5
+"""s; longer where logs are long: statistics over blocks need no more than `MOST`."""
+
+MOST = 120
+
+
+FOLDS = 8
+
+
+@dataclass(frozen=True, eq=False)
+class TimeBlocks(Brief):
+    """Of an observation.
+
+    Attributes:
+        number: (s,) block of each sample.
+        fold: (blocks,) fold of each block.
+        period: s by log; 0 where the motion does not repeat.
+    """
+
+    number: np.ndarray
+    fold: np.ndarray
+    period: tuple[float, ...]
+
+
+def blocks_of(observation: Observation) -> TimeBlocks:
+    """Blocks of half a second, and eight folds.
+
+    Each log is cut into eight stretches; where its motion repeats, one lap is, and the same phase
+    of all laps is held out together: neighbouring laps would give the answer away.
+    """
+    time, run = observation.time, observation.run
+    total = float(sum(np.ptp(time[run == log]) for log in np.unique(run)))
+    length = max(BLOCK, total / MOST)
+    number = np.zeros(len(time), dtype=int)
+    folds: list[int] = []
+    periods = []
+    for log in range(len(observation.logs)):
+        own = np.flatnonzero(run == log)
+        if not own.size:
+            periods.append(0.0)
+            continue
+        since = time[own] - time[own[0]]
+        period = lap(since, observation.q[own])
+        periods.append(period)
+        block = np.floor(since / length).astype(int)
+        _, block = np.unique(block, return_inverse=True)
+        phase = (since % period) / period if period else since / (since[-1] + 1e-9)
+        middle = np.zeros(block.max() + 1)
+        np.add.at(middle, block, phase)
+        middle /= np.bincount(block)
+        number[own] = block + len(folds)
+        folds += [(int(FOLDS * min(m, 0.999)) + log) % FOLDS for m in middle]
+    return TimeBlocks(number, np.array(folds), tuple(periods))
+
+
+# Blocked cross-validation of every candidate beside the base.
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,13 +5,13 @@ blocks of time that were not fitted, by more than two standard errors of the pai
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from modeler.core.table import printed
-from modeler.diagnosis.gram import BLOCK, MOST
+from modeler.diagnosis.ranking import BLOCK, MOST
 
 SURE = 2.0
 """Standard errors beyond which differences over blocks of time are more than chance."""
@@ -136,10 +136,10 @@ def scored(
         weights: of the joints, by name; None: the same of all.
         block: s; 0: half a second, longer where logs are long.
     """
-    grid = _Grid.of(before, block)
+    by_block = _by_block(before, block)
     old, new = errors_of(before), errors_of(after)
     shares = {
-        name: (grid.shares(before, j), grid.shares(after, j))
+        name: (by_block(before, j), by_block(after, j))
         for j, name in enumerate(before.names) if name in old and name in new
     }  # fmt: skip
     changes = tuple(
@@ -198,33 +198,27 @@ def error_changes(joints: Mapping[str, tuple[float, float]], changed: Sequence[s
     return "; ".join(part for part in parts if part)
 
 
-@dataclass(frozen=True, eq=False)
-class _Grid:
-    """Blocks of time, alike for all models that see the same logs."""
+def _by_block(logs: Unseen, block: float) -> Callable[[Unseen, int], np.ndarray]:
+    """The function that gives the squared residuals of a joint, over its squared torque, by block.
 
-    start: Mapping[int, float]  # s, by log
-    ends: Mapping[int, tuple[int, int]]  # numbers of its first and its last block, by log
-    length: float  # s
-    blocks: int
+    Blocks of that many s, of 0 half a second, longer where logs are long; the same for all models
+    that see the same logs.
+    """
+    run, time = np.concatenate(logs.run), np.concatenate(logs.time)
+    spans = {int(r): (time[run == r].min(), time[run == r].max()) for r in np.unique(run)}
+    length = float(block or max(BLOCK, sum(b - a for a, b in spans.values()) / MOST))
+    count, ends = 0, {}
+    for r, (a, b) in spans.items():  # numbers of the first and the last block of a log
+        last = count + int((b - a) / length)
+        ends[r], count = (count, last), last + 1
 
-    @classmethod
-    def of(cls, seen: Unseen, block: float) -> "_Grid":
-        """Of that many s; of 0, half a second, longer where logs are long."""
-        run, time = np.concatenate(seen.run), np.concatenate(seen.time)
-        spans = {int(r): (time[run == r].min(), time[run == r].max()) for r in np.unique(run)}
-        length = block or max(BLOCK, sum(b - a for a, b in spans.values()) / MOST)
-        count, ends = 0, {}
-        for r, (a, b) in spans.items():
-            last = count + int((b - a) / length)
-            ends[r], count = (count, last), last + 1
-        return cls({r: float(a) for r, (a, _) in spans.items()}, ends, float(length), count)
-
-    def shares(self, seen: Unseen, j: int) -> np.ndarray:
-        """(blocks,) squared residuals of one joint, over its squared torque in all of them."""
+    def shares(seen: Unseen, j: int) -> np.ndarray:
         number = np.zeros(len(seen.run[j]), dtype=int)
-        for r, start in self.start.items():
+        for r, (start, _) in spans.items():
             own = seen.run[j] == r
-            since = np.floor((seen.time[j][own] - start) / self.length).astype(int)
-            number[own] = np.clip(self.ends[r][0] + since, *self.ends[r])
+            since = np.floor((seen.time[j][own] - float(start)) / length).astype(int)
+            number[own] = np.clip(ends[r][0] + since, *ends[r])
         size = float(seen.torque[j] @ seen.torque[j])
-        return np.bincount(number, seen.residual[j] ** 2, self.blocks) / size
+        return np.bincount(number, seen.residual[j] ** 2, count) / size
+
+    return shares

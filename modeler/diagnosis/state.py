@@ -13,12 +13,24 @@ from modeler.core.brief import Brief
 from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis.candidates import Candidate, JointScale, Known, scales_of
 from modeler.diagnosis.effect_columns import Columns, Rows, dense, rows_of, width
-from modeler.diagnosis.gram import Base, TimeBlocks, base_of, blocks_of, folded, pool_of, sigma_of
-from modeler.diagnosis.ranking import Ranking, rank
+from modeler.diagnosis.ranking import (
+    Base,
+    Ranking,
+    TimeBlocks,
+    base_of,
+    blocks_of,
+    folded,
+    pool_of,
+    rank,
+    sigma_of,
+)
 from modeler.diagnosis.signals import SignalReference, frame_slopes, tilt_weights
 from modeler.effects.effect import Acts
 from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
-from modeler.observation.observation import Observation
+from modeler.observation.log import Log
+from modeler.observation.observation import Observation, observe, observed
+from modeler.observation.prepare import Mending, Prepared
+from modeler.observation.processing import Processing
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel
@@ -245,14 +257,7 @@ def picked_columns(rows: Rows, picks: Sequence[Candidate]) -> tuple[Columns, ...
 
 def columns_of(rows: Rows, candidate: Candidate) -> Columns:
     """The candidate's columns; those that do not depend on the model are computed once."""
-    if candidate.effect.acts is Acts.GRAVITY:
-        return _tilt(rows)
-    if not _fixed(candidate):
-        return rows.columns(candidate)
-    key = column_key(rows, candidate)
-    if key not in rows.cache:
-        rows.cache[key] = rows.columns(candidate)
-    return rows.cache[key]
+    return all_columns_of(rows, [candidate])[0]
 
 
 def all_columns_of(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]:
@@ -267,12 +272,12 @@ def all_columns_of(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]
     # Joint after joint: the slopes along the motion of one joint serve all its effects.
     for places in sorted(groups.values(), key=lambda own: candidates[own[0]].index):
         every = [candidates[i] for i in places]
-        if len(every) == 1 or every[0].effect.acts is Acts.GRAVITY:
-            made = [columns_of(rows, candidate) for candidate in every]
+        if every[0].effect.acts is Acts.GRAVITY:
+            made = [_tilt(rows) for _ in every]
         else:
-            made = rows.many(every)
-            new = zip(every, made, strict=True)
-            rows.cache.update({column_key(rows, c): own for c, own in new if _fixed(c)})
+            made = rows.many(every) if len(every) > 1 else [rows.columns(every[0])]
+        new = zip(every, made, strict=True)
+        rows.cache.update({column_key(rows, c): own for c, own in new if _fixed(c)})
         found |= dict(zip(places, made, strict=True))
     return [found[i] for i in range(len(candidates))]
 
@@ -335,3 +340,77 @@ def _references(observation: Observation) -> tuple[float, Mapping[str, float]]:
                 temperature[joint.name] = float(every.mean())
                 break
     return float(np.min(observation.time)), temperature
+
+
+# The logs as a diagnosis sees them: the model's processing in a wider band.
+
+
+BAND = 30.0
+"""Hz: cut-off of the parallel filter of a diagnosis, if the position filter leaves that much.
+
+Fits use a narrow band, where torque noise is least; ripple, elasticity, delays and reversals show
+above it."""
+
+COMPLETE = 0.95
+"""Least share of a row's weights on usable samples."""
+
+
+def analysis_processing(fitted: Processing) -> Processing:
+    """That of the fit with the wider band; a parallel filter that was given rules both."""
+    position = fitted.position_cutoff or BAND
+    cutoff = fitted.parallel_cutoff or 0.0
+    if "parallel_cutoff" in fitted.chosen:
+        cutoff = max(cutoff, min(BAND, 0.8 * position))
+    return dataclasses.replace(fitted, parallel_cutoff=cutoff, decimation=None)
+
+
+def bands_line(fitted: Processing, seen: Processing) -> list[str]:
+    """A sentence on the band of a diagnosis where it is not that of the fit."""
+    if seen.parallel_cutoff == fitted.parallel_cutoff:
+        return []
+    return [
+        f"errors and values are those up to {seen.parallel_cutoff:g} Hz, beside all effects "
+        f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: ripple, "
+        "elasticity, delays and reversals show above; fit with --parallel-cutoff "
+        f"{fitted.parallel_cutoff:g} to have both alike"
+    ]
+
+
+def analysed(
+    compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, chosen: bool = False,
+    prepared: Prepared | None = None, mending: Mending | None = None,
+) -> Observation:  # fmt: skip
+    """The observation of a diagnosis.
+
+    Args:
+        compiled: the robot.
+        logs: to look at.
+        fitted: processing of the fit.
+        chosen: True if `fitted` is that of a diagnosis already.
+        prepared: the logs as `fitted` prepares them; the motion is the same in the wider band,
+            unless derivatives were logged, which are checked in the band of the rows.
+        mending: of the same logs, where it is shared.
+    """
+    processing = fitted if chosen else analysis_processing(fitted)
+    if prepared is not None and all(check is None for check in prepared.checks):
+        band, every = processing.parallel_cutoff or 0.0, processing.decimation
+        wide = dataclasses.replace(prepared.processing, parallel_cutoff=band, decimation=every)
+        wider = dataclasses.replace(prepared, processing=wide)
+        return _whole(observed(compiled, logs, wider, every_joint=True))
+    return _whole(observe(compiled, logs, processing, True, mending))
+
+
+def _whole(observation: Observation) -> Observation:
+    """Only rows whose weights lie on usable samples all but wholly.
+
+    A row at the edge of a masked reversal is the mean of few samples, and what the filter makes of
+    the sign of a speed there looks like physics.
+    """
+    stretches = tuple(
+        dataclasses.replace(part, used=part.used & (part.rows.share(part.usable) >= COMPLETE))
+        for part in observation.stretches
+    )
+    used = np.concatenate([part.used for part in stretches])
+    if not used.any():
+        return observation
+    return dataclasses.replace(observation, used=used, stretches=stretches)

@@ -7,7 +7,7 @@ import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import Rows, base_columns, dense, width
-from modeler.diagnosis.gram import pieces
+from modeler.diagnosis.ranking import pieces
 from modeler.diagnosis.signals import Signals
 from modeler.diagnosis.state import State, picked_columns
 from modeler.effects.effect import Acts
@@ -76,18 +76,14 @@ def instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.nda
         W, base = state.W[j], smooth.W[j][:, state.data.free]
         X.append(np.hstack([W, dense(own, j, len(W))]) / sigma)
         Z.append(np.hstack([base, *(dense(columns, j, len(W)) for columns in extra)]) / sigma)
-    return _solve(X, Z, width(own), state.base.y, state.base.block)
+    return _solve(state, X, Z, width(own))
 
 
 def _solve(
-    X: Sequence[np.ndarray],
-    Z: Sequence[np.ndarray],
-    k: int,
-    y: Sequence[np.ndarray],
-    block: Sequence[np.ndarray],
+    state: State, X: Sequence[np.ndarray], Z: Sequence[np.ndarray], k: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Of the last k of c columns; all else by joint."""
-    c = X[0].shape[1]
+    """Of the last k of c columns, by joint."""
+    c, y, block = X[0].shape[1], state.base.y, state.base.block
     length, size = (
         np.sqrt(sum(np.einsum("ij,ij->j", part, part) for part in own)) for own in (X, Z)
     )

@@ -142,21 +142,11 @@ class Exciting(Presented):
         b, u = self.bounds, self.used
         joints = {}
         for j, name in enumerate(b.joints):
-            torque = None if u.torque is None else float(u.torque[j])
-            most = float(b.torque[j]) if np.isfinite(b.torque[j]) else None
+            torque = None if u.torque is None else u.torque[j]
             joints[name] = {
-                "lower": _of(b.lower[j], u.lower[j], u.lower[j] - b.lower[j]),
-                "upper": _of(b.upper[j], u.upper[j], b.upper[j] - u.upper[j]),
-                "speed": _of(b.speed[j], u.speed[j], b.speed[j] - u.speed[j]),
-                "acceleration": _of(
-                    b.acceleration[j], u.acceleration[j], b.acceleration[j] - u.acceleration[j]
-                ),
-                "torque": {
-                    "limit": most,
-                    "used": torque,
-                    "slack": None if most is None or torque is None else most - torque,
-                },
-            }
+                what: _of(getattr(b, what)[j], getattr(u, what)[j], what == "lower")
+                for what in ("lower", "upper", "speed", "acceleration")
+            } | {"torque": _of(b.torque[j], torque)}
         return {
             "robot": self.robot,
             **self.wish,
@@ -197,8 +187,12 @@ def csv_text(columns: Mapping[str, np.ndarray]) -> str:
     return out.getvalue()
 
 
-def _of(limit: float, value: float, slack: float) -> dict[str, float]:
-    return {"limit": float(limit), "used": float(value), "slack": float(slack)}
+def _of(limit: float, used: float | None, least: bool = False) -> dict[str, float | None]:
+    """A limit, what is used of it, and what is left; infinite ones are None."""
+    most = float(limit) if np.isfinite(limit) else None
+    value = None if used is None else float(used)
+    slack = None if most is None or value is None else value - most if least else most - value
+    return {"limit": most, "used": value, "slack": slack}
 
 
 def _pair(low: float, high: float) -> str:

@@ -219,7 +219,7 @@ def improved(
 
     landscape = Landscape(
         value=lambda flat: walled.value(shaped(flat)),
-        slope=lambda flat: walled.slope(shaped(flat)) * unit.ravel(),
+        slope=lambda flat: walled.slope() * unit.ravel(),  # where the value was asked for last
         reach=lambda flat, way: task.reach(shaped(flat), shaped(way)),
     )
     for _ in range(_INWARD):

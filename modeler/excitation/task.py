@@ -206,7 +206,7 @@ class Walled:
         walls = sum(-np.sum(np.log1p(-(part**2))) for part in (shares, posture, loads))
         return float(value + self.height * walls / len(motion[0]))
 
-    def slope(self, flat: np.ndarray) -> np.ndarray:
+    def slope(self) -> np.ndarray:
         """The gradient at the point whose value was asked for last."""
         task = self.task
         motion, s, phi, pull, shares, posture, loads = self._state

@@ -224,11 +224,11 @@ def in_time(summaries: Sequence[LogSummary]) -> tuple[list[LogSummary], np.ndarr
     dates = [date_of(each.named.period) for each in summaries]
     if all(date is not None for date in dates):
         days = np.array([0.0 if date is None else date.timestamp() for date in dates]) / _DAY
-        if _apart(summaries, days, days):
+        if _disjoint(summaries, days, days):
             return _ordered(summaries, days, "days")
     starts, ends = (np.array([each.span[k] for each in summaries]) / _DAY for k in (0, 1))
     several = len({each.named.machine for each in summaries}) < len(summaries)
-    if several and _apart(summaries, starts, ends):
+    if several and _disjoint(summaries, starts, ends):
         return _ordered(summaries, starts, "days")
     keys = sorted({each.named.period for each in summaries}, key=natural)
     places = np.array([float(keys.index(each.named.period)) for each in summaries])
@@ -248,7 +248,7 @@ def date_of(period: str) -> datetime.datetime | None:
         return None
 
 
-def _apart(summaries: Sequence[LogSummary], starts: np.ndarray, ends: np.ndarray) -> bool:
+def _disjoint(summaries: Sequence[LogSummary], starts: np.ndarray, ends: np.ndarray) -> bool:
     """True if no two logs of a machine overlap, or begin together."""
     machines = np.array([each.named.machine for each in summaries])
     for machine in set(machines):

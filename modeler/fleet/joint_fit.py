@@ -195,10 +195,7 @@ def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> FleetFit:
     for _ in range(_ROUNDS):
         theta, aside = _common(layout, summaries, sigmas, scale)
         blocks = _gain_blocks(layout, theta, scale.shape[1])
-        logs = tuple(
-            _log_fit(layout, each, own, theta, blocks)
-            for each, own in zip(summaries, sigmas, strict=True)
-        )
+        logs = _log_fits(summaries, sigmas, theta, blocks)
         updated = _scales(layout, logs, scale.shape)
         if np.allclose(updated, scale, rtol=0.0, atol=1e-6):
             break
@@ -206,10 +203,7 @@ def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> FleetFit:
     loaded: tuple[LogFit, ...] = ()
     if layout.load.shape[1]:  # every log with a load in place of gains
         blocks = [np.column_stack([_units(layout), layout.load])] * scale.shape[1]
-        loaded = tuple(
-            _log_fit(layout, each, own, theta, blocks)
-            for each, own in zip(summaries, sigmas, strict=True)
-        )
+        loaded = _log_fits(summaries, sigmas, theta, blocks)
     return FleetFit(theta, aside, logs, loaded)
 
 
@@ -253,9 +247,14 @@ def _units(layout: Layout) -> np.ndarray:
     return np.eye(len(layout.common))[:, layout.columns]
 
 
-def _log_fit(
-    layout: Layout, each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blocks
-) -> LogFit:
+def _log_fits(
+    summaries: Sequence[LogSummary], sigmas: Sequence[np.ndarray], theta: np.ndarray, blocks: Blocks
+) -> tuple[LogFit, ...]:
+    pairs = zip(summaries, sigmas, strict=True)
+    return tuple(_log_fit(each, sigma, theta, blocks) for each, sigma in pairs)
+
+
+def _log_fit(each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blocks) -> LogFit:
     """Least squares of one log beside theta."""
     own = sigma
     for _ in range(2):  # weights from the residuals of this very fit

@@ -70,7 +70,7 @@ class JudgedQuantity:
         own = self.known(m, i)
         return PeriodSeries(self.at[own], self.values[own, i], self.sigmas[own, i])
 
-    def told(self, i: int) -> float | None:
+    def smallest_drift(self, i: int) -> float | None:
         """The smallest straight drift that the machine seen best would show."""
         found = [
             least_told(series, self.scatters[i], self.level)

@@ -10,27 +10,27 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.derivation import derive
+from modeler.codegen.derivation import derive, generate
 from modeler.core.builtin import builtin_text
 from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.payload import Payload, identify_with_payloads
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.papers.method_report import (
+from modeler.papers.methods import (
     MethodTable,
     Outcome,
     Row,
     figures,
     judged,
+    logged,
     quoted,
     recovered,
 )
 from modeler.papers.paper import Paper
-from modeler.papers.simulated import compiled_robot, logged
 from modeler.robot.edit import with_drive_gains
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Limits, Robot
-from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel, compiled_once
 from modeler.simulation import SimulatedLog, SimulationSettings, hidden_from_text, simulate
 
 ROBOT = "orthoglide-2012"
@@ -58,7 +58,7 @@ def briot_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodT
     )
     robot = robot_from_text(with_drive_gains(text, dict.fromkeys(JOINTS, 1.0)), ROBOT)
     derivation = derive(robot)
-    compiled = compiled_robot(derivation)
+    compiled = compiled_once(generate(derivation))
     machine = _machine(robot, table, [c.name for c in derivation.base.columns])
     runs = []
     for seed, load in enumerate((0.0, mass, second), 1):

@@ -78,8 +78,8 @@ def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> Line:
         found = READINGS[line.check](paper, line, derived)
         equal, exact = same(found, line)
     except (QuotationError, ExpressionError, RobotError) as error:
-        return _told(line, str(error), LineVerdict.DIFFERENT)
-    return _told(line, found.text, _verdict(line, equal, exact, found.weak))
+        return _line(line, str(error), LineVerdict.DIFFERENT)
+    return _line(line, found.text, _verdict(line, equal, exact, found.weak))
 
 
 def _verdict(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> LineVerdict:
@@ -96,7 +96,7 @@ def _verdict(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> LineVer
     return LineVerdict.EQUAL if exact else LineVerdict.ROUNDED
 
 
-def _told(line: PrintedLine, derived: str, verdict: LineVerdict) -> Line:
+def _line(line: PrintedLine, derived: str, verdict: LineVerdict) -> Line:
     leg = line.legs[0] if len(line.legs) == 1 else ""
     place = line.place + (f", i = {leg}" if leg else "")
     printed = "; ".join((line.text, *line.given))

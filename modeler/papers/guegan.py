@@ -11,16 +11,15 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.codegen.derivation import derive, load
+from modeler.codegen.derivation import derive, generate, load
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
 from modeler.observation.observation import Observation, observe
 from modeler.observation.read import read_log
-from modeler.papers.method_report import MethodTable, Outcome, Row, figures, judged, recovered
+from modeler.papers.methods import MethodTable, Outcome, Row, figures, judged, recovered
 from modeler.papers.paper import Paper
-from modeler.papers.simulated import compiled_robot
 from modeler.robot.robot import Limits, Robot
-from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel, compiled_once
 from modeler.simulation import SimulationSettings, simulate, write_log
 
 ROBOT = "orthoglide-2003-similar-legs"
@@ -56,7 +55,7 @@ def guegan_methods(paper: Paper, report: Callable[[float], None]) -> list[Method
     )
     truth = {name: values[0] for name, values in table_3.items()}
     derivation = derive(load(ROBOT))
-    compiled = compiled_robot(derivation)
+    compiled = compiled_once(generate(derivation))
     observation, exact = _simulated(derivation.robot, truth, compiled, report)
     full, reduced = identify(observation), identify(_chosen(observation, truth))
     return [

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.derivation import Derivation, derive
+from modeler.codegen.derivation import Derivation, derive, generate
 from modeler.core.builtin import builtin_text
 from modeler.core.expression import parse
 from modeler.core.table import percent
@@ -20,12 +20,12 @@ from modeler.formulas.physical_system import physical_system
 from modeler.formulas.solve import determined
 from modeler.formulas.sufficient_sets import known_sets, smallest_number
 from modeler.observation.observation import observe
-from modeler.papers.method_report import MethodTable, Outcome, Row, judged, quoted, recovered
+from modeler.papers.methods import MethodTable, Outcome, Row, judged, logged, quoted, recovered
 from modeler.papers.paper import Paper
-from modeler.papers.simulated import compiled_robot, logged
 from modeler.robot.motors import joint_directions
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Limits, Robot
+from modeler.runtime.model import compiled_once
 from modeler.simulation import SimulationSettings, simulate
 
 SECONDS, RATE, BANDWIDTH, NOISE = 240.0, 400.0, 60.0, 0.02
@@ -51,7 +51,7 @@ def hanssen_methods(paper: Paper, report: Callable[[float], None]) -> list[Metho
     truth = dict(zip(names, quoted(paper, "J11 = 0.0398")[-7:], strict=True))
     robot = robot_from_text(builtin_text("wrist") + '\n[effects]\ncoulomb = "all"\n', "wrist")
     derivation = derive(robot)
-    compiled = compiled_robot(derivation)
+    compiled = compiled_once(generate(derivation))
     settings = SimulationSettings(
         duration=SECONDS, rate=RATE, seed=SEED, bandwidth=BANDWIDTH, torque_noise=NOISE,
         motion="one-joint", limits=dict.fromkeys("123", LIMITS),

@@ -9,19 +9,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.derivation import derive
+from modeler.codegen.derivation import derive, generate
 from modeler.core.builtin import builtin_text
 from modeler.estimation.energy_fit import identify_energy
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult, friction_by_direction
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.papers.method_report import MethodTable, Outcome, Row, judged, quoted, recovered
+from modeler.papers.methods import MethodTable, Outcome, Row, judged, logged, quoted, recovered
 from modeler.papers.paper import Paper
-from modeler.papers.simulated import compiled_robot, logged
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
-from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel, compiled_once
 from modeler.simulation import SimulatedLog, SimulationSettings, simulate
 
 RUNS, SECONDS, RATE, NOISE = 6, 10.0, 204.0, 0.02
@@ -47,7 +46,7 @@ def houda_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodT
     for joint, values in friction.items():
         truth |= dict(zip((n.format(joint) for n in FRICTION), values, strict=True))
     machine = _machine(truth, friction)
-    compiled = compiled_robot(derive(robot_from_text(_text(both_ways=True), "evra")))
+    compiled = compiled_once(generate(derive(robot_from_text(_text(both_ways=True), "evra"))))
     runs = []
     for seed in range(RUNS):
         settings = SimulationSettings(

@@ -274,9 +274,7 @@ _KINDS = (
         "coupled_friction",
         "pair",
         plausible(
-            ratio=either_sign,
-            Fv=share(0.05, 0.12, "torque/speed"),
-            Fs=share(0.06, 0.14, "torque"),
+            ratio=either_sign, Fv=share(0.05, 0.12, "torque/speed"), Fs=share(0.06, 0.14, "torque")
         ),
         rubbing("Fv", "Fs"),
         signed=("ratio",),
@@ -389,11 +387,7 @@ _KINDS = (
         loops=False,
     ),
     HiddenKind(
-        "time_delay",
-        "system",
-        plausible(delay=share(2e-3, 6e-3)),
-        role="sensor",
-        signed=("delay",),
+        "time_delay", "system", plausible(delay=share(2e-3, 6e-3)), role="sensor", signed=("delay",)
     ),
     HiddenKind(
         "drive_gain",

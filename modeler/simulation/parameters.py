@@ -278,12 +278,12 @@ def _tips(robot: Robot, pose: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def by_shared_names(
-    robot: Robot, standard: Mapping[str, float], drawn: tuple[str, ...]
+    robot: Robot, parameters: PlantParameters
 ) -> tuple[dict[str, float], tuple[str, ...]]:
     """Values and drawn ones by the robot's own names: XX2 where legs share XX21, XX22, XX23."""
     first = {shared.members[0]: shared.name for shared in robot.shared}
     gone = {member for shared in robot.shared for member in shared.members[1:]}
     return (
-        {first.get(n, n): value for n, value in standard.items() if n not in gone},
-        tuple(first.get(n, n) for n in drawn if n not in gone),
+        {first.get(n, n): value for n, value in parameters.standard.items() if n not in gone},
+        tuple(first.get(n, n) for n in parameters.drawn if n not in gone),
     )

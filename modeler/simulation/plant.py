@@ -92,10 +92,7 @@ class Plant:
         acceleration: (q, qd, z, tau) -> (qdd, z').
         torque: (q, qd, qdd, z) -> tau, of links that accelerate with their motors.
         inertia: (q), with loops (q, z) -> M, rotors included, of links that move with their motors.
-        resistance: (q, qd, z) -> torque that the effects take from the motors, of links that do
-            not accelerate.
-        energy: (q, qd), with loops (q, qd, z) -> (kinetic energy, rotors included; potential
-            energy), J, of links that move with their motors.
+
         strain: (q, z) -> torques that pull on links behind transmissions at rest; none to the
             others.
         fastest: rate of inner states at top speed, 1/s; 0 if speed does not make them fast.
@@ -110,8 +107,7 @@ class Plant:
     acceleration: ca.Function
     torque: ca.Function
     inertia: ca.Function
-    resistance: ca.Function
-    energy: ca.Function
+
     strain: ca.Function
     fastest: float
     temperatures: ca.Function
@@ -175,14 +171,12 @@ def _open_plant(
     inertia = links.inertia + ca.SX(effects.inertia)
     spring = ca.vertcat(ca.SX.zeros(n), giving.torque(ahead, ahead_rate))
     solved = _solved(links, effects, inertia, spring, ca.vertcat(tau, ca.SX.zeros(k)))
-    rotors = ca.dot(qd, ca.SX(effects.inertia[:n, :n]) @ qd) / 2
+
     at_rest = ca.substitute(links.bias + spring, links.qd, ca.SX.zeros(n + k))[n:, :]
 
-    def following(expression: ca.SX) -> ca.SX:
-        """Of links that move with their motors."""
-        both, zero = ca.vertcat(ahead, ahead_rate), ca.SX.zeros(2 * k)
-        return ca.substitute(expression, both, zero) if k else expression
-
+    following = inertia[:n, :n]  # of links that move with their motors
+    if k:
+        following = ca.substitute(following, ahead, ca.SX.zeros(k))
     asked = links.inertia[:n, :n] @ qdd + links.bias[:n, :]
     load = links.bias[:n, :] + _loaded(effects, ca.vertcat(asked, ca.SX.zeros(k)))[:n, :]
     z_rate = ca.vertcat(ahead_rate, solved[n:, :], effects.rate)
@@ -192,9 +186,7 @@ def _open_plant(
         {"q": q, "qd": qd, "qdd": qdd, "z": z, "tau": tau},
         acceleration=("q qd z tau", solved[:n, :], z_rate),
         torque=("q qd qdd z", inertia[:n, :n] @ qdd + load),
-        inertia=("q", ca.densify(following(inertia[:n, :n]))),
-        resistance=("q qd z", _loaded(effects, links.bias)[:n, :]),
-        energy=("q qd", following(links.kinetic) + rotors, following(links.potential)),
+        inertia=("q", ca.densify(following)),
         strain=("q z", at_rest),
         temperatures=("z", ca.vertcat(ca.SX(0, 1), *effects.temperatures.values())),
     )
@@ -275,12 +267,10 @@ def _closed_plant(
     closer = follow - least(_expression(constraints.value, v))  # after a step of Newton
     z = ca.vertcat(follow, effects.state)
     tree = [links.inertia + ca.SX(effects.inertia), links.bias, effects.torque, effects.rate]
-    tree += [links.kinetic, links.potential, *effects.temperatures.values()]
-    M, bias, friction, rate, kinetic, potential, *readings = ca.substitute(
-        tree, [links.q, links.qd], [v, vd]
-    )
+    tree += effects.temperatures.values()
+    M, bias, friction, rate, *readings = ca.substitute(tree, [links.q, links.qd], [v, vd])
     inertia, load = G.T @ M @ G, G.T @ (M @ g + bias + friction)
-    rotors = ca.dot(vd, ca.SX(effects.inertia) @ vd) / 2
+
     solved = ca.ldl_solve(tau - load, *ca.ldl(inertia, False))
     return _plant(
         robot.coordinates,
@@ -289,8 +279,6 @@ def _closed_plant(
         acceleration=("q qd z tau", solved, ca.vertcat(vd[others], rate)),
         torque=("q qd qdd z", inertia @ qdd + load),
         inertia=("q z", ca.densify(inertia)),
-        resistance=("q qd z", G.T @ friction),
-        energy=("q qd z", kinetic + rotors, potential),
         strain=("q z", ca.SX(0, 1)),
         temperatures=("z", ca.vertcat(ca.SX(0, 1), *readings)),
         closer=("q z", ca.densify(ca.vertcat(closer, effects.state))),

@@ -186,16 +186,13 @@ class RigidDynamics:
         q, qd: (joints, 1) symbols, rad or m and their rates.
         inertia: (joints, joints) M.
         bias: (joints, 1) h = Coriolis, centrifugal and gravity torques, N m or N.
-        kinetic: T, J. From velocities by differentiation of positions, not from `inertia`.
-        potential: U of gravity, J; 0 with all mass centres at the world's origin.
+
     """
 
     q: ca.SX
     qd: ca.SX
     inertia: ca.SX
     bias: ca.SX
-    kinetic: ca.SX
-    potential: ca.SX
 
 
 @dataclass(frozen=True)
@@ -219,15 +216,8 @@ def rigid_dynamics(robot: Robot, bodies: Mapping[str, Body]) -> RigidDynamics:
     frames = world_frames(robot, q)
     motions = _motions(robot, frames, qd, qdd)
     torque = _joint_torques(robot, frames, motions, bodies)
-    kinetic, potential = _energies(robot, frames, bodies, q, qd)
-    return RigidDynamics(
-        q=q,
-        qd=qd,
-        inertia=ca.jacobian(torque, qdd),
-        bias=ca.substitute(torque, qdd, ca.SX.zeros(n)),
-        kinetic=kinetic,
-        potential=potential,
-    )
+    bias = ca.substitute(torque, qdd, ca.SX.zeros(n))
+    return RigidDynamics(q, qd, ca.jacobian(torque, qdd), bias)
 
 
 def tied_dynamics(links: RigidDynamics, turns: np.ndarray, offset: np.ndarray) -> RigidDynamics:
@@ -237,11 +227,9 @@ def tied_dynamics(links: RigidDynamics, turns: np.ndarray, offset: np.ndarray) -
     """
     F = ca.SX(turns)
     u, ud = (ca.SX.sym(name, turns.shape[1]) for name in ("u", "ud"))
-    tree = [links.inertia, links.bias, links.kinetic, links.potential]
-    inertia, bias, kinetic, potential = ca.substitute(
-        tree, [links.q, links.qd], [F @ u + offset, F @ ud]
-    )
-    return RigidDynamics(u, ud, F.T @ inertia @ F, F.T @ bias, kinetic, potential)
+    tree, tied = [links.inertia, links.bias], [F @ u + offset, F @ ud]
+    inertia, bias = ca.substitute(tree, [links.q, links.qd], tied)
+    return RigidDynamics(u, ud, F.T @ inertia @ F, F.T @ bias)
 
 
 def _motions(
@@ -301,20 +289,3 @@ def _joint_torques(
         force[joint.antecedent] += force[name]
         moment[joint.antecedent] += moment[name] + ca.cross(lever, force[name])
     return ca.vertcat(*(torques[joint.name] for joint in robot.moving))
-
-
-def _energies(
-    robot: Robot, frames: Mapping[str, Frame], bodies: Mapping[str, Body], q: ca.SX, qd: ca.SX
-) -> tuple[ca.SX, ca.SX]:
-    gravity = ca.SX(gravity_vector(robot))
-    kinetic = potential = ca.SX(0)
-    for joint in robot.moving:
-        frame, body = frames[joint.name], bodies[joint.name]
-        centre = frame.position + frame.rotation @ body.centre
-        velocity = ca.jtimes(centre, q, qd)
-        turning = ca.reshape(ca.jtimes(ca.vec(frame.rotation), q, qd), 3, 3)
-        spin = ca.inv_skew(frame.rotation.T @ turning)  # in frame j, where the inertia is constant
-        kinetic += body.mass * ca.dot(velocity, velocity) / 2
-        kinetic += ca.dot(spin, ca.SX(np.asarray(body.inertia)) @ spin) / 2
-        potential -= body.mass * ca.dot(gravity, centre)
-    return kinetic, potential

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -50,7 +51,14 @@ from modeler.simulation.plant import (
 )
 from modeler.simulation.settings import HiddenEffect, SimulationSettings, check_settings
 from modeler.simulation.shafts import settled
-from modeler.simulation.trajectory import Reference, motion_limits, reference_motion, widened
+from modeler.simulation.trajectory import (
+    Reference,
+    exciting_reference,
+    motion_limits,
+    one_joint_reference,
+    point_to_point_reference,
+    widened,
+)
 
 _REPORT_EVERY = 500  # ticks between looks at the tracking error, and calls of the callback
 _THERMOMETER = 0.01  # K, resolution
@@ -124,9 +132,8 @@ def simulate(
     samples = [each.T for each in (q, qd, z, tau + random)]
     qdd = plant.acceleration.map(len(q))(*samples)[0].full().T.copy()
     logged = logged_torques(faults, reference.time, tau)
-    made, moved = (robot, parameters, settings, hidden), (q, qd, qdd, tau)
-    heat = _thermometers(plant, z)
-    return _log(*made, reference, task.share, measured, logged, moved, heat)
+    truth = Truth(q, qd, qdd, tau, *by_shared_names(robot, parameters), hidden)
+    return _log(robot, settings, task, truth, measured, logged, _thermometers(plant, z))
 
 
 def _on_command(
@@ -158,8 +165,8 @@ def _on_command(
     measured = quantised(reference.q, encoder_resolution(robot.coordinates, settings))
     logged = sampled_torques(faults, reference.time, tau)
     moved = (reference.q, reference.qd, reference.qdd, tau)
-    made = (robot, parameters, settings, hidden)
-    return _log(*made, reference, motion.share, measured, logged, moved)
+    truth = Truth(*moved, *by_shared_names(robot, parameters), hidden)
+    return _log(robot, settings, motion, truth, measured, logged, {})
 
 
 def _closed_command(
@@ -176,12 +183,19 @@ def _closed_command(
         closed = followed(robot, constraints, asked.q, progress)
         return widened(limits, asked), ClosedMotion(asked, closed, 1.0)
 
-    def motion(near: tuple[Limits, ...]) -> Reference:
-        return reference_motion(
-            settings.motion, near, settings.duration, settings.rate, settings.seed
-        )
+    commanded = partial(_commanded, settings)
+    return limits, closed_motion(robot, constraints, limits, commanded, progress)
 
-    return limits, closed_motion(robot, constraints, limits, motion, progress)
+
+def _commanded(
+    settings: SimulationSettings, limits: tuple[Limits, ...], directions: np.ndarray | None = None
+) -> Reference:
+    """The motion of that name within limits."""
+    timed = limits, settings.duration, settings.rate, settings.seed
+    if settings.motion == "one-joint":
+        return one_joint_reference(*timed, directions)
+    alike = settings.motion == "point-to-point"
+    return point_to_point_reference(*timed) if alike else exciting_reference(*timed)
 
 
 def task_of(
@@ -207,9 +221,7 @@ def task_of(
         ways = np.array([*joint_directions(robot).values()])
         passive = [k for k, joint in enumerate(robot.coordinates) if not joint.actuated]
         driven = ways[~np.any(ways[:, passive] != 0, axis=1)]
-        reference = reference_motion(
-            settings.motion, limits, settings.duration, settings.rate, settings.seed, driven
-        )
+        reference = _commanded(settings, limits, driven)
     plant = build_plant(*real, every, hidden)
     return PlantTask(plant, limits, reference, np.zeros((len(reference.time), plant.states)), 1.0)
 
@@ -301,32 +313,29 @@ def _check_kept(task: PlantTask, begin: int, q: np.ndarray) -> None:
 
 def _log(
     robot: Robot,
-    parameters: PlantParameters,
     settings: SimulationSettings,
-    hidden: tuple[HiddenEffect, ...],
-    reference: Reference,
-    share: float,
+    made: PlantTask | ClosedMotion,
+    truth: Truth,
     measured: np.ndarray,
     logged: np.ndarray,
-    moved: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray],
-    further: Mapping[str, np.ndarray] | None = None,
+    further: Mapping[str, np.ndarray],
 ) -> SimulatedLog:
-    """Of encoder positions, torques before noise, and the true q, qd, qdd, tau."""
+    """Of encoder positions and torques before noise."""
     rms = np.sqrt(np.mean(logged**2, axis=0))
     noise = np.random.default_rng([settings.seed, 3]).normal(size=logged.shape)
-    values, drawn = by_shared_names(robot, parameters.standard, parameters.drawn)
+
     return SimulatedLog(
         robot=robot.name,
         joints=tuple(joint.name for joint in robot.coordinates),
         driven=np.array([joint.actuated for joint in robot.coordinates]),
-        time=reference.time,
+        time=made.reference.time,
         q=measured,
-        qc=reference.q,
+        qc=made.reference.q,
         tau=logged + settings.torque_noise * rms * noise,
         settings=settings,
-        truth=Truth(*moved, values, drawn, hidden),
-        further=further or {},
-        range_share=share,
+        truth=truth,
+        further=further,
+        range_share=made.share,
     )
 
 

@@ -9,7 +9,6 @@ from modeler.validation.free_run_result import FreeRun as FreeRun
 from modeler.validation.free_run_result import JointFreeRun as JointFreeRun
 from modeler.validation.prediction import JointInfo as JointInfo
 from modeler.validation.prediction import Prediction as Prediction
-from modeler.validation.prediction import check_prediction as check_prediction
 from modeler.validation.verdict import headline as headline
 from modeler.validation.verdict import joint_verdict as joint_verdict
 from modeler.validation.verdict import verdict as verdict

@@ -17,7 +17,6 @@ from modeler.numerics.spectra import OrderSpectrum, ResidualSpectrum, residual_s
 from modeler.validation.prediction import (
     JointInfo,
     Prediction,
-    check_prediction,
     relative_error,
     residual,
     unit_errors,
@@ -38,29 +37,6 @@ METHODS = {
     "made twice)",
 }
 """How the repeatable part of a residual was found."""
-
-
-def summary(comparison: "Comparison") -> str:
-    """One line per joint, units in the table; then what the shares mean, and each log."""
-    rows = [_HEAD, *(_row(item) for item in comparison.joints)]
-    lines = aligned(rows, _LEFT)
-    names = max((len(name) for name, _ in comparison.unjudged), default=0)
-    width = max(7, names + 1, *(len(row[0]) + 2 for row in rows))
-    lines += [f"{name:<{width}}not judged: {reason}" for name, reason in comparison.unjudged]
-    if len(comparison.by_unit) == 1:
-        lines.append(
-            f"{'all':<{width}}{percent(comparison.relative_error)}  of {comparison.samples} samples"
-        )
-    else:  # N m and N add up to nothing
-        lines += [
-            f"{'all':<{width}}{percent(error)}  of the {WORDS[unit]}s ({unit})"
-            for unit, error in comparison.by_unit.items()
-        ]
-        lines.append(f"{comparison.samples} samples")
-    lines += method_lines(comparison)
-    if len(comparison.logs) > 1:
-        lines += ["", *aligned(by_log(comparison), (0,))]
-    return "\n".join(line.rstrip() for line in lines)
 
 
 def method_lines(comparison: "Comparison") -> list[str]:
@@ -350,8 +326,26 @@ class Comparison(Presented):
         return json.dumps(self.as_dict(), indent=1, allow_nan=False) + "\n"
 
     def summary(self) -> str:
-        """Plain-text table, one line per joint, units in the table."""
-        return summary(self)
+        """Plain text: one line per joint, units in the table; what the shares mean; each log."""
+        rows = [_HEAD, *(_row(item) for item in self.joints)]
+        lines = aligned(rows, _LEFT)
+        names = max((len(name) for name, _ in self.unjudged), default=0)
+        width = max(7, names + 1, *(len(row[0]) + 2 for row in rows))
+        lines += [f"{name:<{width}}not judged: {reason}" for name, reason in self.unjudged]
+        if len(self.by_unit) == 1:
+            lines.append(
+                f"{'all':<{width}}{percent(self.relative_error)}  of {self.samples} samples"
+            )
+        else:  # N m and N add up to nothing
+            lines += [
+                f"{'all':<{width}}{percent(error)}  of the {WORDS[unit]}s ({unit})"
+                for unit, error in self.by_unit.items()
+            ]
+            lines.append(f"{self.samples} samples")
+        lines += method_lines(self)
+        if len(self.logs) > 1:
+            lines += ["", *aligned(by_log(self), (0,))]
+        return "\n".join(line.rstrip() for line in lines)
 
 
 def compare(prediction: Prediction, looked: Prediction | None = None) -> Comparison:
@@ -363,12 +357,7 @@ def compare(prediction: Prediction, looked: Prediction | None = None) -> Compari
     Args:
         prediction: measured and predicted.
         looked: windows of long logs with the samples behind their rows, where ripple is looked for.
-
-    Raises:
-        ShapeError: an array of the prediction has the wrong shape.
-        DataError: nothing counts, or a value that counts is not finite.
     """
-    check_prediction(prediction)
     e = residual(prediction)
     repeated = repetitions(prediction)
     judged, unjudged = [], []

@@ -1,22 +1,23 @@
 """A free run: windows from measured states, whole logs, and what the robot's nature adds."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, LoopError
+from modeler.core.manifest import JointSpec
 from modeler.core.table import percent
+from modeler.estimation.direct_model import ControlLoop, DirectModel
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.low_speed import signals_of
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation, observe
 from modeler.runtime.model import CompiledModel
-from modeler.validation.controlled import Gains, controlled
 from modeler.validation.forward_dynamics import FittedPlant, Forces
-from modeler.validation.free_run_result import FreeRun, JointFreeRun, Path
+from modeler.validation.free_run_result import Controlled, FreeRun, JointFreeRun, Path
 from modeler.validation.stability import (
     Along,
     Stability,
@@ -25,6 +26,83 @@ from modeler.validation.stability import (
     ranges_of,
     stability,
 )
+
+# The fitted robot under a controller that follows the logged commands.
+
+
+Gains = tuple[float, float, float, float]
+"""Speed loop, Hz; ratio of the position loop; integral action; feedforward."""
+
+
+def controlled(
+    model: CompiledModel, beta: np.ndarray, observation: Observation, gains: Gains | None
+) -> tuple[Controlled | None, str]:
+    """The robot under the given controller, or under one that comes nearest to the log.
+
+    The controller of a log is not known; it is estimated as for `didim`, see `direct_model`.
+
+    Returns:
+        What became of it, and a doubt, "" without one. None: no commands were logged and none is
+        asked for, or none that was tried holds the robot.
+
+    Raises:
+        DataError: gains are given, and no commands were logged or the robot is lost.
+    """
+    robot = DirectModel(model, observation)
+    if not robot.commanded:
+        if gains is None:
+            return None, ""
+        raise DataError(
+            f"--controller: {observation.logs[0]}: no complete columns "
+            f"qc{observation.joints[0].name} ...; expected commanded positions of all joints, "
+            "which the controller is to follow; log them, or leave --controller out"
+        )
+    if gains is None and not all(joint.actuated for joint in model.spec.joints):
+        return None, "a joint has no motor, so no controller is looked for"
+    try:
+        loop = (
+            robot.chosen(beta) if gains is None else ControlLoop(2 * np.pi * gains[0], *gains[1:])
+        )
+        if np.isinf(loop.speed):
+            return None, (
+                "no controller that was tried brings the robot nearer to the log than "
+                "the command is"
+            )
+        return _measured(robot, observation, loop, beta, gains is not None), ""
+    except (DataError, LoopError):
+        if gains is not None:
+            raise DataError(
+                f"--controller: with these gains {model.spec.robot} is lost; expected those of a "
+                "controller that holds it, as the speed loop in Hz and the ratio of the position "
+                "loop; try slower loops, or leave --controller out"
+            ) from None
+        return None, (
+            "no controller that was tried holds the robot with the fitted values all along the log"
+        )
+
+
+def _measured(
+    robot: DirectModel, observation: Observation, loop: ControlLoop, beta: np.ndarray, given: bool
+) -> Controlled:
+    motions = robot.followed(beta, loop)
+    kept = [segment.whole for segment in robot.segments]
+    q = np.concatenate([s.q[own] for s, own in zip(robot.segments, kept, strict=True)])
+    simulated = np.concatenate([m[0][own] for m, own in zip(motions, kept, strict=True)])
+    wanted = np.concatenate([r[0][own] for r, own in zip(robot.references, kept, strict=True)])
+    rows, torque = observation.row_joint, robot.columns(motions) @ beta
+    fit, tracking, effort = (dict[str, float | None]() for _ in range(3))
+    for j, joint in enumerate(observation.joints):
+        fit[joint.name] = fit_percentage(q[:, j], simulated[:, j])
+        left = float(np.linalg.norm(q[:, j] - wanted[:, j]))
+        error = float(np.linalg.norm(q[:, j] - simulated[:, j]))
+        tracking[joint.name] = 100.0 * (1.0 - error / left) if left > 0.0 else None
+        own = rows == j
+        effort[joint.name] = fit_percentage(observation.y[own], torque[own]) if own.any() else None
+    return Controlled(
+        loop.speed / (2 * np.pi), loop.ratio, loop.integral, loop.forward, given,
+        fit, tracking, effort,
+    )  # fmt: skip
+
 
 # Robots side by side under given torques: Adams and Bashforth, and dry friction that can hold.
 #
@@ -271,13 +349,13 @@ def free_run(
     plant = FittedPlant(compiled, model.beta)
     every = np.concatenate([segment.q[segment.whole] for segment in segments])
     plant.check_inertia(every[:: max(1, len(every) // 500)])
-    nature = stability(plant, _along(observation, segments, compiled))
+    signals = [signals_of(compiled.spec, segment) for segment in segments]
+    nature = stability(plant, _along(observation, segments, signals))
     ranges = ranges_of(every, [joint.unit for joint in observation.joints])
     finest = min(_LONGEST, _STABLE / nature.fastest if nature.fastest > 0.0 else _LONGEST)
-    signals = [signals_of(compiled.spec, segment) for segment in segments]
-    field = _MotionField(plant, segments, signals, ranges, finest)
+    field = _MotionField(plant, segments, signals, ranges, finest, asked)
     tell(0.1)
-    runs = _windows(field, starts, asked, tell)
+    runs = _windows(field, starts, tell)
     whole = _whole(field, lambda share: tell(0.5 + 0.3 * share))
     tell(0.8)
     under, doubt = controlled(compiled, model.beta, observation, asked.gains)
@@ -291,13 +369,13 @@ def free_run(
         windows=len(runs.paths),
         longest=_FOLLOWED * asked.window,
         joints=tuple(
-            _joint(j, observation, runs, whole, asked, ranges) for j in range(len(ranges))
+            _joint(field, j, joint, runs, whole) for j, joint in enumerate(observation.joints)
         ),
         stability=nature,
         numerical=runs.numerical,
         controlled=under,
         paths=runs.paths,
-        doubts=tuple(_doubts(runs.numerical, segments, starts, asked, nature, doubt)),
+        doubts=tuple(_doubts(field, runs.numerical, starts, nature, doubt)),
     )
 
 
@@ -329,22 +407,17 @@ def _starts(segments: Sequence[Segment], window: float) -> list[_Start]:
 
 
 def _along(
-    observation: Observation, segments: Sequence[Segment], compiled: CompiledModel
+    observation: Observation, segments: Sequence[Segment], signals: Sequence[np.ndarray | None]
 ) -> list[Along]:
     samples = sum(segment.samples for segment in segments)
     found = []
-    for segment in segments:
+    for segment, read in zip(segments, signals, strict=True):
         first, stop = _inside(segment)
         thinned = slice(first, stop, max(1, samples // _POINTS))
-        signals = signals_of(compiled.spec, segment)
-        if len(segment.time[thinned]) > 1:
-            found.append(
-                Along(
-                    observation.logs[segment.run], segment.time[thinned], segment.q[thinned],
-                    segment.qd[thinned], segment.tau[thinned],
-                    None if signals is None else signals[thinned],
-                )
-            )  # fmt: skip
+        q, qd, tau = (values[thinned] for values in (segment.q, segment.qd, segment.tau))
+        if len(time := segment.time[thinned]) > 1:
+            log, s = observation.logs[segment.run], None if read is None else read[thinned]
+            found.append(Along(log, time, q, qd, tau, s))
     return found
 
 
@@ -357,6 +430,7 @@ class _MotionField:
     signals: Sequence[np.ndarray | None]  # of each segment
     ranges: np.ndarray
     finest: float  # s, of a step
+    asked: FreeRunSettings
 
     def run(
         self,
@@ -411,12 +485,9 @@ class _RunWindows:
 
 
 def _windows(
-    field: _MotionField,
-    starts: Sequence[_Start],
-    asked: FreeRunSettings,
-    tell: Callable[[float], None],
+    field: _MotionField, starts: Sequence[_Start], tell: Callable[[float], None]
 ) -> _RunWindows:
-    window, bound = asked.window, asked.bound
+    window = field.asked.window
     simulated, measured = field.run(
         starts, _FOLLOWED * window, tell=lambda share: tell(0.1 + 0.4 * share)
     )
@@ -437,21 +508,15 @@ def _windows(
         np.concatenate(straight),
         tuple(a - b for a, b in zip(simulated, measured, strict=True)),
         tuple(field.segments[start.segment].step for start in starts),
-        _changed(coarse, fine, aside, bound * field.ranges, field.ranges),
+        _changed(field, zip(coarse, fine, aside, strict=True)),
     )
 
 
-def _changed(
-    coarse: Sequence[np.ndarray],
-    fine: Sequence[np.ndarray],
-    measured: Sequence[np.ndarray],
-    bound: np.ndarray,
-    ranges: np.ndarray,
-) -> float:
+def _changed(field: _MotionField, runs: Iterable[tuple[np.ndarray, ...]]) -> float:
     """Largest change of a position by halving the step, in ranges, while its error is in bounds."""
-    largest = 0.0
-    for ours, halved, theirs in zip(coarse, fine, measured, strict=True):
-        near = np.logical_and.accumulate(np.abs(halved - theirs) <= bound)
+    largest, ranges = 0.0, field.ranges
+    for ours, halved, theirs in runs:
+        near = np.logical_and.accumulate(np.abs(halved - theirs) <= field.asked.bound * ranges)
         change = np.abs(ours - halved)[near] / np.broadcast_to(ranges, near.shape)[near]
         largest = max(largest, float(change[np.isfinite(change)].max(initial=0.0)))
     return largest
@@ -465,21 +530,15 @@ def _whole(field: _MotionField, tell: Callable[[float], None]) -> tuple[np.ndarr
 
 
 def _joint(
-    j: int,
-    observation: Observation,
-    runs: _RunWindows,
-    whole: tuple[np.ndarray, np.ndarray],
-    asked: FreeRunSettings,
-    ranges: np.ndarray,
+    field: _MotionField, j: int, joint: JointSpec, runs: _RunWindows, whole: tuple[np.ndarray, ...]
 ) -> JointFreeRun:
-    joint = observation.joints[j]
     measured = np.concatenate([path.measured[:, j] for path in runs.paths])
     simulated = np.concatenate([path.simulated[:, j] for path in runs.paths])
     error = np.abs(simulated - measured)
     largest = float(error[np.isfinite(error)].max(initial=0.0))
-    if not np.isfinite(ranges[j]):
+    if not np.isfinite(field.ranges[j]):
         return JointFreeRun(joint.name, joint.unit, None, None, None, None, 0, largest)
-    bound = asked.bound * ranges[j : j + 1]
+    bound = field.asked.bound * field.ranges[j : j + 1]
     pairs = zip(runs.longer, runs.steps, strict=True)
     until = np.array([horizons(e[:, None, j : j + 1], bound, step)[0, 0] for e, step in pairs])
     middle = float(np.quantile(until, 0.5, method="higher"))
@@ -496,26 +555,21 @@ def _joint(
 
 
 def _doubts(
-    numerical: float,
-    segments: Sequence[Segment],
-    starts: Sequence[_Start],
-    asked: FreeRunSettings,
-    nature: Stability,
-    doubt: str,
+    field: _MotionField, numerical: float, starts: Sequence[_Start], nature: Stability, doubt: str
 ) -> list[str]:
-    found = [doubt] if doubt else []
+    found, window = [doubt] if doubt else [], field.asked.window
     if numerical > _DOUBTFUL:
         found.append(
             "the integration is not exact: halving its step moves a joint by "
             f"{percent(numerical)} of its range within a window"
         )
-    if nature.unstable and nature.rate * asked.window > np.log(10.0):
+    if nature.unstable and nature.rate * window > np.log(10.0):
         shorter = float(f"{1.0 / nature.rate:.1g}")
         found.append(
-            f"within a window of {asked.window:g} s an error grows tenfold and more by nature; "
+            f"within a window of {window:g} s an error grows tenfold and more by nature; "
             f"`--window {shorter:g}` judges the model"
         )
-    if any(_seconds(segment) > _WHOLE for segment in segments):
+    if any(_seconds(segment) > _WHOLE for segment in field.segments):
         found.append(f"whole runs: the first {_WHOLE:g} s of each log")
     if len(starts) == _MOST_WINDOWS:
         found.append(f"{_MOST_WINDOWS} windows, evenly spread over the logs")

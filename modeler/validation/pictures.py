@@ -1,6 +1,6 @@
 """Pictures of a comparison: residuals against coordinates, overview, overlay, shares."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from modeler.validation.comparison import METHODS, REGIONS, Comparison, JointCom
 from modeler.validation.prediction import Prediction, residual
 from modeler.validation.residual_structure import (
     COORDINATES,
+    Structure,
     coordinate_unit,
     coordinate_values,
     coordinates_of,
@@ -230,12 +231,13 @@ def _overview_caption(comparison: Comparison) -> str:
 
 
 def _regions(comparison: Comparison) -> Heat:
-    energy = [[r.energy_share for r in item.regions] for item in comparison.joints]
+    energy = np.array([[r.energy_share for r in item.regions] for item in comparison.joints])
     texts = tuple(
         tuple(f"{percent(r.energy_share)} ({percent(r.time_share)})" for r in item.regions)
         for item in comparison.joints
     )
-    return _heat(comparison, "share of squared residual", REGIONS, energy, texts)
+    names = tuple(item.joint.name for item in comparison.joints)
+    return Heat("share of squared residual", REGIONS, names, 100.0 * energy, texts, top=100.0)
 
 
 def _shares(comparison: Comparison) -> Heat:
@@ -246,13 +248,9 @@ def _shares(comparison: Comparison) -> Heat:
     }
     names = [coordinate.id for coordinate in COORDINATES if coordinate.id in held]
     columns = (*names, "all motion")
-    rows = [
-        [np.nan] * len(columns)
-        if item.structure is None
-        else [*(item.structure.share(name) for name in names), item.structure.together]
-        for item in comparison.joints
-    ]
-    return _heat(comparison, "explained share", columns, rows)
+    return _explained(
+        comparison, columns, lambda own: [*(own.share(name) for name in names), own.together]
+    )
 
 
 def _across(comparison: Comparison) -> Heat:
@@ -261,30 +259,23 @@ def _across(comparison: Comparison) -> Heat:
         *(f"joint {info.name}" for info in prediction.joints),
         *(f"motor {motor.name}" for motor in prediction.motors),
     )
-    rows = [
-        [np.nan] * len(columns)
-        if item.structure is None
-        else [share for _, share in (*item.structure.across, *item.structure.motors)]
-        for item in comparison.joints
-    ]
-    return _heat(comparison, "explained share", columns, rows)
+    return _explained(
+        comparison, columns, lambda own: [share for _, share in (*own.across, *own.motors)]
+    )
 
 
-def _heat(
-    comparison: Comparison,
-    label: str,
-    columns: tuple[str, ...],
-    rows: Sequence[Sequence[float]],
-    texts: tuple[tuple[str, ...], ...] = (),
+def _explained(
+    comparison: Comparison, columns: tuple[str, ...], shares: Callable[[Structure], list[float]]
 ) -> Heat:
-    values = np.array(rows)
-    if not texts:
-        texts = tuple(
-            tuple("" if np.isnan(value) else f"{100 * value:.0f}" for value in row)
-            for row in values
-        )
-    names = tuple(item.joint.name for item in comparison.joints)
-    return Heat(label, columns, names, 100.0 * values, texts, top=100.0)
+    """Shares of each joint's residual; nothing where too few samples tell."""
+    joints = comparison.joints
+    values = np.array([
+        [np.nan] * len(columns) if item.structure is None else shares(item.structure)
+        for item in joints
+    ])  # fmt: skip
+    texts = tuple(tuple("" if np.isnan(v) else f"{100 * v:.0f}" for v in row) for row in values)
+    names = tuple(item.joint.name for item in joints)
+    return Heat("explained share", columns, names, 100.0 * values, texts, top=100.0)
 
 
 def share_panels(comparison: Comparison) -> tuple[Panel, Panel]:

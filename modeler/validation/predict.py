@@ -174,16 +174,12 @@ def compare_long(
     Raises:
         DataError: as `estimation.long_logs.stream`.
     """
-
-    def reduced(_: CompiledModel, chunk: Chunk, chosen: Chosen) -> _Part:
-        return _part(model, compiled, chunk, chosen)
-
     processing = model.processing
     least = -(-sum(source.rows for source in sources) // MOST)
     step = sources[0].window(0.5, 1000).step
     if least > spacing(step, processing.parallel_cutoff or 0.0, processing.decimation):
         processing = dataclasses.replace(processing, decimation=least)
-    reducer = partial(by_threads, reduce_by=reduced)
+    reducer = partial(by_threads, reduce_by=partial(_part, model))
     passes, parts = all_rows(compiled, sources, processing, progress, rows, reducer)
     looked = passes.found.observation
     steps = [own.step * own.decimation for own in passes.found.chosen]

@@ -1,18 +1,13 @@
 """What the compare stage takes: measured and predicted torque on the same rows."""
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.core.errors import DataError, ShapeError
 from modeler.core.table import errors_by_unit
-
-_MATRICES = ("q", "qd", "qdd", "measured", "predicted")
-_FURTHER = ("travel", "temperature", "sigma", "masks")
 
 
 @dataclass(frozen=True)
@@ -107,97 +102,6 @@ def unit_errors(prediction: Prediction, rows: np.ndarray | None = None) -> dict[
         (info.effort_unit, float(left[:, j] @ left[:, j]), float(measured[:, j] @ measured[:, j]))
         for j, info in enumerate(prediction.joints)
     )
-
-
-def check_prediction(prediction: Prediction) -> None:
-    """Refuse a prediction that cannot be judged.
-
-    Raises:
-        ShapeError: an array does not have its rows, its columns, or its type.
-        DataError: no row counts, a value that counts is not finite, or time runs backwards.
-    """
-    _check_shapes(prediction)
-    if not prediction.used.any():
-        raise DataError(
-            f"{prediction.robot}: none of the {prediction.time.size} samples counts (all are "
-            "masked); expected at least one used row; relax the low-speed or saturation mask, "
-            "or give a log in which the robot moves"
-        )
-    for name in _MATRICES:
-        _check_finite(prediction, name)
-    _check_order(prediction)
-
-
-def _check_shapes(prediction: Prediction) -> None:
-    rows, columns = prediction.time.size, len(prediction.joints)
-    if columns == 0:
-        raise ShapeError("joints: got none; expected at least one joint to compare")
-    further = [n for n in _FURTHER if getattr(prediction, n) is not None]
-    expected: dict[str, tuple[int, ...]] = dict.fromkeys(("time", "run", "segment"), (rows,))
-    expected |= dict.fromkeys((*_MATRICES, "used", *further), (rows, columns))
-    _check_arrays(prediction, expected)
-    if prediction.full is not None:
-        rows = prediction.full.time.size
-        expected = {"run": (rows,)}
-        expected |= dict.fromkeys(("q", "residual", "filtered"), (rows, columns))
-        _check_arrays(prediction.full, expected, "full.")
-    if prediction.used.dtype != np.bool_:
-        raise ShapeError(
-            f"used: got {prediction.used.dtype}, expected bool; write `used.astype(bool)`"
-        )
-    outside = (prediction.run < 0) | (prediction.run >= len(prediction.logs))
-    if outside.any():
-        raise ShapeError(
-            f"run: got log index {prediction.run[outside][0]}, expected 0 to "
-            f"{len(prediction.logs) - 1} ({len(prediction.logs)} logs); name every log in `logs`"
-        )
-
-
-def _check_arrays(thing: object, expected: Mapping[str, tuple[int, ...]], head: str = "") -> None:
-    rows, columns = max(expected.values(), key=len)
-    for name, shape in expected.items():
-        got = np.shape(getattr(thing, name))
-        if got != shape:
-            raise ShapeError(
-                f"{head}{name}: got shape {got}, expected {shape} ({rows} samples, {columns} "
-                "joints); give one row per sample and one column per joint"
-            )
-
-
-def _check_finite(prediction: Prediction, name: str) -> None:
-    bad = prediction.used & ~np.isfinite(getattr(prediction, name))
-    if bad.any():
-        row, column = np.argwhere(bad)[0]
-        raise DataError(
-            f"{prediction.logs[prediction.run[row]]}: {name} of joint "
-            f"{prediction.joints[column].name} is {getattr(prediction, name)[row, column]} at "
-            f"{prediction.time[row]:.6g} s ({int(bad.sum())} such values); expected finite numbers "
-            "in every row that counts; repair the log or mask these rows"
-        )
-
-
-def _check_order(prediction: Prediction) -> None:
-    if not np.isfinite(prediction.time).all():
-        row = int(np.flatnonzero(~np.isfinite(prediction.time))[0])
-        raise DataError(
-            f"{prediction.logs[prediction.run[row]]}: time of row {row} is "
-            f"{prediction.time[row]}; expected a finite number of seconds; repair the log"
-        )
-    same = np.diff(prediction.segment) == 0
-    if (same & (np.diff(prediction.run) != 0)).any():
-        row = int(np.flatnonzero(same & (np.diff(prediction.run) != 0))[0]) + 1
-        raise DataError(
-            f"{prediction.logs[prediction.run[row]]}: segment {prediction.segment[row]} goes on "
-            "from another log; expected segment numbers unique over the logs; renumber them"
-        )
-    backwards = same & (np.diff(prediction.time) <= 0)
-    if backwards.any():
-        row = int(np.flatnonzero(backwards)[0]) + 1
-        raise DataError(
-            f"{prediction.logs[prediction.run[row]]}: time goes from {prediction.time[row - 1]:.6g}"
-            f" to {prediction.time[row]:.6g} s inside segment {prediction.segment[row]}; expected "
-            "increasing time; sort the log or start a new segment there"
-        )
 
 
 # How sure a predicted torque is, as far as the parameters of the model are.

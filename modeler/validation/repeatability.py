@@ -135,10 +135,10 @@ def _shift(first: _RepeatedMotion, other: _RepeatedMotion) -> float | None:
     start = other.time[0] - first.time[0]
     reach = min(int(0.25 * min(lengths) / first.step), _SHIFTS)
     candidates = start + first.step * np.arange(-reach, reach + 1)
-    apart = [_apart(first, other, shift, _OVERLAP * min(lengths)) for shift in candidates]
+    apart = [_distance(first, other, shift, _OVERLAP * min(lengths)) for shift in candidates]
     best = _best_shift(first, other, float(candidates[int(np.argmin(apart))]), first.step)
     # twice the variance, which is one: the mean squared difference of motions that are not alike
-    alike = 1.0 - _apart(first, other, best, 0.9 * _OVERLAP * min(lengths)) / 2.0
+    alike = 1.0 - _distance(first, other, best, 0.9 * _OVERLAP * min(lengths)) / 2.0
     return best if alike > ALIKE else None
 
 
@@ -147,7 +147,7 @@ def _best_shift(
 ) -> float:
     """The shift near `around` at which the motions are least apart; a parabola between the grid."""
     grid = around + half * np.linspace(-1.0, 1.0, 2 * _GRID + 1)
-    apart = np.array([_apart(first, other, shift, 0.0) for shift in grid])
+    apart = np.array([_distance(first, other, shift, 0.0) for shift in grid])
     best = int(np.argmin(apart))
     if not 0 < best < grid.size - 1:
         return float(grid[best])
@@ -157,7 +157,9 @@ def _best_shift(
     return float(grid[best] + part * (grid[1] - grid[0]))
 
 
-def _apart(first: _RepeatedMotion, other: _RepeatedMotion, shift: float, overlap: float) -> float:
+def _distance(
+    first: _RepeatedMotion, other: _RepeatedMotion, shift: float, overlap: float
+) -> float:
     """Mean squared difference of the joint that differs most; infinite with less overlap."""
     begin = max(first.time[0], other.time[0] - shift)
     end = min(first.time[-1], other.time[-1] - shift)

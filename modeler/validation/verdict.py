@@ -64,21 +64,22 @@ def findings(item: JointComparison) -> list[str]:
     wrong = wrong_scale(item)
     if wrong:  # everything else would follow from it
         return [wrong, _worst(item)]
-    told = (
+    found = _patterns(item)
+    if not found:  # a pattern that follows the motion has the frequencies of the motion
+        found.append(_oscillation(item) or _nothing(item))
+    return [*found, _worst(item)]
+
+
+def _patterns(item: JointComparison) -> list[str]:
+    """What the residual is a function of."""
+    every = (
         _pattern(item),
         _follows(item) or _other_joint(item),
         _ripple(item),
         _bias(item),
         _returns(item),
     )
-    found = [text for text in told if text]
-    line = _oscillation(item)
-    if line and not found:  # a pattern that follows the motion has the frequencies of the motion
-        found.append(line)
-    if not found:
-        found.append(_nothing(item))
-    found.append(_worst(item))
-    return found
+    return [text for text in every if text]
 
 
 def wrong_scale(item: JointComparison) -> str | None:
@@ -142,9 +143,8 @@ def best_other(item: JointComparison) -> tuple[str, float] | None:
 
 def kind_of_residual(item: JointComparison) -> str:
     """`pattern`, `noise` or `other`: what a reader should see first."""
-    if wrong_scale(item) or _ripple(item) or _returns(item) or _follows(item):
-        return "pattern"
-    if best_pattern(item) is not None or best_other(item) is not None:
+    patterns = (wrong_scale, _ripple, _returns, _follows, best_pattern, best_other)
+    if any(pattern(item) for pattern in patterns):
         return "pattern"
     return "noise" if looks_like_noise(item) else "other"
 
@@ -153,13 +153,7 @@ def looks_like_noise(item: JointComparison) -> bool:
     """No pattern, no memory, no line: as far as this page can see, noise."""
     return (
         item.structure is not None
-        and best_pattern(item) is None
-        and item.structure.together < NOTICEABLE
-        and best_other(item) is None
-        and _ripple(item) is None
-        and _returns(item) is None
-        and _follows(item) is None
-        and _bias(item) is None
+        and not _patterns(item)
         and not _remembers(item)
         and _oscillation(item) is None
         and item.relative_error < _TOO_LARGE

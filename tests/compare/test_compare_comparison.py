@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from known_defects import PERIOD, prediction
 
-from modeler.core.errors import DataError, ShapeError
 from modeler.validation.comparison import REGIONS, WINDOW, compare
 from modeler.validation.prediction import JointInfo, Prediction
 
@@ -146,64 +145,3 @@ def test_regions_split_the_velocity() -> None:
     assert regions[4].energy_share > 0.8
     assert regions[4].bias == pytest.approx(5.0, abs=0.1)
     assert abs(regions[1].bias) < 0.1
-
-
-@pytest.mark.parametrize("name", ["time", "run", "segment", "q", "measured", "used"])
-def test_wrong_shape(name: str) -> None:
-    p = prediction()
-    # time itself sets the number of rows, so any other array is then the odd one out
-    with pytest.raises(ShapeError, match=r"got shape .* expected .*samples, 3 joints"):
-        compare(dataclasses.replace(p, **{name: getattr(p, name)[:-1]}))
-
-
-def test_used_must_be_bool() -> None:
-    p = prediction()
-    with pytest.raises(ShapeError, match=r"used: got int64, expected bool"):
-        compare(dataclasses.replace(p, used=p.used.astype(np.int64)))
-
-
-def test_run_without_a_log() -> None:
-    with pytest.raises(ShapeError, match=r"run: got log index 1, expected 0 to 0"):
-        compare(dataclasses.replace(prediction(), logs=("one.parquet",)))
-
-
-def test_no_joint() -> None:
-    with pytest.raises(ShapeError, match="at least one joint"):
-        compare(dataclasses.replace(prediction(), joints=()))
-
-
-def test_nothing_counts() -> None:
-    p = prediction()
-    with pytest.raises(DataError, match="none of the 6000 samples counts"):
-        compare(dataclasses.replace(p, used=np.zeros_like(p.used)))
-
-
-@pytest.mark.parametrize("name", ["q", "qd", "qdd", "measured", "predicted"])
-def test_not_a_number(name: str) -> None:
-    p = prediction()
-    values = getattr(p, name).copy()
-    values[4500, 2] = np.nan
-    with pytest.raises(DataError, match=rf"two.parquet: {name} of joint 3 is nan at 45 s"):
-        compare(dataclasses.replace(p, **{name: values}))
-
-
-def test_time_not_a_number() -> None:
-    p = prediction()
-    time = p.time.copy()
-    time[7] = np.nan
-    with pytest.raises(DataError, match=r"one.parquet: time of row 7 is nan"):
-        compare(dataclasses.replace(p, time=time))
-
-
-def test_time_runs_backwards() -> None:
-    p = prediction()
-    time = p.time.copy()
-    time[[10, 11]] = time[[11, 10]]
-    with pytest.raises(DataError, match=r"one.parquet: time goes from 0.11 to 0.1 s inside"):
-        compare(dataclasses.replace(p, time=time))
-
-
-def test_segment_over_two_logs() -> None:
-    p = prediction()
-    with pytest.raises(DataError, match=r"two.parquet: segment 0 goes on from another log"):
-        compare(dataclasses.replace(p, segment=np.zeros_like(p.segment)))

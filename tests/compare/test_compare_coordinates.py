@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from known_defects import NOISE, prediction
 
-from modeler.core.errors import ShapeError
 from modeler.core.style import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
 from modeler.core.table import percent
 from modeler.numerics.spectra import order_spectrum
@@ -205,16 +204,6 @@ def test_long_names_keep_the_columns() -> None:
     assert all(line[column - 2 : column] == "  " and line[column] != " " for line in lines[:4])
     end = lines[0].index("R2") + 2
     assert all(line[end - 5 : end] in ("   R2", "0.999", "0.998", "0.997") for line in lines[:4])
-
-
-def test_shapes_of_what_is_optional() -> None:
-    p = prediction(rows=600)
-    with pytest.raises(ShapeError, match=r"travel: got shape \(600, 2\), expected \(600, 3\)"):
-        compare(dataclasses.replace(p, travel=np.zeros((600, 2))))
-    full = at_full_rate(p, 0, 9.0, 0.0).full
-    assert full is not None
-    with pytest.raises(ShapeError, match=r"full.q: got shape \(20000, 2\), expected \(20000, 3\)"):
-        compare(dataclasses.replace(p, full=dataclasses.replace(full, q=full.q[:, :2])))
 
 
 # Machado, Oliveira and Fernandes 2009, severity 1.0, for linear RGB.

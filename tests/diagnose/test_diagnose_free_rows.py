@@ -3,7 +3,7 @@
 import numpy as np
 
 from modeler.diagnosis.effect_columns import Rows
-from modeler.diagnosis.gram import sigma_of
+from modeler.diagnosis.ranking import sigma_of
 
 
 def test_rows_without_torque_do_not_drive_the_parameters_to_zero() -> None:

@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.diagnosis.analyse import analysis_processing, bands_line
 from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.state import analysis_processing, bands_line
 from modeler.observation.log import Log
 from modeler.observation.processing import Processing
 from tests.diagnose.conftest import Case, motion

@@ -8,11 +8,10 @@ import pytest
 from modeler.api import compile_model, derive, generate, identified, load, observe
 from modeler.diagnosis.add import add_effect, undone
 from modeler.diagnosis.added_model import Logs, added
-from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.candidates import Known
 from modeler.diagnosis.profile import profile_of
 from modeler.diagnosis.search import extended, scan_catalogue
-from modeler.diagnosis.state import SearchData, state_of
+from modeler.diagnosis.state import SearchData, analysed, state_of
 from modeler.estimation.identify import identify
 from modeler.estimation.model_file import load_model, save_model
 from modeler.estimation.parameter import told_spread

@@ -10,9 +10,8 @@ from modeler.api import compile_model, derive, generate, load
 from modeler.core.expression import parse
 from modeler.diagnosis import effect_columns as rows_module
 from modeler.diagnosis import signals as signals_module
-from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.generate import generate_candidates
-from modeler.diagnosis.state import SearchData, all_columns_of, state_of
+from modeler.diagnosis.state import SearchData, all_columns_of, analysed, state_of
 from modeler.observation.prepare import Mending
 from modeler.observation.processing import Processing
 from modeler.observation.read import read_log

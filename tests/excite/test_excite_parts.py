@@ -85,7 +85,7 @@ def test_the_slope_of_the_search_is_the_derivative_of_its_value(name, options):
     x = (0.9 * random_motion(task, rng)).ravel()
     x[:: task.series.values.shape[1]] /= 0.9  # smaller, around the same place
     assert np.isfinite(walled.value(x))
-    slope = walled.slope(x)
+    slope = walled.slope()
     for _ in range(3):
         way, h = rng.normal(size=x.shape), 1e-6
         difference = (walled.value(x + h * way) - walled.value(x - h * way)) / (2 * h)

@@ -6,11 +6,11 @@ import re
 import pytest
 
 from modeler.cli import main
+from modeler.cli.reproduce import METHODS
 from modeler.core.builtin import paper_names
 from modeler.core.errors import RobotError
-from modeler.papers.method_report import MethodTable, Outcome, Row, figures, quoted, recovered
+from modeler.papers.methods import MethodTable, Outcome, Row, figures, quoted, recovered
 from modeler.papers.paper import read_paper
-from modeler.papers.run import METHODS
 
 TITLES = {
     "guegan-2003": ["Table 2", "The direction", "Table 3", "Condition numbers"],
@@ -45,7 +45,7 @@ def test_every_identification_is_reproduced(name, capsys, tmp_path):
 def test_a_method_that_fails_ends_with_status_1(capsys, monkeypatch):
     row = Row("MPR", "1.5", "2.5", Outcome.FAILED)
     table = MethodTable("Table 3", (), (row,))
-    monkeypatch.setattr("modeler.cli.reproduce.run_methods", lambda paper, report: [table])
+    monkeypatch.setitem(METHODS, "guegan-2003", lambda paper, report: [table])
     assert main(["reproduce", "guegan-2003", "--section", "methods"]) == 1
     out, err = capsys.readouterr()
     assert "NOT reproduced" in out

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from modeler.core.figure import Band, Curve
-from modeler.diagnosis.gram import base_of
+from modeler.diagnosis.ranking import base_of
 from modeler.report.evidence import evidence_picture, rivals_of, rivals_table
 from modeler.report.shown import Shown, covariance_of, shown
 from modeler.report.torque_picture import torque_picture, worst_stretch

@@ -59,10 +59,6 @@ def test_seeds():
 
 
 def test_mistakes():
-    with pytest.raises(DataError, match=r"got duration -1 s .* expected both above 0"):
-        exciting_reference(LIMITS, -1, 500.0, 0)
-    with pytest.raises(DataError, match=r"at 0 samples per second; expected both above 0"):
-        exciting_reference(LIMITS, 1.0, 0, 0)
     with pytest.raises(DataError, match=r"holds 1 samples .* expected at least 2"):
         exciting_reference(LIMITS, 0.001, 1000.0, 0)
 

@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+from closed_energy import energies
 from simulated_robots import ARM, PENDULUM, SIX, TREE, TWO_LINK, robot
 
 import modeler.simulation
@@ -39,9 +40,13 @@ def arm_log() -> SimulatedLog:
     return simulate(robot(ARM), SHORT)
 
 
+def parameters_of(source, settings):
+    return plant_parameters(source, motion_limits(source, settings.limits), settings.parameter_seed)
+
+
 def plant_of(source, settings):
     limits = motion_limits(source, settings.limits)
-    return build_plant(source, plant_parameters(source, limits, settings.parameter_seed), limits)
+    return build_plant(source, parameters_of(source, settings), limits)
 
 
 @pytest.mark.parametrize("text", [TWO_LINK, ARM, SIX, TREE], ids=["two", "arm", "six", "tree"])
@@ -51,9 +56,8 @@ def test_energy_balance_without_friction(text):
     kept = tuple(use for use in source.effects if use.effect == "rotor_inertia")
     source = dataclasses.replace(source, effects=kept)
     log = simulate(source, SHORT)
-    plant, truth = plant_of(source, SHORT), log.truth
-    energy = plant.energy.map(log.time.size)(truth.q.T, truth.qd.T)
-    total = (energy[0] + energy[1]).full().ravel()
+    truth = log.truth
+    total = energies(source, parameters_of(source, SHORT), truth.q, truth.qd)
     work = np.cumsum(np.sum(truth.tau[:-1] * np.diff(truth.q, axis=0), axis=1))
     swing = np.ptp(total)
     assert swing > 0.1
@@ -62,13 +66,16 @@ def test_energy_balance_without_friction(text):
 
 def test_energy_balance_with_friction(arm_log):
     """The difference to the motors' work is what friction dissipates (and it does)."""
-    plant, truth = plant_of(robot(ARM), SHORT), arm_log.truth
+    source, truth = robot(ARM), arm_log.truth
     count = arm_log.time.size
-    energy = plant.energy.map(count)(truth.q.T, truth.qd.T)
-    total = (energy[0] + energy[1]).full().ravel()
+    total = energies(source, parameters_of(source, SHORT), truth.q, truth.qd)
     work = np.sum(truth.tau[:-1] * np.diff(truth.q, axis=0))
-    resistance = plant.resistance.map(count)(truth.q.T, truth.qd.T, np.zeros((0, count)))
-    power = np.sum(resistance.full().T * truth.qd, axis=1)
+    motion = (truth.q.T, truth.qd.T, np.zeros(truth.q.T.shape), np.zeros((0, count)))
+    rubbing, bare = (
+        plant_of(own, SHORT).torque.map(count)(*motion).full().T
+        for own in (source, dataclasses.replace(source, effects=()))
+    )
+    power = np.sum((rubbing - bare) * truth.qd, axis=1)
     lost = np.sum((power[1:] + power[:-1]) / 2) / SHORT.rate
     assert lost > 0.05 * np.ptp(total)
     assert total[-1] - total[0] == pytest.approx(work - lost, abs=2e-4 * lost)

@@ -1,14 +1,18 @@
-"""A table of a paper beside ours, line by line."""
+"""A paper's method run again: what its simulated machine logs, and its tables beside ours."""
 
 import enum
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from modeler.core.errors import RobotError
 from modeler.core.table import percent
+from modeler.observation.log import Log
 from modeler.papers.paper import Paper
 from modeler.papers.quotation import numbers_of
+from modeler.simulation import SimulatedLog
 
 ZMAX = 4.0
 """A value further from the truth than so many of its sigmas is not the truth's."""
@@ -115,3 +119,16 @@ def quoted(paper: Paper, start: str) -> tuple[float, ...]:
         if line.quote.startswith(start):
             return tuple(float(n.value) for n in numbers_of("; ".join((line.quote, *line.given))))
     raise RobotError(f'paper {paper.name}: its file quotes nothing that starts with "{start}"')
+
+
+# A paper's machine in simulation: its compiled model, and what is logged of its runs.
+
+
+def logged(
+    run: SimulatedLog, joints: tuple[str, ...], tau: np.ndarray, source: str = "tau{}"
+) -> Log:
+    """A simulated run as a log of some joints, with torques (samples, joints) of its own."""
+    at = [run.joints.index(joint) for joint in joints]
+    sources = tuple(source.format(joint) for joint in joints)
+    name = f"run{run.settings.seed}"
+    return Log(name, joints, run.time, run.q[:, at], tau, torque_source=sources)
