@@ -3,7 +3,6 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,9 +19,7 @@ from modeler.estimation.total_least_squares import MAX_ITERATIONS, GainEstimate,
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation
 from modeler.observation.report import LogReport
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 LOOSE = 0.1
 """Share of a gain that its sigma may be; beyond, a maker's data sheet is as good."""
@@ -81,7 +78,7 @@ def are_currents(logs: Sequence[Log | LogReport]) -> bool:
 
 
 def identify_gains(
-    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+    model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
 ) -> GainFit:
     """One gain for each drive, base parameters and loads: g_j V = W beta + W_L chi_L.
 

@@ -2,7 +2,6 @@
 
 import dataclasses
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,10 +27,7 @@ from modeler.numerics.least_squares import (
 )
 from modeler.observation.energy import EnergyRows, energy_rows
 from modeler.observation.observation import Observation
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
-
+from modeler.runtime.model import CompiledModel
 
 # Least squares over rows of unequal, modelled variance: one sum of known shares per row.
 
@@ -167,7 +163,7 @@ class EnergyFit:
 
 
 def identify_energy(
-    model: "CompiledModel",
+    model: CompiledModel,
     observation: Observation,
     window: float | None = None,
     method: Method = "weighted",
@@ -245,7 +241,7 @@ def _essential(
 
 
 def _report(
-    model: "CompiledModel",
+    model: CompiledModel,
     observation: Observation,
     rows: EnergyRows,
     found: Unequal,

@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -20,9 +20,7 @@ from modeler.estimation.result import FitResult, JointFit
 from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
 from modeler.observation.observation import Observation
 from modeler.observation.reduce import is_streamed, triangles
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +94,7 @@ class Equations:
 def identify(
     observation: Observation,
     method: Method = "weighted",
-    model: "CompiledModel | None" = None,
+    model: CompiledModel | None = None,
     below: float | None = None,
 ) -> FitResult:
     """The fit of the base parameters to an observation.
@@ -126,7 +124,7 @@ def fit_equations(
     observation: Observation,
     equations: Equations,
     method: Method,
-    model: "CompiledModel | None" = None,
+    model: CompiledModel | None = None,
     below: float | None = None,
     noise_only: bool = False,
     data: Compressed | None = None,

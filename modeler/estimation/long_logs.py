@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import reduce
 from os import cpu_count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -38,9 +38,7 @@ from modeler.observation.survey import (
 )
 from modeler.observation.tally import Facts
 from modeler.runtime.fused import no_rows
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 PASSES = 3
 """Over the logs, at most: what a pass finds that the windows did not show may ask for another."""
@@ -51,7 +49,7 @@ OF_TRIANGLES = capable("triangles")
 Share = Callable[[float], None]
 """Is told the share of the rows that are done."""
 
-Reducer = Callable[["CompiledModel", Source, Chosen], Iterable[Any]]
+Reducer = Callable[[CompiledModel, Source, Chosen], Iterable[Any]]
 """Parts of all chunks of a log, in their order: `Partial`, or what has its `facts` and `over`."""
 
 
@@ -72,7 +70,7 @@ class Partial:
         return Partial(merged(self.data, later.data), self.facts.over(later.facts))
 
 
-def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partial:
+def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: Chosen) -> Partial:
     """The rows y = W beta of a chunk, as triangles. Pure: equal chunks give equal bits.
 
     Args:
@@ -118,7 +116,7 @@ class Streamed:
 
 
 def stream(
-    model: "CompiledModel",
+    model: CompiledModel,
     sources: Sequence[Source],
     processing: Processing | None = None,
     progress: Share = lambda share: None,
@@ -159,7 +157,7 @@ def stream(
 
 
 def identify_long(
-    streamed: Streamed, method: Method = "weighted", model: "CompiledModel | None" = None
+    streamed: Streamed, method: Method = "weighted", model: CompiledModel | None = None
 ) -> FitResult:
     """The fit of the base parameters to long logs.
 
@@ -188,7 +186,7 @@ def identify_long(
 
 
 def all_rows(
-    model: "CompiledModel",
+    model: CompiledModel,
     sources: Sequence[Source],
     processing: Processing | None,
     progress: Share,
@@ -230,10 +228,10 @@ def all_rows(
 
 
 def by_threads(
-    model: "CompiledModel",
+    model: CompiledModel,
     source: Source,
     chosen: Chosen,
-    reduce_by: Callable[["CompiledModel", Chunk, Chosen], Any] | None = None,
+    reduce_by: Callable[[CompiledModel, Chunk, Chosen], Any] | None = None,
 ) -> Iterator[Any]:
     """The parts of all chunks of a log, in their order, by threads of this process.
 
@@ -266,7 +264,7 @@ def _again(facts: Sequence[Facts], found: Survey, known: KnownFacts) -> KnownFac
     return KnownFacts({**known.floors, **floors}, extremes)
 
 
-def _check(model: "CompiledModel", sources: Sequence[Source], facts: Sequence[Facts]) -> None:
+def _check(model: CompiledModel, sources: Sequence[Source], facts: Sequence[Facts]) -> None:
     """Refuse what only a log as a whole shows.
 
     Raises:
@@ -285,7 +283,7 @@ def _check(model: "CompiledModel", sources: Sequence[Source], facts: Sequence[Fa
                 )
 
 
-def _repeats(model: "CompiledModel", j: int) -> bool:
+def _repeats(model: CompiledModel, j: int) -> bool:
     """True if a turn of a joint changes nothing in the model."""
     joints, signals = len(model.spec.joints), model.spec.signals
     q, qd, qdd = np.random.default_rng(2).uniform(0.2, 1.0, (3, 1, joints))

@@ -12,7 +12,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -26,10 +26,7 @@ from modeler.estimation.result import FitResult, fit_from_json
 from modeler.observation.log import LogRows, shared_rows
 from modeler.observation.processing import Processing
 from modeler.observation.report import DataReport
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
-
+from modeler.runtime.model import CompiledModel, load
 
 FORMAT = 3
 KIND = "modeler model"
@@ -167,15 +164,12 @@ class IdentifiedModel(Presented):
         """A line if its fit was found not usable."""
         return [] if self.fit.verdict is None else self.fit.verdict.warning()
 
-    def compile(self) -> "CompiledModel":
+    def compile(self) -> CompiledModel:
         """The compiled robot.
 
         Raises:
             BuildError: no C compiler, or it refused the sources.
         """
-        # Only here: a model file can be read and printed where there is no compiler.
-        from modeler.runtime.model import load
-
         try:
             table = tomllib.loads(self.robot_text).get("log", {})
         except ValueError:

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,10 +9,7 @@ from modeler.core.errors import DataError
 from modeler.numerics.least_squares import Compressed
 from modeler.observation.observation import Evaluated, Observation
 from modeler.observation.reduce import blocks, explained, is_streamed, products
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
-
+from modeler.runtime.model import CompiledModel
 
 _PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows times a matrix
 _ROWS = 64  # that a band matrix is applied to at a time
@@ -145,7 +141,7 @@ class Problem:
     names: tuple[str, ...]
     units: tuple[str, ...]
     data: Compressed
-    model: "CompiledModel | None" = None
+    model: CompiledModel | None = None
 
     @property
     def W(self) -> np.ndarray:
@@ -168,7 +164,7 @@ class Problem:
         """(rows,) index of the joint of each row."""
         return self.observation.row_joint
 
-    def robot(self, method: str) -> "CompiledModel":
+    def robot(self, method: str) -> CompiledModel:
         """The compiled robot, for an estimator that cannot do without it.
 
         Raises:

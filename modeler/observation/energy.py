@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -12,9 +12,7 @@ from modeler.observation.low_speed import signals_of
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
 from modeler.observation.segments import runs
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 Rule = Literal["simpson", "trapezoid"]
 """How powers are integrated."""
@@ -66,7 +64,7 @@ class _Tiles:
 
 
 def energy_rows(
-    model: "CompiledModel",
+    model: CompiledModel,
     observation: Observation,
     window: float | None = None,
     rule: Rule = "simpson",
@@ -173,7 +171,7 @@ def weights(intervals: int, step: float, rule: Rule) -> np.ndarray:
     return inner * unit
 
 
-def _rows(model: "CompiledModel", tiles: _Tiles, rule: Rule) -> tuple[np.ndarray, ...]:
+def _rows(model: CompiledModel, tiles: _Tiles, rule: Rule) -> tuple[np.ndarray, ...]:
     """W, y, balance, spread and times of the windows of one segment."""
     s, n = tiles.segment, tiles.intervals
     w = weights(n, s.step, rule)
@@ -197,7 +195,7 @@ def _rows(model: "CompiledModel", tiles: _Tiles, rule: Rule) -> tuple[np.ndarray
 
 
 def _powers(
-    model: "CompiledModel", q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, read: np.ndarray | None
+    model: CompiledModel, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, read: np.ndarray | None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """All power; power that is no change of kinetic energy; kinetic energy: (samples, c) each.
 
@@ -213,7 +211,7 @@ def _powers(
     return total, np.where(inertial, gravity, total), energy
 
 
-def kinetic_columns(model: "CompiledModel") -> np.ndarray:
+def kinetic_columns(model: CompiledModel) -> np.ndarray:
     """(c,) True for base parameters of bodies and rotors."""
     kinds: Sequence[str] = [base.kind for base in model.spec.base]
     return np.array([kind in _ENERGY for kind in kinds])

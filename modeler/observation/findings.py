@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,9 +10,7 @@ from modeler.numerics.least_squares import scaled_least_squares, whitening
 from modeler.observation.channels import SCALE, WRONG, Fault, faults, turns
 from modeler.observation.observation import Observation
 from modeler.observation.thinned import ThinnedRows, thinned
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 HALF = 0.5
 """Share of the error of the robot that one change of a channel, or one shift of it, leaves, to be
@@ -25,7 +22,7 @@ _FOR_EACH = 3  # rows for every parameter, at least: fewer are described by anyt
 
 
 def findings_of_fit(
-    compiled: "CompiledModel", observation: Observation, beta: np.ndarray
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray
 ) -> tuple[Fault, ...]:
     """Doubts about the channels and the samples of logs that a model was fitted to.
 
@@ -41,7 +38,7 @@ def findings_of_fit(
 
 
 def findings_of_prediction(
-    compiled: "CompiledModel", observation: Observation, beta: np.ndarray
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray
 ) -> tuple[Fault, ...]:
     """Doubts about the channels and the samples of logs whose torque a model predicts.
 
@@ -54,7 +51,7 @@ def findings_of_prediction(
     return (*faults(compiled, observation, beta), *doubts)
 
 
-def _judged(compiled: "CompiledModel", observation: Observation) -> tuple[ThinnedRows, list[int]]:
+def _judged(compiled: CompiledModel, observation: Observation) -> tuple[ThinnedRows, list[int]]:
     """Some rows, and the joints with a motor and a torque; none of too few rows."""
     rows = thinned(compiled, observation)
     joints = [j for j, joint in enumerate(observation.joints) if joint.actuated]
@@ -103,7 +100,7 @@ _TOLD = 1e-11  # eigenvalue over the largest
 
 
 def faults_of_fit(
-    compiled: "CompiledModel", observation: Observation, beta: np.ndarray
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray
 ) -> tuple[Fault, ...]:
     """Channels with a wrong sign or unit, or in the place of another, although the fit adapts.
 
@@ -178,7 +175,7 @@ def _solved(X: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def _changes(
-    compiled: "CompiledModel", observation: Observation, rows: ThinnedRows, joints: list[int]
+    compiled: CompiledModel, observation: Observation, rows: ThinnedRows, joints: list[int]
 ) -> Iterator[tuple[str, list[float]]]:
     """Changes of the channels, and the error of each joint that each of them leaves."""
     names = [joint.name for joint in observation.joints]
@@ -212,7 +209,7 @@ def _changes(
 
 
 def _driven(
-    compiled: "CompiledModel", observation: Observation, rows: ThinnedRows, beta: np.ndarray,
+    compiled: CompiledModel, observation: Observation, rows: ThinnedRows, beta: np.ndarray,
     errors: dict[int, float],
 ) -> tuple[Fault, ...]:  # fmt: skip
     """Joints whose friction, as it was fitted, gives energy, or whose inertia pushes back.
@@ -244,7 +241,7 @@ def _driven(
     return (Fault(line, True),)
 
 
-def _own_friction(compiled: "CompiledModel", joint: str) -> list[int]:
+def _own_friction(compiled: CompiledModel, joint: str) -> list[int]:
     """Base parameters that are the viscous or Coulomb friction of a joint, and nothing besides."""
     own = {
         p.name for p in compiled.spec.standard
@@ -256,7 +253,7 @@ def _own_friction(compiled: "CompiledModel", joint: str) -> list[int]:
     ]  # fmt: skip
 
 
-def _pushes_back(compiled: "CompiledModel", rows: ThinnedRows, beta: np.ndarray, j: int) -> float:
+def _pushes_back(compiled: CompiledModel, rows: ThinnedRows, beta: np.ndarray, j: int) -> float:
     """Share of the torque that the inertia M_jj makes, if it is negative wherever the joint was.
 
     M_jj qdd_j is the torque at rest with that acceleration less the torque at rest. 0 if M_jj is
@@ -304,7 +301,7 @@ class _Shift:
     error: float
 
 
-def late_channels(compiled: "CompiledModel", observation: Observation) -> tuple[str, ...]:
+def late_channels(compiled: CompiledModel, observation: Observation) -> tuple[str, ...]:
     """A sentence on the channel that fits far better at another time; none where none does.
 
     W(t + d) beta = tau(t) is fitted for a shift d of the motion of all joints, for the rows of
@@ -338,7 +335,7 @@ def late_channels(compiled: "CompiledModel", observation: Observation) -> tuple[
 
 
 def _channels(
-    compiled: "CompiledModel", observation: Observation, rows: ThinnedRows, joints: Sequence[int]
+    compiled: CompiledModel, observation: Observation, rows: ThinnedRows, joints: Sequence[int]
 ) -> list[tuple[str, str, float, Columns]]:
     """What may be late, what would then be early, the sign of its lateness, and its columns."""
     n = rows.tau.shape[1]

@@ -3,7 +3,6 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,9 +22,7 @@ from modeler.observation.report import DataReport, LogReport
 from modeler.observation.segments import Piece, split
 from modeler.observation.stretch import Stretch, row_centres, stretch
 from modeler.observation.tally import Facts, joint_reports, log_report, tally
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 WINDOWS = 8
 """Windows of all logs together, at least one of each log."""
@@ -119,7 +116,7 @@ class KnownFacts:
 
 
 def survey(
-    model: "CompiledModel",
+    model: CompiledModel,
     sources: Sequence[Source],
     processing: Processing,
     known: KnownFacts,
@@ -247,7 +244,7 @@ def _moves(log: Log) -> bool:
 
 
 def rows_of_chunk(
-    model: "CompiledModel", chunk: Chunk, chosen: Chosen
+    model: CompiledModel, chunk: Chunk, chosen: Chosen
 ) -> tuple[tuple[Stretch, ...], Facts]:
     """The rows of a chunk: mended, split, filtered and differentiated as those of a whole log.
 
@@ -390,9 +387,7 @@ class Passes:
         }
 
 
-def streamed_report(
-    model: "CompiledModel", sources: Sequence[Source], passes: Passes
-) -> DataReport:
+def streamed_report(model: CompiledModel, sources: Sequence[Source], passes: Passes) -> DataReport:
     """What happened to all rows of long logs.
 
     Args:
@@ -412,7 +407,7 @@ def streamed_report(
     )
 
 
-def _log_report(model: "CompiledModel", source: Source, k: int, passes: Passes) -> LogReport:
+def _log_report(model: CompiledModel, source: Source, k: int, passes: Passes) -> LogReport:
     facts, chosen, found = passes.facts[k], passes.found.chosen[k], passes.found
     counts, first, content = facts.tally, source.window(0.0, 2), source.content
     missing = {

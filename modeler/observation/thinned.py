@@ -1,7 +1,6 @@
 """Some rows of an observation, whose columns can be built anew of a motion that was changed."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,9 +11,7 @@ from modeler.observation.observation import Observation
 from modeler.observation.prepare import nearest_closed
 from modeler.observation.reduce import columns_at
 from modeler.observation.stretch import Stretch
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 _MOST = 1200  # rows: enough for any fit, and quick with every change that is tried
 _CELLS = 8000  # joints times rows, at most: many joints make many pairs to exchange
@@ -32,12 +29,12 @@ class ThinnedPart:
     used: np.ndarray
     read: np.ndarray | None
 
-    def turned(self, compiled: "CompiledModel", turn: np.ndarray) -> np.ndarray:
+    def turned(self, compiled: CompiledModel, turn: np.ndarray) -> np.ndarray:
         """(m, n, c) filtered columns of the motion q turn."""
         s = self.segment
         return self._filtered(compiled, [x[self.samples] @ turn for x in (s.q, s.qd, s.qdd)])
 
-    def shifted(self, compiled: "CompiledModel", shift: np.ndarray) -> np.ndarray:
+    def shifted(self, compiled: CompiledModel, shift: np.ndarray) -> np.ndarray:
         """(m, n, c) filtered columns of the motion of each joint, shift (n,) s later."""
         s = self.segment
         at = s.time[self.samples][:, None] + shift
@@ -47,7 +44,7 @@ class ThinnedPart:
         ]
         return self._filtered(compiled, motion)
 
-    def _filtered(self, compiled: "CompiledModel", motion: list[np.ndarray]) -> np.ndarray:
+    def _filtered(self, compiled: CompiledModel, motion: list[np.ndarray]) -> np.ndarray:
         q, qd, qdd = motion
         nearest = nearest_closed(compiled, q)  # a motion that was changed may leave what closes
         if nearest is not None:
@@ -79,16 +76,16 @@ class ThinnedRows:
     speed: np.ndarray
     parts: tuple[ThinnedPart, ...]
 
-    def turned(self, compiled: "CompiledModel", turn: np.ndarray) -> np.ndarray:
+    def turned(self, compiled: CompiledModel, turn: np.ndarray) -> np.ndarray:
         """(m, n, c) columns of the motion q turn."""
         return np.concatenate([part.turned(compiled, turn) for part in self.parts])
 
-    def shifted(self, compiled: "CompiledModel", shift: np.ndarray) -> np.ndarray:
+    def shifted(self, compiled: CompiledModel, shift: np.ndarray) -> np.ndarray:
         """(m, n, c) columns of the motion `shift` (n,) s later."""
         return np.concatenate([part.shifted(compiled, shift) for part in self.parts])
 
 
-def thinned(compiled: "CompiledModel", observation: Observation) -> ThinnedRows:
+def thinned(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
     """At most 1200 of the rows of the observation, evenly; fewer of many joints."""
     most = max(1, min(_MOST, _CELLS // len(observation.joints)))
     every = max(1, -(-len(observation.time) // most))
@@ -109,7 +106,7 @@ def thinned(compiled: "CompiledModel", observation: Observation) -> ThinnedRows:
     )
 
 
-def _part(compiled: "CompiledModel", part: Stretch, rows: np.ndarray) -> ThinnedPart:
+def _part(compiled: CompiledModel, part: Stretch, rows: np.ndarray) -> ThinnedPart:
     weights = part.rows.weights[rows]
     width = max(1, int(np.max(np.diff(weights.indptr))))
     reached = np.unique(weights.indices)
