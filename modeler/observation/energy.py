@@ -39,7 +39,6 @@ class EnergyRows:
         time: (r, 2) s, first and last sample.
         run: (r,) index of the log.
         window: s, length of a window.
-        rule: of the integrals.
     """
 
     W: np.ndarray
@@ -50,7 +49,6 @@ class EnergyRows:
     time: np.ndarray
     run: np.ndarray
     window: float
-    rule: Rule
 
 
 @dataclass(frozen=True)
@@ -116,7 +114,7 @@ def energy_rows(
         W=W, y=y, balance=balance, spread=spread, time=time,
         stretch=np.concatenate([part.stretch for part in tiles]),
         run=np.repeat([part.segment.run for part in tiles], [len(part.starts) for part in tiles]),
-        window=tiles[0].intervals * tiles[0].segment.step, rule=rule,
+        window=tiles[0].intervals * tiles[0].segment.step,
     )  # fmt: skip
 
 

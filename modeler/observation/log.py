@@ -82,6 +82,13 @@ class Log(Presented):
         return float(self.time[0]), float(self.time[-1])
 
     @property
+    def piece_number(self) -> np.ndarray:
+        """(n,) whole numbers from 0 that grow where a piece of motion begins."""
+        if self.segment is None:
+            return np.zeros(self.rows, dtype=int)
+        return np.concatenate([[0], np.cumsum(np.diff(self.segment) != 0)])
+
+    @property
     def step(self) -> float:
         """Median time step, s.
 

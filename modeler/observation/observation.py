@@ -149,9 +149,16 @@ class Evaluated:
         """True if `products` can be had."""
         return self._model.emits_entries
 
-    def torque(self, s: Segment, w: slice | np.ndarray, beta: np.ndarray) -> np.ndarray:
-        """(b, n) torque of the model, by the inverse dynamics; w may be indices."""
-        return self._model.inverse_dynamics(s.q[w], s.qd[w], s.qdd[w], beta, self._read(s, w))
+    def torque(
+        self, s: Segment, w: slice | np.ndarray, beta: np.ndarray, turn: np.ndarray | None = None
+    ) -> np.ndarray:
+        """(b, n) torque of the model, by the inverse dynamics; w may be indices.
+
+        With a turn (n, n) the motion is q turn instead of q.
+        """
+        motion = s.q[w], s.qd[w], s.qdd[w]
+        q, qd, qdd = motion if turn is None else (x @ turn for x in motion)
+        return self._model.inverse_dynamics(q, qd, qdd, beta, self._read(s, w))
 
     def triangles(self, part: Stretch, use: np.ndarray, state: Triangles | None) -> Triangles:
         """Triangles of the rows of a stretch whose rows are samples; use (rows, n) bool."""
@@ -363,12 +370,5 @@ def model_torque(
         beta: (c,) base parameters of the model.
         turn: (n, n) if given, the motion is q turn instead of q.
     """
-
-    def torque(segment: Segment, window: slice) -> np.ndarray:
-        read = signals_of(model.spec, segment)
-        q, qd, qdd = (x[window] for x in (segment.q, segment.qd, segment.qdd))
-        if turn is not None:
-            q, qd, qdd = q @ turn, qd @ turn, qdd @ turn
-        return model.inverse_dynamics(q, qd, qdd, beta, None if read is None else read[window])
-
-    return observation.filtered(torque)
+    torque = Evaluated(model, observation.stretches).torque
+    return observation.filtered(partial(torque, beta=beta, turn=turn))
