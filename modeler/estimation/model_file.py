@@ -18,7 +18,7 @@ import numpy as np
 
 from modeler.core.errors import DataError, ManifestError
 from modeler.core.files import read_file, read_text, write_atomically
-from modeler.core.json import JsonError, PlainError, check_fields, entries, parse_json, plain, shown
+from modeler.core.json import JsonError, PlainError, entries, parse_json, plain, shown
 from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, module_from_plain
 from modeler.core.result import Presented
 from modeler.core.table import percent
@@ -254,13 +254,9 @@ def _fit(raw: Mapping[str, Any], where: str) -> FitResult:
     if any(len(row) != len(rows) for row in rows):
         raise ManifestError(f"{where}: damaged, covariance is not square; fit the model again")
     try:
-        fit = fit_from_json(fitted, np.array(rows, dtype=float).reshape(len(rows), len(rows)))
-        check_fields(fit)
-    except PlainError as error:
-        raise ManifestError(f"{where}: the fit is damaged ({error}); fit the model again") from None
+        return fit_from_json(fitted, np.array(rows, dtype=float).reshape(len(rows), len(rows)))
     except ManifestError as error:
         raise ManifestError(f"{where}: {error}") from None
-    return fit
 
 
 def _read(path: Path) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
@@ -263,15 +263,12 @@ def _pushes_back(compiled: CompiledModel, rows: ThinnedRows, beta: np.ndarray, j
         return 0.0
     felt, seen = 0.0, []
     for part in rows.parts:
-        s = part.segment
-        q, qdd = s.q[part.samples], s.qdd[part.samples]
+        q, _, qdd = part.motion()
         still, moved = np.zeros_like(q), np.zeros_like(q)
         moved[:, j] = 1.0
         columns = compiled.base_regressor(q, still, moved, part.read)[:, j]
         own = (columns - compiled.base_regressor(q, still, still, part.read)[:, j]) @ beta
-        torque = part.rows.means(own * qdd[:, j], part.usable[:, j], part.used[:, j],
-                                 s.whole[part.samples])  # fmt: skip
-        felt += float(np.sum(torque[part.used[:, j]] ** 2))
+        felt += float(np.sum(part.means(own * qdd[:, j], j)[part.used[:, j]] ** 2))
         seen.append(own)
     inertia = np.concatenate(seen)
     size = float(np.sum(rows.tau[rows.used[:, j], j] ** 2))
@@ -294,11 +291,20 @@ Columns = Callable[[float], np.ndarray]
 
 
 @dataclass(frozen=True)
-class _Shift:
+class _Channel:
+    """What may be late.
+
+    Attributes:
+        what: it comes.
+        other: what would then be early.
+        sign: of its lateness, by the shift of the motion.
+        columns: with the motion that many seconds later.
+    """
+
     what: str
     other: str
-    late: float  # s by which the channel `what` comes late
-    error: float
+    sign: float
+    columns: Columns
 
 
 def late_channels(compiled: CompiledModel, observation: Observation) -> tuple[str, ...]:
@@ -316,86 +322,72 @@ def late_channels(compiled: CompiledModel, observation: Observation) -> tuple[st
     rows, joints = _judged(compiled, observation)
     if not joints:
         return ()
-    fit = _Fit(rows, joints, observation)
-    before, _ = fit.left(rows.W)
+    sizes = _sizes(rows.tau, rows.used, joints)
+    step = float(np.median([part.segment.step for part in observation.stretches]))
+
+    def left(W: np.ndarray) -> tuple[float, np.ndarray]:
+        """The error that a fit leaves in which every joint weighs the same, and its solution."""
+        X, y = (_stacked(values, rows.used, sizes) for values in (W, rows.tau))
+        beta = scaled_least_squares(X, y, 1e-6)
+        return float(np.linalg.norm(y - X @ beta)), beta
+
+    def best(columns: Columns) -> tuple[float, float]:
+        """The least error that a shift of a channel leaves, and the shift, s."""
+        tried = [(before, 0.0, rows.W)]
+        for start in _STARTS:
+            W = columns(start)
+            tried.append((left(W)[0], start, W))
+        error, shift, W = min(tried, key=lambda one: one[0])
+        for _ in range(_STEPS):
+            slope = (columns(shift + step) - W) @ left(W)[1] / step
+            _, found = left(np.concatenate([W, slope[..., None]], axis=2))
+            further = float(np.clip(shift + found[-1], -LONGEST, LONGEST))
+            closer = columns(further)
+            reached, _ = left(closer)
+            if reached >= error:
+                break
+            shift, W, error = further, closer, reached
+        return error, shift
+
+    before, _ = left(rows.W)
     if before < _LEAST:
         return ()
-    found = [
-        fit.best(what, other, sign, columns, before)
-        for what, other, sign, columns in _channels(compiled, observation, rows, joints)
-    ]
-    best = min(found, key=lambda shift: shift.error)
-    if best.error > HALF * before:
+    found = [(*best(one.columns), one) for one in _channels(compiled, observation, rows, joints)]
+    error, shift, channel = min(found, key=lambda one: one[0])
+    if error > HALF * before:
         return ()
-    way, back = ("late", "early") if best.late > 0.0 else ("early", "late")
+    way, back = ("late", "early") if channel.sign * shift > 0.0 else ("early", "late")
     return (
-        f"{best.what} {1e3 * abs(best.late):.0f} ms {way}, by a fit at other times (or "
-        f"{best.other} {back}); check the clocks of the channels, and shift the column",
+        f"{channel.what} {1e3 * abs(shift):.0f} ms {way}, by a fit at other times (or "
+        f"{channel.other} {back}); check the clocks of the channels, and shift the column",
     )
 
 
 def _channels(
     compiled: CompiledModel, observation: Observation, rows: ThinnedRows, joints: Sequence[int]
-) -> list[tuple[str, str, float, Columns]]:
-    """What may be late, what would then be early, the sign of its lateness, and its columns."""
+) -> list[_Channel]:
+    """What may be late."""
     n = rows.tau.shape[1]
-    names = [joint.name for joint in observation.joints]
 
     @cache
     def all_later(shift: float) -> np.ndarray:
         return rows.shifted(compiled, np.full(n, shift))
 
-    def torque_earlier(j: int) -> Columns:
-        def columns(shift: float) -> np.ndarray:
-            W = rows.W.copy()
-            W[:, j] = all_later(shift)[:, j]
-            return W
+    def torque_earlier(j: int, shift: float) -> np.ndarray:
+        W = rows.W.copy()
+        W[:, j] = all_later(shift)[:, j]
+        return W
 
-        return columns
+    def one_later(j: int, shift: float) -> np.ndarray:
+        return rows.shifted(compiled, shift * np.eye(n)[j])
 
-    def one_later(j: int) -> Columns:
-        return lambda shift: rows.shifted(compiled, shift * np.eye(n)[j])
-
-    found: list[tuple[str, str, float, Columns]] = [
-        ("all torques come", "the positions", -1.0, all_later)
-    ]
+    found = [_Channel("all torques come", "the positions", -1.0, all_later)]
     if compiled.spec.closure is not None or len(joints) == 1:
         return found  # positions that are not of one time do not close the loops
     for j in joints:
-        name = f"joint {names[j]}:"
-        found.append((f"{name} its torque comes", "all the others", -1.0, torque_earlier(j)))
-        found.append((f"{name} its position comes", "all the others", 1.0, one_later(j)))
+        name, rest = f"joint {observation.joints[j].name}:", "all the others"
+        found += [
+            _Channel(f"{name} its torque comes", rest, -1.0, partial(torque_earlier, j)),
+            _Channel(f"{name} its position comes", rest, 1.0, partial(one_later, j)),
+        ]
     return found
-
-
-class _Fit:
-    """Fits in which every joint weighs the same."""
-
-    def __init__(self, rows: ThinnedRows, joints: Sequence[int], observation: Observation) -> None:
-        self._rows, self._sizes = rows, _sizes(rows.tau, rows.used, joints)
-        self._step = float(np.median([part.segment.step for part in observation.stretches]))
-
-    def left(self, W: np.ndarray) -> tuple[float, np.ndarray]:
-        """The error that a fit leaves, and its solution."""
-        X, y = (_stacked(values, self._rows.used, self._sizes) for values in (W, self._rows.tau))
-        beta = scaled_least_squares(X, y, 1e-6)
-        return float(np.linalg.norm(y - X @ beta)), beta
-
-    def best(self, what: str, other: str, sign: float, columns: Columns, before: float) -> _Shift:
-        """The shift of a channel that leaves least."""
-        tried = [(before, 0.0, self._rows.W)]
-        for start in _STARTS:
-            W = columns(start)
-            tried.append((self.left(W)[0], start, W))
-        error, shift, W = min(tried, key=lambda one: one[0])
-        for _ in range(_STEPS):
-            _, beta = self.left(W)
-            slope = (columns(shift + self._step) - W) @ beta / self._step
-            _, found = self.left(np.concatenate([W, slope[..., None]], axis=2))
-            further = float(np.clip(shift + found[-1], -LONGEST, LONGEST))
-            closer = columns(further)
-            reached, _ = self.left(closer)
-            if reached >= error:
-                break
-            shift, W, error = further, closer, reached
-        return _Shift(what, other, sign * shift, error)

@@ -1,5 +1,6 @@
 """Some rows of an observation, whose columns can be built anew of a motion that was changed."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,33 +30,24 @@ class ThinnedPart:
     used: np.ndarray
     read: np.ndarray | None
 
-    def turned(self, compiled: CompiledModel, turn: np.ndarray) -> np.ndarray:
-        """(m, n, c) filtered columns of the motion q turn."""
+    def motion(self) -> tuple[np.ndarray, ...]:
+        """q, qd, qdd of the samples."""
         s = self.segment
-        return self._filtered(compiled, [x[self.samples] @ turn for x in (s.q, s.qd, s.qdd)])
+        return s.q[self.samples], s.qd[self.samples], s.qdd[self.samples]
 
-    def shifted(self, compiled: CompiledModel, shift: np.ndarray) -> np.ndarray:
-        """(m, n, c) filtered columns of the motion of each joint, shift (n,) s later."""
-        s = self.segment
-        at = s.time[self.samples][:, None] + shift
-        motion = [
-            np.column_stack([np.interp(at[:, j], s.time, x[:, j]) for j in range(x.shape[1])])
-            for x in (s.q, s.qd, s.qdd)
-        ]
-        return self._filtered(compiled, motion)
+    def means(self, values: np.ndarray, j: int) -> np.ndarray:
+        """(m, ...) of values (samples, ...) of a joint, through the filter of its rows."""
+        whole = self.segment.whole[self.samples]
+        return self.rows.means(values, self.usable[:, j], self.used[:, j], whole)
 
-    def _filtered(self, compiled: CompiledModel, motion: list[np.ndarray]) -> np.ndarray:
+    def columns(self, compiled: CompiledModel, motion: Sequence[np.ndarray]) -> np.ndarray:
+        """(m, n, c) filtered columns of a motion q, qd, qdd of the samples."""
         q, qd, qdd = motion
         nearest = nearest_closed(compiled, q)  # a motion that was changed may leave what closes
         if nearest is not None:
             q = np.ascontiguousarray(q[nearest])
         values = compiled.base_regressor(q, qd, qdd, self.read)
-        whole = self.segment.whole[self.samples]
-        means = [
-            self.rows.means(values[:, j], self.usable[:, j], self.used[:, j], whole)
-            for j in range(values.shape[1])
-        ]
-        return np.stack(means, axis=1)
+        return np.stack([self.means(own, j) for j, own in enumerate(values.swapaxes(0, 1))], axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,11 +70,22 @@ class ThinnedRows:
 
     def turned(self, compiled: CompiledModel, turn: np.ndarray) -> np.ndarray:
         """(m, n, c) columns of the motion q turn."""
-        return np.concatenate([part.turned(compiled, turn) for part in self.parts])
+        return np.concatenate(
+            [part.columns(compiled, [x @ turn for x in part.motion()]) for part in self.parts]
+        )
 
     def shifted(self, compiled: CompiledModel, shift: np.ndarray) -> np.ndarray:
-        """(m, n, c) columns of the motion `shift` (n,) s later."""
-        return np.concatenate([part.shifted(compiled, shift) for part in self.parts])
+        """(m, n, c) columns of the motion of each joint, shift (n,) s later."""
+        found = []
+        for part in self.parts:
+            s = part.segment
+            at = (s.time[part.samples][:, None] + shift).T
+            motion = [
+                np.column_stack([np.interp(t, s.time, own) for t, own in zip(at, x.T, strict=True)])
+                for x in (s.q, s.qd, s.qdd)
+            ]
+            found.append(part.columns(compiled, motion))
+        return np.concatenate(found)
 
 
 def thinned(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
