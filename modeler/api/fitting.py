@@ -37,7 +37,7 @@ from modeler.numerics.least_squares import Compressed
 from modeler.observation.findings import findings_of_fit
 from modeler.observation.log import Log, check_apart
 from modeler.observation.observation import Observation, observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.robot.edit import with_drive_gains
 from modeler.robot.motors import joint_directions
 from modeler.robot.read import robot_from_text

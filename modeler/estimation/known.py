@@ -64,7 +64,7 @@ def known_doubts(
 def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[Doubt]:
     found = []
     for i, payload in enumerate(loaded.weighed):
-        if not loaded.told(i):
+        if not loaded.tells_mass(i):
             continue
         # The factor on its torques that the logs ask for; 1 if its mass is right.
         column = loaded.torques[:, i]

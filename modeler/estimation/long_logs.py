@@ -23,9 +23,9 @@ from modeler.numerics.least_squares import Compressed, merged
 from modeler.observation.chunk import Chunk, chunks
 from modeler.observation.log import FINGER
 from modeler.observation.observation import Evaluated, Observation, no_row_left
-from modeler.observation.processing import Processing
 from modeler.observation.read import Source
 from modeler.observation.reduce import with_stretch
+from modeler.observation.settings import Processing
 from modeler.observation.survey import (
     Chosen,
     KnownFacts,
@@ -50,7 +50,7 @@ Share = Callable[[float], None]
 """Is told the share of the rows that are done."""
 
 Reducer = Callable[[CompiledModel, Source, Chosen], Iterable[Any]]
-"""Parts of all chunks of a log, in their order: `Partial`, or what has its `facts` and `over`."""
+"""Parts of all chunks of a log in order: `Partial`, or what has its `facts` and `merged_with`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,9 +65,9 @@ class Partial:
     data: Compressed
     facts: Facts
 
-    def over(self, later: "Partial") -> "Partial":
+    def merged_with(self, later: "Partial") -> "Partial":
         """Of these rows, and of those that follow them."""
-        return Partial(merged(self.data, later.data), self.facts.over(later.facts))
+        return Partial(merged(self.data, later.data), self.facts.merged_with(later.facts))
 
 
 def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: Chosen) -> Partial:
@@ -93,7 +93,7 @@ def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: Chosen) -> Partial:
 
 def merge_all(parts: Iterable[Partial]) -> Partial:
     """Of all chunks of a log, one after the other."""
-    return reduce(Partial.over, parts)
+    return reduce(Partial.merged_with, parts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -212,7 +212,7 @@ def all_rows(
         for source, parts in zip(sources, begun, strict=True):
             whole: Any = None
             for part in parts:
-                whole = part if whole is None else whole.over(part)
+                whole = part if whole is None else whole.merged_with(part)
                 progress(min(1.0, (done + whole.facts.tally.count("rows")) / total))
             if whole is None:
                 raise DataError(f"{source.name}: no rows; expected a motion; leave it out")

@@ -24,8 +24,8 @@ from modeler.core.result import Presented
 from modeler.core.table import percent
 from modeler.estimation.result import FitResult, fit_from_json
 from modeler.observation.log import LogRows, shared_rows
-from modeler.observation.processing import Processing
 from modeler.observation.report import DataReport
+from modeler.observation.settings import Processing
 from modeler.runtime.model import CompiledModel, load
 
 FORMAT = 3

@@ -83,7 +83,7 @@ class Loaded:
     weighed: tuple[Payload, ...]
     torques: np.ndarray
 
-    def told(self, i: int) -> bool:
+    def tells_mass(self, i: int) -> bool:
         """True if the logs tell the mass of a weighed payload from all other parameters."""
         return bool(independent(self.equations.W, self.torques[:, [i]]))
 
@@ -110,7 +110,7 @@ def loaded_equations(
         f"{payload.name}: its mass of {payload.mass:g} kg is taken as given: these logs do not "
         "tell it from its other parameters"
         for i, payload in enumerate(weighed)
-        if not loaded.told(i)
+        if not loaded.tells_mass(i)
     ]
     told = dataclasses.replace(equations, sentences=(*equations.sentences, *blind))
     return dataclasses.replace(loaded, equations=told)

@@ -19,7 +19,7 @@ from modeler.estimation.parameter import (
     read_all,
     read_back,
 )
-from modeler.observation.processing import Processing, processing_from_json
+from modeler.observation.settings import Processing, processing_from_json
 
 # The energy model beside the torque model of the same data: figures, and what they come to.
 

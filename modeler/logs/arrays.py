@@ -84,7 +84,7 @@ def columns_of(
     if rows is None:
         raise DataError(
             f"{path}: no array of {LEAST_ROWS} rows or more; expected the samples of a motion as "
-            f"arrays (n,) or (n, joints); it holds {_listed([_told(a) for a in arrays])}"
+            f"arrays (n,) or (n, joints); it holds {_listed([_described(a) for a in arrays])}"
         )
 
     @lru_cache(maxsize=1)
@@ -98,7 +98,7 @@ def columns_of(
     for held in arrays:
         slices = _slices(values, held, rows)
         if not slices:
-            left.append(_told(held))
+            left.append(_described(held))
         found += slices
         units |= {name: held.unit for name, _ in slices if held.unit}
     told = [f"{_listed(left)} left out: no columns of {rows} rows"] if left else []
@@ -173,7 +173,7 @@ class _MatField:
         return np.asarray(self.data[self.field])
 
 
-def _told(held: Held) -> str:
+def _described(held: Held) -> str:
     return f"{held.name} ({' x '.join(map(str, held.shape)) or '1 value'})"
 
 

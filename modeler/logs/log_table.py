@@ -72,7 +72,7 @@ class LogTable:
         others = [name for name in self._columns if name not in used and name not in self._taken]
         self.names: tuple[str, ...] = (*self._taken, *(["time"] if self._rate else []), *others)
         self._units = {name: self._unit(name) for name in self.names}
-        self.notes: tuple[str, ...] = (*self.found.notes, *self._told())
+        self.notes: tuple[str, ...] = (*self.found.notes, *self._notes())
 
     def _check(self) -> None:
         names = [name for name, _ in self.found.columns]
@@ -126,7 +126,7 @@ class LogTable:
         where = entry.where if entry is not None else ""
         return None if stated is None else si_unit(own, where or own, stated, self._joints)
 
-    def _told(self) -> list[str]:
+    def _notes(self) -> list[str]:
         """Entries of [log] that found nothing, units of the file's own, a time without column."""
         lines = []
         for own, entry in self._entries.items():

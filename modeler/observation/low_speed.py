@@ -8,7 +8,7 @@ import numpy as np
 from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import ModuleSpec, SignalSpec
 from modeler.observation.motion import Segment
-from modeler.observation.processing import ChosenProcessing
+from modeler.observation.settings import ChosenProcessing
 from modeler.runtime.model import CompiledModel
 
 TOP = 0.98

@@ -8,8 +8,8 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.numerics.filters import forwards_and_backwards
-from modeler.observation.processing import Processing
 from modeler.observation.segments import SHORT, Piece, longer_runs
+from modeler.observation.settings import Processing
 
 HIGHEST = 0.4
 """A cut-off is at most this share of the sampling rate: above, Butterworth has no room to fall."""

@@ -30,8 +30,8 @@ from modeler.observation.motion import (
     Segment,
 )
 from modeler.observation.prepare import Mending, Prepared, prepare, without_open
-from modeler.observation.processing import Processing
 from modeler.observation.report import DataReport
+from modeler.observation.settings import Processing
 from modeler.observation.stretch import Stretch, stretch
 from modeler.observation.tally import joint_reports, log_report, tally
 from modeler.runtime.fused import NonzeroPattern, Triangles

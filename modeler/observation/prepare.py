@@ -24,8 +24,8 @@ from modeler.observation.log import Log
 from modeler.observation.motion import CAUSES, HIGHEST, OPEN, Segment, edge_of, segment_of
 from modeler.observation.motion_band import motion_bands
 from modeler.observation.outliers import Defects, Usual, defects
-from modeler.observation.processing import ChosenProcessing, Processing
 from modeler.observation.segments import Piece, SplitReport, split
+from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.runtime.model import CompiledModel
 
 LARGEST = 1e12

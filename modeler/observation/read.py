@@ -260,7 +260,7 @@ class Ranges:
         """(J,) smallest and largest torque."""
         return tuple(zip(self.low[1].tolist(), self.high[1].tolist(), strict=True))
 
-    def over(self, other: "Ranges") -> "Ranges":
+    def merged_with(self, other: "Ranges") -> "Ranges":
         """Of the rows of both."""
         return Ranges(
             self.values + other.values,

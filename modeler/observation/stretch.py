@@ -9,7 +9,7 @@ from modeler.core.brief import Brief
 from modeler.numerics.filters import LEAST_WEIGHT, RowFilter, filter_at, spacing
 from modeler.observation.low_speed import FrictionShaft, moving
 from modeler.observation.motion import Segment
-from modeler.observation.processing import ChosenProcessing
+from modeler.observation.settings import ChosenProcessing
 
 _BLOCK = 20_000  # samples evaluated at a time: 20 000 x 7 joints x 60 columns is 67 MB
 

@@ -16,10 +16,10 @@ from modeler.observation.motion import Segment, segment_of
 from modeler.observation.observation import Observation, observed
 from modeler.observation.outliers import Usual, defects
 from modeler.observation.prepare import Prepared, believed, check_size, closed, prepare
-from modeler.observation.processing import ChosenProcessing, Processing
 from modeler.observation.read import Ranges, Source, cut, joined, windows_joined
 from modeler.observation.report import DataReport, LogReport
 from modeler.observation.segments import Piece, split
+from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.observation.stretch import Stretch, row_centres, stretch
 from modeler.observation.tally import Facts, joint_reports, log_report, tally
 from modeler.runtime.model import CompiledModel

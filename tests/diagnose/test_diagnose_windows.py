@@ -14,8 +14,8 @@ from modeler.diagnosis.analyse import analysed
 from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.state import SearchData, all_columns_of, state_of
 from modeler.observation.prepare import Mending
-from modeler.observation.processing import Processing
 from modeler.observation.read import read_log
+from modeler.observation.settings import Processing
 from modeler.simulation import SimulationSettings, simulate, write_log
 
 

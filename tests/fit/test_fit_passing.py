@@ -14,7 +14,7 @@ from modeler.observation import reduce as passing
 from modeler.observation import stretch
 from modeler.observation.log import Log
 from modeler.observation.observation import Evaluated, Observation, observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.observation.thinned import thinned
 from modeler.runtime.model import CompiledModel
 from tests.modules import compiled

@@ -14,7 +14,7 @@ from modeler.estimation.two_step import Directions, moves_alone, single_joint_mo
 from modeler.estimation.two_step_result import identify_in_two_steps, inertia_rows
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.robot.motors import joint_directions
 from modeler.robot.read import read_robot
 from modeler.robot.robot import Limits

@@ -11,7 +11,7 @@ from modeler.core.errors import DataError
 from modeler.observation.energy import energy_rows, kinetic_columns, weights
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from tests.modules import compiled
 
 SWING = {"sr400-tree": 0.4, "five-bar": 0.15, "evra": 0.02, "wrist": 0.8}

@@ -13,7 +13,7 @@ from modeler.observation.excitation import excitation
 from modeler.observation.log import Log
 from modeler.observation.low_speed import shafts
 from modeler.observation.observation import observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 
 
 def motion(joints, seconds=20.0, rate=200, seed=0, harmonics=3):
