@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError, Method
-from modeler.estimation.covariance import Colour, coloured
+from modeler.estimation.covariance import Colour, Halves, coloured, halves
 from modeler.estimation.essential import Essential, essential_parameters, reduced_model
-from modeler.estimation.halves import Halves, halves
 from modeler.estimation.least_squares import MAX_ITERATIONS, Estimate, least_sigma
 from modeler.estimation.methods import method_of
 from modeler.estimation.parameter import ParameterEstimate

@@ -326,11 +326,10 @@ def check_checksums(content: Mapping[str, Any], where: str) -> None:
             f"{'missing' if CHECKSUMS not in content else 'not as saved'}; fit the model again"
         )
     expected = checksums(content)
-    names = dict.fromkeys([*expected, *given])
     wrong = [
         name
-        for name in names
-        if name not in expected or name not in given or given[name] != expected[name]
+        for name in dict.fromkeys([*expected, *given])
+        if (name in expected, expected.get(name)) != (name in given, given.get(name))
     ]
     if wrong:
         told = ", ".join(_MEANING.get(name, shown(name)) for name in wrong[:3])
@@ -376,21 +375,18 @@ def _check_variances(fit: FitResult, where: str) -> None:
 def _check_correlations(fit: FitResult, where: str) -> None:
     names, C = [p.name for p in fit.parameters], fit.covariance
     deviations = np.sqrt(np.diag(C))
-    still = np.flatnonzero(deviations == 0.0)
-    if len(still) and np.any(C[still] != 0.0):
-        i = still[int(np.argmax(np.any(C[still] != 0.0, axis=1)))]
-        raise _wrong(where, f"{names[i]} varies with others, but its variance is 0")
     known = deviations > 0.0
-    correlation = (
-        C / np.outer(np.where(known, deviations, 1.0), np.where(known, deviations, 1.0))
-    )[np.ix_(known, known)]
-    if not correlation.size:
-        return
+    loose = ~known & np.any(C != 0.0, axis=1)
+    if loose.any():
+        raise _wrong(
+            where, f"{names[int(np.argmax(loose))]} varies with others, but its variance is 0"
+        )
+    correlation = C[np.ix_(known, known)] / np.outer(deviations[known], deviations[known])
     uneven = np.abs(correlation - correlation.T)
-    if uneven.max() > _SYMMETRIC:
+    if uneven.max(initial=0.0) > _SYMMETRIC:
         i, j = np.flatnonzero(known)[list(np.unravel_index(int(np.argmax(uneven)), uneven.shape))]
         raise _wrong(where, f"the covariance of {names[i]} and {names[j]} is not symmetric")
-    if np.linalg.eigvalsh(correlation)[0] < _INDEFINITE:
+    if np.linalg.eigvalsh(correlation).min(initial=0.0) < _INDEFINITE:
         raise _wrong(where, "the covariance gives a sum of parameters a negative variance")
 
 

@@ -7,12 +7,11 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.numerics.least_squares import Compressed
-from modeler.observation.observation import Evaluated, Observation
-from modeler.observation.reduce import blocks, explained, is_streamed, products
+from modeler.observation.observation import Observation
+from modeler.observation.reduce import blocks, evaluated, explained, is_streamed, products
 from modeler.runtime.model import CompiledModel
 
 _PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows times a matrix
-_ROWS = 64  # that a band matrix is applied to at a time
 
 
 def residual_of(
@@ -55,7 +54,7 @@ class Neighbours:
             return _by_blocks(self.observation, self.keep, matrices, r)
         total = np.zeros(matrices[0].shape[1])
         for j, own in enumerate(found):
-            A = matrices[j][_columns(self.observation, j)]
+            A = matrices[j][evaluated(self.observation).pattern.columns[j]]
             for weight, product in zip(r[j][1:], own, strict=False):
                 total += 2.0 * weight * np.einsum("ak,ak->k", A, product @ A)
         return total
@@ -68,14 +67,6 @@ def kept_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
     return keep
 
 
-def _columns(observation: Observation, joint: int) -> np.ndarray:
-    """Columns that can differ from 0 in the rows of a joint."""
-    regressor = observation.regressor
-    if isinstance(regressor, Evaluated):
-        return regressor.pattern.columns[joint]
-    return np.arange(len(observation.names))
-
-
 def _by_blocks(
     observation: Observation,
     keep: np.ndarray,
@@ -85,7 +76,7 @@ def _by_blocks(
     """As `Neighbours.repeated`, from the columns of samples, and the last rows before them."""
     total, longest = np.zeros(matrices[0].shape[1]), max(len(own) - 1 for own in r)
     before: list[np.ndarray] = []
-    own_columns = [_columns(observation, j) for j in range(len(r))]
+    own_columns = evaluated(observation).pattern.columns
     at = -1
     for samples, columns in blocks(observation):
         if observation.segment[samples.start] != at:
@@ -97,22 +88,10 @@ def _by_blocks(
             own = own_columns[j]
             now = (columns[:, j, own] * keep[samples, j, None]) @ matrices[j][own]
             rows = np.concatenate([before[j], now])
-            total += 2.0 * _neighbours(rows, correlation, longest)
+            for lag, weight in enumerate(correlation[1:], start=1):
+                earlier = rows[longest - lag : len(rows) - lag]
+                total += 2.0 * weight * np.einsum("tk,tk->k", earlier, now)
             before[j] = rows[len(rows) - longest :]
-    return total
-
-
-def _neighbours(rows: np.ndarray, r: np.ndarray, before: int) -> np.ndarray:
-    """(k,) sum_l r(l) sum_t rows(t - l) rows(t) over t from `before` on, by band matrices."""
-    total = np.zeros(rows.shape[1])
-    lags = len(r) - 1
-    band = np.zeros((_ROWS, _ROWS + lags))
-    for i in range(_ROWS):
-        band[i, i : i + lags] = r[:0:-1]
-    for first in range(before, len(rows), _ROWS):
-        own = rows[first : first + _ROWS]
-        early = rows[first - lags : first + len(own)]
-        total += np.einsum("tk,tk->k", band[: len(own), : len(early)] @ early, own)
     return total
 
 

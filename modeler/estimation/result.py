@@ -328,7 +328,7 @@ class FitResult(Presented):
         directions: friction by direction, of joints whose viscous friction differs.
         energy: how it compares with the torque model; None for the torque model itself.
         gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
-        singular_values: that tell the gains apart, descending; 1 is noise (`total_least_squares`).
+        singular_values: that tell the gains apart, descending; 1 is noise (see `mixed_tls`).
         reading: of long logs: passes, chunks, rows, windows, rows_in_windows; empty of others.
         by_load: the joints on the "bare" and on the "loaded" logs; empty without payloads.
     """

@@ -238,9 +238,8 @@ def observed(
         left_out = [piece for piece in prepared.left_out if piece.run == run]
         pieces, check = prepared.pieces[run], prepared.checks[run]
         whole = tally(whole_log(log), pieces, prepared.splits[run], own, left_out, check)
-        apart = [np.diff(part.rows.centres[:2]) for part in own if len(part.rows.centres) > 1]
         wrong = check.contradictions if check else ()
-        decimation = int(apart[0][0]) if apart else 1
+        decimation = next((part.decimation for part in own if len(part.rows.centres) > 1), 1)
         found = log_report(
             log, model.spec, prepared, run, whole, prepared.defects[run], wrong, decimation
         )

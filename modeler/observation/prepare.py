@@ -319,10 +319,9 @@ def joint_motions(
         spectra: of their positions.
     """
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
-    found = [motion_bands(*pair) for pair in zip(pieces, spectra, strict=True)]
+    found = np.stack([motion_bands(*pair) for pair in zip(pieces, spectra, strict=True)], axis=1)
     motions = []
-    for j, joint in enumerate(joints):
-        values = np.array([(own.band[j], own.shaken[j], own.trembling[j]) for own in found])
+    for joint, values in zip(joints, found, strict=True):
         moved = np.isfinite(values[:, 0])
         moves = bool(moved.any())
         kept, weights = (values[moved], lengths[moved]) if moves else (values, lengths)

@@ -12,7 +12,8 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.logs.blocks import Blocks, ParquetBlocks, blocks_of
-from modeler.logs.log_table import LogTable, Part
+from modeler.logs.columns import Columns
+from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap
 from modeler.observation.log import MOST_WHOLE, Log, fingerprint
 
@@ -330,7 +331,7 @@ class FileSource:
         self.name, self.place, self.content = path.name, (path, mapping), ""
         self.rows, self.exact = blocks.rows, isinstance(blocks, ParquetBlocks)
         self._blocks, self._spec = blocks, spec
-        table = self._table(Part(blocks.window(0.0, _FIRST)))
+        table = self._table(blocks.window(0.0, _FIRST))
         self._notes = log_of(table, spec).notes
         self._names = needed(table, spec)
 
@@ -342,7 +343,7 @@ class FileSource:
         """
         before, last, warm = 0, -np.inf, dict[str, float]()
         for columns in self._blocks.blocks(size, self._names):
-            table = self._table(Part(columns, before))
+            table = self._table(columns, before)
             log = log_of(table, self._spec)
             if log.time[0] <= last:
                 raise backwards(table, before, last, float(log.time[0]))
@@ -352,11 +353,11 @@ class FileSource:
     def window(self, share: float, size: int) -> Log:
         """Up to `size` consecutive rows from about a share of the log on."""
         columns = self._blocks.window(share, size, self._names)
-        log = log_of(self._table(Part(columns, int(share * self.rows))), self._spec)
+        log = log_of(self._table(columns, int(share * self.rows)), self._spec)
         return dataclasses.replace(log, notes=self._notes, extra=_carried(log, {}))
 
-    def _table(self, part: Part) -> LogTable:
-        return LogTable(*self.place, self._spec.joints, part=part)
+    def _table(self, part: Columns, before: int = 0) -> LogTable:
+        return LogTable(*self.place, self._spec.joints, part=part, before=before)
 
 
 def _carried(log: Log, last: dict[str, float]) -> dict[str, np.ndarray]:
