@@ -21,7 +21,7 @@ from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
 from modeler.core.manifest import Emitted
 from modeler.estimation import two_step_result as two_step
-from modeler.estimation.doubts import Doubt, Told, not_together, remounted
+from modeler.estimation.doubts import Doubt, LogFinding, not_together, remounted
 from modeler.estimation.drive_gains import are_currents, identify_gains
 from modeler.estimation.energy_fit import identify_energy
 from modeler.estimation.identify import Equations, identify
@@ -84,7 +84,7 @@ class Way:
     """
 
     result: FitResult
-    told: Sequence[Told] = ()
+    told: Sequence[LogFinding] = ()
     refit: Callable[[np.ndarray], np.ndarray] | None = None
     lines: Sequence[str] = ()
     further: Mapping[str, Any] = dataclasses.field(default_factory=dict)

@@ -59,7 +59,7 @@ class Doubt:
     explains: bool = False
 
 
-Told = Fault | Doubt
+LogFinding = Fault | Doubt
 """A finding about the logs, of this stage or of the one that reads them."""
 
 

@@ -146,10 +146,7 @@ def fit_equations(
             f"{', '.join(observation.logs)}: {count} rows for {columns} parameters; record "
             "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
         )
-    problem = Problem(
-        observation, equations.kept, equations.y, alive, equations.names, equations.units, data,
-        model,
-    )  # fmt: skip
+    problem = Problem(observation, equations.kept, equations.y, alive, equations.names, data, model)
     estimate = estimator.estimate(problem)
     rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
     essential = essential_parameters(data, estimate, method, below)

@@ -231,15 +231,14 @@ def by_threads(
     model: CompiledModel,
     source: Source,
     chosen: Chosen,
-    reduce_by: Callable[[CompiledModel, Chunk, Chosen], Any] | None = None,
+    reduce_by: Callable[[CompiledModel, Chunk, Chosen], Any] = reduce_chunk,
 ) -> Iterator[Any]:
     """The parts of all chunks of a log, in their order, by threads of this process.
 
     As many chunks are in memory as there are threads, and two. `reduce_by` says what is kept of
-    each; None: `reduce_chunk`.
+    each.
     """
-    workers, reduce_by = cpu_count() or 1, reduce_by or reduce_chunk
-    waiting: deque[Future[Any]] = deque()
+    workers, waiting = cpu_count() or 1, deque[Future[Any]]()
     with ThreadPoolExecutor(workers) as pool:
         try:
             for chunk in chunks(source, chosen.own, chosen.beside):

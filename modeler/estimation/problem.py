@@ -108,7 +108,6 @@ class Problem:
         y: (rows,) N m or N.
         counted: (rows,) rows to fit; the others are of joints without a torque.
         names: (c,) base parameters first, then those of loads.
-        units: (c,).
         data: the counted rows, compressed.
         model: the compiled robot; None where nobody gave it.
     """
@@ -118,7 +117,6 @@ class Problem:
     y: np.ndarray
     counted: np.ndarray
     names: tuple[str, ...]
-    units: tuple[str, ...]
     data: Compressed
     model: CompiledModel | None = None
 

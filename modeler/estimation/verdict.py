@@ -11,7 +11,7 @@ from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
 from modeler.estimation import doubts
 from modeler.estimation.covariance import autocorrelation
-from modeler.estimation.doubts import LITTLE, WIDE, Doubt, Told
+from modeler.estimation.doubts import LITTLE, WIDE, Doubt, LogFinding
 from modeler.estimation.identify import (
     CrossValidation,
     Equations,
@@ -133,7 +133,7 @@ def with_verdict(
     model: CompiledModel,
     observation: Observation,
     result: FitResult,
-    told: Sequence[Told] = (),
+    told: Sequence[LogFinding] = (),
     equations: Equations | None = None,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
     data: Compressed | None = None,
@@ -198,7 +198,7 @@ def _scale(data: Compressed, observation: Observation, rows: np.ndarray) -> np.n
     count = len(data.rows)
     joint, y = observation.row_joint[rows], observation.y[rows]
     here = np.sqrt(np.bincount(joint, y**2, count) / np.fmax(np.bincount(joint, None, count), 1))
-    there = data.torque_norms() / np.sqrt(np.fmax(data.rows, 1))
+    there = data.torque_rms()
     both = (here > 0.0) & (there > 0.0)
     return np.where(both, there / np.where(both, here, 1.0), 1.0)
 
@@ -207,7 +207,7 @@ def contradictions(
     model: CompiledModel,
     observation: Observation,
     result: FitResult,
-    told: Sequence[Told] = (),
+    told: Sequence[LogFinding] = (),
     data: Compressed | None = None,
 ) -> list[str]:
     """Why a fit is certainly not usable, other than for want of data.

@@ -10,7 +10,7 @@ from modeler.core.errors import DataError, LoopError
 from modeler.numerics.filters import spacing
 from modeler.observation.chunk import Chunk, chunk_rows, margin
 from modeler.observation.consistency import consistency
-from modeler.observation.log import FINGER, LONG, Log, finger, fingerprint, fingerprint_of
+from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_of, fingers
 from modeler.observation.low_speed import IDLE_TRAVEL, TOP, FrictionShaft, shafts
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.observation import Observation, observed
@@ -172,9 +172,7 @@ def survey(
             )
         )
     count, rows_seen = sum(len(own) for own in windows), sum(log.rows for log in seen)
-    prepared = dataclasses.replace(
-        prepared, segments=(), pieces=(), left_out=()
-    )  # memory for the chunks
+    prepared = dataclasses.replace(prepared, segments=(), pieces=(), left_out=())  # memory
     return Survey(observation, prepared, tuple(every), places, count, rows_seen)
 
 
@@ -271,7 +269,7 @@ def rows_of_chunk(
         stretch(s, chosen.shafts, processing, _centres(s, chunk, chosen)) for s in segments
     )
     own = cut(chunk.log, chunk.own)
-    (start, stop), fingers = chunk.span, range(0, own.rows, FINGER)
+    start, stop = chunk.span
     return stretches, Facts(
         tally=tally(chunk, pieces, cuts, stretches, left_out, check),
         defects={
@@ -282,10 +280,7 @@ def rows_of_chunk(
             one for one in (check.contradictions if check else ()) if start <= one.time < stop
         ),
         ranges=Ranges.of(own),
-        fingers=tuple(
-            finger(*(values[k : k + FINGER] for values in (own.time, own.q, own.tau)))
-            for k in fingers
-        ),
+        fingers=fingers(own.time, own.q, own.tau),
         clipped=_clipped(chunk.log, pieces),
         awake=_awake(segments, chosen),
         open_times=tuple(
