@@ -7,8 +7,8 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.numerics.least_squares import Compressed
-from modeler.observation.observation import Observation
-from modeler.observation.reduce import blocks, evaluated, explained, is_streamed, products
+from modeler.observation.observation import Evaluated, Observation
+from modeler.observation.reduce import blocks, explained, is_streamed, products
 from modeler.runtime.model import CompiledModel
 
 _PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows times a matrix
@@ -54,7 +54,7 @@ class Neighbours:
             return _by_blocks(self.observation, self.keep, matrices, r)
         total = np.zeros(matrices[0].shape[1])
         for j, own in enumerate(found):
-            A = matrices[j][evaluated(self.observation).pattern.columns[j]]
+            A = matrices[j][_columns(self.observation, j)]
             for weight, product in zip(r[j][1:], own, strict=False):
                 total += 2.0 * weight * np.einsum("ak,ak->k", A, product @ A)
         return total
@@ -67,6 +67,14 @@ def kept_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
     return keep
 
 
+def _columns(observation: Observation, joint: int) -> np.ndarray:
+    """Columns that can differ from 0 in the rows of a joint."""
+    regressor = observation.regressor
+    if isinstance(regressor, Evaluated):
+        return regressor.pattern.columns[joint]
+    return np.arange(len(observation.names))
+
+
 def _by_blocks(
     observation: Observation,
     keep: np.ndarray,
@@ -76,7 +84,7 @@ def _by_blocks(
     """As `Neighbours.repeated`, from the columns of samples, and the last rows before them."""
     total, longest = np.zeros(matrices[0].shape[1]), max(len(own) - 1 for own in r)
     before: list[np.ndarray] = []
-    own_columns = evaluated(observation).pattern.columns
+    own_columns = [_columns(observation, j) for j in range(len(r))]
     at = -1
     for samples, columns in blocks(observation):
         if observation.segment[samples.start] != at:

@@ -4,20 +4,18 @@ Up to `KEPT` bytes W is built once and kept. Beyond, every stage asks for what i
 and they are evaluated as often as that: cheaper than to write them to memory and read them back.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
 
+from modeler.observation.motion import Segment
 from modeler.observation.observation import Evaluated, Observation, near
 from modeler.observation.stretch import Stretch
-from modeler.runtime.fused import Triangles, no_rows, of_rows
+from modeler.runtime.fused import NonzeroPattern, Triangles, no_rows, of_rows
 
 KEPT = 2**26
 """Bytes of the filtered regressor up to which it is kept."""
-
-
-_SAMPLES = 4096  # whose regressor is evaluated at a time, where filtered rows become triangles
 
 
 def is_streamed(observation: Observation) -> bool:
@@ -29,9 +27,11 @@ def is_streamed(observation: Observation) -> bool:
 
 def blocks(observation: Observation) -> Iterator[tuple[slice, np.ndarray]]:
     """Samples (b of them) and their filtered regressor (b, n, c), in order."""
-    for part, own in _stretches(observation):
+    first = 0
+    for part in observation.stretches:
         for rows, columns in part.blocks(partial(observation.regressor, part.segment)):
-            yield slice(own.start + rows.start, own.start + rows.stop), columns
+            yield slice(first + rows.start, first + rows.stop), columns
+        first += len(part.rows.centres)
 
 
 def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
@@ -50,37 +50,45 @@ def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
     return np.concatenate(found)
 
 
-def evaluated(observation: Observation) -> Evaluated:
-    """Its regressor; only one of a compiled model is asked for more than W."""
-    assert isinstance(observation.regressor, Evaluated)
-    return observation.regressor
-
-
-def explained(observation: Observation, beta: np.ndarray, keep: np.ndarray) -> np.ndarray:
-    """(s, n) torque of the model, `columns beta`; 0 where keep (s, n) is False."""
-    found, regressor = np.zeros(observation.used.shape), evaluated(observation)
+def explained(
+    observation: Observation, beta: np.ndarray, keep: np.ndarray | None = None
+) -> np.ndarray:
+    """(s, n) torque of the model, `columns beta`; 0 where keep (s, n) is given and False."""
+    regressor = observation.regressor
+    if not isinstance(regressor, Evaluated):
+        found = np.concatenate([columns @ beta for _, columns in blocks(observation)])
+        return found if keep is None else np.where(keep, found, 0.0)
+    found = np.zeros(observation.used.shape)
     for part, own in _stretches(observation):
-        if not keep[own].any():
+        if keep is not None and not keep[own].any():
             continue
         if is_plain(part):
-            some = near(np.flatnonzero(keep[own].any(axis=1)))
+            every = np.ones(len(part.used), dtype=bool) if keep is None else keep[own].any(axis=1)
+            some = near(np.flatnonzero(every))
             found[own][some] = regressor.torque(part.segment, near(part.rows.centres[some]), beta)
         else:
             found[own] = part.filtered(partial(regressor.torque, part.segment, beta=beta))
-    return np.where(keep, found, 0.0)
+    return found if keep is None else np.where(keep, found, 0.0)
 
 
 def triangles(observation: Observation, keep: np.ndarray) -> Triangles:
     """Triangles of [W_j y_j] over the rows keep (s, n) bool."""
-    regressor = evaluated(observation)
-    state = no_rows(regressor.pattern)
+    regressor = observation.regressor
+    every = np.arange(len(observation.names), dtype=np.intc)
+    whole = NonzeroPattern((every,) * len(observation.joints), len(every))
+    state = no_rows(regressor.pattern if isinstance(regressor, Evaluated) else whole)
     for part, own in _stretches(observation):
         state = with_stretch(regressor, part, observation.torque[own], keep[own], state)
     return state
 
 
 def with_stretch(
-    regressor: Evaluated, part: Stretch, torque: np.ndarray, keep: np.ndarray, state: Triangles
+    regressor: Callable[[Segment, slice], np.ndarray],
+    part: Stretch,
+    torque: np.ndarray,
+    keep: np.ndarray,
+    state: Triangles,
+    samples: int = 4096,
 ) -> Triangles:
     """Triangles with the rows of a stretch added.
 
@@ -90,12 +98,13 @@ def with_stretch(
         torque: (rows, n) filtered.
         keep: (rows, n) bool.
         state: before.
+        samples: whose regressor is evaluated at a time, where rows are filtered.
     """
     if not keep.any():
         return state
-    if is_plain(part):
+    if isinstance(regressor, Evaluated) and is_plain(part):
         return regressor.triangles(part, keep, state)
-    for rows, columns in part.blocks(partial(regressor, part.segment), _SAMPLES):
+    for rows, columns in part.blocks(partial(regressor, part.segment), samples):
         used = np.ascontiguousarray(keep[rows])
         state = of_rows(state.pattern, columns, torque[rows], used, state)
     return state
@@ -108,8 +117,10 @@ def products(
 
     (last_j, c_j, c_j) for each joint, over its columns of the pattern of the regressor.
     """
-    regressor = evaluated(observation)
-    if not regressor.multiplies or not all(map(is_plain, observation.stretches)):
+    regressor = observation.regressor
+    if not (isinstance(regressor, Evaluated) and regressor.multiplies):
+        return None
+    if not all(is_plain(part) for part in observation.stretches):
         return None
     total: list[np.ndarray] | None = None
     for part, own in _stretches(observation):
