@@ -19,7 +19,7 @@ from modeler.core.builtin import builtin_text
 from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE
 from modeler.effects.effect import Acts
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.robot.read import _KEYS, robot_from_text
 from modeler.robot.table import COLUMNS
 from modeler.simulation.hidden import HIDDEN

@@ -18,7 +18,7 @@ from modeler.core.errors import DataError
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.logs.blocks import blocks_of, windows_of
 from modeler.logs.inspect import Look, look
-from modeler.logs.log_table import LogTable, Part
+from modeler.logs.log_table import LogTable
 from modeler.observation.log import FINGER, LONG, Log, check_apart
 from modeler.observation.observation import Observation
 from modeler.observation.survey import WINDOW, WINDOWS, WholeNeeded
@@ -168,6 +168,6 @@ def look_at(place: str | Path, compiled: CompiledModel | None = None, mapping: M
     if blocks is None or blocks.rows <= LONG:
         table = LogTable(Path(path), names, joints, any_topic=True)
         return look(table, names, joints, span)
-    seen = Part(windows_of(blocks, WINDOWS, WINDOW))
-    every = (LogTable(Path(path), names, joints, part=Part(own)) for own in blocks.blocks(FINGER))
+    seen = windows_of(blocks, WINDOWS, WINDOW)
+    every = (LogTable(Path(path), names, joints, part=own) for own in blocks.blocks(FINGER))
     return look(LogTable(Path(path), names, joints, part=seen), names, joints, span, every)

@@ -51,7 +51,7 @@ from modeler.estimation.result import FitResult as FitResult
 from modeler.fleet.result import Fleet as Fleet
 from modeler.observation.log import Log as Log
 from modeler.observation.observation import Observation as Observation
-from modeler.observation.processing import Processing as Processing
+from modeler.observation.settings import Processing as Processing
 from modeler.report.showing import show as show
 from modeler.robot.robot import Robot as Robot
 from modeler.runtime.gpu import GpuModel as GpuModel

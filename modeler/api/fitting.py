@@ -21,7 +21,7 @@ from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
 from modeler.core.manifest import Emitted
 from modeler.estimation import two_step_result as two_step
-from modeler.estimation.doubts import Doubt, Told, not_together, remounted
+from modeler.estimation.doubts import Doubt, LogFinding, not_together, remounted
 from modeler.estimation.drive_gains import are_currents, identify_gains
 from modeler.estimation.energy_fit import identify_energy
 from modeler.estimation.identify import Equations, identify
@@ -37,7 +37,7 @@ from modeler.numerics.least_squares import Compressed
 from modeler.observation.findings import findings_of_fit
 from modeler.observation.log import Log, check_apart
 from modeler.observation.observation import Observation, observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.robot.edit import with_drive_gains
 from modeler.robot.motors import joint_directions
 from modeler.robot.read import robot_from_text
@@ -84,7 +84,7 @@ class Way:
     """
 
     result: FitResult
-    told: Sequence[Told] = ()
+    told: Sequence[LogFinding] = ()
     refit: Callable[[np.ndarray], np.ndarray] | None = None
     lines: Sequence[str] = ()
     further: Mapping[str, Any] = dataclasses.field(default_factory=dict)

@@ -13,7 +13,7 @@ from modeler.fleet.fleet import fleet_of
 from modeler.fleet.naming import Named, in_order, named_logs
 from modeler.fleet.result import Fleet
 from modeler.fleet.summary import Left, LogJob, LogSummary, reduce_log, summary
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel
 

@@ -18,8 +18,8 @@ from modeler.logs.blocks import blocks_of
 from modeler.logs.mapping import LogMap
 from modeler.observation.chunk import chunks_between
 from modeler.observation.log import LONG, MOST_WHOLE, Log, check_apart
-from modeler.observation.processing import Processing
 from modeler.observation.read import FileSource, MemorySource, Source, source_of
+from modeler.observation.settings import Processing
 from modeler.observation.survey import Chosen
 from modeler.runtime.model import CompiledModel, compiled_once
 
@@ -202,7 +202,7 @@ def merged_in_time(first: chunked.Partial, later: chunked.Partial) -> chunked.Pa
             f"{after:.9g} s after {before:.9g} s; expected increasing time; sort and split the "
             "file where the clock restarts"
         )
-    return first.over(later)
+    return first.merged_with(later)
 
 
 def _in_order(begun: Sequence[Callable[[], chunked.Partial]]) -> Iterator[chunked.Partial]:

@@ -30,8 +30,8 @@ from modeler.observation.chunk import read_part, window
 from modeler.observation.log import LONG, Log, check_apart
 from modeler.observation.observation import Observation
 from modeler.observation.observation import observe as observe_logs
-from modeler.observation.processing import Processing
 from modeler.observation.read import read_log, source_of
+from modeler.observation.settings import Processing
 from modeler.robot.edit import with_own_effect
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.robot.robot import Robot
@@ -129,7 +129,7 @@ def read_currents(
 def log_map(compiled: CompiledModel, mapping: Mapped = ()) -> LogMap:
     """Which columns of logs are ours: [log] of the robot file, and `mapping` over it."""
     stated = map_from_table(compiled.log, f"{compiled.spec.robot}: [log]")
-    return given_map(mapping).over(stated)
+    return given_map(mapping).overriding(stated)
 
 
 def given_map(mapping: Mapped) -> LogMap:

@@ -22,7 +22,7 @@ from modeler.estimation.model_file import IdentifiedModel, save_model
 from modeler.estimation.side_by_side import side_by_side
 from modeler.observation.log import Log, check_apart
 from modeler.observation.observation import Observation, observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.observation.survey import WholeNeeded
 from modeler.report.estimators import remarks_of, table_of, values_of, write_estimators
 from modeler.report.page import after_fit

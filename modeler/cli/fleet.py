@@ -15,7 +15,7 @@ from modeler.core.jobs import open_workers
 from modeler.fleet.fleet import fleet_of
 from modeler.fleet.naming import Named, listed_logs, named_logs
 from modeler.fleet.result import fleet_lines
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.report.fleet import write_fleet
 
 _MANY = 32  # logs from which several processes are worth their start

@@ -114,7 +114,7 @@ def doubts_of_fit(
 
 def _mapped(text: str, mapping: LogMap) -> LogMap:
     table = tomllib.loads(text)["log"] if text else {}
-    return map_from_table(table, "guessed [log]").over(mapping) if table else mapping
+    return map_from_table(table, "guessed [log]").overriding(mapping) if table else mapping
 
 
 def _heard(compiled: CompiledModel, place: str, mapping: LogMap, seen: Look) -> Heard:

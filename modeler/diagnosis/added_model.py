@@ -22,7 +22,7 @@ from modeler.observation.log import Log
 from modeler.observation.low_speed import shafts
 from modeler.observation.observation import Observation, model_torque, observed, observed_alike
 from modeler.observation.prepare import Prepared, prepare
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.robot.edit import with_coupling, with_effect, with_gravity, with_reference
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import CompiledModel

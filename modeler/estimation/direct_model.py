@@ -21,7 +21,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.observation.low_speed import signals_of
-from modeler.observation.motion import HIGHEST, Segment, low_pass
+from modeler.observation.motion import HIGHEST, Segment, differentiated, low_pass
 from modeler.observation.observation import Observation
 from modeler.runtime.model import CompiledModel
 
@@ -269,13 +269,6 @@ class DirectModel:
 
         signals = [own for own in self.signals if own is not None]  # of all segments, or of none
         return stacked(self.references), stacked(signals) if signals else None
-
-
-def differentiated(q: np.ndarray, step: float) -> Motion:
-    """(3, n, joints) of positions (n, joints): central differences, as of logged positions."""
-    qdd = np.zeros_like(q)
-    qdd[1:-1] = (q[2:] - 2.0 * q[1:-1] + q[:-2]) / step**2
-    return np.stack([q, np.gradient(q, step, axis=0), qdd])
 
 
 def _smoothed(segment: Segment, motion: Motion, cutoff: float) -> Motion:

@@ -3,7 +3,6 @@
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,10 +14,7 @@ from modeler.estimation.payload import Payload, loaded_equations
 from modeler.estimation.result import FitResult
 from modeler.observation.channels import Fault
 from modeler.observation.observation import Observation
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
-
+from modeler.runtime.model import CompiledModel
 
 _FAR = 3.0  # standard deviations below zero
 
@@ -63,7 +59,7 @@ class Doubt:
     explains: bool = False
 
 
-Told = Fault | Doubt
+LogFinding = Fault | Doubt
 """A finding about the logs, of this stage or of the one that reads them."""
 
 
@@ -244,7 +240,7 @@ _FIRST = ("MX", "MY", "MZ")
 
 
 def not_together(
-    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+    model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
 ) -> list[str]:
     """Why logs do not belong together: `mounted_differently`, or else `not_alike`."""
     found = mounted_differently(model, observation, payloads)
@@ -262,7 +258,7 @@ def remounted(payload: Payload) -> list[Payload]:
 
 
 def mounted_differently(
-    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+    model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
 ) -> list[str]:
     """A line for each load whose centre of mass is not the same in all its logs.
 
@@ -273,7 +269,7 @@ def mounted_differently(
     return [line for payload in every if (line := _disagreement(model, observation, payload))]
 
 
-def _disagreement(model: "CompiledModel", observation: Observation, payload: Payload) -> str:
+def _disagreement(model: CompiledModel, observation: Observation, payload: Payload) -> str:
     parts = remounted(payload)
     equations = loaded_equations(model, observation, parts).equations
     fit = fit_equations(observation, equations, "weighted", noise_only=True)
@@ -303,7 +299,7 @@ def _disagreement(model: "CompiledModel", observation: Observation, payload: Pay
 
 
 def not_alike(
-    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+    model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
 ) -> list[str]:
     """A line if the logs are described alone, loaded ones with another last link, but not together.
 

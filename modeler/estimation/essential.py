@@ -12,7 +12,7 @@ from modeler.core.brief import Brief
 from modeler.core.errors import DataError, Method
 from modeler.core.table import percent, printed
 from modeler.estimation.least_squares import Estimate, least_squares, solve_by_qr
-from modeler.estimation.parameter import ParameterEstimate, read_parameter
+from modeler.estimation.parameter import ParameterEstimate
 from modeler.numerics.least_squares import Compressed, triangle
 
 # Essential parameters: the others may be left out and no F-test notices.
@@ -204,21 +204,6 @@ class Reduced(Brief):
         """Plain data."""
         parameters = [parameter.to_json() for parameter in self.parameters]
         return vars(self) | {"parameters": parameters, "dropped": list(self.dropped)}
-
-
-def reduced_from_json(raw: Mapping[str, Any] | None) -> Reduced | None:
-    """Read `Reduced.to_json` back; None where a file of an earlier version has none."""
-    if raw is None:
-        return None
-    return Reduced(
-        parameters=tuple(read_parameter(entry) for entry in raw["parameters"]),
-        dropped=tuple(raw["dropped"]),
-        condition_number=float(raw["condition_number"]),
-        condition_scaled=float(raw["condition_scaled"]),
-        relative_error=float(raw["relative_error"]),
-        ratio=float(raw["ratio"]),
-        limit=None if raw["limit"] is None else float(raw["limit"]),
-    )
 
 
 def reduced_model(

@@ -4,14 +4,13 @@ import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from modeler.core.errors import DataError, Method
-from modeler.estimation.covariance import Colour, coloured
+from modeler.estimation.covariance import Colour, Halves, coloured, halves
 from modeler.estimation.essential import Essential, essential_parameters, reduced_model
-from modeler.estimation.halves import Halves, halves
 from modeler.estimation.least_squares import MAX_ITERATIONS, Estimate, least_sigma
 from modeler.estimation.methods import method_of
 from modeler.estimation.parameter import ParameterEstimate
@@ -20,9 +19,7 @@ from modeler.estimation.result import FitResult, JointFit
 from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
 from modeler.observation.observation import Observation
 from modeler.observation.reduce import is_streamed, triangles
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +93,7 @@ class Equations:
 def identify(
     observation: Observation,
     method: Method = "weighted",
-    model: "CompiledModel | None" = None,
+    model: CompiledModel | None = None,
     below: float | None = None,
 ) -> FitResult:
     """The fit of the base parameters to an observation.
@@ -126,7 +123,7 @@ def fit_equations(
     observation: Observation,
     equations: Equations,
     method: Method,
-    model: "CompiledModel | None" = None,
+    model: CompiledModel | None = None,
     below: float | None = None,
     noise_only: bool = False,
     data: Compressed | None = None,
@@ -149,10 +146,7 @@ def fit_equations(
             f"{', '.join(observation.logs)}: {count} rows for {columns} parameters; record "
             "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
         )
-    problem = Problem(
-        observation, equations.kept, equations.y, alive, equations.names, equations.units, data,
-        model,
-    )  # fmt: skip
+    problem = Problem(observation, equations.kept, equations.y, alive, equations.names, data, model)
     estimate = estimator.estimate(problem)
     rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
     essential = essential_parameters(data, estimate, method, below)

@@ -229,7 +229,7 @@ def _repeated(
         beta, settled = found.beta, bool(step.max(initial=0.0) < _NEAR)
         if settled or np.isinf(loop.speed):
             break
-    said = _told(problem, robot, loop, robot.error(motions))
+    said = _sentences(problem, robot, loop, robot.error(motions))
     before, after = (_misfit(problem, start, problem.W, own) for own in (start.beta, beta))
     if after > _WORSE * before:
         said.insert(
@@ -250,7 +250,9 @@ def _repeated(
     )
 
 
-def _told(problem: Problem, robot: DirectModel, loop: ControlLoop, error: np.ndarray) -> list[str]:
+def _sentences(
+    problem: Problem, robot: DirectModel, loop: ControlLoop, error: np.ndarray
+) -> list[str]:
     worst = int(np.argmax(error))
     joint = problem.observation.joints[worst].name
     near = f"within {percent(error[worst])} of the range of joint {joint}, the farthest"

@@ -2,7 +2,6 @@
 
 import dataclasses
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
@@ -12,9 +11,7 @@ from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.identify import fit_equations
 from modeler.estimation.payload import Loaded, Payload, loaded_equations
 from modeler.observation.observation import Observation
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 FAR = 4.0
 """Standard deviations between what is given and what the logs say, from which on it is told."""
@@ -24,7 +21,7 @@ WORTH = 0.01
 
 
 def known_doubts(
-    model: "CompiledModel",
+    model: CompiledModel,
     observation: Observation,
     payloads: Sequence[Payload],
     currents: bool,
@@ -67,7 +64,7 @@ def known_doubts(
 def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[Doubt]:
     found = []
     for i, payload in enumerate(loaded.weighed):
-        if not loaded.told(i):
+        if not loaded.tells_mass(i):
             continue
         # The factor on its torques that the logs ask for; 1 if its mass is right.
         column = loaded.torques[:, i]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import reduce
 from os import cpu_count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -23,9 +23,9 @@ from modeler.numerics.least_squares import Compressed, merged
 from modeler.observation.chunk import Chunk, chunks
 from modeler.observation.log import FINGER
 from modeler.observation.observation import Evaluated, Observation, no_row_left
-from modeler.observation.processing import Processing
 from modeler.observation.read import Source
 from modeler.observation.reduce import with_stretch
+from modeler.observation.settings import Processing
 from modeler.observation.survey import (
     Chosen,
     KnownFacts,
@@ -38,9 +38,7 @@ from modeler.observation.survey import (
 )
 from modeler.observation.tally import Facts
 from modeler.runtime.fused import no_rows
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 PASSES = 3
 """Over the logs, at most: what a pass finds that the windows did not show may ask for another."""
@@ -51,8 +49,8 @@ OF_TRIANGLES = capable("triangles")
 Share = Callable[[float], None]
 """Is told the share of the rows that are done."""
 
-Reducer = Callable[["CompiledModel", Source, Chosen], Iterable[Any]]
-"""Parts of all chunks of a log, in their order: `Partial`, or what has its `facts` and `over`."""
+Reducer = Callable[[CompiledModel, Source, Chosen], Iterable[Any]]
+"""Parts of all chunks of a log in order: `Partial`, or what has its `facts` and `merged_with`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,12 +65,12 @@ class Partial:
     data: Compressed
     facts: Facts
 
-    def over(self, later: "Partial") -> "Partial":
+    def merged_with(self, later: "Partial") -> "Partial":
         """Of these rows, and of those that follow them."""
-        return Partial(merged(self.data, later.data), self.facts.over(later.facts))
+        return Partial(merged(self.data, later.data), self.facts.merged_with(later.facts))
 
 
-def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partial:
+def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: Chosen) -> Partial:
     """The rows y = W beta of a chunk, as triangles. Pure: equal chunks give equal bits.
 
     Args:
@@ -95,7 +93,7 @@ def reduce_chunk(model: "CompiledModel", chunk: Chunk, chosen: Chosen) -> Partia
 
 def merge_all(parts: Iterable[Partial]) -> Partial:
     """Of all chunks of a log, one after the other."""
-    return reduce(Partial.over, parts)
+    return reduce(Partial.merged_with, parts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +116,7 @@ class Streamed:
 
 
 def stream(
-    model: "CompiledModel",
+    model: CompiledModel,
     sources: Sequence[Source],
     processing: Processing | None = None,
     progress: Share = lambda share: None,
@@ -159,7 +157,7 @@ def stream(
 
 
 def identify_long(
-    streamed: Streamed, method: Method = "weighted", model: "CompiledModel | None" = None
+    streamed: Streamed, method: Method = "weighted", model: CompiledModel | None = None
 ) -> FitResult:
     """The fit of the base parameters to long logs.
 
@@ -188,7 +186,7 @@ def identify_long(
 
 
 def all_rows(
-    model: "CompiledModel",
+    model: CompiledModel,
     sources: Sequence[Source],
     processing: Processing | None,
     progress: Share,
@@ -214,7 +212,7 @@ def all_rows(
         for source, parts in zip(sources, begun, strict=True):
             whole: Any = None
             for part in parts:
-                whole = part if whole is None else whole.over(part)
+                whole = part if whole is None else whole.merged_with(part)
                 progress(min(1.0, (done + whole.facts.tally.count("rows")) / total))
             if whole is None:
                 raise DataError(f"{source.name}: no rows; expected a motion; leave it out")
@@ -230,18 +228,17 @@ def all_rows(
 
 
 def by_threads(
-    model: "CompiledModel",
+    model: CompiledModel,
     source: Source,
     chosen: Chosen,
-    reduce_by: Callable[["CompiledModel", Chunk, Chosen], Any] | None = None,
+    reduce_by: Callable[[CompiledModel, Chunk, Chosen], Any] = reduce_chunk,
 ) -> Iterator[Any]:
     """The parts of all chunks of a log, in their order, by threads of this process.
 
     As many chunks are in memory as there are threads, and two. `reduce_by` says what is kept of
-    each; None: `reduce_chunk`.
+    each.
     """
-    workers, reduce_by = cpu_count() or 1, reduce_by or reduce_chunk
-    waiting: deque[Future[Any]] = deque()
+    workers, waiting = cpu_count() or 1, deque[Future[Any]]()
     with ThreadPoolExecutor(workers) as pool:
         try:
             for chunk in chunks(source, chosen.own, chosen.beside):
@@ -266,7 +263,7 @@ def _again(facts: Sequence[Facts], found: Survey, known: KnownFacts) -> KnownFac
     return KnownFacts({**known.floors, **floors}, extremes)
 
 
-def _check(model: "CompiledModel", sources: Sequence[Source], facts: Sequence[Facts]) -> None:
+def _check(model: CompiledModel, sources: Sequence[Source], facts: Sequence[Facts]) -> None:
     """Refuse what only a log as a whole shows.
 
     Raises:
@@ -285,7 +282,7 @@ def _check(model: "CompiledModel", sources: Sequence[Source], facts: Sequence[Fa
                 )
 
 
-def _repeats(model: "CompiledModel", j: int) -> bool:
+def _repeats(model: CompiledModel, j: int) -> bool:
     """True if a turn of a joint changes nothing in the model."""
     joints, signals = len(model.spec.joints), model.spec.signals
     q, qd, qdd = np.random.default_rng(2).uniform(0.2, 1.0, (3, 1, joints))

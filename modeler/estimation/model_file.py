@@ -12,24 +12,21 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from modeler.core.errors import DataError, ManifestError
 from modeler.core.files import read_file, read_text, write_atomically
-from modeler.core.json import JsonError, PlainError, check_fields, entries, parse_json, plain, shown
+from modeler.core.json import JsonError, PlainError, entries, parse_json, plain, shown
 from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, module_from_plain
 from modeler.core.result import Presented
 from modeler.core.table import percent
 from modeler.estimation.result import FitResult, fit_from_json
 from modeler.observation.log import LogRows, shared_rows
-from modeler.observation.processing import Processing
 from modeler.observation.report import DataReport
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
-
+from modeler.observation.settings import Processing
+from modeler.runtime.model import CompiledModel, load
 
 FORMAT = 3
 KIND = "modeler model"
@@ -167,15 +164,12 @@ class IdentifiedModel(Presented):
         """A line if its fit was found not usable."""
         return [] if self.fit.verdict is None else self.fit.verdict.warning()
 
-    def compile(self) -> "CompiledModel":
+    def compile(self) -> CompiledModel:
         """The compiled robot.
 
         Raises:
             BuildError: no C compiler, or it refused the sources.
         """
-        # Only here: a model file can be read and printed where there is no compiler.
-        from modeler.runtime.model import load
-
         try:
             table = tomllib.loads(self.robot_text).get("log", {})
         except ValueError:
@@ -260,13 +254,9 @@ def _fit(raw: Mapping[str, Any], where: str) -> FitResult:
     if any(len(row) != len(rows) for row in rows):
         raise ManifestError(f"{where}: damaged, covariance is not square; fit the model again")
     try:
-        fit = fit_from_json(fitted, np.array(rows, dtype=float).reshape(len(rows), len(rows)))
-        check_fields(fit)
-    except PlainError as error:
-        raise ManifestError(f"{where}: the fit is damaged ({error}); fit the model again") from None
+        return fit_from_json(fitted, np.array(rows, dtype=float).reshape(len(rows), len(rows)))
     except ManifestError as error:
         raise ManifestError(f"{where}: {error}") from None
-    return fit
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -336,11 +326,10 @@ def check_checksums(content: Mapping[str, Any], where: str) -> None:
             f"{'missing' if CHECKSUMS not in content else 'not as saved'}; fit the model again"
         )
     expected = checksums(content)
-    names = dict.fromkeys([*expected, *given])
     wrong = [
         name
-        for name in names
-        if name not in expected or name not in given or given[name] != expected[name]
+        for name in dict.fromkeys([*expected, *given])
+        if (name in expected, expected.get(name)) != (name in given, given.get(name))
     ]
     if wrong:
         told = ", ".join(_MEANING.get(name, shown(name)) for name in wrong[:3])
@@ -386,21 +375,18 @@ def _check_variances(fit: FitResult, where: str) -> None:
 def _check_correlations(fit: FitResult, where: str) -> None:
     names, C = [p.name for p in fit.parameters], fit.covariance
     deviations = np.sqrt(np.diag(C))
-    still = np.flatnonzero(deviations == 0.0)
-    if len(still) and np.any(C[still] != 0.0):
-        i = still[int(np.argmax(np.any(C[still] != 0.0, axis=1)))]
-        raise _wrong(where, f"{names[i]} varies with others, but its variance is 0")
     known = deviations > 0.0
-    correlation = (
-        C / np.outer(np.where(known, deviations, 1.0), np.where(known, deviations, 1.0))
-    )[np.ix_(known, known)]
-    if not correlation.size:
-        return
+    loose = ~known & np.any(C != 0.0, axis=1)
+    if loose.any():
+        raise _wrong(
+            where, f"{names[int(np.argmax(loose))]} varies with others, but its variance is 0"
+        )
+    correlation = C[np.ix_(known, known)] / np.outer(deviations[known], deviations[known])
     uneven = np.abs(correlation - correlation.T)
-    if uneven.max() > _SYMMETRIC:
+    if uneven.max(initial=0.0) > _SYMMETRIC:
         i, j = np.flatnonzero(known)[list(np.unravel_index(int(np.argmax(uneven)), uneven.shape))]
         raise _wrong(where, f"the covariance of {names[i]} and {names[j]} is not symmetric")
-    if np.linalg.eigvalsh(correlation)[0] < _INDEFINITE:
+    if np.linalg.eigvalsh(correlation).min(initial=0.0) < _INDEFINITE:
         raise _wrong(where, "the covariance gives a sum of parameters a negative variance")
 
 

@@ -1,10 +1,13 @@
 """One estimated parameter, and a table of them."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
-from modeler.core.json import entries
+from modeler.core.json import built, entries
+
+T = TypeVar("T")
 
 LOPSIDED = 2.0
 """Ratio of the sides of an interval above which one standard deviation does not describe it."""
@@ -46,14 +49,19 @@ class ParameterEstimate:
         return entries(self, names) | {"interval": interval}
 
 
-def read_parameter(entry: Mapping[str, Any]) -> ParameterEstimate:
-    """Read `ParameterEstimate.to_json` back."""
-    fields = {k: v for k, v in entry.items() if k != "relative_sigma_percent"}
-    interval = fields.pop("interval", None)
-    if interval is not None:
-        low, high = interval
-        interval = float(low), float(high)
-    return ParameterEstimate(**fields, interval=interval)
+def read_back(kind: type[T], raw: Mapping[str, Any], place: str) -> T:
+    """What `to_json` of a dataclass says; entries that are none of its fields follow from others.
+
+    Raises:
+        PlainError: a field is missing or of another type; names its place.
+    """
+    names = {field.name for field in dataclasses.fields(kind)}  # type: ignore[arg-type]
+    return built(kind, {name: value for name, value in raw.items() if name in names}, place)
+
+
+def read_all(kind: type[T], raw: Mapping[str, Any], name: str) -> tuple[T, ...]:
+    """What stands in a list of an object."""
+    return tuple(read_back(kind, one, f"{name}[{i}]") for i, one in enumerate(raw[name]))
 
 
 def parameter_lines(

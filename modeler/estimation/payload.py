@@ -3,7 +3,6 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,9 +13,7 @@ from modeler.numerics.least_squares import scaled_least_squares
 from modeler.observation.low_speed import signals_of
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 _ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
 """Where two load parameters cannot be told apart, the first in this order stays."""
@@ -46,7 +43,7 @@ class Payload:
 
 
 def identify_with_payloads(
-    model: "CompiledModel",
+    model: CompiledModel,
     observation: Observation,
     payloads: Sequence[Payload],
     method: Method = "weighted",
@@ -86,13 +83,13 @@ class Loaded:
     weighed: tuple[Payload, ...]
     torques: np.ndarray
 
-    def told(self, i: int) -> bool:
+    def tells_mass(self, i: int) -> bool:
         """True if the logs tell the mass of a weighed payload from all other parameters."""
         return bool(independent(self.equations.W, self.torques[:, [i]]))
 
 
 def loaded_equations(
-    model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]
+    model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
 ) -> Loaded:
     """The equations that `identify_with_payloads` fits.
 
@@ -113,14 +110,14 @@ def loaded_equations(
         f"{payload.name}: its mass of {payload.mass:g} kg is taken as given: these logs do not "
         "tell it from its other parameters"
         for i, payload in enumerate(weighed)
-        if not loaded.told(i)
+        if not loaded.tells_mass(i)
     ]
     told = dataclasses.replace(equations, sentences=(*equations.sentences, *blind))
     return dataclasses.replace(loaded, equations=told)
 
 
 def _with_load(
-    equations: Equations, model: "CompiledModel", observation: Observation, payload: Payload
+    equations: Equations, model: CompiledModel, observation: Observation, payload: Payload
 ) -> Equations:
     """The equations with the columns of a load that can be told apart, beside those there are."""
     # The platform of a parallel robot, whose joints are the coordinates only, or the last link.
@@ -162,7 +159,7 @@ def _with_load(
     )
 
 
-def _check(model: "CompiledModel", observation: Observation, payloads: Sequence[Payload]) -> None:
+def _check(model: CompiledModel, observation: Observation, payloads: Sequence[Payload]) -> None:
     loaded: set[str] = set()
     links = {parameter.joint for parameter in model.spec.standard}
     for payload in payloads:

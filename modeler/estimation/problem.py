@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,13 +9,9 @@ from modeler.core.errors import DataError
 from modeler.numerics.least_squares import Compressed
 from modeler.observation.observation import Evaluated, Observation
 from modeler.observation.reduce import blocks, explained, is_streamed, products
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
-
+from modeler.runtime.model import CompiledModel
 
 _PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows times a matrix
-_ROWS = 64  # that a band matrix is applied to at a time
 
 
 def residual_of(
@@ -101,22 +96,10 @@ def _by_blocks(
             own = own_columns[j]
             now = (columns[:, j, own] * keep[samples, j, None]) @ matrices[j][own]
             rows = np.concatenate([before[j], now])
-            total += 2.0 * _neighbours(rows, correlation, longest)
+            for lag, weight in enumerate(correlation[1:], start=1):
+                earlier = rows[longest - lag : len(rows) - lag]
+                total += 2.0 * weight * np.einsum("tk,tk->k", earlier, now)
             before[j] = rows[len(rows) - longest :]
-    return total
-
-
-def _neighbours(rows: np.ndarray, r: np.ndarray, before: int) -> np.ndarray:
-    """(k,) sum_l r(l) sum_t rows(t - l) rows(t) over t from `before` on, by band matrices."""
-    total = np.zeros(rows.shape[1])
-    lags = len(r) - 1
-    band = np.zeros((_ROWS, _ROWS + lags))
-    for i in range(_ROWS):
-        band[i, i : i + lags] = r[:0:-1]
-    for first in range(before, len(rows), _ROWS):
-        own = rows[first : first + _ROWS]
-        early = rows[first - lags : first + len(own)]
-        total += np.einsum("tk,tk->k", band[: len(own), : len(early)] @ early, own)
     return total
 
 
@@ -133,7 +116,6 @@ class Problem:
         y: (rows,) N m or N.
         counted: (rows,) rows to fit; the others are of joints without a torque.
         names: (c,) base parameters first, then those of loads.
-        units: (c,).
         data: the counted rows, compressed.
         model: the compiled robot; None where nobody gave it.
     """
@@ -143,9 +125,8 @@ class Problem:
     y: np.ndarray
     counted: np.ndarray
     names: tuple[str, ...]
-    units: tuple[str, ...]
     data: Compressed
-    model: "CompiledModel | None" = None
+    model: CompiledModel | None = None
 
     @property
     def W(self) -> np.ndarray:
@@ -168,7 +149,7 @@ class Problem:
         """(rows,) index of the joint of each row."""
         return self.observation.row_joint
 
-    def robot(self, method: str) -> "CompiledModel":
+    def robot(self, method: str) -> CompiledModel:
         """The compiled robot, for an estimator that cannot do without it.
 
         Raises:

@@ -8,13 +8,18 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, ManifestError
-from modeler.core.json import entries, nulled
+from modeler.core.json import built, entries, nulled
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Presented
 from modeler.core.table import POOLED, errors_by_unit, percent, told_by_unit
-from modeler.estimation.essential import Reduced, reduced_from_json
-from modeler.estimation.parameter import ParameterEstimate, parameter_lines, read_parameter
-from modeler.observation.processing import Processing, processing_from_json
+from modeler.estimation.essential import Reduced
+from modeler.estimation.parameter import (
+    ParameterEstimate,
+    parameter_lines,
+    read_all,
+    read_back,
+)
+from modeler.observation.settings import Processing, processing_from_json
 
 # The energy model beside the torque model of the same data: figures, and what they come to.
 
@@ -161,16 +166,6 @@ class EnergyReport(Brief):
         }
 
 
-def energy_report_from_json(raw: Mapping[str, Any] | None) -> EnergyReport | None:
-    """Read `EnergyReport.to_json` back; None for a fit of the torque model."""
-    if raw is None:
-        return None
-    figures = tuple(ModelFigures(**entry) for entry in raw["figures"])
-    return EnergyReport(
-        float(raw["window"]), float(raw["relative_error"]), figures, int(raw["parameters"])
-    )
-
-
 # Friction by direction: what viscous, Coulomb, their asymmetry and the offset come to.
 
 
@@ -204,11 +199,6 @@ class Directed:
         """Plain data."""
         share = 100.0 * self.sigma / abs(self.value) if self.value else None
         return vars(self) | {"relative_sigma_percent": share}
-
-
-def directed_from_json(raw: Mapping[str, Any]) -> Directed:
-    """Read `Directed.to_json` back."""
-    return Directed(**{k: v for k, v in raw.items() if k != "relative_sigma_percent"})
 
 
 def friction_by_direction(spec: ModuleSpec, fit: "FitResult") -> tuple[Directed, ...]:
@@ -338,7 +328,7 @@ class FitResult(Presented):
         directions: friction by direction, of joints whose viscous friction differs.
         energy: how it compares with the torque model; None for the torque model itself.
         gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
-        singular_values: that tell the gains apart, descending; 1 is noise (`total_least_squares`).
+        singular_values: that tell the gains apart, descending; 1 is noise (see `mixed_tls`).
         reading: of long logs: passes, chunks, rows, windows, rows_in_windows; empty of others.
         by_load: the joints on the "bare" and on the "loaded" logs; empty without payloads.
     """
@@ -442,6 +432,17 @@ class FitResult(Presented):
         })  # fmt: skip
 
 
+_LISTS: Mapping[str, type] = {
+    "parameters": ParameterEstimate, "loads": ParameterEstimate, "gains": ParameterEstimate,
+    "directions": Directed,
+}  # fmt: skip
+_NULLS = {
+    "condition_number": np.inf, "condition_scaled": np.inf, "relative_error": np.nan,
+    "essential_error": np.nan,
+}  # fmt: skip
+"""Numbers that are null in JSON, and what they were."""
+
+
 def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
     """Read `FitResult.to_json` back; the covariance is stored beside it.
 
@@ -449,35 +450,25 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
         ManifestError: an entry is missing or of the wrong kind; names it.
     """
     try:
-        return FitResult(
-            robot=raw["robot"],
-            method=raw["method"],
-            status=raw["status"],
-            samples=int(raw["samples"]),
-            rows=int(raw["rows"]),
-            condition_number=_number(raw["condition_number"]),
-            condition_scaled=_number(raw["condition_scaled"]),
-            relative_error=_number(raw["relative_error"], float("nan")),
-            essential_error=_number(raw["essential_error"], float("nan")),
-            joints=_joints_from_json(raw["joints"]),
-            parameters=tuple(read_parameter(entry) for entry in raw["parameters"]),
-            covariance=covariance,
-            loads=tuple(read_parameter(entry) for entry in raw["loads"]),
-            sentences=tuple(raw["sentences"]),
-            processing=processing_from_json(raw["processing"]),
-            verdict=_verdict_from_json(raw),
-            standard={str(k): float(v) for k, v in raw.get("standard", {}).items()},
-            essential=reduced_from_json(raw.get("essential")),
-            directions=tuple(directed_from_json(item) for item in raw.get("directions", ())),
-            energy=energy_report_from_json(raw.get("energy")),
-            gains=tuple(read_parameter(entry) for entry in raw.get("gains", [])),
-            singular_values=tuple(map(float, raw.get("singular_values", []))),
-            reading={str(k): int(v) for k, v in raw.get("reading", {}).items()},
-            by_load={
-                str(name): _joints_from_json(own["joints"])
-                for name, own in raw.get("by_load", {}).items()
+        reduced, energy = raw.get("essential"), raw.get("energy")
+        if reduced is not None:
+            parameters = read_all(ParameterEstimate, reduced, "parameters")
+            reduced = built(Reduced, {**reduced, "parameters": parameters}, "essential")
+        given: dict[str, Any] = {
+            **{name: read_all(kind, raw, name) for name, kind in _LISTS.items() if name in raw},
+            **{name: unknown for name, unknown in _NULLS.items() if raw[name] is None},
+            "joints": [{"name": name, **joint} for name, joint in raw["joints"].items()],
+            "by_load": {
+                load: [{"name": name, **joint} for name, joint in own["joints"].items()]
+                for load, own in raw.get("by_load", {}).items()
             },
-        )
+            "essential": reduced,
+            "energy": None if energy is None else read_back(EnergyReport, energy, "energy"),
+            "covariance": covariance,
+            "processing": processing_from_json(raw["processing"]),
+            "verdict": _verdict_from_json(raw),
+        }
+        return read_back(FitResult, {**raw, **given}, "")
     except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
         raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None
 
@@ -494,10 +485,6 @@ def _joints_to_json(joints: Sequence[JointFit]) -> dict[str, Any]:
     return {joint.name: entries(joint, "relative_error rms sigma rows unit") for joint in joints}
 
 
-def _joints_from_json(raw: Mapping[str, Any]) -> tuple[JointFit, ...]:
-    return tuple(JointFit(name=name, **entry) for name, entry in raw.items())
-
-
 def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
     """None where nobody has judged the fit, as in files of earlier versions."""
     usable, line, doubts = raw.get("usable"), raw.get("verdict"), raw.get("doubts", [])
@@ -506,10 +493,6 @@ def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
     if not (isinstance(usable, bool) and isinstance(line, str) and isinstance(doubts, list)):
         raise ValueError("its verdict is not as saved")
     return Verdict(usable, str(raw["usable_for"]), line, tuple(map(str, doubts)))
-
-
-def _number(value: float | None, unknown: float = float("inf")) -> float:
-    return unknown if value is None else float(value)
 
 
 def bodies_told(standard: Mapping[str, float]) -> list[str]:

@@ -66,7 +66,7 @@ def ridge(problem: Problem) -> Estimate:
         covariance=covariance,
         rank=Rank(tuple(map(int, kept)), aside, start.rank.last_kept, start.rank.first_dropped),
         condition_scaled=float(np.sqrt(np.linalg.cond(found.covariance))),
-        sentences=_told(problem, start, found, known),
+        sentences=_sentences(problem, start, found, known),
         whole=triangle(np.vstack([whole, rows])),
     )
 
@@ -114,7 +114,7 @@ def _posterior(X: np.ndarray, y: np.ndarray) -> _Posterior:
     )
 
 
-def _told(
+def _sentences(
     problem: Problem, start: Estimate, found: _Posterior, known: tuple[str, ...]
 ) -> tuple[str, ...]:
     towards = "0"

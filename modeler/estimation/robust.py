@@ -55,7 +55,7 @@ def robust(problem: Problem) -> Estimate:
         sigma=fit.sigma,
         iterations=fit.iterations,
         settled=settled,
-        sentences=_told(problem, fit.weight, joint),
+        sentences=_sentences(problem, fit.weight, joint),
         influence=Influence(problem.scattered(kept, pull), residual),
         whole=triangle(rows),
     )
@@ -136,7 +136,7 @@ class _Reweighted:
         return self.root @ covariance @ self.root.T, back, psi * self.sigma[self.joint]
 
 
-def _told(problem: Problem, weight: np.ndarray, joint: np.ndarray) -> tuple[str, ...]:
+def _sentences(problem: Problem, weight: np.ndarray, joint: np.ndarray) -> tuple[str, ...]:
     said = []
     for j, spec in enumerate(problem.observation.joints):
         own = joint == j

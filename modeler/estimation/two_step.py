@@ -70,23 +70,12 @@ class Move:
     window: slice
 
 
-@dataclass(frozen=True)
-class Moves:
-    """What the logs hold.
+def moves_alone(
+    observation: Observation, directions: Directions
+) -> tuple[list[Move], float, float]:
+    """All pieces in which one joint moves and the others stand, in order of time.
 
-    Attributes:
-        alone: pieces in which one joint moves, in order of time.
-        several: s, motion of several joints at a time.
-        total: s, of all pieces.
-    """
-
-    alone: tuple[Move, ...]
-    several: float
-    total: float
-
-
-def moves_alone(observation: Observation, directions: Directions) -> Moves:
-    """All pieces in which one joint moves and the others stand.
+    And for how long several move at a time, of all the time, s.
 
     A joint stands while its speed is below `STANDS` times the top speed of the fastest joint of
     its unit. A piece begins and ends at standstill of all; its joint may pause and turn back in
@@ -112,7 +101,7 @@ def moves_alone(observation: Observation, directions: Directions) -> Moves:
         several += segment.step * float(np.sum((labels == _SEVERAL) & segment.whole))
         total += segment.step * float(np.sum(segment.whole))
         found += [Move(i, number, window) for i, window in _episodes(labels)]
-    return Moves(tuple(found), several, total)
+    return found, several, total
 
 
 def _episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
@@ -334,10 +323,10 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
     Raises:
         DataError: no piece in which one joint moves and the others stand, or none that tells it.
     """
-    moves = moves_alone(observation, directions)
+    moves, several, total = moves_alone(observation, directions)
     found: list[Configuration] = []
     left_out: dict[str, int] = {}
-    for move in moves.alone:
+    for move in moves:
         step = _first_step(model, observation, directions, move)
         if isinstance(step, str):
             left_out[step] = left_out.get(step, 0) + 1
@@ -347,7 +336,7 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
         why = "".join(f"; {count} left out: {reason}" for reason, count in left_out.items())
         raise DataError(
             f"{', '.join(observation.logs)}: no piece in which one joint moves and the others "
-            f"stand ({moves.several:.3g} of {moves.total:.3g} s are motion of several){why}; "
+            f"stand ({several:.3g} of {total:.3g} s are motion of several){why}; "
             "expected joints that move one after the other, at several configurations of the "
             "others, as `modeler simulate --motion one-joint` makes them; use --method weighted "
             "for these logs"
@@ -365,7 +354,7 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
         directions,
         tuple(sorted(configurations, key=lambda c: (c.joint, c.log, c.start))),
         left_out,
-        moves.several,
+        several,
         data,
         estimate,
     )
@@ -491,15 +480,12 @@ def _with_noise(alike: list[Configuration]) -> tuple[list[Configuration], np.nda
         longer = np.sqrt(max(1.0, 1.0 + 2.0 * float(np.sum(r[1:]))))
         noise[k] *= longer
         noise[:, k] *= longer
-    return [
-        dataclasses.replace(
-            c,
-            felt=tuple(
-                dataclasses.replace(f, variance=float(noise[k, k])) for k, f in enumerate(c.felt)
-            ),
-        )
+    variances = np.diag(noise).tolist()
+    felt = [
+        tuple(dataclasses.replace(f, variance=v) for f, v in zip(c.felt, variances, strict=True))
         for c in alike
-    ], noise
+    ]
+    return [dataclasses.replace(c, felt=f) for c, f in zip(alike, felt, strict=True)], noise
 
 
 def _whitened(configuration: Configuration, noise: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -2,7 +2,6 @@
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import chdtri
@@ -12,7 +11,7 @@ from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
 from modeler.estimation import doubts
 from modeler.estimation.covariance import autocorrelation
-from modeler.estimation.doubts import LITTLE, WIDE, Doubt, Told
+from modeler.estimation.doubts import LITTLE, WIDE, Doubt, LogFinding
 from modeler.estimation.identify import (
     CrossValidation,
     Equations,
@@ -27,10 +26,7 @@ from modeler.estimation.nearest_body import carried_by, machine_of, nearest_poss
 from modeler.estimation.result import FitResult, JointFit, Verdict, friction_by_direction
 from modeler.numerics.least_squares import Compressed, independent_columns, triangle
 from modeler.observation.observation import Observation
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
-
+from modeler.runtime.model import CompiledModel
 
 # Is the time of the logs in seconds? The clock that a robot carries with it is gravity.
 
@@ -51,7 +47,7 @@ _UNITS = (("milliseconds", 1e-3), ("microseconds", 1e-6), ("nanoseconds", 1e-9),
 _USUAL = (20.0, 2e4)  # Hz; rates at which robots are logged
 
 
-def time_doubts(model: "CompiledModel", observation: Observation, result: FitResult) -> list[Doubt]:
+def time_doubts(model: CompiledModel, observation: Observation, result: FitResult) -> list[Doubt]:
     """Time steps that no log of a robot has, and inertias that belong to another unit of time.
 
     Accelerations scale with 1/time^2, gravity does not. With the time in milliseconds inertias
@@ -96,7 +92,7 @@ def _unit(step: float) -> str:
     return "is the column time in seconds, or a count of rows? give seconds"
 
 
-def _pendulum(model: "CompiledModel", observation: Observation, result: FitResult) -> float:
+def _pendulum(model: CompiledModel, observation: Observation, result: FitResult) -> float:
     """Least J g / m over the reach, over the joints that turn and that gravity loads; 0 if none."""
     q = observation.q[:: max(1, len(observation.q) // _POSES)]
     if model.spec.closure is not None:
@@ -119,7 +115,7 @@ def _pendulum(model: "CompiledModel", observation: Observation, result: FitResul
     return float(np.min(inertia[loaded] * _GRAVITY / weight[loaded]) / reach)
 
 
-def _closes(model: "CompiledModel", pose: np.ndarray) -> bool:
+def _closes(model: CompiledModel, pose: np.ndarray) -> bool:
     try:
         model.coupling(pose[None])
     except LoopError:
@@ -134,10 +130,10 @@ _FELT = 1.1  # ratio of errors that is worth a word
 
 
 def with_verdict(
-    model: "CompiledModel",
+    model: CompiledModel,
     observation: Observation,
     result: FitResult,
-    told: Sequence[Told] = (),
+    told: Sequence[LogFinding] = (),
     equations: Equations | None = None,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
     data: Compressed | None = None,
@@ -202,16 +198,16 @@ def _scale(data: Compressed, observation: Observation, rows: np.ndarray) -> np.n
     count = len(data.rows)
     joint, y = observation.row_joint[rows], observation.y[rows]
     here = np.sqrt(np.bincount(joint, y**2, count) / np.fmax(np.bincount(joint, None, count), 1))
-    there = data.torque_norms() / np.sqrt(np.fmax(data.rows, 1))
+    there = data.torque_rms()
     both = (here > 0.0) & (there > 0.0)
     return np.where(both, there / np.where(both, here, 1.0), 1.0)
 
 
 def contradictions(
-    model: "CompiledModel",
+    model: CompiledModel,
     observation: Observation,
     result: FitResult,
-    told: Sequence[Told] = (),
+    told: Sequence[LogFinding] = (),
     data: Compressed | None = None,
 ) -> list[str]:
     """Why a fit is certainly not usable, other than for want of data.

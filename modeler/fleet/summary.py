@@ -19,8 +19,8 @@ from modeler.observation.chunk import window
 from modeler.observation.findings import faults_of_fit
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation, observe
-from modeler.observation.processing import Processing
 from modeler.observation.read import read_log
+from modeler.observation.settings import Processing
 from modeler.runtime.model import CompiledModel, compiled_once
 
 TEMPERATURE = "temperature"

@@ -6,7 +6,7 @@ import struct
 import zlib
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -84,7 +84,7 @@ def columns_of(
     if rows is None:
         raise DataError(
             f"{path}: no array of {LEAST_ROWS} rows or more; expected the samples of a motion as "
-            f"arrays (n,) or (n, joints); it holds {_listed([_told(a) for a in arrays])}"
+            f"arrays (n,) or (n, joints); it holds {_listed([_described(a) for a in arrays])}"
         )
 
     @lru_cache(maxsize=1)
@@ -98,7 +98,7 @@ def columns_of(
     for held in arrays:
         slices = _slices(values, held, rows)
         if not slices:
-            left.append(_told(held))
+            left.append(_described(held))
         found += slices
         units |= {name: held.unit for name, _ in slices if held.unit}
     told = [f"{_listed(left)} left out: no columns of {rows} rows"] if left else []
@@ -173,7 +173,7 @@ class _MatField:
         return np.asarray(self.data[self.field])
 
 
-def _told(held: Held) -> str:
+def _described(held: Held) -> str:
     return f"{held.name} ({' x '.join(map(str, held.shape)) or '1 value'})"
 
 
@@ -217,44 +217,14 @@ class _Stored:
     name: str
     shape: tuple[int, ...]
     dtype: np.dtype
-    kind: str = ""  # that MATLAB gives it
-    unit: str = ""
+    kind: str  # that MATLAB gives it
+    unit: str
 
     def __getitem__(self, key: Any) -> np.ndarray:
         import h5py
 
         with h5py.File(self.path, "r") as file:
             return np.asarray(file[self.name][key])
-
-
-@dataclass
-class _Visitor:
-    """Lists the datasets of a file; refuses what lies in other files."""
-
-    path: Path
-    found: list[_Stored] = field(default_factory=list)
-
-    def __call__(self, name: str, item: Any) -> None:
-        import h5py
-
-        if isinstance(item, h5py.Group):
-            for key in item:
-                if isinstance(link := item.get(key, getlink=True), h5py.ExternalLink):
-                    raise self._outside(f"{name}/{key}".strip("/"), link.filename)
-        elif item.external:
-            raise self._outside(name, item.external[0][0])
-        elif item.is_virtual and (outside := {s.file_name for s in item.virtual_sources()} - {"."}):
-            raise self._outside(name, min(outside))
-        elif item.shape is not None:
-            unit = next((_text(item.attrs[u]) for u in _UNITS if u in item.attrs), "")
-            kind = _text(item.attrs.get("MATLAB_class", ""))
-            self.found.append(_Stored(self.path, name, item.shape, item.dtype, kind, unit))
-
-    def _outside(self, name: str, place: str) -> DataError:
-        return DataError(
-            f"{self.path}: {name} lies in another file, {place}; expected all data in the log "
-            "itself, for what a file names may be anybody's; copy them into one (h5repack, h5copy)"
-        )
 
 
 def read_hdf5(path: Path, wanted: Wanted) -> Columns:
@@ -285,13 +255,36 @@ def _datasets(path: Path, what: str) -> list[_Stored]:
         import h5py
     except ModuleNotFoundError:
         raise missing_package(path, what, "h5py") from None
-    visitor = _Visitor(path)
+    found = list[_Stored]()
+
+    def visit(name: str, item: Any) -> None:
+        """Lists the datasets; refuses what lies in other files."""
+        if isinstance(item, h5py.Group):
+            for key in item:
+                if isinstance(link := item.get(key, getlink=True), h5py.ExternalLink):
+                    raise _elsewhere(path, f"{name}/{key}".strip("/"), link.filename)
+        elif item.external:
+            raise _elsewhere(path, name, item.external[0][0])
+        elif item.is_virtual and (outside := {s.file_name for s in item.virtual_sources()} - {"."}):
+            raise _elsewhere(path, name, min(outside))
+        elif item.shape is not None:
+            unit = next((_text(item.attrs[u]) for u in _UNITS if u in item.attrs), "")
+            kind = _text(item.attrs.get("MATLAB_class", ""))
+            found.append(_Stored(path, name, item.shape, item.dtype, kind, unit))
+
     with h5py.File(path, "r") as file:
-        visitor("", file)
-        file.visititems(visitor)
-    sizes = [math.prod(one.shape) * one.dtype.itemsize for one in visitor.found]
+        visit("", file)
+        file.visititems(visit)
+    sizes = [math.prod(one.shape) * one.dtype.itemsize for one in found]
     check_unpacked(path, max(sizes, default=0))  # they are read one by one
-    return visitor.found
+    return found
+
+
+def _elsewhere(path: Path, name: str, place: str) -> DataError:
+    return DataError(
+        f"{path}: {name} lies in another file, {place}; expected all data in the log "
+        "itself, for what a file names may be anybody's; copy them into one (h5repack, h5copy)"
+    )
 
 
 def _text(value: Any) -> str:

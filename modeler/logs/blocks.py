@@ -1,11 +1,11 @@
 """Parquet and CSV files: whole, or block by block, so that one of any length fits in memory."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -41,17 +41,16 @@ class _Arrow:
 
     @property
     def numeric(self) -> bool:
-        kind = self.column.type
-        return bool(
-            pa.types.is_integer(kind)
-            or pa.types.is_floating(kind)
-            or pa.types.is_decimal(kind)
-            or pa.types.is_null(kind)
-        )
+        t = pa.types
+        numbers = (t.is_integer, t.is_floating, t.is_decimal, t.is_null)
+        return any(is_one(self.column.type) for is_one in numbers)
 
     def numbers(self) -> np.ndarray:
         if not self.numeric:
-            for row, value in enumerate(self._texts(), start=self.before + 1):
+            kind = self.column.type
+            text = pa.types.is_string(kind) or pa.types.is_large_string(kind)
+            values = self.column.to_pylist() if text else []
+            for row, value in enumerate(values, start=self.before + 1):
                 try:
                     float(value if value is not None else "nan")
                 except ValueError:
@@ -61,18 +60,12 @@ class _Arrow:
                         f"{' with a decimal point' if comma else ''}; correct it, or leave the "
                         "entry empty if the measurement is missing"
                     ) from None
-            kind = self.column.type
             raise NotNumbers(f" holds {kind}; expected numbers; write the column as floating point")
         column = pc.cast(self.column, pa.float64(), safe=False)
         if column.null_count or not column.num_chunks:
             return np.array(column.to_numpy(), dtype=float)
         # Arrow's own `to_numpy` loads pandas, where it is installed.
         return np.concatenate([np.from_dlpack(chunk) for chunk in column.chunks])
-
-    def _texts(self) -> list[str | None]:
-        kind = self.column.type
-        text = pa.types.is_string(kind) or pa.types.is_large_string(kind)
-        return list(self.column.to_pylist()) if text else []
 
 
 def read_csv(path: Path, wanted: Wanted) -> Columns:
@@ -254,7 +247,15 @@ class CsvBlocks:
         return round((self._state[0] - self._start) / self._line)
 
     def blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
-        """All rows in their order, about `size` at a time."""
+        """All rows in their order, about `size` at a time.
+
+        Args:
+            size: rows of a block.
+            names: of the columns that are wanted; all without any.
+
+        Raises:
+            DataError: the file is damaged, or was written to while it was read.
+        """
         read, rest = 0, b""
         with arrow_errors(self._path, "CSV"), self._path.open("rb") as file:
             file.seek(self._start)
@@ -297,89 +298,25 @@ class CsvBlocks:
             raise pa.ArrowInvalid(placed) from None
 
 
-class Blocks(Protocol):
-    """A file as consecutive blocks of rows."""
-
-    @property
-    def rows(self) -> int:
-        """Rows of the file; of a CSV file about as many."""
-
-    def blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
-        """All rows in their order, about `size` at a time.
-
-        Args:
-            size: rows of a block.
-            names: of the columns that are wanted; all without any.
-
-        Raises:
-            DataError: the file is damaged, or was written to while it was read.
-        """
-
-    def window(self, share: float, size: int, names: Sequence[str] = ()) -> Columns:
-        """Up to `size` consecutive rows from about a share of the file on.
-
-        Raises:
-            DataError: the file is damaged there.
-        """
-
-
-def blocks_of(path: Path) -> Blocks | None:
-    """The blocks of a Parquet or CSV file; None of a format that is read whole.
-
-    Raises:
-        DataError: the file is damaged.
-    """
-    if not path.is_file() or path.stat().st_size == 0:
-        return None
-    kind = path.suffix.lower()
-    if kind == ".parquet":
-        return ParquetBlocks(path)
-    if kind == ".csv":
-        return CsvBlocks(path)
-    return None
-
-
-def windows_of(blocks: Blocks, count: int, size: int) -> Columns:
-    """Windows spread over a file, one after the other; columns that hold numbers in all of them."""
-    found = [dict(blocks.window((k + 0.5) / count, size).columns) for k in range(count)]
-    values = tuple(
-        (name, ColumnValues(np.concatenate([own[name].numbers() for own in found])))
-        for name in found[0]
-        if all(own[name].numeric for own in found)
-    )
-    return Columns(values, len(values[0][1].values) if values else 0)
-
-
-@dataclass(frozen=True, eq=False)
-class _Group:
-    """One row group: its place in the file, and the rows before it and up to its end."""
-
-    place: int
-    start: int
-    stop: int
-
-
 class ParquetBlocks:
-    """The row groups of a Parquet file, decoded one after the other."""
+    """The row groups of a Parquet file, decoded one after the other; as `CsvBlocks`.
+
+    Attributes:
+        rows: of the file.
+    """
 
     def __init__(self, path: Path) -> None:
         self._path, self._state = path, state_of(path)
-        self._groups: list[_Group] = []
         with arrow_errors(path, "PARQUET"):
             meta = self._open().metadata
-            for place in range(meta.num_row_groups):
-                start = self.rows
-                self._groups.append(_Group(place, start, start + meta.row_group(place).num_rows))
-
-    @property
-    def rows(self) -> int:
-        """Of the file."""
-        return self._groups[-1].stop if self._groups else 0
+            rows = [meta.row_group(place).num_rows for place in range(meta.num_row_groups)]
+        self._starts = np.concatenate([[0], np.cumsum(rows, dtype=int)])  # of the row groups
+        self.rows = int(self._starts[-1])
 
     def blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
         """All rows in their order, `size` at a time."""
         read = 0
-        for table in self._read(self._groups, size, names):
+        for table in self._read(0, size, names):
             yield arrow_columns(table, read)
             read += table.num_rows
         check_unchanged(self._path, self._state)
@@ -387,9 +324,9 @@ class ParquetBlocks:
     def window(self, share: float, size: int, names: Sequence[str] = ()) -> Columns:
         """Up to `size` rows from about a share of the file on."""
         start = max(0, min(int(share * self.rows), self.rows - size))
-        at = next((k for k, group in enumerate(self._groups) if start < group.stop), 0)
-        parts, rows, skip = list[pa.Table](), 0, start - self._groups[at].start
-        for table in self._read(self._groups[at:], size, names):
+        at = int(np.argmax(self._starts[1:] > start))
+        parts, rows, skip = list[pa.Table](), 0, start - int(self._starts[at])
+        for table in self._read(at, size, names):
             taken = table.slice(min(skip, table.num_rows), size - rows)
             skip -= min(skip, table.num_rows)
             parts.append(taken)
@@ -401,11 +338,9 @@ class ParquetBlocks:
     def _open(self) -> pa.parquet.ParquetFile:
         return open_parquet(self._path, buffer_size=_BYTES, pre_buffer=False)
 
-    def _read(
-        self, groups: Sequence[_Group], size: int, names: Sequence[str]
-    ) -> Iterator[pa.Table]:
-        read = groups[0].start if groups else 0
-        places = [group.place for group in groups]
+    def _read(self, first: int, size: int, names: Sequence[str]) -> Iterator[pa.Table]:
+        """The rows from the first of a row group on."""
+        read, places = int(self._starts[first]), list(range(first, len(self._starts) - 1))
         try:
             file = self._open()
             for batch in file.iter_batches(size, row_groups=places, columns=list(names) or None):
@@ -418,3 +353,31 @@ class ParquetBlocks:
                 f"{self._path}: cannot be read as PARQUET beyond row {read} ({words}); copy it "
                 "again, or write what can be read of it to a new file"
             ) from None
+
+
+Blocks = CsvBlocks | ParquetBlocks
+"""A file as consecutive blocks of rows."""
+
+
+def blocks_of(path: Path) -> Blocks | None:
+    """The blocks of a Parquet or CSV file; None of a format that is read whole.
+
+    Raises:
+        DataError: the file is damaged.
+    """
+    if not path.is_file() or path.stat().st_size == 0:
+        return None
+    kinds: Mapping[str, type[Blocks]] = {".parquet": ParquetBlocks, ".csv": CsvBlocks}
+    kind = kinds.get(path.suffix.lower())
+    return None if kind is None else kind(path)
+
+
+def windows_of(blocks: Blocks, count: int, size: int) -> Columns:
+    """Windows spread over a file, one after the other; columns that hold numbers in all of them."""
+    found = [dict(blocks.window((k + 0.5) / count, size).columns) for k in range(count)]
+    values = tuple(
+        (name, ColumnValues(np.concatenate([own[name].numbers() for own in found])))
+        for name in found[0]
+        if all(own[name].numeric for own in found)
+    )
+    return Columns(values, len(values[0][1].values) if values else 0)

@@ -1,7 +1,6 @@
 """A log as named columns of floats, under our names, or a DataError that says what is wrong."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,19 +15,6 @@ from modeler.logs.readers import read_columns
 _TINY, _HUGE = 1e-100, 1e100  # in any unit; squares of what is beyond are no numbers any more
 _SHOWN = 40  # names of columns that a message lists
 _FEW = 6
-
-
-@dataclass(frozen=True)
-class Part:
-    """Some consecutive rows of a file.
-
-    Attributes:
-        columns: of these rows.
-        before: rows of the file that stand before them.
-    """
-
-    columns: Columns
-    before: int = 0
 
 
 class LogTable:
@@ -50,14 +36,14 @@ class LogTable:
         mapping: LogMap | None = None,
         joints: Sequence[JointSpec] = (),
         any_topic: bool = False,
-        part: Part | None = None,
+        part: Columns | None = None,
+        before: int = 0,
     ) -> None:
+        """Reads a file, or takes consecutive rows of it: a part, and how many stand before it."""
         self.path = path
         mapping = mapping or LogMap()
-        self.whole, self.before = part is None, 0 if part is None else part.before
-        self.found: Columns = (
-            read_columns(path, Wanted(mapping.topic, any_topic)) if part is None else part.columns
-        )
+        self.whole, self.before = part is None, before
+        self.found = part or read_columns(path, Wanted(mapping.topic, any_topic))
         self.rows: int = self.found.rows
         self._joints = joints
         self._columns: dict[str, Column] = dict(self.found.columns)
@@ -72,7 +58,7 @@ class LogTable:
         others = [name for name in self._columns if name not in used and name not in self._taken]
         self.names: tuple[str, ...] = (*self._taken, *(["time"] if self._rate else []), *others)
         self._units = {name: self._unit(name) for name in self.names}
-        self.notes: tuple[str, ...] = (*self.found.notes, *self._told())
+        self.notes: tuple[str, ...] = (*self.found.notes, *self._notes())
 
     def _check(self) -> None:
         names = [name for name, _ in self.found.columns]
@@ -126,7 +112,7 @@ class LogTable:
         where = entry.where if entry is not None else ""
         return None if stated is None else si_unit(own, where or own, stated, self._joints)
 
-    def _told(self) -> list[str]:
+    def _notes(self) -> list[str]:
         """Entries of [log] that found nothing, units of the file's own, a time without column."""
         lines = []
         for own, entry in self._entries.items():

@@ -293,7 +293,7 @@ class LogMap:
     topic: str = ""
     rate: float | None = None
 
-    def over(self, other: "LogMap") -> "LogMap":
+    def overriding(self, other: "LogMap") -> "LogMap":
         """This one, and under it another."""
         return LogMap(
             (*other.layers, *self.layers),
@@ -361,7 +361,7 @@ def map_from_words(words: Sequence[str]) -> LogMap:
     """
     found = LogMap()
     for word in words:
-        found = _of_word(word).over(found)
+        found = _of_word(word).overriding(found)
     return found
 
 

@@ -95,7 +95,7 @@ def rate_doubts(
     lines = []
     for pair in pairs_of(names, values, time):
         speed = values[pair.speed]
-        line = _told(pair) if np.isfinite(pair.ratio) else _unlike(pair, slopes, speed)
+        line = _ratio_doubt(pair) if np.isfinite(pair.ratio) else _unlike(pair, slopes, speed)
         lines += [line] if line else []
     return lines
 
@@ -114,7 +114,7 @@ def _unlike(pair: Pair, slopes: Mapping[str, np.ndarray], speed: np.ndarray) -> 
     return f"{pair.speed} is not the derivative of {pair.position} (correlation {own:.2f})"
 
 
-def _told(pair: Pair) -> str:
+def _ratio_doubt(pair: Pair) -> str:
     """What a speed is times the derivative of its position, if not 1, and what that looks like."""
     if abs(pair.ratio - 1.0) < _NEAR:
         return ""

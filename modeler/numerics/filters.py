@@ -83,23 +83,14 @@ def only(
     return csr_array((data, weights.indices, weights.indptr), shape=weights.shape)
 
 
-def row_filter(whole: np.ndarray, step: float, cutoff: float, decimation: int | None) -> RowFilter:
-    """The filter of one segment.
+def spacing(step: float, cutoff: float, decimation: int | None) -> int:
+    """Samples from one row to the next; halves go up, whatever their rounding.
 
     Args:
-        whole: (samples,) where rows may be centred and weights may lie.
         step: s.
         cutoff: Hz at -3 dB; 0 for none.
         decimation: samples per row; None: `RATE` rows per period of the cut-off.
     """
-    decimation = spacing(step, cutoff, decimation)
-    inside = np.flatnonzero(whole)
-    centres = inside[(len(inside) - 1) % decimation // 2 :: decimation]
-    return filter_at(centres, len(whole), step, cutoff)
-
-
-def spacing(step: float, cutoff: float, decimation: int | None) -> int:
-    """Samples from one row to the next; see `row_filter`. Halves go up, whatever their rounding."""
     if decimation is None:
         return max(1, round(_UP / (RATE * cutoff * step))) if cutoff > 0.0 else 1
     return decimation
@@ -126,7 +117,7 @@ def filter_at(centres: np.ndarray, samples: int, step: float, cutoff: float) -> 
 
 
 def moving_means(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
-    """(samples, ...) what the rows of `row_filter` would hold, centred on every sample.
+    """(samples, ...) what the rows of `filter_at` would hold, centred on every sample.
 
     Outside the segment values count as 0: divide by the same means of ones.
 

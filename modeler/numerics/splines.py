@@ -223,14 +223,14 @@ def functions(measured: Measured) -> dict[str, np.ndarray]:
     way = m.direction[:, None]
     own = np.column_stack([x[:, j] for x in (m.q, m.v, m.a, m.load)])
     sets = {
-        "own": _own(m, way),
+        "own": _of_joint(m, way),
         "surface": np.column_stack(
             [_fourier(own, _OWN, generator), _fourier(own[:, :2], _BENT, generator) * way]
         ),
     }
     for k in range(m.q.shape[1]):
         if k != j:
-            sets[str(k)] = _other(m, k, way, generator)
+            sets[str(k)] = _of_other(m, k, way, generator)
     near = np.column_stack([m.q, m.v])
     sets["sum"] = np.hstack([curve(x, _SUM) for x in (*m.q.T, *m.v.T)])
     sets["wide"] = np.column_stack([near, m.a, m.load, m.torque, _fourier(near, _WIDE, generator)])
@@ -238,7 +238,7 @@ def functions(measured: Measured) -> dict[str, np.ndarray]:
     return sets | m.further
 
 
-def _own(m: Measured, way: np.ndarray) -> np.ndarray:
+def _of_joint(m: Measured, way: np.ndarray) -> np.ndarray:
     parts = [m.slips, way]
     for name, knots in _KNOTS.items():
         hats = curve(getattr(m, name)[:, m.joint], knots)
@@ -246,7 +246,7 @@ def _own(m: Measured, way: np.ndarray) -> np.ndarray:
     return np.hstack(parts)
 
 
-def _other(m: Measured, k: int, way: np.ndarray, generator: np.random.Generator) -> np.ndarray:
+def _of_other(m: Measured, k: int, way: np.ndarray, generator: np.random.Generator) -> np.ndarray:
     curves = [curve(getattr(m, name)[:, k], knots) for name, knots in _OTHER.items()]
     plain = np.column_stack([x[:, k] for x in (m.v, m.a, m.load, m.torque)])
     both = np.column_stack([m.q[:, k], m.v[:, k]])

@@ -2,14 +2,11 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from modeler.observation.observation import Observation, model_torque
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 WRONG = 0.5
 """Relative error of a joint from which on its channels are suspected."""
@@ -39,7 +36,7 @@ class Fault:
 
 
 def faults(
-    compiled: "CompiledModel",
+    compiled: CompiledModel,
     observation: Observation,
     beta: np.ndarray,
     gains: np.ndarray | None = None,
@@ -71,7 +68,7 @@ def faults(
     return tuple(fault for fault in found.values() if fault is not None)
 
 
-def suspects(compiled: "CompiledModel", observation: Observation, beta: np.ndarray) -> list[int]:
+def suspects(compiled: CompiledModel, observation: Observation, beta: np.ndarray) -> list[int]:
     """Indices of the joints whose torque the model misses by more than half."""
     errors = _errors(observation, model_torque(observation, compiled, beta))
     return [j for j, error in enumerate(errors) if error > WRONG]
@@ -125,7 +122,7 @@ def _torque(observation: Observation, predicted: np.ndarray, j: int) -> Fault | 
 
 
 def _motion(
-    compiled: "CompiledModel", observation: Observation, beta: np.ndarray, errors: np.ndarray
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray, errors: np.ndarray
 ) -> Fault | None:
     """What positions in other units, reversed or exchanged explain."""
     if compiled.spec.closure is not None:

@@ -12,8 +12,8 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.numerics.filters import reach_of
 from modeler.observation.log import FINGER, Log, finger, fingerprint_of
-from modeler.observation.processing import ChosenProcessing
 from modeler.observation.read import FileSource, Ranges, Source, cut, joined
+from modeler.observation.settings import ChosenProcessing
 
 MEMORY = 12.0
 """Periods of the position filter after which nothing of it is left: its slowest poles fade as
@@ -215,7 +215,7 @@ def read_part(source: FileSource, spec: ModuleSpec, start: float | None, end: fl
             f"{source.name}: no rows from {low:g} to {high:g} s; its times go from {first:g} to "
             f"{last:g} s"
         )
-    seen = reduce(Ranges.over, ranges)
+    seen = reduce(Ranges.merged_with, ranges)
     seen.check(source.place[0], spec)
     log = joined(kept) if kept else log
     notes = (*log.notes, *seen.doubts(log.step, spec))

@@ -2,18 +2,134 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
-from typing import TYPE_CHECKING
+from functools import cache, partial
 
 import numpy as np
 
+from modeler.numerics.filters import RowFilter
 from modeler.numerics.least_squares import scaled_least_squares, whitening
 from modeler.observation.channels import SCALE, WRONG, Fault, faults, turns
+from modeler.observation.low_speed import signals_of
+from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
-from modeler.observation.thinned import ThinnedRows, thinned
+from modeler.observation.prepare import nearest_closed
+from modeler.observation.reduce import columns_at
+from modeler.observation.stretch import Stretch
+from modeler.runtime.model import CompiledModel
 
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+_MOST = 1200  # rows: enough for any fit, and quick with every change that is tried
+_CELLS = 8000  # joints times rows, at most: many joints make many pairs to exchange
+_TAPS = 16  # samples of each row, of the many over which the parallel filter takes its mean
+
+
+@dataclass(frozen=True, eq=False)
+class ThinnedPart:
+    """A stretch with some of its rows, and some of the samples that those reach."""
+
+    segment: Segment
+    samples: np.ndarray
+    rows: RowFilter
+    usable: np.ndarray
+    used: np.ndarray
+    read: np.ndarray | None
+
+    def motion(self) -> tuple[np.ndarray, ...]:
+        """q, qd, qdd of the samples."""
+        s = self.segment
+        return s.q[self.samples], s.qd[self.samples], s.qdd[self.samples]
+
+    def means(self, values: np.ndarray, j: int) -> np.ndarray:
+        """(m, ...) of values (samples, ...) of a joint, through the filter of its rows."""
+        whole = self.segment.whole[self.samples]
+        return self.rows.means(values, self.usable[:, j], self.used[:, j], whole)
+
+    def columns(self, compiled: CompiledModel, motion: Sequence[np.ndarray]) -> np.ndarray:
+        """(m, n, c) filtered columns of a motion q, qd, qdd of the samples."""
+        q, qd, qdd = motion
+        nearest = nearest_closed(compiled, q)  # a motion that was changed may leave what closes
+        if nearest is not None:
+            q = np.ascontiguousarray(q[nearest])
+        values = compiled.base_regressor(q, qd, qdd, self.read)
+        return np.stack([self.means(own, j) for j, own in enumerate(values.swapaxes(0, 1))], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class ThinnedRows:
+    """Some rows of an observation.
+
+    Attributes:
+        W: (m, n, c).
+        tau: (m, n).
+        used: (m, n) that count.
+        speed: (m, n).
+        parts: to build W anew of a motion that was changed.
+    """
+
+    W: np.ndarray
+    tau: np.ndarray
+    used: np.ndarray
+    speed: np.ndarray
+    parts: tuple[ThinnedPart, ...]
+
+    def turned(self, compiled: CompiledModel, turn: np.ndarray) -> np.ndarray:
+        """(m, n, c) columns of the motion q turn."""
+        return np.concatenate(
+            [part.columns(compiled, [x @ turn for x in part.motion()]) for part in self.parts]
+        )
+
+    def shifted(self, compiled: CompiledModel, shift: np.ndarray) -> np.ndarray:
+        """(m, n, c) columns of the motion of each joint, shift (n,) s later."""
+        found = []
+        for part in self.parts:
+            s = part.segment
+            at = (s.time[part.samples][:, None] + shift).T
+            motion = [
+                np.column_stack([np.interp(t, s.time, own) for t, own in zip(at, x.T, strict=True)])
+                for x in (s.q, s.qd, s.qdd)
+            ]
+            found.append(part.columns(compiled, motion))
+        return np.concatenate(found)
+
+
+def thinned(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
+    """At most 1200 of the rows of the observation, evenly; fewer of many joints."""
+    most = max(1, min(_MOST, _CELLS // len(observation.joints)))
+    every = max(1, -(-len(observation.time) // most))
+    parts, chosen, at = [], [], 0
+    for part in observation.stretches:
+        rows = np.arange(-at % every, len(part.used), every)
+        chosen.append(at + rows)
+        at += len(part.used)
+        if rows.size:
+            parts.append(_part(compiled, part, rows))
+    place = np.concatenate(chosen)
+    return ThinnedRows(
+        W=columns_at(observation, place),
+        tau=observation.torque[place],
+        used=observation.used[place],
+        speed=observation.qd[place],
+        parts=tuple(parts),
+    )
+
+
+def _part(compiled: CompiledModel, part: Stretch, rows: np.ndarray) -> ThinnedPart:
+    weights = part.rows.weights[rows]
+    width = max(1, int(np.max(np.diff(weights.indptr))))
+    reached = np.unique(weights.indices)
+    samples = reached[reached % max(1, width // _TAPS) == 0]
+    read = signals_of(compiled.spec, part.segment)
+    return ThinnedPart(
+        segment=part.segment,
+        samples=samples,
+        rows=RowFilter(weights[:, samples], part.rows.centres[rows]),
+        usable=part.usable[samples],
+        used=part.used[rows],
+        read=None if read is None else read[samples],
+    )
+
+
+# What contradicts.
+
 
 HALF = 0.5
 """Share of the error of the robot that one change of a channel, or one shift of it, leaves, to be
@@ -25,7 +141,7 @@ _FOR_EACH = 3  # rows for every parameter, at least: fewer are described by anyt
 
 
 def findings_of_fit(
-    compiled: "CompiledModel", observation: Observation, beta: np.ndarray
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray
 ) -> tuple[Fault, ...]:
     """Doubts about the channels and the samples of logs that a model was fitted to.
 
@@ -41,7 +157,7 @@ def findings_of_fit(
 
 
 def findings_of_prediction(
-    compiled: "CompiledModel", observation: Observation, beta: np.ndarray
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray
 ) -> tuple[Fault, ...]:
     """Doubts about the channels and the samples of logs whose torque a model predicts.
 
@@ -54,7 +170,7 @@ def findings_of_prediction(
     return (*faults(compiled, observation, beta), *doubts)
 
 
-def _judged(compiled: "CompiledModel", observation: Observation) -> tuple[ThinnedRows, list[int]]:
+def _judged(compiled: CompiledModel, observation: Observation) -> tuple[ThinnedRows, list[int]]:
     """Some rows, and the joints with a motor and a torque; none of too few rows."""
     rows = thinned(compiled, observation)
     joints = [j for j, joint in enumerate(observation.joints) if joint.actuated]
@@ -103,7 +219,7 @@ _TOLD = 1e-11  # eigenvalue over the largest
 
 
 def faults_of_fit(
-    compiled: "CompiledModel", observation: Observation, beta: np.ndarray
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray
 ) -> tuple[Fault, ...]:
     """Channels with a wrong sign or unit, or in the place of another, although the fit adapts.
 
@@ -178,7 +294,7 @@ def _solved(X: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def _changes(
-    compiled: "CompiledModel", observation: Observation, rows: ThinnedRows, joints: list[int]
+    compiled: CompiledModel, observation: Observation, rows: ThinnedRows, joints: list[int]
 ) -> Iterator[tuple[str, list[float]]]:
     """Changes of the channels, and the error of each joint that each of them leaves."""
     names = [joint.name for joint in observation.joints]
@@ -212,7 +328,7 @@ def _changes(
 
 
 def _driven(
-    compiled: "CompiledModel", observation: Observation, rows: ThinnedRows, beta: np.ndarray,
+    compiled: CompiledModel, observation: Observation, rows: ThinnedRows, beta: np.ndarray,
     errors: dict[int, float],
 ) -> tuple[Fault, ...]:  # fmt: skip
     """Joints whose friction, as it was fitted, gives energy, or whose inertia pushes back.
@@ -244,7 +360,7 @@ def _driven(
     return (Fault(line, True),)
 
 
-def _own_friction(compiled: "CompiledModel", joint: str) -> list[int]:
+def _own_friction(compiled: CompiledModel, joint: str) -> list[int]:
     """Base parameters that are the viscous or Coulomb friction of a joint, and nothing besides."""
     own = {
         p.name for p in compiled.spec.standard
@@ -256,7 +372,7 @@ def _own_friction(compiled: "CompiledModel", joint: str) -> list[int]:
     ]  # fmt: skip
 
 
-def _pushes_back(compiled: "CompiledModel", rows: ThinnedRows, beta: np.ndarray, j: int) -> float:
+def _pushes_back(compiled: CompiledModel, rows: ThinnedRows, beta: np.ndarray, j: int) -> float:
     """Share of the torque that the inertia M_jj makes, if it is negative wherever the joint was.
 
     M_jj qdd_j is the torque at rest with that acceleration less the torque at rest. 0 if M_jj is
@@ -266,15 +382,12 @@ def _pushes_back(compiled: "CompiledModel", rows: ThinnedRows, beta: np.ndarray,
         return 0.0
     felt, seen = 0.0, []
     for part in rows.parts:
-        s = part.segment
-        q, qdd = s.q[part.samples], s.qdd[part.samples]
+        q, _, qdd = part.motion()
         still, moved = np.zeros_like(q), np.zeros_like(q)
         moved[:, j] = 1.0
         columns = compiled.base_regressor(q, still, moved, part.read)[:, j]
         own = (columns - compiled.base_regressor(q, still, still, part.read)[:, j]) @ beta
-        torque = part.rows.means(own * qdd[:, j], part.usable[:, j], part.used[:, j],
-                                 s.whole[part.samples])  # fmt: skip
-        felt += float(np.sum(torque[part.used[:, j]] ** 2))
+        felt += float(np.sum(part.means(own * qdd[:, j], j)[part.used[:, j]] ** 2))
         seen.append(own)
     inertia = np.concatenate(seen)
     size = float(np.sum(rows.tau[rows.used[:, j], j] ** 2))
@@ -297,14 +410,23 @@ Columns = Callable[[float], np.ndarray]
 
 
 @dataclass(frozen=True)
-class _Shift:
+class _Channel:
+    """What may be late.
+
+    Attributes:
+        what: it comes.
+        other: what would then be early.
+        sign: of its lateness, by the shift of the motion.
+        columns: with the motion that many seconds later.
+    """
+
     what: str
     other: str
-    late: float  # s by which the channel `what` comes late
-    error: float
+    sign: float
+    columns: Columns
 
 
-def late_channels(compiled: "CompiledModel", observation: Observation) -> tuple[str, ...]:
+def late_channels(compiled: CompiledModel, observation: Observation) -> tuple[str, ...]:
     """A sentence on the channel that fits far better at another time; none where none does.
 
     W(t + d) beta = tau(t) is fitted for a shift d of the motion of all joints, for the rows of
@@ -319,86 +441,72 @@ def late_channels(compiled: "CompiledModel", observation: Observation) -> tuple[
     rows, joints = _judged(compiled, observation)
     if not joints:
         return ()
-    fit = _Fit(rows, joints, observation)
-    before, _ = fit.left(rows.W)
+    sizes = _sizes(rows.tau, rows.used, joints)
+    step = float(np.median([part.segment.step for part in observation.stretches]))
+
+    def left(W: np.ndarray) -> tuple[float, np.ndarray]:
+        """The error that a fit leaves in which every joint weighs the same, and its solution."""
+        X, y = (_stacked(values, rows.used, sizes) for values in (W, rows.tau))
+        beta = scaled_least_squares(X, y, 1e-6)
+        return float(np.linalg.norm(y - X @ beta)), beta
+
+    def best(columns: Columns) -> tuple[float, float]:
+        """The least error that a shift of a channel leaves, and the shift, s."""
+        tried = [(before, 0.0, rows.W)]
+        for start in _STARTS:
+            W = columns(start)
+            tried.append((left(W)[0], start, W))
+        error, shift, W = min(tried, key=lambda one: one[0])
+        for _ in range(_STEPS):
+            slope = (columns(shift + step) - W) @ left(W)[1] / step
+            _, found = left(np.concatenate([W, slope[..., None]], axis=2))
+            further = float(np.clip(shift + found[-1], -LONGEST, LONGEST))
+            closer = columns(further)
+            reached, _ = left(closer)
+            if reached >= error:
+                break
+            shift, W, error = further, closer, reached
+        return error, shift
+
+    before, _ = left(rows.W)
     if before < _LEAST:
         return ()
-    found = [
-        fit.best(what, other, sign, columns, before)
-        for what, other, sign, columns in _channels(compiled, observation, rows, joints)
-    ]
-    best = min(found, key=lambda shift: shift.error)
-    if best.error > HALF * before:
+    found = [(*best(one.columns), one) for one in _channels(compiled, observation, rows, joints)]
+    error, shift, channel = min(found, key=lambda one: one[0])
+    if error > HALF * before:
         return ()
-    way, back = ("late", "early") if best.late > 0.0 else ("early", "late")
+    way, back = ("late", "early") if channel.sign * shift > 0.0 else ("early", "late")
     return (
-        f"{best.what} {1e3 * abs(best.late):.0f} ms {way}, by a fit at other times (or "
-        f"{best.other} {back}); check the clocks of the channels, and shift the column",
+        f"{channel.what} {1e3 * abs(shift):.0f} ms {way}, by a fit at other times (or "
+        f"{channel.other} {back}); check the clocks of the channels, and shift the column",
     )
 
 
 def _channels(
-    compiled: "CompiledModel", observation: Observation, rows: ThinnedRows, joints: Sequence[int]
-) -> list[tuple[str, str, float, Columns]]:
-    """What may be late, what would then be early, the sign of its lateness, and its columns."""
+    compiled: CompiledModel, observation: Observation, rows: ThinnedRows, joints: Sequence[int]
+) -> list[_Channel]:
+    """What may be late."""
     n = rows.tau.shape[1]
-    names = [joint.name for joint in observation.joints]
 
     @cache
     def all_later(shift: float) -> np.ndarray:
         return rows.shifted(compiled, np.full(n, shift))
 
-    def torque_earlier(j: int) -> Columns:
-        def columns(shift: float) -> np.ndarray:
-            W = rows.W.copy()
-            W[:, j] = all_later(shift)[:, j]
-            return W
+    def torque_earlier(j: int, shift: float) -> np.ndarray:
+        W = rows.W.copy()
+        W[:, j] = all_later(shift)[:, j]
+        return W
 
-        return columns
+    def one_later(j: int, shift: float) -> np.ndarray:
+        return rows.shifted(compiled, shift * np.eye(n)[j])
 
-    def one_later(j: int) -> Columns:
-        return lambda shift: rows.shifted(compiled, shift * np.eye(n)[j])
-
-    found: list[tuple[str, str, float, Columns]] = [
-        ("all torques come", "the positions", -1.0, all_later)
-    ]
+    found = [_Channel("all torques come", "the positions", -1.0, all_later)]
     if compiled.spec.closure is not None or len(joints) == 1:
         return found  # positions that are not of one time do not close the loops
     for j in joints:
-        name = f"joint {names[j]}:"
-        found.append((f"{name} its torque comes", "all the others", -1.0, torque_earlier(j)))
-        found.append((f"{name} its position comes", "all the others", 1.0, one_later(j)))
+        name, rest = f"joint {observation.joints[j].name}:", "all the others"
+        found += [
+            _Channel(f"{name} its torque comes", rest, -1.0, partial(torque_earlier, j)),
+            _Channel(f"{name} its position comes", rest, 1.0, partial(one_later, j)),
+        ]
     return found
-
-
-class _Fit:
-    """Fits in which every joint weighs the same."""
-
-    def __init__(self, rows: ThinnedRows, joints: Sequence[int], observation: Observation) -> None:
-        self._rows, self._sizes = rows, _sizes(rows.tau, rows.used, joints)
-        self._step = float(np.median([part.segment.step for part in observation.stretches]))
-
-    def left(self, W: np.ndarray) -> tuple[float, np.ndarray]:
-        """The error that a fit leaves, and its solution."""
-        X, y = (_stacked(values, self._rows.used, self._sizes) for values in (W, self._rows.tau))
-        beta = scaled_least_squares(X, y, 1e-6)
-        return float(np.linalg.norm(y - X @ beta)), beta
-
-    def best(self, what: str, other: str, sign: float, columns: Columns, before: float) -> _Shift:
-        """The shift of a channel that leaves least."""
-        tried = [(before, 0.0, self._rows.W)]
-        for start in _STARTS:
-            W = columns(start)
-            tried.append((self.left(W)[0], start, W))
-        error, shift, W = min(tried, key=lambda one: one[0])
-        for _ in range(_STEPS):
-            _, beta = self.left(W)
-            slope = (columns(shift + self._step) - W) @ beta / self._step
-            _, found = self.left(np.concatenate([W, slope[..., None]], axis=2))
-            further = float(np.clip(shift + found[-1], -LONGEST, LONGEST))
-            closer = columns(further)
-            reached, _ = self.left(closer)
-            if reached >= error:
-                break
-            shift, W, error = further, closer, reached
-        return _Shift(what, other, sign * shift, error)

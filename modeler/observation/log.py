@@ -82,6 +82,13 @@ class Log(Presented):
         return float(self.time[0]), float(self.time[-1])
 
     @property
+    def piece_number(self) -> np.ndarray:
+        """(n,) whole numbers from 0 that grow where a piece of motion begins."""
+        if self.segment is None:
+            return np.zeros(self.rows, dtype=int)
+        return np.concatenate([[0], np.cumsum(np.diff(self.segment) != 0)])
+
+    @property
     def step(self) -> float:
         """Median time step, s.
 
@@ -116,18 +123,13 @@ def fingerprint(*measurements: np.ndarray) -> str:
         measurements: (n, ...) each.
     """
     rows = len(measurements[0])
-    if rows <= LONG:
-        return _digest(measurements).hex()
-    blocks = [
-        finger(*(values[first : first + FINGER] for values in measurements))
-        for first in range(0, rows, FINGER)
-    ]
-    return fingerprint_of(blocks)
+    return finger(*measurements).hex() if rows <= LONG else fingerprint_of(fingers(*measurements))
 
 
-def finger(*measurements: np.ndarray) -> bytes:
-    """That of one block of a long log: rows from a multiple of `FINGER` on."""
-    return _digest(measurements)
+def fingers(*measurements: np.ndarray) -> tuple[bytes, ...]:
+    """Those of the blocks of a long log: rows from a multiple of `FINGER` on."""
+    starts = range(0, len(measurements[0]), FINGER)
+    return tuple(finger(*(values[k : k + FINGER] for values in measurements)) for k in starts)
 
 
 def fingerprint_of(fingers: Sequence[bytes]) -> str:
@@ -135,7 +137,8 @@ def fingerprint_of(fingers: Sequence[bytes]) -> str:
     return hashlib.sha256(b"".join(fingers)).hexdigest()
 
 
-def _digest(measurements: Sequence[np.ndarray]) -> bytes:
+def finger(*measurements: np.ndarray) -> bytes:
+    """That of one block."""
     content = hashlib.sha256()
     for values in measurements:
         # Adding 0 makes -0 into 0: writers differ there, and no fit does.
@@ -172,7 +175,7 @@ def check_apart(
         names = typed or [log.name for log in given]
         for index, log in enumerate(given):
             for first, other in zip(names, given[:index], strict=False):
-                if _shared(log, other):
+                if shared_rows(log, other.content, *other.span):
                     raise DataError(
                         f"{names[index]}: got rows of {first} again; rows that repeat count "
                         "twice, and their noise looks like something that returns; give each row "
@@ -180,12 +183,8 @@ def check_apart(
                     )
     for other in holdout:
         for log in logs:
-            if _shared(other, log):
+            if shared_rows(other, log.content, *log.span):
                 raise DataError(
                     f"--holdout {other.name}: shares rows with {log.name}; expected other motion; "
                     "leave it out, or split the log with FILE@START:END"
                 )
-
-
-def _shared(log: LogRows, other: LogRows) -> bool:
-    return shared_rows(log, other.content, *other.span)

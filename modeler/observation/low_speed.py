@@ -2,18 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import ModuleSpec, SignalSpec
 from modeler.observation.motion import Segment
-from modeler.observation.processing import ChosenProcessing
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
-
+from modeler.observation.settings import ChosenProcessing
+from modeler.runtime.model import CompiledModel
 
 TOP = 0.98
 _CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
@@ -42,7 +38,7 @@ class FrictionShaft:
         return qd @ np.asarray(self.coefficients)
 
 
-def shafts(model: "CompiledModel") -> tuple[FrictionShaft, ...]:
+def shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
     """The shafts whose columns leap at standstill, found by creeping both ways past it.
 
     Each base column's leap is measured while one joint after the other creeps forwards and
@@ -75,7 +71,7 @@ def shafts(model: "CompiledModel") -> tuple[FrictionShaft, ...]:
     return tuple(found.values())
 
 
-def _anywhere(model: "CompiledModel") -> np.ndarray:
+def _anywhere(model: CompiledModel) -> np.ndarray:
     """(joints,) positions, none of them special; of a robot with loops as near home as closes."""
     joints, closure = len(model.spec.joints), model.spec.closure
     state = np.random.default_rng(1).uniform(0.2, 1.0, joints)
@@ -92,7 +88,7 @@ def _anywhere(model: "CompiledModel") -> np.ndarray:
     return home
 
 
-def with_every_joint(model: "CompiledModel") -> tuple[FrictionShaft, ...]:
+def with_every_joint(model: CompiledModel) -> tuple[FrictionShaft, ...]:
     """The shafts, and every joint with a motor that is none of them.
 
     For looking at dry friction that the model lacks.

@@ -8,8 +8,8 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.numerics.filters import forwards_and_backwards
-from modeler.observation.processing import Processing
 from modeler.observation.segments import SHORT, Piece, longer_runs
+from modeler.observation.settings import Processing
 
 HIGHEST = 0.4
 """A cut-off is at most this share of the sampling rate: above, Butterworth has no room to fall."""
@@ -95,9 +95,7 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
             qd = low_pass(piece.qd, piece.step, cutoff)
             qdd = np.gradient(qd, piece.step, axis=0)
         else:
-            qd = np.gradient(q, piece.step, axis=0)
-            qdd = np.zeros_like(q)
-            qdd[1:-1] = (q[2:] - 2.0 * q[1:-1] + q[:-2]) / piece.step**2
+            _, qd, qdd = differentiated(q, piece.step)
     whole = np.ones(len(piece.time), dtype=bool)
     if edge:
         whole[:edge] = whole[-edge:] = False
@@ -152,6 +150,13 @@ def edge_of(piece: Piece, processing: Processing) -> int:
     if seconds is None:
         seconds = _EDGE_PERIODS / cutoff if cutoff > 0.0 else 0.0
     return max(1, round(seconds / piece.step))  # the outermost second difference does not exist
+
+
+def differentiated(q: np.ndarray, step: float) -> np.ndarray:
+    """(3, n, joints) positions (n, joints), velocities and accelerations: central differences."""
+    qdd = np.zeros_like(q)
+    qdd[1:-1] = (q[2:] - 2.0 * q[1:-1] + q[:-2]) / step**2
+    return np.stack([q, np.gradient(q, step, axis=0), qdd])
 
 
 def low_pass(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:

@@ -1,7 +1,6 @@
 """Which part of the measured positions is motion, joint by joint."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,23 +26,11 @@ REST = 0.01
 _STEPS = 6  # per octave
 
 
-@dataclass(frozen=True, eq=False)
-class MotionBands:
-    """What moves in one piece; J joints.
+def motion_bands(piece: Piece, measured: MotionSpectrum) -> np.ndarray:
+    """(J, 3) what moves in one piece, whatever its noise; J joints.
 
-    Attributes:
-        band: (J,) Hz below which 99 % of the velocity's energy lies; NaN of joints at rest.
-        shaken: (J,) Hz, the same with what trembles; what rings is left out.
-        trembling: (J,) rms of the position that is not motion, rad or m.
-    """
-
-    band: np.ndarray
-    shaken: np.ndarray
-    trembling: np.ndarray
-
-
-def motion_bands(piece: Piece, measured: MotionSpectrum) -> MotionBands:
-    """The motion band of each joint, whatever its noise.
+    The band below which 99 % of the velocity's energy lies, Hz, NaN of joints at rest; the same
+    with what trembles, without what rings; and the rms of the position that is not motion.
 
     What counts is the power above white noise, up to where the joint rings or trembles; where
     positions were commanded, up to the band of the command. The window's own width 2/T is taken
@@ -68,7 +55,7 @@ def motion_bands(piece: Piece, measured: MotionSpectrum) -> MotionBands:
         _bands(frequency, above, rings),
     )
     band, shaken = (np.sqrt(np.maximum(0.0, own**2 - window**2)) for own in bands)
-    return MotionBands(np.where(moves, band, np.nan), shaken, np.sqrt(left))
+    return np.column_stack([np.where(moves, band, np.nan), shaken, np.sqrt(left)])
 
 
 def _together(

@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -30,15 +30,12 @@ from modeler.observation.motion import (
     Segment,
 )
 from modeler.observation.prepare import Mending, Prepared, prepare, without_open
-from modeler.observation.processing import Processing
 from modeler.observation.report import DataReport
+from modeler.observation.settings import Processing
 from modeler.observation.stretch import Stretch, stretch
 from modeler.observation.tally import joint_reports, log_report, tally
-
-if TYPE_CHECKING:
-    from modeler.runtime.fused import NonzeroPattern, Triangles
-    from modeler.runtime.model import CompiledModel
-
+from modeler.runtime.fused import NonzeroPattern, Triangles
+from modeler.runtime.model import CompiledModel
 
 # The rows of y = W beta, and which is which.
 
@@ -132,7 +129,7 @@ class Observation(Presented):
 class Evaluated:
     """The base regressor over the samples of a segment, with what its effects read."""
 
-    def __init__(self, model: "CompiledModel", stretches: Sequence[Stretch]) -> None:
+    def __init__(self, model: CompiledModel, stretches: Sequence[Stretch]) -> None:
         self._model = model
         self._signals = {
             id(part.segment): signals_of(model.spec, part.segment) for part in stretches
@@ -143,7 +140,7 @@ class Evaluated:
         return self._model.base_regressor(s.q[w], s.qd[w], s.qdd[w], self._read(s, w))
 
     @property
-    def pattern(self) -> "NonzeroPattern":
+    def pattern(self) -> NonzeroPattern:
         """Which columns can enter the torque of each joint."""
         return self._model.pattern
 
@@ -152,11 +149,18 @@ class Evaluated:
         """True if `products` can be had."""
         return self._model.emits_entries
 
-    def torque(self, s: Segment, w: slice | np.ndarray, beta: np.ndarray) -> np.ndarray:
-        """(b, n) torque of the model, by the inverse dynamics; w may be indices."""
-        return self._model.inverse_dynamics(s.q[w], s.qd[w], s.qdd[w], beta, self._read(s, w))
+    def torque(
+        self, s: Segment, w: slice | np.ndarray, beta: np.ndarray, turn: np.ndarray | None = None
+    ) -> np.ndarray:
+        """(b, n) torque of the model, by the inverse dynamics; w may be indices.
 
-    def triangles(self, part: Stretch, use: np.ndarray, state: "Triangles | None") -> "Triangles":
+        With a turn (n, n) the motion is q turn instead of q.
+        """
+        motion = s.q[w], s.qd[w], s.qdd[w]
+        q, qd, qdd = motion if turn is None else (x @ turn for x in motion)
+        return self._model.inverse_dynamics(q, qd, qdd, beta, self._read(s, w))
+
+    def triangles(self, part: Stretch, use: np.ndarray, state: Triangles | None) -> Triangles:
         """Triangles of the rows of a stretch whose rows are samples; use (rows, n) bool."""
         some = np.flatnonzero(use.any(axis=1))
         s, w = part.segment, near(part.rows.centres[some])
@@ -188,7 +192,7 @@ def near(places: np.ndarray) -> slice | np.ndarray:
 
 
 def observe(
-    model: "CompiledModel",
+    model: CompiledModel,
     logs: Sequence[Log],
     processing: Processing | None = None,
     every_joint: bool = False,
@@ -215,7 +219,7 @@ def observe(
 
 
 def observed(
-    model: "CompiledModel", logs: Sequence[Log], prepared: Prepared, every_joint: bool = False
+    model: CompiledModel, logs: Sequence[Log], prepared: Prepared, every_joint: bool = False
 ) -> Observation:
     """The observation of logs that are prepared already, for this or a like robot.
 
@@ -234,9 +238,8 @@ def observed(
         left_out = [piece for piece in prepared.left_out if piece.run == run]
         pieces, check = prepared.pieces[run], prepared.checks[run]
         whole = tally(whole_log(log), pieces, prepared.splits[run], own, left_out, check)
-        apart = [np.diff(part.rows.centres[:2]) for part in own if len(part.rows.centres) > 1]
         wrong = check.contradictions if check else ()
-        decimation = int(apart[0][0]) if apart else 1
+        decimation = next((part.decimation for part in own if len(part.rows.centres) > 1), 1)
         found = log_report(
             log, model.spec, prepared, run, whole, prepared.defects[run], wrong, decimation
         )
@@ -264,12 +267,12 @@ def no_row_left(report: DataReport, notes: Sequence[str] = ()) -> DataError:
     )
 
 
-def observed_alike(model: "CompiledModel", like: Observation) -> Observation:
+def observed_alike(model: CompiledModel, like: Observation) -> Observation:
     """What a robot makes of logs that another one has seen, which masks the same samples."""
     return dataclasses.replace(like, **_columns_of(model, like.stretches))
 
 
-def _columns_of(model: "CompiledModel", stretches: Sequence[Stretch]) -> dict[str, Any]:
+def _columns_of(model: CompiledModel, stretches: Sequence[Stretch]) -> dict[str, Any]:
     """What an observation has of its robot."""
     return {
         "robot": model.spec.robot,
@@ -281,7 +284,7 @@ def _columns_of(model: "CompiledModel", stretches: Sequence[Stretch]) -> dict[st
 
 
 def stacked(
-    model: "CompiledModel", logs: Sequence[str], stretches: tuple[Stretch, ...], report: DataReport
+    model: CompiledModel, logs: Sequence[str], stretches: tuple[Stretch, ...], report: DataReport
 ) -> Observation:
     """The rows of some stretches of logs of these names, with what is told of them."""
     motion = np.concatenate([_motion(part) for part in stretches])
@@ -354,7 +357,7 @@ def masks_of(observation: Observation) -> np.ndarray:
 
 def model_torque(
     observation: Observation,
-    model: "CompiledModel",
+    model: CompiledModel,
     beta: np.ndarray,
     turn: np.ndarray | None = None,
 ) -> np.ndarray:
@@ -366,12 +369,5 @@ def model_torque(
         beta: (c,) base parameters of the model.
         turn: (n, n) if given, the motion is q turn instead of q.
     """
-
-    def torque(segment: Segment, window: slice) -> np.ndarray:
-        read = signals_of(model.spec, segment)
-        q, qd, qdd = (x[window] for x in (segment.q, segment.qd, segment.qdd))
-        if turn is not None:
-            q, qd, qdd = q @ turn, qd @ turn, qdd @ turn
-        return model.inverse_dynamics(q, qd, qdd, beta, None if read is None else read[window])
-
-    return observation.filtered(torque)
+    torque = Evaluated(model, observation.stretches).torque
+    return observation.filtered(partial(torque, beta=beta, turn=turn))

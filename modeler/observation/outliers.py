@@ -3,7 +3,6 @@
 import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -24,7 +23,14 @@ from modeler.numerics.noise import (
 )
 from modeler.observation.log import Log
 from modeler.observation.segments import GAP
-from modeler.observation.spikes import TorqueNoise, glitch_floor, glitches, torque_glitches
+from modeler.observation.spikes import (
+    Defect,
+    Kind,
+    TorqueNoise,
+    glitch_floor,
+    glitches,
+    torque_glitches,
+)
 
 # Positions that leap from one sample to the next, as no joint can: wraps, spikes, new zeros.
 
@@ -44,26 +50,6 @@ _TURNED = 1e-3  # of a turn: what noise-free arithmetic may leave of a whole one
 
 RARE = 2e-2
 """Share of a joint's steps that may be leaps."""
-
-Kind = Literal["wrap", "spike", "frozen", "zero", "lost"]
-
-
-@dataclass(frozen=True)
-class Leap:
-    """Something that happened to a position between two samples.
-
-    Attributes:
-        kind: "wrap" (by whole turns), "spike" (there and back), "frozen" (a value repeated while
-            the joint moved), "zero" (for good), "lost" (rows are missing, and the clock ran on).
-        start: first sample after it; of a spike or frozen values the first bad one.
-        stop: sample after the last bad one; `start` if none is bad.
-        size: rad or m.
-    """
-
-    kind: Kind
-    start: int
-    stop: int
-    size: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,7 +159,7 @@ def _whole_turns(excess: np.ndarray, resolution: float) -> np.ndarray:
     return np.asarray(turns)
 
 
-def leaps_of(walk: LeapWalk, time: np.ndarray, j: int, floor: float) -> list[Leap]:
+def leaps_of(walk: LeapWalk, time: np.ndarray, j: int, floor: float) -> list[Defect]:
     """The leaps of joint j, increasing in time.
 
     Args:
@@ -183,7 +169,7 @@ def leaps_of(walk: LeapWalk, time: np.ndarray, j: int, floor: float) -> list[Lea
         floor: of that joint.
     """
     wraps = [
-        Leap("wrap", int(k) + 1, int(k) + 1, float(_TURN * walk.turns[k, j]))
+        Defect("wrap", int(k) + 1, int(k) + 1, float(_TURN * walk.turns[k, j]))
         for k in np.flatnonzero(walk.turns[:, j])
     ]
     rest, places = [], _sudden(walk.excess[:, j], lone(walk.excess[:, j], floor))
@@ -191,7 +177,7 @@ def leaps_of(walk: LeapWalk, time: np.ndarray, j: int, floor: float) -> list[Lea
         k = places.pop(0)
         held = _frozen_until(walk, time, j, k)
         if held:
-            rest.append(Leap("frozen", k + 1 - held, k + 1, float(walk.excess[k, j])))
+            rest.append(Defect("frozen", k + 1 - held, k + 1, float(walk.excess[k, j])))
             continue
         there = _spike_leap(walk, j, k, places)
         if there is not None:
@@ -199,7 +185,7 @@ def leaps_of(walk: LeapWalk, time: np.ndarray, j: int, floor: float) -> list[Lea
             rest.append(there)
             continue
         kind: Kind = "lost" if _loses_rows(walk, k) else "zero"
-        rest.append(Leap(kind, k + 1, k + 1, float(walk.excess[k, j])))
+        rest.append(Defect(kind, k + 1, k + 1, float(walk.excess[k, j])))
     return sorted(wraps + rest, key=lambda leap: leap.start)
 
 
@@ -233,7 +219,7 @@ def _frozen_until(walk: LeapWalk, time: np.ndarray, j: int, k: int) -> int:
     return held if way != 0.0 and abs(leap - way) < _MADE_UP * abs(way) else 0
 
 
-def _spike_leap(walk: LeapWalk, j: int, k: int, later: list[int]) -> Leap | None:
+def _spike_leap(walk: LeapWalk, j: int, k: int, later: list[int]) -> Defect | None:
     """The samples after k that are elsewhere, if a leap leads back."""
     size = float(walk.excess[k, j])
     left, farthest = size, abs(size)
@@ -244,7 +230,7 @@ def _spike_leap(walk: LeapWalk, j: int, k: int, later: list[int]) -> Leap | None
         left += float(walk.excess[place, j])
         farthest = max(farthest, abs(float(walk.excess[place, j])))
         if abs(left) <= _BACK * farthest:
-            return Leap("spike", k + 1, place + 1, size)
+            return Defect("spike", k + 1, place + 1, size)
     return None
 
 
@@ -287,25 +273,7 @@ class Damage:
     line: str
 
 
-@dataclass(frozen=True)
-class Found:
-    """A defect of a channel, at rows of the log from `start` to before `stop`.
-
-    Attributes:
-        kind: as of a `Damage`.
-        start, stop: rows.
-        size: in the channel's unit.
-        time: of the first row, s.
-    """
-
-    kind: str
-    start: int
-    stop: int
-    size: float
-    time: float
-
-
-Defects = dict[str, list[list[Found]]]
+Defects = dict[str, list[list[Defect]]]
 """By channel, "q", "tau", "qd" or "qdd", and joint."""
 
 
@@ -342,7 +310,7 @@ def defects(log: Log, spec: ModuleSpec, usual: Usual | None = None) -> tuple[Log
     torques, noise = _torques(log, None if usual is None else usual.torque)
     rates, levels = _rates(log, {} if usual is None else usual.rates)
     others = {"tau": torques, **rates}
-    new = segment if (segment != _segments(log)).any() else log.segment
+    new = segment if (segment != log.piece_number).any() else log.segment
     mended = dataclasses.replace(
         log,
         q=q,
@@ -356,10 +324,10 @@ def defects(log: Log, spec: ModuleSpec, usual: Usual | None = None) -> tuple[Log
 
 def _positions(
     log: Log, spec: ModuleSpec, usual: Usual | None
-) -> tuple[np.ndarray, np.ndarray, list[list[Found]], np.ndarray, np.ndarray]:
+) -> tuple[np.ndarray, np.ndarray, list[list[Defect]], np.ndarray, np.ndarray]:
     """Mended positions, segments, what was found by joint; steps and floors of leaps."""
-    q, segment = log.q.copy(), _segments(log)
-    positions: list[list[Found]] = [[] for _ in spec.joints]
+    q, segment = log.q.copy(), log.piece_number
+    positions: list[list[Defect]] = [[] for _ in spec.joints]
     revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
     steps = np.array([resolution(own) for own in log.q.T]) if usual is None else usual.steps
     stretches = list(_stretches(log, np.isfinite(log.q).all(axis=1)))
@@ -382,28 +350,29 @@ def _positions(
     return q, segment, positions, steps, least
 
 
-def _segments(log: Log) -> np.ndarray:
-    """(n,) a number that grows where a piece begins."""
-    if log.segment is None:
-        return np.zeros(log.rows, dtype=int)
-    return np.concatenate([[0], np.cumsum(np.diff(log.segment) != 0)])
-
-
 def _stretches(log: Log, there: np.ndarray) -> Iterator[np.ndarray]:
     """Rows (k,) of each stretch without a gap among those that are there (n,)."""
     rows = np.flatnonzero(there)
-    cut = (np.diff(log.time[rows]) > GAP * log.step) | (np.diff(_segments(log)[rows]) != 0)
+    cut = (np.diff(log.time[rows]) > GAP * log.step) | (np.diff(log.piece_number[rows]) != 0)
     yield from np.split(rows, np.flatnonzero(cut) + 1)
 
 
-def _at(found: Leap, rows: np.ndarray, log: Log) -> Found:
+def _at(found: Defect, rows: np.ndarray, log: Log) -> Defect:
     """What was found in a stretch, at rows (k,) of the log."""
     start = int(rows[found.start])
     stop = int(rows[found.stop - 1]) + 1 if found.stop > found.start else start
-    return Found(found.kind, start, stop, found.size, float(log.time[start]))
+    return dataclasses.replace(found, start=start, stop=stop, time=float(log.time[start]))
 
 
-def _mended(walk: LeapWalk, j: int, leaps: Sequence[Leap]) -> np.ndarray:
+def _placed(
+    found: Sequence[Sequence[Defect]], stretches: Sequence[np.ndarray], log: Log
+) -> list[Defect]:
+    """What was found in some stretches, at rows of the log."""
+    pairs = zip(found, stretches, strict=True)
+    return [_at(one, rows, log) for own, rows in pairs for one in own]
+
+
+def _mended(walk: LeapWalk, j: int, leaps: Sequence[Defect]) -> np.ndarray:
     """(n,) the positions of joint j: counted on, joined, and NaN where they are wrong."""
     q = walk.q[:, j].copy()
     offset, edges = np.zeros(len(q)), [0]
@@ -416,7 +385,7 @@ def _mended(walk: LeapWalk, j: int, leaps: Sequence[Leap]) -> np.ndarray:
     return np.asarray(q - (offset - offset[longest]))
 
 
-def _torques(log: Log, usual: TorqueNoise | None) -> tuple[list[list[Found]], TorqueNoise | None]:
+def _torques(log: Log, usual: TorqueNoise | None) -> tuple[list[list[Defect]], TorqueNoise | None]:
     """Spikes of the measured torques by joint; and what is usual in them."""
     there = np.isfinite(log.tau).all(axis=1) & np.isfinite(log.q).all(axis=1)
     stretches = [rows for rows in _stretches(log, there) if len(rows) >= LEAST]
@@ -425,11 +394,7 @@ def _torques(log: Log, usual: TorqueNoise | None) -> tuple[list[list[Found]], To
         lambda: [np.gradient(log.q[rows], log.time[rows], axis=0) for rows in stretches],
         usual,
     )
-    return [
-        [_at(Leap("spike", *one), rows, log) for own, rows in zip(by_joint, stretches, strict=True)
-         for one in own]
-        for by_joint in spikes
-    ], noise  # fmt: skip
+    return [_placed(by_joint, stretches, log) for by_joint in spikes], noise
 
 
 def _rates(log: Log, usual: Mapping[str, np.ndarray]) -> tuple[Defects, dict[str, np.ndarray]]:
@@ -448,18 +413,12 @@ def _rates(log: Log, usual: Mapping[str, np.ndarray]) -> tuple[Defects, dict[str
             floor = usual[name][j] if name in usual else glitch_floor(stretches, departed)
             floors_of_name.append(floor)
             spikes = glitches(stretches, departed, floor)
-            found.setdefault(name, []).append(
-                [
-                    _at(Leap("spike", *one), r, log)
-                    for own, r in zip(spikes, rows, strict=True)
-                    for one in own
-                ]
-            )
+            found.setdefault(name, []).append(_placed(spikes, rows, log))
         levels[name] = np.array(floors_of_name)
     return found, levels
 
 
-def _without(values: np.ndarray, found: Sequence[Sequence[Found]]) -> np.ndarray:
+def _without(values: np.ndarray, found: Sequence[Sequence[Defect]]) -> np.ndarray:
     kept = values.copy()
     for j, own in enumerate(found):
         for one in own:
@@ -486,10 +445,8 @@ def damages(log: Log, rows: int, spec: ModuleSpec, found: Defects) -> tuple[Dama
                 column = log.torque_source[spec.joints.index(joint)].split()[0]
             for kind in dict.fromkeys(one.kind for one in own):
                 same = [one for one in own if one.kind == kind]
-                size, samples = (
-                    max(abs(one.size) for one in same),
-                    sum(o.stop - o.start for o in same),
-                )
+                size = max(abs(one.size) for one in same)
+                samples = sum(one.stop - one.start for one in same)
                 first = f"at {same[0].time:.6g} s"
                 words = _WORDS["torque" if kind == "spike" and column[0] != "q" else kind].format(
                     when=first if len(same) == 1 else f"{len(same)} times, first {first}",

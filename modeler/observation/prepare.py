@@ -4,7 +4,6 @@ import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,12 +24,9 @@ from modeler.observation.log import Log
 from modeler.observation.motion import CAUSES, HIGHEST, OPEN, Segment, edge_of, segment_of
 from modeler.observation.motion_band import motion_bands
 from modeler.observation.outliers import Defects, Usual, defects
-from modeler.observation.processing import ChosenProcessing, Processing
 from modeler.observation.segments import Piece, SplitReport, split
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
-
+from modeler.observation.settings import ChosenProcessing, Processing
+from modeler.runtime.model import CompiledModel
 
 LARGEST = 1e12
 """Positions, velocities, accelerations and torques above are damage, not measurements."""
@@ -323,10 +319,9 @@ def joint_motions(
         spectra: of their positions.
     """
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
-    found = [motion_bands(*pair) for pair in zip(pieces, spectra, strict=True)]
+    found = np.stack([motion_bands(*pair) for pair in zip(pieces, spectra, strict=True)], axis=1)
     motions = []
-    for j, joint in enumerate(joints):
-        values = np.array([(own.band[j], own.shaken[j], own.trembling[j]) for own in found])
+    for joint, values in zip(joints, found, strict=True):
         moved = np.isfinite(values[:, 0])
         moves = bool(moved.any())
         kept, weights = (values[moved], lengths[moved]) if moves else (values, lengths)
@@ -446,7 +441,7 @@ FEWEST = 0.1
 """Where a smaller share of the samples closes, the model is of another machine or other units."""
 
 
-def nearest_closed(model: "CompiledModel", *postures: np.ndarray) -> np.ndarray | None:
+def nearest_closed(model: CompiledModel, *postures: np.ndarray) -> np.ndarray | None:
     """(n,) the nearest sample, in time, whose postures all close; its own place where its own do.
 
     Args:
@@ -470,7 +465,7 @@ def nearest_closed(model: "CompiledModel", *postures: np.ndarray) -> np.ndarray 
 
 
 def without_open(
-    model: "CompiledModel", logs: Sequence[Log], prepared: Prepared
+    model: CompiledModel, logs: Sequence[Log], prepared: Prepared
 ) -> tuple[Prepared, tuple[tuple[float, ...], ...]]:
     """The segments with another posture where theirs does not close, and those times of each log.
 
@@ -499,7 +494,7 @@ def without_open(
     return dataclasses.replace(prepared, segments=tuple(s for s, _ in both)), tuple(times)
 
 
-def closed(model: "CompiledModel", segment: Segment) -> tuple[Segment, np.ndarray]:
+def closed(model: CompiledModel, segment: Segment) -> tuple[Segment, np.ndarray]:
     """The segment with postures that close the loops, and (n,) True where its own does not."""
     if model.spec.closure is None:
         return segment, np.zeros(segment.samples, dtype=bool)

@@ -5,14 +5,15 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.logs.blocks import Blocks, ParquetBlocks, blocks_of
-from modeler.logs.log_table import LogTable, Part
+from modeler.logs.columns import Columns
+from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap
 from modeler.observation.log import MOST_WHOLE, Log, fingerprint
 
@@ -260,7 +261,7 @@ class Ranges:
         """(J,) smallest and largest torque."""
         return tuple(zip(self.low[1].tolist(), self.high[1].tolist(), strict=True))
 
-    def over(self, other: "Ranges") -> "Ranges":
+    def merged_with(self, other: "Ranges") -> "Ranges":
         """Of the rows of both."""
         return Ranges(
             self.values + other.values,
@@ -308,41 +309,15 @@ _COLUMNS = ("time", "q", "tau", "qd", "qdd", "commanded")
 _FIRST = 1000  # rows that tell which columns a file has
 
 
-class Source(Protocol):
-    """Rows of one log, read when they are wanted."""
-
-    @property
-    def name(self) -> str:
-        """Of the file."""
-
-    @property
-    def rows(self) -> int:
-        """How many; of a CSV file about as many."""
-
-    @property
-    def content(self) -> str:
-        """Fingerprint of the whole file; "" if nobody has taken it yet."""
-
-    def blocks(self, size: int) -> Iterator[Log]:
-        """All rows in their order, about `size` at a time.
-
-        Raises:
-            DataError: the log is damaged, or its time does not increase.
-        """
-
-    def window(self, share: float, size: int) -> Log:
-        """Up to `size` consecutive rows from about a share of the log on."""
-
-
 class FileSource:
-    """A Parquet or CSV file.
+    """The rows of a Parquet or CSV file, read when they are wanted.
 
     Attributes:
         name: of the file.
         place: the file, and whose column is which: what makes this source again elsewhere.
         exact: True if a window begins at the very row that its share means.
-        rows: of the file.
-        content: "": not known before all rows are read.
+        rows: of the file; of CSV about as many.
+        content: "": the fingerprint is not known before all rows are read.
     """
 
     def __init__(
@@ -356,15 +331,19 @@ class FileSource:
         self.name, self.place, self.content = path.name, (path, mapping), ""
         self.rows, self.exact = blocks.rows, isinstance(blocks, ParquetBlocks)
         self._blocks, self._spec = blocks, spec
-        table = self._table(Part(blocks.window(0.0, _FIRST)))
+        table = self._table(blocks.window(0.0, _FIRST))
         self._notes = log_of(table, spec).notes
         self._names = needed(table, spec)
 
     def blocks(self, size: int) -> Iterator[Log]:
-        """All rows in their order."""
+        """All rows in their order, about `size` at a time.
+
+        Raises:
+            DataError: the log is damaged, or its time does not increase.
+        """
         before, last, warm = 0, -np.inf, dict[str, float]()
         for columns in self._blocks.blocks(size, self._names):
-            table = self._table(Part(columns, before))
+            table = self._table(columns, before)
             log = log_of(table, self._spec)
             if log.time[0] <= last:
                 raise backwards(table, before, last, float(log.time[0]))
@@ -372,13 +351,13 @@ class FileSource:
             yield dataclasses.replace(log, notes=self._notes, extra=_carried(log, warm))
 
     def window(self, share: float, size: int) -> Log:
-        """Some rows, as a log."""
+        """Up to `size` consecutive rows from about a share of the log on."""
         columns = self._blocks.window(share, size, self._names)
-        log = log_of(self._table(Part(columns, int(share * self.rows))), self._spec)
+        log = log_of(self._table(columns, int(share * self.rows)), self._spec)
         return dataclasses.replace(log, notes=self._notes, extra=_carried(log, {}))
 
-    def _table(self, part: Part) -> LogTable:
-        return LogTable(*self.place, self._spec.joints, part=part)
+    def _table(self, part: Columns, before: int = 0) -> LogTable:
+        return LogTable(*self.place, self._spec.joints, part=part, before=before)
 
 
 def _carried(log: Log, last: dict[str, float]) -> dict[str, np.ndarray]:
@@ -398,7 +377,7 @@ def _carried(log: Log, last: dict[str, float]) -> dict[str, np.ndarray]:
 
 
 class MemorySource:
-    """A log that is in memory."""
+    """A log that is in memory; as `FileSource`."""
 
     def __init__(self, log: Log) -> None:
         self.log, self.name, self.rows, self.content = log, log.name, log.rows, log.content
@@ -412,6 +391,10 @@ class MemorySource:
         """Some rows."""
         first = max(0, min(int(share * self.rows), self.rows - size))
         return cut(self.log, slice(first, first + size))
+
+
+Source = FileSource | MemorySource
+"""Rows of one log."""
 
 
 def source_of(path: Path, spec: ModuleSpec, mapping: LogMap | None = None) -> FileSource | None:
@@ -433,10 +416,7 @@ def windows_joined(logs: Sequence[Log]) -> Log:
     """Windows of one log, increasing in time, as a log whose segments they are."""
     numbers, first = [], 0
     for log in logs:
-        own = np.zeros(log.rows, dtype=int)
-        if log.segment is not None:
-            own[1:] = np.cumsum(np.diff(log.segment) != 0)
-        numbers.append(first + own)
+        numbers.append(first + log.piece_number)
         first = int(numbers[-1][-1]) + 1
     return _joined(logs, np.concatenate(numbers))
 

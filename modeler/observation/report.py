@@ -8,8 +8,8 @@ from modeler.core.result import Presented
 from modeler.core.table import percent
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
 from modeler.observation.outliers import Damage
-from modeler.observation.processing import ChosenProcessing
 from modeler.observation.segments import JITTER
+from modeler.observation.settings import ChosenProcessing
 
 
 @dataclass(frozen=True)

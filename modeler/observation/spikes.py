@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -38,13 +39,32 @@ _STARTS = 2.0  # times the changes just before: something began
 _SLOW = 0.05  # of the top speed: at a reversal and at rest, friction makes peaks of its own
 _FEW = 0.02  # of the values that may be spikes, or all are looked at
 
-Spike = tuple[int, int, float]
-"""First sample, the one after the last, and the largest departure with its sign."""
+Kind = Literal["wrap", "spike", "frozen", "zero", "lost"]
+
+
+@dataclass(frozen=True)
+class Defect:
+    """Something that happened to a channel, which no robot does.
+
+    Attributes:
+        kind: "wrap" (by whole turns), "spike" (there and back), "frozen" (a value repeated while
+            the joint moved), "zero" (for good), "lost" (rows are missing, and the clock ran on).
+        start: first sample after it; of a spike or frozen values the first bad one.
+        stop: sample after the last bad one; `start` if none is bad.
+        size: in the channel's unit, with its sign; of a spike the largest departure.
+        time: s, of the start, once that is a row of the log and no sample of a stretch.
+    """
+
+    kind: Kind
+    start: int
+    stop: int
+    size: float
+    time: float = float("nan")
 
 
 def glitches(
     stretches: Sequence[np.ndarray], departed: Sequence[np.ndarray], floor: float
-) -> list[list[Spike]]:
+) -> list[list[Defect]]:
     """By stretch, the lone departures of a channel from its running median, in runs of up to 3.
 
     Runs are gone as they came; what stays is a step, and no spike.
@@ -56,7 +76,7 @@ def glitches(
     """
     floor, found = floor_here(departed, floor, RARE), []
     for values, own in zip(stretches, departed, strict=True):
-        places, spikes = lone(own, floor), list[Spike]()
+        places, spikes = lone(own, floor), list[Defect]()
         for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1):
             if not 0 < len(run) <= LONGEST:
                 continue
@@ -64,7 +84,7 @@ def glitches(
             start, stop = int(run[0]), int(run[-1]) + 1
             beside = values[[k for k in (start - 1, stop) if 0 <= k < len(values)]]
             if np.ptp(beside) < _BACK * abs(size):
-                spikes.append((start, stop, size))
+                spikes.append(Defect("spike", start, stop, size))
         found.append(spikes)
     return found
 
@@ -99,7 +119,7 @@ def torque_glitches(
     stretches: Sequence[np.ndarray],
     speeds_of: Callable[[], Sequence[np.ndarray]],
     usual: TorqueNoise | None = None,
-) -> tuple[list[list[list[Spike]]], TorqueNoise | None]:
+) -> tuple[list[list[list[Defect]]], TorqueNoise | None]:
     """By joint and stretch, the spikes of torques that no motion and no blow explains.
 
     A torque that is real moves its joint, and a blow is felt in several joints. Where a joint
@@ -138,7 +158,7 @@ def torque_glitches(
         found[j] = [
             [spike for spike in spikes
              if not _blow(size, j, spike) and not _answered(speed[:, j], spike)
-             and (abs(spike[2]) > usual.range[j] or _moves(speed[:, j], spike, slow))]
+             and (abs(spike.size) > usual.range[j] or _moves(speed[:, j], spike, slow))]
             for spikes, size, speed in zip(by_stretch, sizes, speeds, strict=True)
         ]  # fmt: skip
     return found, usual
@@ -153,9 +173,9 @@ def _departed(tau: np.ndarray, usual: TorqueNoise | None) -> np.ndarray:
     return np.column_stack([departures(own) for own in tau.T])
 
 
-def _blow(sizes: np.ndarray, j: int, spike: Spike) -> bool:
+def _blow(sizes: np.ndarray, j: int, spike: Defect) -> bool:
     """True if another torque departs too, around the same time."""
-    first, last = max(0, spike[0] - _AROUND), spike[1] + _AROUND
+    first, last = max(0, spike.start - _AROUND), spike.stop + _AROUND
     for k in range(sizes.shape[1]):
         if k == j:
             continue
@@ -165,18 +185,18 @@ def _blow(sizes: np.ndarray, j: int, spike: Spike) -> bool:
     return False
 
 
-def _answered(speed: np.ndarray, spike: Spike) -> bool:
+def _answered(speed: np.ndarray, spike: Defect) -> bool:
     """True if the speed changes across a spike as it rarely does, or did not before."""
     mean = np.convolve(speed, np.ones(_MEAN) / _MEAN, mode="valid")
     change = np.abs(mean[_MEAN + 1 :] - mean[: -_MEAN - 1])  # centred on sample _MEAN + k
-    first, last = spike[0] - _AROUND - _MEAN, spike[1] + _AROUND - _MEAN
+    first, last = spike.start - _AROUND - _MEAN, spike.stop + _AROUND - _MEAN
     across = float(np.max(change[max(0, first) : last], initial=0.0))
     earlier = change[max(0, first - REACH) : max(0, first - _MEAN)]
     before = float(np.max(earlier, initial=0.0)) if earlier.size else np.inf
     return across > float(np.quantile(change, _RARELY)) or across > _STARTS * before > 0.0
 
 
-def _moves(speed: np.ndarray, spike: Spike, least: float) -> bool:
+def _moves(speed: np.ndarray, spike: Defect, least: float) -> bool:
     """True if a joint moves one way, and not slowly, around a spike."""
-    around = speed[max(0, spike[0] - _AROUND) : spike[1] + _AROUND]
+    around = speed[max(0, spike.start - _AROUND) : spike.stop + _AROUND]
     return bool(np.min(around) > least or np.max(around) < -least)

@@ -9,7 +9,7 @@ from modeler.core.brief import Brief
 from modeler.numerics.filters import LEAST_WEIGHT, RowFilter, filter_at, spacing
 from modeler.observation.low_speed import FrictionShaft, moving
 from modeler.observation.motion import Segment
-from modeler.observation.processing import ChosenProcessing
+from modeler.observation.settings import ChosenProcessing
 
 _BLOCK = 20_000  # samples evaluated at a time: 20 000 x 7 joints x 60 columns is 67 MB
 
@@ -29,6 +29,12 @@ class Stretch(Brief):
     usable: np.ndarray
     rows: RowFilter
     used: np.ndarray
+
+    @property
+    def decimation(self) -> int:
+        """Samples from one row to the next; 1 where there are no two."""
+        centres = self.rows.centres
+        return int(centres[1] - centres[0]) if len(centres) > 1 else 1
 
     def filtered(self, evaluate: Callable[[slice], np.ndarray]) -> np.ndarray:
         """Filtered columns (rows, joints, ...) of evaluate(window) -> (window, joints, ...).
@@ -50,11 +56,9 @@ class Stretch(Brief):
 
     def parts(self, samples: int = _BLOCK) -> Iterator[tuple[RowFilter, slice, slice]]:
         """Filters of a few rows each, the samples that they reach, and which rows they are."""
-        centres = self.rows.centres
-        decimation = int(centres[1] - centres[0]) if len(centres) > 1 else 1
-        count = max(1, samples // decimation)
-        for first in range(0, len(centres), count):
-            rows = slice(first, min(first + count, len(centres)))
+        total, count = len(self.rows.centres), max(1, samples // self.decimation)
+        for first in range(0, total, count):
+            rows = slice(first, min(first + count, total))
             window = self.rows.window(rows)
             yield self.rows.part(rows, window), window, rows
 

@@ -3,7 +3,6 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,21 +10,19 @@ from modeler.core.errors import DataError, LoopError
 from modeler.numerics.filters import spacing
 from modeler.observation.chunk import Chunk, chunk_rows, margin
 from modeler.observation.consistency import consistency
-from modeler.observation.log import FINGER, LONG, Log, finger, fingerprint, fingerprint_of
+from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_of, fingers
 from modeler.observation.low_speed import IDLE_TRAVEL, TOP, FrictionShaft, shafts
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.observation import Observation, observed
 from modeler.observation.outliers import Usual, defects
 from modeler.observation.prepare import Prepared, believed, check_size, closed, prepare
-from modeler.observation.processing import ChosenProcessing, Processing
 from modeler.observation.read import Ranges, Source, cut, joined, windows_joined
 from modeler.observation.report import DataReport, LogReport
 from modeler.observation.segments import Piece, split
+from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.observation.stretch import Stretch, row_centres, stretch
 from modeler.observation.tally import Facts, joint_reports, log_report, tally
-
-if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+from modeler.runtime.model import CompiledModel
 
 WINDOWS = 8
 """Windows of all logs together, at least one of each log."""
@@ -119,7 +116,7 @@ class KnownFacts:
 
 
 def survey(
-    model: "CompiledModel",
+    model: CompiledModel,
     sources: Sequence[Source],
     processing: Processing,
     known: KnownFacts,
@@ -175,9 +172,7 @@ def survey(
             )
         )
     count, rows_seen = sum(len(own) for own in windows), sum(log.rows for log in seen)
-    prepared = dataclasses.replace(
-        prepared, segments=(), pieces=(), left_out=()
-    )  # memory for the chunks
+    prepared = dataclasses.replace(prepared, segments=(), pieces=(), left_out=())  # memory
     return Survey(observation, prepared, tuple(every), places, count, rows_seen)
 
 
@@ -247,7 +242,7 @@ def _moves(log: Log) -> bool:
 
 
 def rows_of_chunk(
-    model: "CompiledModel", chunk: Chunk, chosen: Chosen
+    model: CompiledModel, chunk: Chunk, chosen: Chosen
 ) -> tuple[tuple[Stretch, ...], Facts]:
     """The rows of a chunk: mended, split, filtered and differentiated as those of a whole log.
 
@@ -274,7 +269,7 @@ def rows_of_chunk(
         stretch(s, chosen.shafts, processing, _centres(s, chunk, chosen)) for s in segments
     )
     own = cut(chunk.log, chunk.own)
-    (start, stop), fingers = chunk.span, range(0, own.rows, FINGER)
+    start, stop = chunk.span
     return stretches, Facts(
         tally=tally(chunk, pieces, cuts, stretches, left_out, check),
         defects={
@@ -285,10 +280,7 @@ def rows_of_chunk(
             one for one in (check.contradictions if check else ()) if start <= one.time < stop
         ),
         ranges=Ranges.of(own),
-        fingers=tuple(
-            finger(*(values[k : k + FINGER] for values in (own.time, own.q, own.tau)))
-            for k in fingers
-        ),
+        fingers=fingers(own.time, own.q, own.tau),
         clipped=_clipped(chunk.log, pieces),
         awake=_awake(segments, chosen),
         open_times=tuple(
@@ -390,9 +382,7 @@ class Passes:
         }
 
 
-def streamed_report(
-    model: "CompiledModel", sources: Sequence[Source], passes: Passes
-) -> DataReport:
+def streamed_report(model: CompiledModel, sources: Sequence[Source], passes: Passes) -> DataReport:
     """What happened to all rows of long logs.
 
     Args:
@@ -412,7 +402,7 @@ def streamed_report(
     )
 
 
-def _log_report(model: "CompiledModel", source: Source, k: int, passes: Passes) -> LogReport:
+def _log_report(model: CompiledModel, source: Source, k: int, passes: Passes) -> LogReport:
     facts, chosen, found = passes.facts[k], passes.found.chosen[k], passes.found
     counts, first, content = facts.tally, source.window(0.0, 2), source.content
     missing = {

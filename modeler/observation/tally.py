@@ -33,7 +33,7 @@ class Tally:
     sums: Mapping[str, Any]
     most: Mapping[str, Any]
 
-    def over(self, other: "Tally") -> "Tally":
+    def merged_with(self, other: "Tally") -> "Tally":
         """That of both."""
         return Tally(
             {name: self.sums[name] + other.sums[name] for name in self.sums},
@@ -124,7 +124,7 @@ class Facts:
     open_times: tuple[float, ...]
     span: tuple[float, float]
 
-    def over(self, later: "Facts") -> "Facts":
+    def merged_with(self, later: "Facts") -> "Facts":
         """Of these rows, and of those that follow them."""
         low, high = np.stack([self.clipped, later.clipped], axis=1)
         defects = dict(self.defects)
@@ -132,10 +132,10 @@ class Facts:
             before = defects.get(name) or [[] for _ in more]
             defects[name] = [a + b for a, b in zip(before, more, strict=True)] if more else before
         return Facts(
-            tally=self.tally.over(later.tally),
+            tally=self.tally.merged_with(later.tally),
             defects=defects,
             contradictions=_contradictions(self.contradictions, later.contradictions),
-            ranges=self.ranges.over(later.ranges),
+            ranges=self.ranges.merged_with(later.ranges),
             fingers=self.fingers + later.fingers,
             clipped=np.stack([np.fmax(*low), np.fmin(*high)]),
             awake={name: max(self.awake.get(name, 0.0), later.awake.get(name, 0.0))

@@ -150,9 +150,9 @@ class _Part:
     rows: tuple[Prediction, ...]
     facts: Facts
 
-    def over(self, later: "_Part") -> "_Part":
+    def merged_with(self, later: "_Part") -> "_Part":
         """Of these rows, and of those that follow them."""
-        return _Part(self.rows + later.rows, self.facts.over(later.facts))
+        return _Part(self.rows + later.rows, self.facts.merged_with(later.facts))
 
 
 def compare_long(

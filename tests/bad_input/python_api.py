@@ -17,7 +17,7 @@ from modeler.api import (
     own_effect,
 )
 from modeler.estimation.model_file import IdentifiedModel, load_model
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.runtime.model import CompiledModel
 from tests.bad_input.row import Outcome, Row, row
 from tests.bad_input.yard import Yard

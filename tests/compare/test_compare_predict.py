@@ -10,7 +10,7 @@ from modeler.core.errors import DataError
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.observation.log import Log
 from modeler.observation.motion import travel_since_reversal
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.validation.comparison import Comparison, compare
 from modeler.validation.predict import predict
 from modeler.validation.verdict import joint_verdict, kind_of_residual

@@ -8,7 +8,7 @@ import pytest
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.state import analysis_processing, bands_line
 from modeler.observation.log import Log
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from tests.diagnose.conftest import Case, motion
 
 

@@ -13,8 +13,8 @@ from modeler.diagnosis import signals as signals_module
 from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.state import SearchData, all_columns_of, analysed, state_of
 from modeler.observation.prepare import Mending
-from modeler.observation.processing import Processing
 from modeler.observation.read import read_log
+from modeler.observation.settings import Processing
 from modeler.simulation import SimulationSettings, simulate, write_log
 
 

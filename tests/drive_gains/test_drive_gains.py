@@ -11,10 +11,9 @@ from modeler.api import compile_model, derive, generate, load, read_currents
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation.doubts import mounted_differently, remounted
-from modeler.estimation.drive_gains import check_currents, identify_gains
+from modeler.estimation.drive_gains import check_currents, identify_gains, mixed_tls
 from modeler.estimation.known import deviations, known_doubts
 from modeler.estimation.payload import Payload
-from modeler.estimation.total_least_squares import mixed_tls
 from modeler.numerics.least_squares import compress
 from modeler.observation.observation import observe
 from modeler.robot.edit import with_drive_gains

@@ -42,7 +42,7 @@ def joints():
 def problem_of(W, y, joint):
     rows = Rows(joint, joints())
     data = compress(W, y, joint, len(ROWS), rows.names)
-    return Problem(rows, W, y, np.ones(len(y), dtype=bool), rows.names, ("",) * 4, data)
+    return Problem(rows, W, y, np.ones(len(y), dtype=bool), rows.names, data)
 
 
 def rows(random):

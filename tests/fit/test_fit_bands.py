@@ -10,7 +10,7 @@ from test_observation_rows import exact_log, some_beta
 
 from modeler.estimation.identify import identify
 from modeler.observation.observation import MASKS, WHY, masks_of, observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.validation.prediction import DEVIATIONS, sigma_of
 
 RUNS, LONG = 60, 30.0

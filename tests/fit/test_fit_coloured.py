@@ -11,7 +11,7 @@ from test_observation_rows import exact_log, some_beta
 from modeler.estimation.covariance import autocorrelation
 from modeler.estimation.identify import identify
 from modeler.observation.observation import observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 
 RUNS = 40
 

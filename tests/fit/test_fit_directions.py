@@ -12,7 +12,7 @@ from modeler.estimation.result import fit_from_json
 from modeler.estimation.verdict import with_verdict
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.robot.edit import with_effects
 from modeler.robot.read import robot_from_text
 

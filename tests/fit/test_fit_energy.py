@@ -9,10 +9,9 @@ from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
-from modeler.estimation.energy_fit import identify_energy, unequal_least_squares
+from modeler.estimation.energy_fit import energy_rows, identify_energy, unequal_least_squares
 from modeler.estimation.identify import base_equations, crossed, identify
 from modeler.estimation.result import fit_from_json
-from modeler.observation.energy import energy_rows
 from modeler.observation.observation import observe
 
 NOISE = np.array([0.2, 0.5])

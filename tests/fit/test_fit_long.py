@@ -23,9 +23,9 @@ from modeler.numerics.filters import spacing
 from modeler.observation.chunk import chunks, margin
 from modeler.observation.motion import low_pass
 from modeler.observation.observation import observe
-from modeler.observation.processing import Processing
 from modeler.observation.read import MemorySource, cut
 from modeler.observation.segments import split
+from modeler.observation.settings import Processing
 from modeler.observation.survey import KnownFacts, WholeNeeded, survey
 
 ROWS = 1024  # of a chunk

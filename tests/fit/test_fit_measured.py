@@ -21,7 +21,7 @@ from modeler.api import (
     load,
     observe,
 )
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 

@@ -12,10 +12,10 @@ from modeler.estimation.result import FitResult
 from modeler.estimation.verdict import with_verdict
 from modeler.observation import reduce as passing
 from modeler.observation import stretch
+from modeler.observation.findings import thinned
 from modeler.observation.log import Log
 from modeler.observation.observation import Evaluated, Observation, observe
-from modeler.observation.processing import Processing
-from modeler.observation.thinned import thinned
+from modeler.observation.settings import Processing
 from modeler.runtime.model import CompiledModel
 from tests.modules import compiled
 

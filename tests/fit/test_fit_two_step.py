@@ -14,7 +14,7 @@ from modeler.estimation.two_step import Directions, moves_alone, single_joint_mo
 from modeler.estimation.two_step_result import identify_in_two_steps, inertia_rows
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.robot.motors import joint_directions
 from modeler.robot.read import read_robot
 from modeler.robot.robot import Limits
@@ -160,13 +160,13 @@ def test_too_few_configurations_are_not_persistently_exciting():
 def test_pieces_of_several_joints_are_left_out(exact):
     log = _log("wrist-coupled")
     observation = _observed("wrist-coupled", log)
-    moves = moves_alone(observation, _directions("wrist-coupled"))
+    moves, several, total = moves_alone(observation, _directions("wrist-coupled"))
     speeds = np.abs(log.qd @ np.linalg.inv(_directions("wrist-coupled").rows))
-    for move in moves.alone:
+    for move in moves:
         others = np.delete(speeds[move.window], move.joint, axis=1)
         assert others.max() < 0.03 * speeds.max()
-    assert 0.0 < moves.several < 0.4 * moves.total
-    assert exact.steps.several == moves.several
+    assert 0.0 < several < 0.4 * total
+    assert exact.steps.several == several
 
 
 @pytest.mark.parametrize("name", ["scara", "emps"])

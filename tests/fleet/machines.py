@@ -11,7 +11,7 @@ from modeler.core.manifest import Emitted
 from modeler.fleet.naming import Named
 from modeler.fleet.summary import LogSummary, summary
 from modeler.observation.log import Log
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.runtime.model import CompiledModel
 
 RATE = 100.0  # Hz

@@ -11,7 +11,7 @@ from modeler.fleet.naming import Named
 from modeler.fleet.result import Fleet, fleet_lines, sentence
 from modeler.fleet.summary import Left, LogSummary, summary
 from modeler.observation.log import Log
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.runtime.model import CompiledModel
 from tests.fleet.machines import Planted, Scene, compiled, logs, motion, parameters, summaries
 

@@ -8,7 +8,7 @@ import numpy as np
 from modeler.api import compile_model, derive, fit, generate, observe
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel

@@ -19,7 +19,7 @@ from modeler.diagnosis.score import Score, Unseen, scored
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.motion import HIGHEST
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import CompiledModel
 from modeler.runtime.model import load as load_compiled

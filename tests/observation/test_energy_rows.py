@@ -8,10 +8,10 @@ from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
-from modeler.observation.energy import energy_rows, kinetic_columns, weights
+from modeler.estimation.energy_fit import energy_rows, kinetic_columns, weights
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from tests.modules import compiled
 
 SWING = {"sr400-tree": 0.4, "five-bar": 0.15, "evra": 0.02, "wrist": 0.8}

@@ -11,9 +11,9 @@ from modeler.core.errors import DataError
 from modeler.observation.consistency import consistency
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.observation.processing import Processing, processing_from_json
 from modeler.observation.read import read_log
 from modeler.observation.segments import split
+from modeler.observation.settings import Processing, processing_from_json
 
 DATA = next(
     (p / "shared" / "data" for p in Path(__file__).resolve().parents

@@ -15,8 +15,8 @@ from modeler.core.manifest import JointSpec
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
 from modeler.observation.outliers import damages, defects
-from modeler.observation.processing import Processing, processing_from_json
 from modeler.observation.read import read_log
+from modeler.observation.settings import Processing, processing_from_json
 
 ARMS = {
     "slider": slider(),

@@ -9,9 +9,9 @@ from stand_in import planar_arm
 from modeler.observation.consistency import consistency
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
-from modeler.observation.processing import Processing
 from modeler.observation.read import read_log
 from modeler.observation.segments import split
+from modeler.observation.settings import Processing
 
 ARM = planar_arm()
 

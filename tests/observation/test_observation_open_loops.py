@@ -11,7 +11,7 @@ from modeler.core.errors import LoopError
 from modeler.observation.log import Log
 from modeler.observation.observation import MASKS, masks_of, observe
 from modeler.observation.prepare import nearest_closed
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 from tests.modules import compiled
 
 OUTWARD = np.array(

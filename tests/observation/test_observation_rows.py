@@ -7,13 +7,13 @@ import pytest
 from stand_in import Row, StandIn, planar_arm, rotor, slider
 
 from modeler.core.errors import DataError
-from modeler.numerics.filters import row_filter
+from modeler.numerics.filters import filter_at
 from modeler.observation import stretch as stretch_module
 from modeler.observation.excitation import excitation
 from modeler.observation.log import Log
 from modeler.observation.low_speed import shafts
 from modeler.observation.observation import observe
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 
 
 def motion(joints, seconds=20.0, rate=200, seed=0, harmonics=3):
@@ -32,6 +32,13 @@ def exact_log(model, beta, name="run", logged=True, **kw):
     tau = model.base_regressor(q, qd, qdd) @ beta
     names = tuple(joint.name for joint in model.spec.joints)
     return Log(name, names, t, q, tau, qd if logged else None, qdd if logged else None)
+
+
+def row_filter(whole, step, cutoff, every):
+    """A filter whose rows are so many samples apart, in the middle of what is whole."""
+    inside = np.flatnonzero(whole)
+    centres = inside[(len(inside) - 1) % every // 2 :: every]
+    return filter_at(centres, len(whole), step, cutoff)
 
 
 def some_beta(model, seed=5):

@@ -16,8 +16,8 @@ from modeler.observation.prepare import (
     what_rings,
     what_trembles,
 )
-from modeler.observation.processing import ChosenProcessing, Processing, processing_from_json
 from modeler.observation.segments import saturated, split
+from modeler.observation.settings import ChosenProcessing, Processing, processing_from_json
 
 W0 = 2 * np.pi * 0.7  # rad/s
 
