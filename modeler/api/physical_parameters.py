@@ -267,10 +267,9 @@ def _letters_table(found: Physical) -> Table:
     return Table(f"{system.robot}: physical parameters", tuple((n, "") for n in names), rows)
 
 
-present(PhysicalValues, Presentation(
-    "a set of physical parameters", _values_summary, lambda v: {"values": lambda: values_table(v)}
-))  # fmt: skip
-present(Physical, Presentation(
-    "a system of physical parameters", _physical_summary,
-    lambda p: {"parameters": lambda: _letters_table(p)},
-))  # fmt: skip
+present({
+    PhysicalValues: Presentation("a set of physical parameters", _values_summary,
+                                 lambda v: {"values": lambda: values_table(v)}),
+    Physical: Presentation("a system of physical parameters", _physical_summary,
+                           lambda p: {"parameters": lambda: _letters_table(p)}),
+})  # fmt: skip

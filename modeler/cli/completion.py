@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from modeler.cli import places
-from modeler.cli.console import Json, say
+from modeler.cli.console import Json, say, say_lines
 from modeler.cli.options import arguments_of, options_of, sorted_words
 from modeler.core.builtin import MOTIONS, OTHER_PROGRAMS, builtin_names, paper_names
 from modeler.core.estimators import ABOUT
@@ -52,8 +52,7 @@ def run_completion(args: argparse.Namespace) -> Json:
         say(SCRIPTS[args.shell].rstrip())
         return {"shell": args.shell, "script": SCRIPTS[args.shell]}
     found = candidates(args.words[1:], args.top)
-    for each in found:
-        say(each)
+    say_lines(found)
     return found
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import modeler.api.fitting as fitting
 import modeler.api.long_logs as long_logs
 from modeler.api.workflow import compile_model, derive, generate, read_logs
-from modeler.cli.console import Json, note, progress, say, say_next, working
+from modeler.cli.console import Json, draw_page, note, progress, say, say_lines, say_next, working
 from modeler.cli.lists import robot_of
 from modeler.codegen.derivation import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError
@@ -24,8 +24,8 @@ from modeler.observation.log import Log, check_apart
 from modeler.observation.observation import Observation, observe
 from modeler.observation.processing import Processing
 from modeler.observation.survey import WholeNeeded
-from modeler.report.estimators import remarks_of, table_of, values_of, write_estimators
-from modeler.report.page import after_fit
+from modeler.report.estimators import estimators_page, remarks_of, table_of, values_of
+from modeler.report.page import after_fit, write_page
 from modeler.robot.edit import with_parameters
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import INERTIAL
@@ -177,15 +177,14 @@ def _written(
     """Saves and prints the model."""
     save_model(args.out, model)
     *told, verdict = model.fit.lines()
-    for line in (*observation.report.lines(), "", *lines, *told):
-        say(line)
+    say_lines([*observation.report.lines(), "", *lines, *told])
     say(f"written: {args.out}")
     if args.report is not None:
-        from modeler.report.fit import write_fit  # pages take long to load
+        from modeler.report.fit import fit_page  # pages take long to load
 
         following = after_fit(args.out, args.logs, args.robot, model.fit)
-        place = write_fit(Path(args.report), model, observation.report.lines(), args.out, following)
-        say(f"written: {place}")
+        page = fit_page(model, observation.report.lines(), args.out, following)
+        say(f"written: {write_page(Path(args.report), page)}")
     if args.robot_out is not None:
         robot = robot_from_text(model.robot_text, "robot of the model")
         # Of inertial parameters only those that the robot file may state.
@@ -235,14 +234,9 @@ def run_estimators(args: argparse.Namespace) -> Json:
         tried = side_by_side(observation, compiled, held, methods, bar)
     lines = tuple(observation.report.lines())
     tables = (aligned(table, (0,)) for table in (table_of(tried), values_of(tried)))
-    for line in (*lines, *(row.rstrip() for table in tables for row in ("", *table)), ""):
-        say(line)
-    for method, remark in remarks_of(tried):
-        say(f"{method}: {remark}")
-    if args.report is not None:
-        with working("drawing the page"):
-            place = write_estimators(Path(args.report), args.robot, tried, lines)
-        say(f"written: {place}")
+    say_lines([*lines, *(row.rstrip() for table in tables for row in ("", *table)), ""])
+    say_lines(f"{method}: {remark}" for method, remark in remarks_of(tried))
+    draw_page(args.report, lambda: estimators_page(args.robot, tried, lines))
     return {
         "training": list(args.logs),
         "holdout": list(args.holdout),

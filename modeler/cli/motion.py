@@ -7,7 +7,7 @@ from pathlib import Path
 
 import modeler.api.motion as motions
 from modeler import simulation
-from modeler.cli.console import Json, progress, say, working
+from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.lists import robot_of
 from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
@@ -44,8 +44,7 @@ def run_excite(args: argparse.Namespace) -> Json:
         else:
             motion = subject.search(bounds, wish, bar)
             lines = motion.lines()
-    for line in lines:
-        say(line)
+    say_lines(lines)
     columns = motion.sampled(args.rate)
     table = csv_text(columns) if args.out.endswith(".csv") else motion_table(columns)
     write_atomically(Path(args.out), table)

@@ -5,7 +5,7 @@ import enum
 from collections.abc import Sequence
 from dataclasses import asdict
 
-from modeler.cli.console import Json, progress, say, working
+from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.core.errors import ModelerError
 from modeler.papers.check import Line, LineVerdict, check_paper
 from modeler.papers.method_report import MethodTable, Outcome
@@ -79,10 +79,8 @@ def _methods(paper: Paper) -> list[MethodTable]:
     with progress(f"simulating the experiment of {paper.name}") as report:
         tables = run_methods(paper, report)
     for table in tables:
-        say()
-        say(table.title)
-        for sentence in table.setting:
-            say(f"  {sentence}")
+        say_lines(["", table.title])
+        say_lines(table.setting, "  ")
         cells = [(row.what, row.printed, row.ours) for row in table.rows]
         heads = ("", "printed", "ours")
         wide = [max(len(cell[i]) for cell in (heads, *cells)) for i in range(3)]

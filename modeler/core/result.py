@@ -48,9 +48,9 @@ _PRESENTATIONS: dict[type, Presentation] = {}
 _LATER: dict[str, Callable[[], None]] = {}
 
 
-def present(kind: type, presentation: Presentation) -> None:
-    """Says how the objects of a class are shown."""
-    _PRESENTATIONS[kind] = presentation
+def present(presentations: Mapping[type, Presentation]) -> None:
+    """Says how the objects of classes are shown."""
+    _PRESENTATIONS.update(presentations)
 
 
 def present_later(names: Iterable[str], load: Callable[[], None]) -> None:

@@ -2,12 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
 from modeler.core.figure import Curve, Heat, Means, Panel, Picture
-from modeler.core.result import Figures, Presentation, Tables, present
+from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.style import BLUE, COLORS, GREY, Style
 from modeler.core.table import Table, percent
 from modeler.fleet.result import (
@@ -25,25 +24,16 @@ from modeler.fleet.result import (
 )
 from modeler.report.blocks import Figure, Items, JudgedLine, PageTable, Paragraph, Verdicts
 from modeler.report.figures import picture_figures
-from modeler.report.page import Origin, Page, Section, write_page
+from modeler.report.page import Origin, Page, Section
 
 _PICTURES = 12  # findings that are drawn
 _COLUMNS = 24  # machines of one map
 _TOP = 10.0  # sigmas at which cells are darkest
 
 
-def write_fleet(path: Path, found: Fleet, provenance: Sequence[str] = ()) -> Path:
-    """Write the page; returns the path of the file written.
-
-    Args:
-        path: an `.html` file, or a folder, which then gets `fleet.html`.
-        found: from `fleet_of`.
-        provenance: lines on how the data came about.
-
-    Raises:
-        ModelerError: the place cannot be written.
-    """
-    sheet = Page(
+def fleet_page(found: Fleet, provenance: Sequence[str] = ()) -> Page:
+    """The page of a fleet; `provenance` are lines on how the data came about."""
+    return Page(
         title=f"{found.robot}: what drifts where",
         headline=headline_of(found),
         sections=_sections(found),
@@ -56,7 +46,6 @@ def write_fleet(path: Path, found: Fleet, provenance: Sequence[str] = ()) -> Pat
         provenance=[*found.notes, *left_lines(found), *provenance],
         command="fleet",
     )
-    return write_page(path, sheet, "fleet.html")
 
 
 def _sections(found: Fleet) -> list[Section]:
@@ -184,11 +173,6 @@ def _followed(found: Fleet) -> PageTable:
 # Fleets.
 
 
-def present_fleets() -> None:
-    """Fleet."""
-    present(Fleet, Presentation("a fleet", lambda f: "\n".join(fleet_lines(f)), _tables, _figures))
-
-
 def _tables(found: Fleet) -> Tables:
     return {
         "findings": lambda: _findings(found),
@@ -239,3 +223,8 @@ def _figures(found: Fleet) -> Figures:
     for k, each in enumerate(found.followed, start=1):
         drawn[f"quantity {k}"] = partial(quantity_picture, found, each)
     return picture_figures(drawn)
+
+
+PRESENTATIONS = {
+    Fleet: Presentation("a fleet", lambda f: "\n".join(fleet_lines(f)), _tables, _figures),
+}
