@@ -6,7 +6,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 
 from docsite.markdown import block, cell, code, table
-from modeler.codegen.derivation import Derivation, derive, generate
+from modeler.codegen.workflow import Derivation, derive, generate
 from modeler.core.builtin import builtin_names, builtin_text
 from modeler.derivation.relations import as_markdown
 from modeler.report.robot_drawing import picture_bytes

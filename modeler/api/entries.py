@@ -42,7 +42,7 @@ from modeler.api.workflow import recompile as recompile
 from modeler.api.workflow import reduced as reduced
 from modeler.api.workflow import robots as robots
 from modeler.api.workflow import save as save
-from modeler.codegen.derivation import Derivation as Derivation
+from modeler.codegen.workflow import Derivation as Derivation
 from modeler.core.manifest import Emitted as Emitted
 from modeler.diagnosis.result import Diagnosis as Diagnosis
 from modeler.estimation.model_file import IdentifiedModel as IdentifiedModel

@@ -16,7 +16,7 @@ from modeler.api.workflow import (
     read_currents,
     read_logs,
 )
-from modeler.codegen.derivation import Derivation
+from modeler.codegen.workflow import Derivation
 from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
 from modeler.core.manifest import Emitted

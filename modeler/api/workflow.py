@@ -6,10 +6,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from modeler.codegen.derivation import Derivation as Derivation
-from modeler.codegen.derivation import derive as derive
-from modeler.codegen.derivation import generate as generate_robot
-from modeler.codegen.derivation import load as load
+from modeler.codegen.workflow import Derivation as Derivation
+from modeler.codegen.workflow import derive as derive
+from modeler.codegen.workflow import generate as generate_robot
+from modeler.codegen.workflow import load as load
 from modeler.core.builtin import builtin_names
 from modeler.core.errors import DataError, ManifestError, Precision, file_and_window
 from modeler.core.estimators import ABOUT
@@ -270,13 +270,12 @@ def robots() -> Table:
     True
     """
     every = [read_robot(name) for name in builtin_names()]
-    rows = tuple(
+    rows = [
         (robot.name, robot.title, len(robot.coordinates), len(robot.moving), len(robot.loops),
          ", ".join(use.effect for use in robot.effects))
         for robot in every
-    )  # fmt: skip
-    names = ("name", "title", "coordinates", "joints", "loops", "effects")
-    return Table("built-in robots", tuple((name, "") for name in names), rows)
+    ]  # fmt: skip
+    return Table.of("built-in robots", "name, title, coordinates, joints, loops, effects", rows)
 
 
 def effects(robot: Robot | None = None) -> Table:
@@ -288,20 +287,18 @@ def effects(robot: Robot | None = None) -> Table:
     'Fs'
     """
     known = CATALOGUE if robot is None else robot.catalogue
-    rows = tuple(
+    rows = [
         (effect.id, effect.title, effect.equation,
          ", ".join(column.prefix for column in effect.columns), ", ".join(effect.aliases))
         for effect in known
-    )  # fmt: skip
-    names = ("effect", "title", "equation", "parameters", "also called")
-    return Table("physical effects", tuple((name, "") for name in names), rows)
+    ]  # fmt: skip
+    return Table.of("physical effects", "effect, title, equation, parameters, also called", rows)
 
 
 def estimators() -> Table:
     """The estimators that `fit` takes as `method`."""
-    rows = tuple((a.id, a.title, a.law, a.source, a.avoid) for a in ABOUT.values())
-    names = ("method", "title", "law", "source", "when not to use it")
-    return Table("estimators", tuple((name, "") for name in names), rows)
+    rows = [(a.id, a.title, a.law, a.source, a.avoid) for a in ABOUT.values()]
+    return Table.of("estimators", "method, title, law, source, when not to use it", rows)
 
 
 def on_gpu(derivation: Derivation) -> GpuModel:

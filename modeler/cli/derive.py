@@ -13,7 +13,7 @@ import numpy as np
 from modeler.cli.console import Json, complain, say, say_lines, working
 from modeler.cli.lists import robot_of, robot_with_effects
 from modeler.cli.options import FEW_JOINTS, Form
-from modeler.codegen.derivation import Derivation, derive, generate
+from modeler.codegen.workflow import Derivation, derive, generate
 from modeler.core.errors import DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
 from modeler.core.formula import latex_text

@@ -10,7 +10,7 @@ import modeler.api.long_logs as long_logs
 from modeler.api.workflow import compile_model, derive, generate, read_logs
 from modeler.cli.console import Json, draw_page, note, progress, say, say_lines, say_next, working
 from modeler.cli.lists import robot_of
-from modeler.codegen.derivation import Derivation
+from modeler.codegen.workflow import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError
 from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically

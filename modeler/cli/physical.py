@@ -6,7 +6,7 @@ from pathlib import Path
 from modeler.api.physical_parameters import UNITS, Physical, PhysicalValues, physical
 from modeler.cli.console import Json, note, progress, say, say_lines, working
 from modeler.cli.lists import read_told
-from modeler.codegen.derivation import derive
+from modeler.codegen.workflow import derive
 from modeler.core.errors import DataError
 from modeler.core.table import percent
 from modeler.estimation.model_file import load_model

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from modeler.codegen.derivation import Derivation, generate
+from modeler.codegen.workflow import Derivation, generate
 from modeler.observation.log import Log
 from modeler.runtime.model import CompiledModel, load
 from modeler.simulation import SimulatedLog

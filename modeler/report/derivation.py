@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
-from modeler.codegen.derivation import Derivation
+from modeler.codegen.workflow import Derivation
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import MathCell, Table

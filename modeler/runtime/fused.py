@@ -271,8 +271,25 @@ TILED_FROM = 2**18
 _SLICE = 2**14  # samples that a thread is worth starting for
 
 
-class Tiling:
-    """What a compiled model makes of many samples."""
+def checked_out(out: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+    """`out`, if it can be filled.
+
+    Raises:
+        ShapeError: says what it must be.
+    """
+    if not isinstance(out, np.ndarray) or out.shape != shape:
+        got = out.shape if isinstance(out, np.ndarray) else type(out).__name__
+        raise ShapeError(f"out: got {got}, expected an array {shape}")
+    if out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
+        raise ShapeError(
+            f"out: got type {out.dtype}, expected a writeable C-contiguous float64 array; "
+            f"make one with np.empty({shape})"
+        )
+    return out
+
+
+class Batches:
+    """What a compiled model makes of many samples; n samples, c base parameters."""
 
     spec: ModuleSpec
     _library: Library
@@ -357,29 +374,7 @@ class Tiling:
             raise ShapeError(f"s: got {len(checked)} samples, expected {samples} as of q")
         return checked
 
-
-def checked_out(out: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
-    """`out`, if it can be filled.
-
-    Raises:
-        ShapeError: says what it must be.
-    """
-    if not isinstance(out, np.ndarray) or out.shape != shape:
-        got = out.shape if isinstance(out, np.ndarray) else type(out).__name__
-        raise ShapeError(f"out: got {got}, expected an array {shape}")
-    if out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
-        raise ShapeError(
-            f"out: got type {out.dtype}, expected a writeable C-contiguous float64 array; "
-            f"make one with np.empty({shape})"
-        )
-    return out
-
-
-# Least squares of a compiled model while samples pass: neither W nor a part of it is kept.
-
-
-class Reducing(Tiling):
-    """What a compiled model makes of y = W beta without W; n samples, c base parameters."""
+    # Least squares while samples pass: neither W nor a part of it is kept.
 
     def triangles(
         self, q: Any, qd: Any, qdd: Any, tau: Any, use: Any = None, s: Any = None,

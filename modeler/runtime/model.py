@@ -13,7 +13,7 @@ from modeler.core.manifest import MANIFEST, Emitted, FunctionSpec, ModuleSpec, m
 from modeler.core.result import Presented
 from modeler.runtime.bind import Library, check_names
 from modeler.runtime.build import build_library
-from modeler.runtime.fused import Reducing, checked_out
+from modeler.runtime.fused import Batches, checked_out
 
 _STATUS = {
     1: "the loops cannot be closed",
@@ -24,7 +24,7 @@ _STATUS = {
 """What a status of the C code says."""
 
 
-class CompiledModel(Reducing, Presented):
+class CompiledModel(Batches, Presented):
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
 
     q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the
