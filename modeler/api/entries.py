@@ -52,7 +52,7 @@ from modeler.fleet.result import Fleet as Fleet
 from modeler.observation.log import Log as Log
 from modeler.observation.observation import Observation as Observation
 from modeler.observation.processing import Processing as Processing
-from modeler.report.showing import show as show
+from modeler.report.robot_page import show as show
 from modeler.robot.robot import Robot as Robot
 from modeler.runtime.gpu import GpuModel as GpuModel
 from modeler.runtime.model import CompiledModel as CompiledModel

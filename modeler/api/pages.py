@@ -18,7 +18,7 @@ from modeler.report.fleet import fleet_page
 from modeler.report.history import additions_page
 from modeler.report.log import log_page
 from modeler.report.page import Page, write_page
-from modeler.report.showing import show
+from modeler.report.robot_page import show
 from modeler.robot.robot import Robot
 from modeler.validation.comparison import Comparison
 from modeler.validation.models import Contest

@@ -15,6 +15,7 @@ from modeler.core.errors import GAIN_METHOD, DataError
 from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
 from modeler.core.jobs import open_workers
+from modeler.core.json import entries
 from modeler.core.manifest import Emitted
 from modeler.core.table import aligned
 from modeler.estimation.long_logs import OF_TRIANGLES
@@ -210,16 +211,12 @@ def run_estimators(args: argparse.Namespace) -> Json:
     names = args.methods and [name.strip() for name in args.methods.split(",") if name.strip()]
     methods = fitting.chosen_methods(names, "--methods")
     if args.robot is None:
-        fields = ("title", "law", "source", "avoid")
         for about in (ABOUT[method] for method in methods):
             say(f"{about.id:<10} {about.title}")
             say(f"  law        {about.law}")
             say(f"  source     {about.source}")
             say(f"  not        {about.avoid}")
-        return [
-            {"method": method} | {name: getattr(ABOUT[method], name) for name in fields}
-            for method in methods
-        ]
+        return [{"method": m} | entries(ABOUT[m], "title law source avoid") for m in methods]
     if not args.logs:
         raise DataError(
             f"estimators: got robot {args.robot} and no log; expected logs to fit, as in "

@@ -8,6 +8,7 @@ from modeler.cli.console import Json, note, progress, say, say_lines, working
 from modeler.cli.lists import read_told
 from modeler.codegen.workflow import derive
 from modeler.core.errors import DataError
+from modeler.core.json import entries
 from modeler.core.table import percent
 from modeler.estimation.model_file import load_model
 from modeler.formulas.cad import CadComparison, KnownAgainstFit
@@ -209,10 +210,7 @@ def _sets(subject: Physical, size: int | None, cad: Given | None) -> Json:
         if len(found.easiest) > _SHOWN:
             say(f"  and {len(found.easiest) - _SHOWN} more (all with --json)")
     return {
-        "size": found.size,
-        "smallest": found.smallest,
-        "possible": found.possible,
-        "count": found.count,
+        **entries(found, "size smallest possible count"),
         "classes": [
             {"masses_and_lengths": k[0], "centres": k[1], "inertias": k[2], "count": n}
             for k, n in found.classes.items()
@@ -234,8 +232,7 @@ def _against_cad(subject: Physical, cad: Given) -> Json:
     _tell_explained(found)
     return {
         "rows": [vars(row) | {"letters": list(row.letters)} for row in found.rows],
-        "limit": found.limit,
-        "chi_squared": found.chi_squared,
+        **entries(found, "limit chi_squared"),
         "left_out": dict(found.left_out),
         "implicated": list(found.implicated),
         "explanations": [

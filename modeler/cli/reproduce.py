@@ -7,6 +7,7 @@ from dataclasses import asdict
 
 from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.core.errors import ModelerError
+from modeler.core.table import aligned
 from modeler.papers.check import Line, LineVerdict, check_paper
 from modeler.papers.method_report import MethodTable, Outcome
 from modeler.papers.paper import SLIPS, DerivedPaper, Paper, derived_robot, read_paper
@@ -82,11 +83,9 @@ def _methods(paper: Paper) -> list[MethodTable]:
         say_lines(["", table.title])
         say_lines(table.setting, "  ")
         cells = [(row.what, row.printed, row.ours) for row in table.rows]
-        heads = ("", "printed", "ours")
-        wide = [max(len(cell[i]) for cell in (heads, *cells)) for i in range(3)]
-        say("  " + "  ".join(f"{head:<{w}}" for head, w in zip(heads, wide, strict=True)).rstrip())
-        for row, cell in zip(table.rows, cells, strict=True):
-            text = "  ".join(f"{part:<{w}}" for part, w in zip(cell, wide, strict=True))
+        head, *texts = aligned([("", "printed", "ours"), *cells], (0, 1, 2))
+        say(f"  {head.rstrip()}")
+        for row, text in zip(table.rows, texts, strict=True):
             say(f"  {text}  [{row.outcome.value}]" + (f" {row.why}" if row.why else ""))
     say()
     told = _counted([row.outcome for table in tables for row in table.rows])

@@ -8,8 +8,7 @@ from modeler.cli.lists import read_told
 from modeler.cli.places import Output, check_places
 from modeler.core.errors import ModelerError
 from modeler.core.files import Kind, destination, write_atomically
-from modeler.report.robot_page import posture_json, posture_lines
-from modeler.report.showing import show
+from modeler.report.robot_page import posture_json, posture_lines, show
 from modeler.robot.library import converted
 from modeler.robot.read import robot_from_text
 

@@ -15,7 +15,7 @@ from modeler.core.result import Figures
 from modeler.core.style import BLUE, COLORS, ORANGE, Style
 from modeler.core.thinning import thin_curves
 from modeler.estimation.result import FitResult
-from modeler.report.showing import show
+from modeler.report.robot_page import show
 from modeler.robot.robot import Robot
 
 if TYPE_CHECKING:
