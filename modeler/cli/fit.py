@@ -38,12 +38,8 @@ def run_fit(args: argparse.Namespace) -> Json:
     _check_options(args)
     processing = Processing(
         position_cutoff=args.cutoff,
-        parallel_cutoff=args.parallel_cutoff,
         decimation=args.decimate,
-        derivatives=args.derivatives,
-        low_speed=args.low_speed,
-        keep_saturated=args.keep_saturated,
-        keep_contradicted=args.keep_contradicted,
+        **entries(args, "parallel_cutoff derivatives low_speed keep_saturated keep_contradicted"),
         keep_damaged=args.keep_damaged,
     )
     robot = robot_of(args)

@@ -31,6 +31,7 @@ from modeler.codegen.vectors import stored_states
 from modeler.core.errors import EmitError, Precision
 from modeler.core.expression import Expression
 from modeler.core.files import resource_dir
+from modeler.core.json import entries
 from modeler.core.manifest import (
     CLOSURE_RUNTIME,
     FORMAT,
@@ -69,33 +70,25 @@ def module_spec(
     prefix = module_prefix(robot.name)
     if closure is not None:
         closing = ClosureSpec(
+            **entries(closure, "given home"),
             variables=tuple(joint.name for joint in robot.free),
             units=tuple(joint.unit for joint in robot.free),
-            given=closure.given,
             platform=closure.platform or (),
-            home=closure.home,
             carrier=robot.platform[-1] if robot.platform else "",
         )
     joints = tuple(
         JointSpec(
-            name=joint.name,
+            **entries(joint, "name unit effort_unit actuated"),
             kind="revolute" if joint.angular else "prismatic",
-            unit=joint.unit,
-            effort_unit=joint.effort_unit,
-            actuated=joint.actuated,
             drive_gain=robot.drive_gains.get(joint.name),
         )
         for joint in robot.coordinates
     )
     standard = tuple(
         ParameterSpec(
-            name=column.name,
-            unit=column.unit,
-            kind=column.kind,
-            effect=column.effect,
+            **entries(column, "name unit kind effect nonnegative"),
             joint=robot.joints[column.row].name,
             nominal=robot.parameters.get(column.name),
-            nonnegative=column.nonnegative,
         )
         for column in model.columns
     )
@@ -139,8 +132,7 @@ def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[BaseSpec, ...]:
             BaseSpec(
                 name=parameter.name,
                 column_of=column.name,
-                unit=column.unit,
-                kind=column.kind,
+                **entries(column, "unit kind"),
                 # With loops a column can enter the torque of every coordinate.
                 rows=tuple(every or sorted(rows.get(parameter.column, ()))),
                 terms=tuple(TermSpec(*terms[t.coefficient], t.parameter) for t in parameter.terms),
@@ -172,8 +164,7 @@ def function_specs(
         found.append(
             FunctionSpec(
                 name=f"{prefix}_{function.role}",
-                equation=function.equation,
-                inputs=function.inputs,
+                **entries(function, "equation inputs"),
                 outputs=(function.output,),
                 additions=sum(additions for additions, _ in parts),
                 multiplications=sum(multiplications for _, multiplications in parts),
@@ -545,9 +536,7 @@ def _written(prefix: str, function: CFunction, block: Block) -> _Written:
         declaration=layout.prototype(name, layout.arguments(function, ""), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
         lines=[] if function.closed else layout.body_lines(function, block),
-        symbols=block.symbols,
-        additions=block.additions,
-        multiplications=block.multiplications,
+        **entries(block, "symbols additions multiplications"),
     )
 
 

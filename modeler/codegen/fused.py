@@ -229,8 +229,6 @@ def tile_of(
             for name, length in lengths.items()
             if name not in unread
         ),
-        symbols=block.symbols,
-        additions=block.additions,
-        multiplications=block.multiplications,
+        **entries(block, "symbols additions multiplications"),
         signals=lengths.get("s", 0),
     )

@@ -5,7 +5,6 @@ paper; the pages that commands write have the ones that can be zoomed.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,11 +34,7 @@ def picture_figure(picture: Picture) -> "Drawing":
 
 def picture_figures(drawn: Mapping[str, Callable[[], Picture]]) -> Figures:
     """Figures by name, each drawn when it is asked for."""
-    return {name: partial(_drawn_by, draw) for name, draw in drawn.items()}
-
-
-def _drawn_by(draw: Callable[[], Picture]) -> "Drawing":
-    return picture_figure(draw())
+    return {name: lambda draw=draw: picture_figure(draw()) for name, draw in drawn.items()}
 
 
 def robot_figure(robot: Robot) -> "Drawing":
