@@ -14,7 +14,7 @@ from modeler.diagnosis.sentences import lines
 from modeler.effects.catalogue import effect_named
 from modeler.estimation.model_file import IdentifiedModel, load_model, save_model
 from modeler.report.diagnosis import diagnosis_page
-from modeler.report.history import additions_page
+from modeler.report.history import additions_page, step_name
 from modeler.report.page import Origin, after_add, after_diagnosis, write_page
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import near
@@ -123,8 +123,7 @@ def waterfall(model: IdentifiedModel) -> list[str]:
     lines = [f"{'':<30} {title}"]
     largest = max(step.error for step in model.history) or 1.0
     for step in model.history:
-        name = f"+ {step.effect}" if step.effect else "model as fitted"
-        name += f" @{step.joint}" if step.joint else ""
+        name = step_name(step) if step.effect else "model as fitted"
         bar = "#" * round(_WIDTH * step.error / largest)
         fitted = percent(step.training_error, DIGITS)
         lines.append(f"{name:<30} {percent(step.error, DIGITS):>8} {bar}  (fitted {fitted})")

@@ -5,11 +5,11 @@ from functools import partial
 
 import numpy as np
 
-from modeler.core.figure import Curve, Panel, Picture, Points
+from modeler.core.figure import Panel, Picture, Points
 from modeler.core.result import Figures, Presentation, Tables
-from modeler.core.style import COLORS, SLATE, Style
+from modeler.core.style import SLATE, Style
 from modeler.core.table import Cell, Table, percent
-from modeler.core.thinning import thin_curves, thin_points
+from modeler.core.thinning import thin_points
 from modeler.excitation.result import Exciting
 from modeler.logs.guess import template_of
 from modeler.logs.inspect import Clock, Look
@@ -17,7 +17,7 @@ from modeler.observation.log import Log
 from modeler.observation.observation import Observation
 from modeler.observation.report import DataReport
 from modeler.report.blocks import Code, Figure, Items, PageTable, Paragraph
-from modeler.report.figures import log_figure, picture_figure
+from modeler.report.figures import curves, log_figure, picture_figure
 from modeler.report.page import Origin, Page, Section
 from modeler.simulation.log import SimulatedLog
 
@@ -118,13 +118,8 @@ def _against_time(look: Look, number: int, template: str, names: Sequence[str]) 
     title = template.replace("{}", "*")
     unit = next((c.unit for c in look.channels if c.unit and names[0] in c.name), "")
     label = f"{title} [{unit}]" if unit else title
-    curves = []
-    for k, name in enumerate(names):
-        values = look.values[name]
-        rows = thin_curves((values,), _LIMIT)
-        style = Style(COLORS[k % len(COLORS)], dash=k >= len(COLORS))
-        curves.append(Curve(name, look.time[rows], values[rows], style))
-    panel = Panel("", _time_label(look), label, tuple(curves))
+    drawn = curves(names, look.time, [look.values[name] for name in names], _LIMIT)
+    panel = Panel("", _time_label(look), label, drawn)
     caption = (
         f"{title} against time, as logged, {len(names)} columns: every extreme is drawn, values "
         "between them are thinned. A value that is missing breaks its line."

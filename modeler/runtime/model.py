@@ -109,19 +109,14 @@ class CompiledModel(Batches, Presented):
         With loops f(q, qd): passive joints rub too, and how fast they move depends on q. Effects
         that read positions, loads or signals need q, qdd and s.
         """
-        if len(self._functions["friction"].inputs) > 3:
-            if q is None or qdd is None:
-                raise ShapeError(
-                    f"{self.spec.robot}: its effects depend on positions and loads; give q and qdd"
-                )
-            return self._evaluate("friction", {"q": q, "qd": qd, "qdd": qdd}, beta, s)
-        if self.spec.closure is None:
-            return self._evaluate("friction", {"qd": qd}, beta, s)
-        if q is None:
-            raise ShapeError(
-                f"{self.spec.robot} has loops: its friction depends on the positions; give q"
-            )
-        return self._evaluate("friction", {"q": q, "qd": qd}, beta, s)
+        reads = {argument.name for argument in self._functions["friction"].inputs}
+        states = {n: x for n, x in {"q": q, "qd": qd, "qdd": qdd}.items() if n in reads}
+        if any(value is None for value in states.values()):
+            why = " has loops: its friction depends on the positions; give q"
+            if "qdd" in reads:
+                why = ": its effects depend on positions and loads; give q and qdd"
+            raise ShapeError(self.spec.robot + why)
+        return self._evaluate("friction", states, beta, s)
 
     def close(self, q: Any) -> np.ndarray:
         """All free variables u of the opened tree, (n, len(u)), in the order of the manifest.

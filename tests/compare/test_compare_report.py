@@ -160,8 +160,9 @@ def test_numbers_of_any_size_come_through() -> None:
     odd = np.array([np.nan, np.inf, 0.0, -1e-3, 1e30])
     decades = np.geomspace(1e-12, 1e3, 9)
     still = np.full(4, 2.5)
-    places = [numbers.exact(clock), numbers.seen(odd), numbers.exact(decades), numbers.seen(still),
-              numbers.seen(np.array([])), numbers.exact(clock.copy())]  # fmt: skip
+    places = [numbers.exact(clock), numbers.coarse(odd), numbers.exact(decades),
+              numbers.coarse(still), numbers.coarse(np.array([])),
+              numbers.exact(clock.copy())]  # fmt: skip
     block = json.dumps(numbers.block())
     arrays = unpacked(f'<script type="application/json" id="numbers">{block}</script>')
     assert places == [0, 1, 2, 3, 4, 0] and arrays[4].size == 0
