@@ -17,14 +17,9 @@ from modeler.core.files import write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.table import Table
 from modeler.effects.catalogue import CATALOGUE
+from modeler.estimation import model_file
 from modeler.estimation.drive_gains import check_currents, in_drive_units
-from modeler.estimation.model_file import (
-    IdentifiedModel,
-    fitted_spec,
-    load_model,
-    save_model,
-    with_essential_only,
-)
+from modeler.estimation.model_file import IdentifiedModel
 from modeler.logs.mapping import LogMap, map_from_table, map_from_words
 from modeler.observation.chunk import read_part, window
 from modeler.observation.log import LONG, Log, check_apart
@@ -92,7 +87,9 @@ def generate(
     if isinstance(source, Derivation):
         return generate_robot(source, folder, force, precision=precision, cuda=cuda)
     derivation, _ = _emitted_anew(source)
-    return generate_robot(derivation, folder, force, fitted_spec(source), precision, cuda)
+    return generate_robot(
+        derivation, folder, force, model_file.fitted_spec(source), precision, cuda
+    )
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:
@@ -234,7 +231,7 @@ def reduced(model: IdentifiedModel) -> IdentifiedModel:
     Raises:
         DataError: the model was saved by a version that kept none.
     """
-    return with_essential_only(model, f"model of {model.spec.robot}")
+    return model_file.with_essential_only(model, f"model of {model.spec.robot}")
 
 
 def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
@@ -246,7 +243,7 @@ def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
     if isinstance(thing, Robot):
         write_atomically(Path(path), thing.text)
     else:
-        save_model(path, thing)
+        model_file.save_model(path, thing)
     return Path(path)
 
 
@@ -257,7 +254,7 @@ def open_model(path: str | Path) -> IdentifiedModel:
         ManifestError: missing, not a model file, of another format, damaged, or changed since it
             was saved.
     """
-    return load_model(path)
+    return model_file.load_model(path)
 
 
 # What is built in: robots, effects, estimators; each as a table.

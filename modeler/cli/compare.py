@@ -7,17 +7,7 @@ from pathlib import Path
 
 import modeler.api.checks as checks
 from modeler.api.workflow import Mapped, read_logs, recompile
-from modeler.cli.console import (
-    Json,
-    draw_page,
-    draw_pictures,
-    note,
-    progress,
-    say,
-    say_lines,
-    say_next,
-    working,
-)
+from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, say_lines, working
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
@@ -49,11 +39,10 @@ def run_compare(args: argparse.Namespace) -> Json:
         compiled = _compiled(args, model)
     with progress("predicting") as bar:
         comparison, lines, found = judged(model, args.logs, compiled, args.map, bar)
-    say(comparison.summary())
-    say()
     doubts = [fault.line for fault in found]
     told = [line for line in lines if line.startswith((_TRAINING, "long logs: "))]
-    say_lines([*verdict(comparison), *model.warning, *told, *doubts])
+    summary = [comparison.summary(), ""]
+    say_lines([*summary, *verdict(comparison), *model.warning, *told, *doubts])
     held = not any(line.startswith(_TRAINING) for line in lines)
     noise = all(looks_like_noise(item) for item in comparison.joints) and not model.warning
     fitted = [log.name for log in model.logs]
@@ -61,7 +50,7 @@ def run_compare(args: argparse.Namespace) -> Json:
     origin = Origin(args.model, comparison.prediction.logs, held, [following])
     draw_page(args.report, lambda: pages.comparison_page(comparison, lines, origin))
     draw_pictures(args.pictures, lambda: pages.all_pictures(comparison))
-    say_next([following])
+    say_lines([following], "next: ")
     return comparison.as_dict() | {"doubts": doubts}
 
 

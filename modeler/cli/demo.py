@@ -4,6 +4,7 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
+import modeler.report.page as pages
 from modeler.api.fitting import fit
 from modeler.api.workflow import compile_model, derive, generate, load, observe, read_logs
 from modeler.cli.compare import judged
@@ -19,14 +20,6 @@ from modeler.report.comparison import all_pictures, comparison_page
 from modeler.report.diagnosis import diagnosis_page
 from modeler.report.figure_page import write_files
 from modeler.report.history import additions_page
-from modeler.report.page import (
-    Origin,
-    after_add,
-    after_compare,
-    after_diagnosis,
-    write_index,
-    write_page,
-)
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate, write_log
 from modeler.simulation.settings import check_settings
@@ -54,7 +47,7 @@ def run_demo(args: argparse.Namespace) -> Json:
     """Runs both stories."""
     check_settings(SimulationSettings(duration=args.duration), ())  # before anything is written
     told = {story.robot: _told(story, Path(args.out) / story.robot, args) for story in _STORIES}
-    if (index := write_index(Path(args.out), "modeler demo")) is not None:
+    if (index := pages.write_index(Path(args.out), "modeler demo")) is not None:
         say(f"all pages: {index}")
     return told
 
@@ -88,9 +81,9 @@ def _told(story: Story, out: Path, args: argparse.Namespace) -> Json:
         found = diagnose(model, compiled, logs.fitted, logs.held_out, progress=bar)
     say_lines(lines(found), "   ")
     place = str(out / "model.json")
-    following = after_diagnosis(place, [str(train)], [str(held_out)], found)
-    origin = Origin(place, [train.name, held_out.name], True, following)
-    write_page(out / "diagnosis.html", diagnosis_page(found, (), origin))
+    following = pages.after_diagnosis(place, [str(train)], [str(held_out)], found)
+    origin = pages.Origin(place, [train.name, held_out.name], True, following)
+    pages.write_page(out / "diagnosis.html", diagnosis_page(found, (), origin))
     better = _improved(model, compiled, found, logs, out)
     say(f"   the truth: {story.hidden.effect} on joint {story.hidden.joint}\n")
     say(f"open {out / 'diagnosis.html'} and {out / 'improved.html'} in a browser\n")
@@ -103,9 +96,9 @@ def _compared(model: IdentifiedModel, compiled: CompiledModel, out: Path, log: P
     say_lines([*comparison.summary().splitlines(), *verdict(comparison)], "   ")
     with working("drawing the page"):
         place, fitted = str(out / "model.json"), [str(out / "train.parquet")]
-        following = after_compare(place, fitted, [str(log)], held_out=True)
-        origin = Origin(place, comparison.prediction.logs, True, [following])
-        write_page(out / "compare.html", comparison_page(comparison, provenance, origin))
+        following = pages.after_compare(place, fitted, [str(log)], held_out=True)
+        origin = pages.Origin(place, comparison.prediction.logs, True, [following])
+        pages.write_page(out / "compare.html", comparison_page(comparison, provenance, origin))
     with progress("drawing pictures") as bar:
         write_files(out / "pictures", all_pictures(comparison), bar)
 
@@ -121,6 +114,8 @@ def _improved(
     if better.history:
         held = better.history[-1].held_out
         place = str(out / "improved.json")
-        origin = Origin(place, held, True, after_add(place, [str(out / name) for name in held]))
-        write_page(out / "improved.html", additions_page(better, left_out, origin))
+        origin = pages.Origin(
+            place, held, True, pages.after_add(place, [str(out / name) for name in held])
+        )
+        pages.write_page(out / "improved.html", additions_page(better, left_out, origin))
     return better

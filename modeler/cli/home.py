@@ -15,8 +15,8 @@ from modeler.core.files import check_writable, write_atomically
 from modeler.derivation.derive import HomeModes, written
 from modeler.derivation.walks import Linkage
 from modeler.report.robot_closing import Posture
-from modeler.report.robot_page import modes_html
-from modeler.report.robot_skeleton import PICTURE_KINDS, size_of, skeleton_of
+from modeler.report.robot_page import PICTURE_KINDS, modes_html
+from modeler.report.robot_skeleton import size_of, skeleton_of
 from modeler.robot.edit import home_lines, with_home_text
 from modeler.robot.loops import read_home
 from modeler.robot.robot import Place, Robot

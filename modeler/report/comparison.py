@@ -13,7 +13,7 @@ from modeler.report.blocks import (
     PageCell,
     PageTable,
     Paragraph,
-    Verdicts,
+    Verdict,
 )
 from modeler.report.page import Origin, Page, Section
 from modeler.validation.comparison import Comparison, JointComparison, by_log, method_lines, or_dash
@@ -183,7 +183,7 @@ def _sections(comparison: Comparison) -> list[Section]:
         "covariance of the fit. " + method,
         {"relative error": "bar", "at": "text"},
     )
-    found = [Section("Verdict", [Verdicts(_judged(comparison)), table, *_log_table(comparison)])]
+    found = [Section("Verdict", [Verdict(_judged(comparison)), table, *_log_table(comparison)])]
     if comparison.joints:
         found.append(Section("All joints", [Figure(overview_picture(comparison), titled=False)]))
     for item in comparison.joints:
@@ -249,7 +249,8 @@ def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
 def _judged(comparison: Comparison) -> list[JudgedLine]:
     lines = []
     for item in comparison.joints:
-        kind, (first, _, rest) = kind_of_residual(item), joint_verdict(item).partition(": ")
+        kind, text = kind_of_residual(item), joint_verdict(item)
+        first, _, rest = text.partition(": ")
         lines.append(JudgedLine(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
     lines += [
         JudgedLine("", "not judged", f"Joint {name}", f"{reason}.")

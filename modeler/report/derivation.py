@@ -8,13 +8,8 @@ from modeler.codegen.workflow import Derivation
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import MathCell, Table
+from modeler.derivation import relations
 from modeler.derivation.derive import HomeModes, written
-from modeler.derivation.relations import (
-    proof_paragraphs,
-    relation_formula,
-    relation_latex,
-    relation_text,
-)
 from modeler.report.blocks import Block, FormulaBlock, PageTable, Paragraph
 from modeler.report.figures import robot_figure
 from modeler.report.page import Origin, Page, Section
@@ -90,11 +85,11 @@ def _derivation_tables(derivation: Derivation) -> Tables:
 def _base_table(derivation: Derivation) -> Table:
     base, rows = derivation.base, list[tuple[Any, ...]]()
     for parameter in base.parameters:
-        left, right = relation_latex(parameter).split(" = ", 1)
+        left, right = relations.relation_latex(parameter).split(" = ", 1)
         column = base.columns[parameter.column]
         rows.append((
             MathCell(parameter.name, left),
-            MathCell(relation_text(parameter).split(" = ", 1)[1], right),
+            MathCell(relations.relation_text(parameter).split(" = ", 1)[1], right),
             column.unit, column.kind.replace("_", " "),
         ))  # fmt: skip
     title = f"{derivation.robot.name}: base parameters"
@@ -188,19 +183,20 @@ def derivation_page(
     """
     robot, base = derivation.robot, derivation.base
     none = ", ".join(base.unidentifiable) or "none"
-    relations = [(relation_formula(parameter), base.columns[parameter.column].unit)
+    formulas = [(relations.relation_formula(parameter), base.columns[parameter.column].unit)
                  for parameter in base.parameters]  # fmt: skip
+    proof = [*relations.proof_paragraphs(base.proof), agreement]
     return Page(
         title=f"{robot.name}: {robot.title}" if robot.title else robot.name,
         headline=(
-            str(len(relations)),
+            str(len(formulas)),
             f"base parameters of {len(base.columns)} standard parameters; proof: {base.proof.kind}",
         ),
         sections=[
             Section("Table", _table(robot, tied)),
-            Section("Base parameters", [FormulaBlock(relations)]),
+            Section("Base parameters", [FormulaBlock(formulas)]),
             Section("Parameters without effect", [Paragraph(f"{none}.")]),
-            Section("Proof", [Paragraph(x) for x in (*proof_paragraphs(base.proof), agreement)]),
+            Section("Proof", [Paragraph(line) for line in proof]),
         ],
         origin=Origin(given, next=[f"modeler generate {given} --out {robot.name}_c"]),
         facts=[("Base parameters", _counts(derivation)),

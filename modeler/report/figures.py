@@ -5,6 +5,7 @@ paper; the pages that commands write have the ones that can be zoomed.
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,7 +35,11 @@ def picture_figure(picture: Picture) -> "Drawing":
 
 def picture_figures(drawn: Mapping[str, Callable[[], Picture]]) -> Figures:
     """Figures by name, each drawn when it is asked for."""
-    return {name: lambda draw=draw: picture_figure(draw()) for name, draw in drawn.items()}
+    return {name: partial(_drawn_by, draw) for name, draw in drawn.items()}
+
+
+def _drawn_by(draw: Callable[[], Picture]) -> "Drawing":
+    return picture_figure(draw())
 
 
 def robot_figure(robot: Robot) -> "Drawing":
@@ -85,7 +90,7 @@ def log_figure(
 ) -> "Drawing":
     """Positions and torques of all joints against time."""
     panels = tuple(
-        (Panel(what, "time [s]", label, curves(joints, time, values.T), zero=True),)
+        (Panel(what, "time [s]", label, curves(joints, time, list(values.T)), zero=True),)
         for what, label, values in (
             ("positions", "q [rad, m]", q),
             ("torques", "tau [N m, N]", tau),

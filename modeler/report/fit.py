@@ -11,7 +11,7 @@ from modeler.core.table import Table, percent
 from modeler.estimation.model_file import Addition, IdentifiedModel
 from modeler.estimation.result import FitResult, ParameterEstimate
 from modeler.estimation.side_by_side import SideBySide
-from modeler.report.blocks import Items, JudgedLine, PageTable, Verdicts
+from modeler.report.blocks import Items, JudgedLine, PageTable, Verdict
 from modeler.report.estimators import remarks_of, table_of, values_of
 from modeler.report.figures import parameters_figure, picture_figure
 from modeler.report.history import step_name, waterfall_picture
@@ -204,14 +204,14 @@ def _sections(model: IdentifiedModel) -> list[Section]:
     return found
 
 
-def _judged(fit: FitResult) -> list[Verdicts | Items]:
-    blocks: list[Verdicts | Items] = []
+def _judged(fit: FitResult) -> list[Verdict | Items]:
+    blocks: list[Verdict | Items] = []
     if fit.verdict is not None:
         kind, tag = ("noise", "usable") if fit.verdict.usable else ("pattern", "not usable")
         lines = [JudgedLine(kind, tag, "This fit", fit.verdict.line)]
         lines += [JudgedLine("other", "doubt", f"Doubt {k}", text)
                   for k, text in enumerate(fit.verdict.doubts, start=1)]  # fmt: skip
-        blocks.append(Verdicts(lines))
+        blocks.append(Verdict(lines))
     if fit.sentences:
         blocks.append(Items([("", line) for line in fit.sentences]))
     return blocks

@@ -17,14 +17,7 @@ from modeler.report.page import render, script_json
 from modeler.report.robot_closing import CLOSED, Gap, Posture, gaps_of, home_posture
 from modeler.report.robot_labels import good_view
 from modeler.report.robot_scene import Point, Scene, scene_of
-from modeler.report.robot_skeleton import (
-    PICTURE_KINDS,
-    Skeleton,
-    SkeletonRow,
-    kind_word,
-    poses,
-    skeleton_of,
-)
+from modeler.report.robot_skeleton import Skeleton, SkeletonRow, kind_word, poses, skeleton_of
 from modeler.robot.robot import JointKind, Robot
 
 _DIGITS = 7  # of coordinates of drawn points: finer than any screen
@@ -316,6 +309,10 @@ def modes_html(name: str, title: str, count: int, svg: str) -> str:
 
 
 # A robot as it looks in the posture that every other command starts from.
+
+
+PICTURE_KINDS = (".png", ".svg", ".pdf")
+"""Of the picture of a robot."""
 
 
 @dataclass(frozen=True)
