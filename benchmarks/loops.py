@@ -10,8 +10,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from benchmarks.line import Key, Line
-from modeler.codegen.derivation import derive, generate
-from modeler.codegen.derivation import load as robot
+from modeler.codegen.workflow import derive, generate
+from modeler.codegen.workflow import load as robot
 from modeler.derivation.numeric_rank import random_states
 from modeler.runtime.model import CompiledModel, load
 

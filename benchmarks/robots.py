@@ -3,7 +3,7 @@
 import dataclasses
 import functools
 
-from modeler.codegen.derivation import derive, generate
+from modeler.codegen.workflow import derive, generate
 from modeler.core.manifest import Emitted
 from modeler.robot.read import read_robot
 from modeler.robot.robot import EffectUse, Robot

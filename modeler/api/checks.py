@@ -4,16 +4,9 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from string import ascii_uppercase
 
+import modeler.api.workflow as workflow
 from modeler.api.long_logs import are_long, sources_of, too_long
-from modeler.api.workflow import (
-    AnyLog,
-    Mapped,
-    file_and_span,
-    given_map,
-    log_map,
-    read_logs,
-    recompile,
-)
+from modeler.api.workflow import AnyLog, Mapped
 from modeler.core.errors import DataError
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.logs.blocks import blocks_of, windows_of
@@ -35,7 +28,7 @@ from modeler.validation.predict import compare_long, predict
 
 def compare(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> Comparison:
     """Measured against predicted torque on logs, after the processing of the fit."""
-    return compared(model, logs, recompile(model), mapping)[0]
+    return compared(model, logs, workflow.recompile(model), mapping)[0]
 
 
 def compared(
@@ -66,7 +59,7 @@ def compared(
             if too_long(logs):
                 raise
             tell(f"{error}; read as a whole instead")
-    read = read_logs(compiled, logs, mapping)
+    read = workflow.read_logs(compiled, logs, mapping)
     check_apart(read, places=[str(log) for log in logs])
     prediction, observation = predict(model, read, compiled)
     return compare_prediction(prediction), observation
@@ -98,7 +91,9 @@ def contest(
             f"contest: got a list of {len(models)} models, more than there are letters; expected a "
             "mapping of names, each to a model"
         )
-    return contested(named, [recompile(model) for model in named.values()], logs, mapping)[0]
+    return contested(named, [workflow.recompile(model) for model in named.values()], logs, mapping)[
+        0
+    ]
 
 
 def contested(
@@ -117,7 +112,7 @@ def contested(
         mapping: as of `read_logs`.
         places: what messages call the logs.
     """
-    read = [read_logs(own, logs, mapping) for own in compiled]
+    read = [workflow.read_logs(own, logs, mapping) for own in compiled]
     check_apart(read[0], places=places)
     names = list(models)
     predictions, _ = predict_together(list(models.values()), compiled, read, names)
@@ -141,9 +136,9 @@ def free_run(
     Raises:
         DataError: a log cannot be run; says why.
     """
-    compiled = recompile(model)
+    compiled = workflow.recompile(model)
     return run_freely(
-        model, read_logs(compiled, logs, mapping), compiled, asked or FreeRunSettings()
+        model, workflow.read_logs(compiled, logs, mapping), compiled, asked or FreeRunSettings()
     )
 
 
@@ -161,8 +156,8 @@ def look_at(place: str | Path, compiled: CompiledModel | None = None, mapping: M
     Raises:
         DataError: the file cannot be read, or has no rows in that piece.
     """
-    path, span = file_and_span(str(place))
-    names = given_map(mapping) if compiled is None else log_map(compiled, mapping)
+    path, span = workflow.file_and_span(str(place))
+    names = workflow.given_map(mapping) if compiled is None else workflow.log_map(compiled, mapping)
     joints = () if compiled is None else compiled.spec.joints
     blocks, span = blocks_of(Path(path)), span or (None, None)
     if blocks is None or blocks.rows <= LONG:

@@ -42,7 +42,7 @@ from modeler.api.workflow import recompile as recompile
 from modeler.api.workflow import reduced as reduced
 from modeler.api.workflow import robots as robots
 from modeler.api.workflow import save as save
-from modeler.codegen.derivation import Derivation as Derivation
+from modeler.codegen.workflow import Derivation as Derivation
 from modeler.core.manifest import Emitted as Emitted
 from modeler.diagnosis.result import Diagnosis as Diagnosis
 from modeler.estimation.model_file import IdentifiedModel as IdentifiedModel
@@ -52,7 +52,7 @@ from modeler.fleet.result import Fleet as Fleet
 from modeler.observation.log import Log as Log
 from modeler.observation.observation import Observation as Observation
 from modeler.observation.settings import Processing as Processing
-from modeler.report.showing import show as show
+from modeler.report.robot_page import show as show
 from modeler.robot.robot import Robot as Robot
 from modeler.runtime.gpu import GpuModel as GpuModel
 from modeler.runtime.model import CompiledModel as CompiledModel

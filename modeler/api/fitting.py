@@ -6,17 +6,10 @@ from typing import Any, Literal
 
 import numpy as np
 
+import modeler.api.workflow as workflow
 from modeler.api.arguments import Steps, fitting, silent
-from modeler.api.workflow import (
-    AnyLog,
-    Mapped,
-    compile_model,
-    derive,
-    generate,
-    read_currents,
-    read_logs,
-)
-from modeler.codegen.derivation import Derivation
+from modeler.api.workflow import AnyLog, Mapped
+from modeler.codegen.workflow import Derivation
 from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
 from modeler.core.manifest import Emitted
@@ -199,7 +192,7 @@ def fit(
             f"{', '.join(names)}; expected the same; observe with this C"
         )
     asked = FitRequest(method, energy, window, tuple(payloads), essential_below)
-    return fitted(asked, derivation, emitted, compile_model(emitted), observation)[0]
+    return fitted(asked, derivation, emitted, workflow.compile_model(emitted), observation)[0]
 
 
 def fitted(
@@ -277,7 +270,7 @@ def fit_gains(
     Raises:
         DataError: logs of torques, rows given twice, or gains that the logs do not tell.
     """
-    compiled = compile_model(generate(derivation))
+    compiled = workflow.compile_model(workflow.generate(derivation))
     return found_with_gains(derivation, compiled, logs, load, processing or Processing())[0]
 
 
@@ -299,7 +292,7 @@ def found_with_gains(
     """
 
     def observed(model: CompiledModel, processing: Processing) -> tuple[Observation, list[Payload]]:
-        bare, loaded = (read_currents(model, some, mapping) for some in (logs, load.logs))
+        bare, loaded = (workflow.read_currents(model, some, mapping) for some in (logs, load.logs))
         if check is None:
             check_apart([*bare, *loaded])
         else:
@@ -316,8 +309,8 @@ def found_with_gains(
         robot = robot_from_text(text, derivation.robot.name)
         symbolic = dataclasses.replace(derivation.model, robot=robot)
         derivation = dataclasses.replace(derivation, robot=robot, model=symbolic)
-        emitted = generate(derivation)
-        again = compile_model(emitted)
+        emitted = workflow.generate(derivation)
+        again = workflow.compile_model(emitted)
         observation, payloads = observed(again, observation.report.processing)
         result = identify_gains(again, observation, payloads).result
     with working("judging the fit"):
@@ -356,7 +349,11 @@ def side_by_side(
         DataError: an unknown method, rows given twice, or what the weighted fit raises.
     """
     chosen = chosen_methods(methods)
-    compiled = compile_model(generate(derive(robot))) if isinstance(robot, Robot) else robot
+    compiled = (
+        workflow.compile_model(workflow.generate(workflow.derive(robot)))
+        if isinstance(robot, Robot)
+        else robot
+    )
     observation, held = observed_apart(compiled, logs, holdout)
     tried = tried_on(observation, compiled, held, chosen, progress)
     return SideBySide(compiled.spec.robot, tried, tuple(observation.report.lines()))
@@ -369,7 +366,7 @@ def observed_apart(
     mapping: Mapped = (),
 ) -> tuple[Observation, Observation | None]:
     """Logs to fit, and held-out ones processed alike; None without any."""
-    given, kept = (read_logs(compiled, some, mapping) for some in (logs, holdout))
+    given, kept = (workflow.read_logs(compiled, some, mapping) for some in (logs, holdout))
     check_apart(given, kept)
     observation = observe(compiled, given)
     held = observe(compiled, kept, observation.report.processing) if kept else None

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from modeler.api.workflow import AnyLog, Mapped, compile_model, file_and_span, log_map, read_logs
-from modeler.codegen.derivation import derive, generate
+from modeler.codegen.workflow import derive, generate
 from modeler.core.errors import DataError, LoopError, file_and_window
 from modeler.core.jobs import Workers, open_workers
 from modeler.core.manifest import Emitted

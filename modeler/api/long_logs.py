@@ -7,7 +7,7 @@ from typing import TypeGuard
 
 from modeler.api.fitting import Way, identified, judged
 from modeler.api.workflow import AnyLog, Mapped, file_and_span, log_map, read_logs
-from modeler.codegen.derivation import Derivation
+from modeler.codegen.workflow import Derivation
 from modeler.core.errors import DataError, Method
 from modeler.core.jobs import Workers
 from modeler.core.manifest import Emitted

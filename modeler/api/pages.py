@@ -1,7 +1,8 @@
 """Pages: one self-contained HTML file of whatever has one."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from modeler.core.errors import DataError
 from modeler.diagnosis.result import Diagnosis
@@ -9,15 +10,15 @@ from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.side_by_side import SideBySide
 from modeler.fleet.result import Fleet
 from modeler.logs.inspect import Look
-from modeler.report.comparison import write_contest
-from modeler.report.comparison import write_report as write_comparison
-from modeler.report.diagnosis import write_diagnosis
-from modeler.report.estimators import write_estimators
-from modeler.report.fit import write_fit
-from modeler.report.fleet import write_fleet
-from modeler.report.history import write_additions
-from modeler.report.log import write_log_page
-from modeler.report.showing import show
+from modeler.report.comparison import comparison_page, contest_page
+from modeler.report.diagnosis import diagnosis_page
+from modeler.report.estimators import estimators_page
+from modeler.report.fit import fit_page
+from modeler.report.fleet import fleet_page
+from modeler.report.history import additions_page
+from modeler.report.log import log_page
+from modeler.report.page import Page, write_page
+from modeler.report.robot_page import show
 from modeler.robot.robot import Robot
 from modeler.validation.comparison import Comparison
 from modeler.validation.models import Contest
@@ -40,27 +41,24 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
         DataError: no page shows it.
         ModelerError: the place cannot be written.
     """
-    place = Path(path)
     if isinstance(thing, Robot):
-        show(thing, place)
-        return place
-    if isinstance(thing, Look):
-        return write_log_page(place, thing, thing.doubts, notes)
-    if isinstance(thing, SideBySide):
-        return write_estimators(place, thing.robot, thing.tried, [*thing.data, *notes])
-    if isinstance(thing, IdentifiedModel):
-        if thing.history:
-            return write_additions(place, thing, notes)
-        return write_fit(place, thing, notes)
-    if isinstance(thing, Comparison):
-        return write_comparison(place, thing, notes)
-    if isinstance(thing, Contest):
-        return write_contest(place, thing, notes)
-    if isinstance(thing, Diagnosis):
-        return write_diagnosis(place, thing, notes)
-    if isinstance(thing, Fleet):
-        return write_fleet(place, thing, notes)
+        show(thing, path)
+        return Path(path)
+    for kind, page_of in _PAGES.items():
+        if isinstance(thing, kind):
+            return write_page(Path(path), page_of(thing, notes))
     raise DataError(
         f"write_report: got {type(thing).__name__}; expected a robot, a model, a comparison, a "
         "diagnosis, models side by side, estimators side by side or a fleet"
     )
+
+
+_PAGES: Mapping[type, Callable[[Any, Sequence[str]], Page]] = {
+    Look: lambda look, notes: log_page(look, look.doubts, notes),
+    SideBySide: lambda s, notes: estimators_page(s.robot, s.tried, [*s.data, *notes]),
+    IdentifiedModel: lambda m, notes: (additions_page if m.history else fit_page)(m, notes),
+    Comparison: comparison_page,
+    Contest: contest_page,
+    Diagnosis: diagnosis_page,
+    Fleet: fleet_page,
+}

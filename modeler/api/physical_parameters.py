@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from modeler.codegen.derivation import Derivation, derive
+from modeler.codegen.workflow import Derivation, derive
 from modeler.core.errors import DataError, ModelerError
 from modeler.core.result import Presentation, Presented, present
 from modeler.core.table import Table, percent
@@ -237,10 +237,8 @@ def values_table(found: PhysicalValues) -> Table:
             (letter, value, sigma, unit, found.sources(k)) if told
             else (letter, None, None, unit, found.doubts[letter])
         )  # fmt: skip
-    names = ("parameter", "value", "sigma", "unit", "mostly from")
-    return Table(
-        f"{found.system.robot}: physical parameters", tuple((n, "") for n in names), tuple(rows)
-    )
+    title = f"{found.system.robot}: physical parameters"
+    return Table.of(title, "parameter, value, sigma, unit, mostly from", rows)
 
 
 def _values_summary(found: PhysicalValues) -> str:
@@ -262,15 +260,13 @@ def _physical_summary(found: Physical) -> str:
 
 def _letters_table(found: Physical) -> Table:
     system = found.system
-    rows = tuple((x, system.kinds[x], UNITS[system.kinds[x]]) for x in system.letters)
-    names = ("parameter", "kind", "unit")
-    return Table(f"{system.robot}: physical parameters", tuple((n, "") for n in names), rows)
+    rows = [(x, system.kinds[x], UNITS[system.kinds[x]]) for x in system.letters]
+    return Table.of(f"{system.robot}: physical parameters", "parameter, kind, unit", rows)
 
 
-present(PhysicalValues, Presentation(
-    "a set of physical parameters", _values_summary, lambda v: {"values": lambda: values_table(v)}
-))  # fmt: skip
-present(Physical, Presentation(
-    "a system of physical parameters", _physical_summary,
-    lambda p: {"parameters": lambda: _letters_table(p)},
-))  # fmt: skip
+present({
+    PhysicalValues: Presentation("a set of physical parameters", _values_summary,
+                                 lambda v: {"values": lambda: values_table(v)}),
+    Physical: Presentation("a system of physical parameters", _physical_summary,
+                           lambda p: {"parameters": lambda: _letters_table(p)}),
+})  # fmt: skip

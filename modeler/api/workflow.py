@@ -6,10 +6,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from modeler.codegen.derivation import Derivation as Derivation
-from modeler.codegen.derivation import derive as derive
-from modeler.codegen.derivation import generate as generate_robot
-from modeler.codegen.derivation import load as load
+from modeler.codegen.workflow import Derivation as Derivation
+from modeler.codegen.workflow import derive as derive
+from modeler.codegen.workflow import generate as generate_robot
+from modeler.codegen.workflow import load as load
 from modeler.core.builtin import builtin_names
 from modeler.core.errors import DataError, ManifestError, Precision, file_and_window
 from modeler.core.estimators import ABOUT
@@ -17,14 +17,9 @@ from modeler.core.files import write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.table import Table
 from modeler.effects.catalogue import CATALOGUE
+from modeler.estimation import model_file
 from modeler.estimation.drive_gains import check_currents, in_drive_units
-from modeler.estimation.model_file import (
-    IdentifiedModel,
-    fitted_spec,
-    load_model,
-    save_model,
-    with_essential_only,
-)
+from modeler.estimation.model_file import IdentifiedModel
 from modeler.logs.mapping import LogMap, map_from_table, map_from_words
 from modeler.observation.chunk import read_part, window
 from modeler.observation.log import LONG, Log, check_apart
@@ -92,7 +87,9 @@ def generate(
     if isinstance(source, Derivation):
         return generate_robot(source, folder, force, precision=precision, cuda=cuda)
     derivation, _ = _emitted_anew(source)
-    return generate_robot(derivation, folder, force, fitted_spec(source), precision, cuda)
+    return generate_robot(
+        derivation, folder, force, model_file.fitted_spec(source), precision, cuda
+    )
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:
@@ -234,7 +231,7 @@ def reduced(model: IdentifiedModel) -> IdentifiedModel:
     Raises:
         DataError: the model was saved by a version that kept none.
     """
-    return with_essential_only(model, f"model of {model.spec.robot}")
+    return model_file.with_essential_only(model, f"model of {model.spec.robot}")
 
 
 def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
@@ -246,7 +243,7 @@ def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
     if isinstance(thing, Robot):
         write_atomically(Path(path), thing.text)
     else:
-        save_model(path, thing)
+        model_file.save_model(path, thing)
     return Path(path)
 
 
@@ -257,7 +254,7 @@ def open_model(path: str | Path) -> IdentifiedModel:
         ManifestError: missing, not a model file, of another format, damaged, or changed since it
             was saved.
     """
-    return load_model(path)
+    return model_file.load_model(path)
 
 
 # What is built in: robots, effects, estimators; each as a table.
@@ -270,13 +267,12 @@ def robots() -> Table:
     True
     """
     every = [read_robot(name) for name in builtin_names()]
-    rows = tuple(
+    rows = [
         (robot.name, robot.title, len(robot.coordinates), len(robot.moving), len(robot.loops),
          ", ".join(use.effect for use in robot.effects))
         for robot in every
-    )  # fmt: skip
-    names = ("name", "title", "coordinates", "joints", "loops", "effects")
-    return Table("built-in robots", tuple((name, "") for name in names), rows)
+    ]  # fmt: skip
+    return Table.of("built-in robots", "name, title, coordinates, joints, loops, effects", rows)
 
 
 def effects(robot: Robot | None = None) -> Table:
@@ -288,20 +284,18 @@ def effects(robot: Robot | None = None) -> Table:
     'Fs'
     """
     known = CATALOGUE if robot is None else robot.catalogue
-    rows = tuple(
+    rows = [
         (effect.id, effect.title, effect.equation,
          ", ".join(column.prefix for column in effect.columns), ", ".join(effect.aliases))
         for effect in known
-    )  # fmt: skip
-    names = ("effect", "title", "equation", "parameters", "also called")
-    return Table("physical effects", tuple((name, "") for name in names), rows)
+    ]  # fmt: skip
+    return Table.of("physical effects", "effect, title, equation, parameters, also called", rows)
 
 
 def estimators() -> Table:
     """The estimators that `fit` takes as `method`."""
-    rows = tuple((a.id, a.title, a.law, a.source, a.avoid) for a in ABOUT.values())
-    names = ("method", "title", "law", "source", "when not to use it")
-    return Table("estimators", tuple((name, "") for name in names), rows)
+    rows = [(a.id, a.title, a.law, a.source, a.avoid) for a in ABOUT.values()]
+    return Table.of("estimators", "method, title, law, source, when not to use it", rows)
 
 
 def on_gpu(derivation: Derivation) -> GpuModel:

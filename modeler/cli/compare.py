@@ -7,7 +7,7 @@ from pathlib import Path
 
 import modeler.api.checks as checks
 from modeler.api.workflow import Mapped, read_logs, recompile
-from modeler.cli.console import Json, note, progress, say, say_next, working
+from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, say_lines, working
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
@@ -17,7 +17,6 @@ from modeler.observation.findings import findings_of_prediction
 from modeler.observation.log import check_apart
 from modeler.observation.observation import Observation
 from modeler.report import comparison as pages
-from modeler.report.figure_page import write_files
 from modeler.report.page import Origin, after_compare
 from modeler.runtime.model import CompiledModel
 from modeler.validation.comparison import Comparison, compare
@@ -39,30 +38,19 @@ def run_compare(args: argparse.Namespace) -> Json:
         compiled = _compiled(args, model)
     with progress("predicting") as bar:
         comparison, lines, found = judged(model, args.logs, compiled, args.map, bar)
-    say(comparison.summary())
-    say()
-    for sentence in (*verdict(comparison), *model.warning):
-        say(sentence)
-    for line in lines:
-        if line.startswith((_TRAINING, "long logs: ")):
-            say(line)
-    for fault in found:
-        say(fault.line)
+    doubts = [fault.line for fault in found]
+    told = [line for line in lines if line.startswith((_TRAINING, "long logs: "))]
+    summary = [comparison.summary(), ""]
+    say_lines([*summary, *verdict(comparison), *model.warning, *told, *doubts])
     held = not any(line.startswith(_TRAINING) for line in lines)
     noise = all(looks_like_noise(item) for item in comparison.joints) and not model.warning
     fitted = [log.name for log in model.logs]
     following = after_compare(args.model, fitted, args.logs, held, noise)
-    if args.report is not None:
-        with working("drawing the page"):
-            origin = Origin(args.model, comparison.prediction.logs, held)
-            place = pages.write_report(Path(args.report), comparison, lines, origin, [following])
-        say(f"written: {place}")
-    if args.pictures is not None:
-        with progress("drawing pictures") as bar:
-            written = pages.write_pictures(Path(args.pictures), comparison, bar)
-        say(f"written: {len(written)} files in {args.pictures}")
-    say_next([following])
-    return comparison.as_dict() | {"doubts": [fault.line for fault in found]}
+    origin = Origin(args.model, comparison.prediction.logs, held, [following])
+    draw_page(args.report, lambda: pages.comparison_page(comparison, lines, origin))
+    draw_pictures(args.pictures, lambda: pages.all_pictures(comparison))
+    say_lines([following], "next: ")
+    return comparison.as_dict() | {"doubts": doubts}
 
 
 def judged(
@@ -130,16 +118,9 @@ def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
     lines += [
         f"{_TRAINING}{name} was fitted on rows of {log}, which flatters it" for name, log in trained
     ]
-    for line in (*contest_lines(found), *lines, *(w for model in models for w in model.warning)):
-        say(line)
-    if args.report is not None:
-        with working("drawing the page"):
-            place = pages.write_contest(Path(args.report), found, lines, not trained)
-        say(f"written: {place}")
-    if args.pictures is not None:
-        with progress("drawing pictures") as bar:
-            written = pages.write_overlays(Path(args.pictures), found, bar)
-        say(f"written: {len(written)} files in {args.pictures}")
+    say_lines([*contest_lines(found), *lines, *(w for model in models for w in model.warning)])
+    draw_page(args.report, lambda: pages.contest_page(found, lines, not trained))
+    draw_pictures(args.pictures, lambda: pages.contest_pictures(found))
     return compare(found.predictions[0]).as_dict() | {"models": found.as_dicts(), "doubts": []}
 
 
@@ -178,12 +159,8 @@ def run_free_run(args: argparse.Namespace) -> Json:
     check_apart(logs, places=args.logs)
     with progress("simulating") as bar:
         found = free_run(model, logs, compiled, asked, bar)
-    for line in (*found.summary().splitlines(), *model.warning):
-        say(line)
-    if args.pictures is not None:
-        with progress("drawing pictures") as bar:
-            written = write_files(Path(args.pictures), free_run_pictures(found), bar)
-        say(f"written: {len(written)} files in {args.pictures}")
+    say_lines([*found.summary().splitlines(), *model.warning])
+    draw_pictures(args.pictures, lambda: free_run_pictures(found))
     return found.to_json()
 
 

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from modeler.cli import places
-from modeler.cli.console import Json, say
+from modeler.cli.console import Json, say, say_lines
 from modeler.cli.options import arguments_of, options_of, sorted_words
-from modeler.core.builtin import MOTIONS, OTHER_PROGRAMS, builtin_names, paper_names
+from modeler.core.builtin import paper_names
 from modeler.core.estimators import ABOUT
 from modeler.effects.catalogue import CATALOGUE as EFFECTS
 
@@ -52,8 +52,7 @@ def run_completion(args: argparse.Namespace) -> Json:
         say(SCRIPTS[args.shell].rstrip())
         return {"shell": args.shell, "script": SCRIPTS[args.shell]}
     found = candidates(args.words[1:], args.top)
-    for each in found:
-        say(each)
+    say_lines(found)
     return found
 
 
@@ -133,27 +132,11 @@ def _places(kind: object, last: str) -> list[str]:
     """Names and files that an argument of that type takes."""
     if kind is places.model_or_log:
         return _files(last, (".json", *places.LOG_ENDINGS))
-    if not isinstance(kind, type) or not issubclass(
-        kind, places.Input | places.Output | places.OutputFolder
-    ):
-        return []
-    if issubclass(kind, places.OutputFolder):
+    if isinstance(kind, type) and issubclass(kind, places.OutputFolder):
         return _files(last, ())
-    if issubclass(kind, places.Output):
-        return _files(last, ("",))
-    names: Sequence[str] = ()
-    endings: tuple[str, ...] = places.LOG_ENDINGS
-    if issubclass(kind, places.RobotFile):
-        names, endings = builtin_names(), (".toml", *OTHER_PROGRAMS)
-        if issubclass(kind, places.RobotOrModel):
-            endings = (*endings, ".json")
-    elif issubclass(kind, places.ModelFile):
-        endings = (".json",)
-    elif issubclass(kind, places.MotionOrKind):
-        names = MOTIONS
-    elif not issubclass(kind, places.LogFile | places.MotionFile):
-        endings = ("",)
-    return [*_beginning(last, names), *_files(last, endings)]
+    if isinstance(kind, type) and issubclass(kind, places.FilePlace):
+        return [*_beginning(last, kind.names()), *_files(last, kind.endings)]
+    return []
 
 
 def _files(last: str, endings: tuple[str, ...]) -> list[str]:

@@ -8,17 +8,21 @@ import os
 import platform
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from enum import Enum
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from modeler import __version__
 from modeler.core.errors import ModelerError
 from modeler.core.files import Kind, destination, write_atomically
 from modeler.core.json import nulled
+
+if TYPE_CHECKING:
+    from modeler.core.figure import Picture
+    from modeler.report.page import Page
 
 # How much is told beside the results: `--quiet` and `--verbose`.
 
@@ -46,7 +50,7 @@ def loudness() -> Loudness:
 
 
 @contextmanager
-def told(wanted: Loudness) -> Iterator[None]:
+def using_loudness(wanted: Loudness) -> Iterator[None]:
     """While this lasts, so much is told; warnings of libraries too."""
     import warnings
 
@@ -145,10 +149,35 @@ def say(text: str = "") -> None:
     write_stdout(f"{text}\n")
 
 
+def say_lines(lines: Iterable[str], before: str = "") -> None:
+    """Results line by line, each with the same words before it."""
+    for line in lines:
+        say(before + line)
+
+
 def say_next(commands: Sequence[str]) -> None:
     """The command to go on with, as the last line."""
-    for command in commands[:1]:
-        say(f"next: {command}")
+    say_lines(commands[:1], "next: ")
+
+
+def draw_page(place: str | None, page: "Callable[[], Page]") -> None:
+    """Writes the page of a result, if a place for it is given."""
+    if place is not None:
+        from modeler.report.page import write_page  # pages take long to load
+
+        with working("drawing the page"):
+            written = write_page(Path(place), page())
+        say(f"written: {written}")
+
+
+def draw_pictures(folder: str | None, pictures: "Callable[[], Sequence[Picture]]") -> None:
+    """Writes pictures and their numbers into a folder, if one is given."""
+    if folder is not None:
+        from modeler.report.figure_page import write_files
+
+        with progress("drawing pictures") as bar:
+            written = write_files(Path(folder), pictures(), bar)
+        say(f"written: {len(written)} files in {folder}")
 
 
 def write_stdout(text: str) -> None:

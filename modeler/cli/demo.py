@@ -4,10 +4,11 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
+import modeler.report.page as pages
 from modeler.api.fitting import fit
 from modeler.api.workflow import compile_model, derive, generate, load, observe, read_logs
 from modeler.cli.compare import judged
-from modeler.cli.console import Json, progress, say, working
+from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.improve import waterfall
 from modeler.diagnosis.add import add_findings
 from modeler.diagnosis.added_model import Logs
@@ -15,10 +16,10 @@ from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.sentences import lines
 from modeler.estimation.model_file import IdentifiedModel, save_model
-from modeler.report.comparison import write_pictures, write_report
-from modeler.report.diagnosis import write_diagnosis
-from modeler.report.history import write_additions
-from modeler.report.page import Origin, after_add, after_compare, after_diagnosis, write_index
+from modeler.report.comparison import all_pictures, comparison_page
+from modeler.report.diagnosis import diagnosis_page
+from modeler.report.figure_page import write_files
+from modeler.report.history import additions_page
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate, write_log
 from modeler.simulation.settings import check_settings
@@ -46,7 +47,7 @@ def run_demo(args: argparse.Namespace) -> Json:
     """Runs both stories."""
     check_settings(SimulationSettings(duration=args.duration), ())  # before anything is written
     told = {story.robot: _told(story, Path(args.out) / story.robot, args) for story in _STORIES}
-    if (index := write_index(Path(args.out), "modeler demo")) is not None:
+    if (index := pages.write_index(Path(args.out), "modeler demo")) is not None:
         say(f"all pages: {index}")
     return told
 
@@ -78,12 +79,11 @@ def _told(story: Story, out: Path, args: argparse.Namespace) -> Json:
     logs = Logs(read_logs(compiled, [train]), read_logs(compiled, [held_out]))
     with progress("looking for missing effects") as bar:
         found = diagnose(model, compiled, logs.fitted, logs.held_out, progress=bar)
-    for line in lines(found):
-        say(f"   {line}")
+    say_lines(lines(found), "   ")
     place = str(out / "model.json")
-    origin = Origin(place, [train.name, held_out.name], held_out=True)
-    following = after_diagnosis(place, [str(train)], [str(held_out)], found)
-    write_diagnosis(out / "diagnosis.html", found, (), origin, following)
+    following = pages.after_diagnosis(place, [str(train)], [str(held_out)], found)
+    origin = pages.Origin(place, [train.name, held_out.name], True, following)
+    pages.write_page(out / "diagnosis.html", diagnosis_page(found, (), origin))
     better = _improved(model, compiled, found, logs, out)
     say(f"   the truth: {story.hidden.effect} on joint {story.hidden.joint}\n")
     say(f"open {out / 'diagnosis.html'} and {out / 'improved.html'} in a browser\n")
@@ -93,17 +93,14 @@ def _told(story: Story, out: Path, args: argparse.Namespace) -> Json:
 def _compared(model: IdentifiedModel, compiled: CompiledModel, out: Path, log: Path) -> None:
     with working("predicting"):
         comparison, provenance, _ = judged(model, [str(log)], compiled)
-    for line in (*comparison.summary().splitlines(), *verdict(comparison)):
-        say(f"   {line}")
+    say_lines([*comparison.summary().splitlines(), *verdict(comparison)], "   ")
     with working("drawing the page"):
         place, fitted = str(out / "model.json"), [str(out / "train.parquet")]
-        write_report(
-            out / "compare.html", comparison, provenance,
-            Origin(place, comparison.prediction.logs, held_out=True),
-            [after_compare(place, fitted, [str(log)], held_out=True)],
-        )  # fmt: skip
+        following = pages.after_compare(place, fitted, [str(log)], held_out=True)
+        origin = pages.Origin(place, comparison.prediction.logs, True, [following])
+        pages.write_page(out / "compare.html", comparison_page(comparison, provenance, origin))
     with progress("drawing pictures") as bar:
-        write_pictures(out / "pictures", comparison, bar)
+        write_files(out / "pictures", all_pictures(comparison), bar)
 
 
 def _improved(
@@ -113,11 +110,12 @@ def _improved(
     with working("adding what is missing"):
         better, left_out = add_findings(model, compiled, found.effects, logs)
     save_model(out / "improved.json", better)
-    for line in (*waterfall(better), *left_out):
-        say(f"   {line}")
+    say_lines([*waterfall(better), *left_out], "   ")
     if better.history:
         held = better.history[-1].held_out
-        origin = Origin(str(out / "improved.json"), held, held_out=True)
-        following = after_add(origin.model, [str(out / name) for name in held])
-        write_additions(out / "improved.html", better, left_out, origin, following)
+        place = str(out / "improved.json")
+        origin = pages.Origin(
+            place, held, True, pages.after_add(place, [str(out / name) for name in held])
+        )
+        pages.write_page(out / "improved.html", additions_page(better, left_out, origin))
     return better

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.cli.console import Json, complain, say, working
+from modeler.cli.console import Json, complain, say, say_lines, working
 from modeler.cli.lists import robot_of, robot_with_effects
 from modeler.cli.options import FEW_JOINTS, Form
-from modeler.codegen.derivation import Derivation, derive, generate
+from modeler.codegen.workflow import Derivation, derive, generate
 from modeler.core.errors import DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
 from modeler.core.formula import latex_text
@@ -178,42 +178,27 @@ def run_derive(args: argparse.Namespace) -> Json:
     base = derivation.base
     result = relations.as_json(robot.name, base) | {"newton_euler_against_lagrange": opinion}
     counts = ", ".join(f"{n} {kind}" for kind, n in base.counts().items() if n)
+    tied = _tied_lines(derivation.model)
+    agreement = f"Newton-Euler against Lagrange: {opinion:.1e} of the largest torque"
     words = Words(args.format, args.document)
     words.title(f"{robot.name}: {robot.title}")
     words.say(f"{len(base.columns)} standard parameters, {base.rank} base parameters ({counts})")
-    for line in _tied_lines(derivation.model):
+    for line in tied:
         words.say(line)
     words.say()
     words.formulas(_FORMS[args.format](base))
     words.say()
     words.say(relations.proof_text(base.proof))
-    words.say(_agreement(opinion))
+    words.say(agreement)
     result |= say_closed_forms(args, derivation, words)
     if args.page is not None:
-        words.say(f"written: {_page(args, derivation, opinion)}")
+        from modeler.report.derivation import derivation_page  # pages take long to load
+        from modeler.report.page import write_page
+
+        page = derivation_page(derivation, tied, agreement, args.robot)
+        words.say(f"written: {write_page(Path(args.page), page)}")
     words.end()
     return result
-
-
-def _page(args: argparse.Namespace, derivation: Derivation, opinion: float) -> Path:
-    from modeler.report.derivation import Derived, write_derivation
-
-    base = derivation.base
-    units = (base.columns[parameter.column].unit for parameter in base.parameters)
-    formulas = [relations.relation_formula(parameter) for parameter in base.parameters]
-    derived = Derived(
-        relations=list(zip(formulas, units, strict=True)),
-        standard=len(base.columns),
-        counts=base.counts(),
-        unidentifiable=base.unidentifiable,
-        tied=_tied_lines(derivation.model),
-        proof=(base.proof.kind, [*relations.proof_paragraphs(base.proof), _agreement(opinion)]),
-    )
-    return write_derivation(Path(args.page), derivation.robot, derived, args.robot)
-
-
-def _agreement(opinion: float) -> str:
-    return f"Newton-Euler against Lagrange: {opinion:.1e} of the largest torque"
 
 
 def _tied_lines(model: SymbolicModel) -> list[str]:
@@ -362,10 +347,7 @@ def run_generate(args: argparse.Namespace) -> Json:
     spec, fitted = emitted.spec, emitted.spec.fitted
     single = ", single precision" if spec.precision == "single" else ""
     say(f"{spec.robot}: {len(spec.base)} base parameters{single}, written to {args.out}:")
-    for name in sorted(emitted.files):
-        say(f"  {name}")
-    for function in spec.functions:
-        say(_function_line(function))
+    say_lines([*sorted(emitted.files), *map(_function_line, spec.functions)], "  ")
     from modeler.codegen.package import leftovers  # jinja2, which `derive` has no use for
 
     for name in leftovers(emitted, args.out):
@@ -377,8 +359,7 @@ def run_generate(args: argparse.Namespace) -> Json:
     if fitted is None:
         return result
     say(f"with the fitted values, signature {fitted.signature}:")
-    for function in fitted.functions:
-        say(_function_line(function))
+    say_lines(map(_function_line, fitted.functions), "  ")
     if fitted.widths:
         say(f"  widths of the Coulomb friction: {', '.join(fitted.widths)}")
     return result | {
@@ -404,6 +385,6 @@ def _model(args: argparse.Namespace) -> "IdentifiedModel | None":
 
 def _function_line(function: FunctionSpec) -> str:
     return (
-        f"  {function.name}: {function.equation} ({function.additions} additions, "
+        f"{function.name}: {function.equation} ({function.additions} additions, "
         f"{function.multiplications} multiplications)"
     )

@@ -8,13 +8,14 @@ from pathlib import Path
 import modeler.api.fitting as fitting
 import modeler.api.long_logs as long_logs
 from modeler.api.workflow import compile_model, derive, generate, read_logs
-from modeler.cli.console import Json, note, progress, say, say_next, working
+from modeler.cli.console import Json, draw_page, note, progress, say, say_lines, say_next, working
 from modeler.cli.lists import robot_of
-from modeler.codegen.derivation import Derivation
+from modeler.codegen.workflow import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError
 from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
 from modeler.core.jobs import open_workers
+from modeler.core.json import entries
 from modeler.core.manifest import Emitted
 from modeler.core.table import aligned
 from modeler.estimation.long_logs import OF_TRIANGLES
@@ -24,8 +25,8 @@ from modeler.observation.log import Log, check_apart
 from modeler.observation.observation import Observation, observe
 from modeler.observation.settings import Processing
 from modeler.observation.survey import WholeNeeded
-from modeler.report.estimators import remarks_of, table_of, values_of, write_estimators
-from modeler.report.page import after_fit
+from modeler.report.estimators import estimators_page, remarks_of, table_of, values_of
+from modeler.report.page import after_fit, write_page
 from modeler.robot.edit import with_parameters
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import INERTIAL
@@ -37,12 +38,8 @@ def run_fit(args: argparse.Namespace) -> Json:
     _check_options(args)
     processing = Processing(
         position_cutoff=args.cutoff,
-        parallel_cutoff=args.parallel_cutoff,
         decimation=args.decimate,
-        derivatives=args.derivatives,
-        low_speed=args.low_speed,
-        keep_saturated=args.keep_saturated,
-        keep_contradicted=args.keep_contradicted,
+        **entries(args, "parallel_cutoff derivatives low_speed keep_saturated keep_contradicted"),
         keep_damaged=args.keep_damaged,
     )
     robot = robot_of(args)
@@ -177,15 +174,14 @@ def _written(
     """Saves and prints the model."""
     save_model(args.out, model)
     *told, verdict = model.fit.lines()
-    for line in (*observation.report.lines(), "", *lines, *told):
-        say(line)
+    say_lines([*observation.report.lines(), "", *lines, *told])
     say(f"written: {args.out}")
     if args.report is not None:
-        from modeler.report.fit import write_fit  # pages take long to load
+        from modeler.report.fit import fit_page  # pages take long to load
 
         following = after_fit(args.out, args.logs, args.robot, model.fit)
-        place = write_fit(Path(args.report), model, observation.report.lines(), args.out, following)
-        say(f"written: {place}")
+        page = fit_page(model, observation.report.lines(), args.out, following)
+        say(f"written: {write_page(Path(args.report), page)}")
     if args.robot_out is not None:
         robot = robot_from_text(model.robot_text, "robot of the model")
         # Of inertial parameters only those that the robot file may state.
@@ -211,16 +207,12 @@ def run_estimators(args: argparse.Namespace) -> Json:
     names = args.methods and [name.strip() for name in args.methods.split(",") if name.strip()]
     methods = fitting.chosen_methods(names, "--methods")
     if args.robot is None:
-        fields = ("title", "law", "source", "avoid")
         for about in (ABOUT[method] for method in methods):
             say(f"{about.id:<10} {about.title}")
             say(f"  law        {about.law}")
             say(f"  source     {about.source}")
             say(f"  not        {about.avoid}")
-        return [
-            {"method": method} | {name: getattr(ABOUT[method], name) for name in fields}
-            for method in methods
-        ]
+        return [{"method": m} | entries(ABOUT[m], "title law source avoid") for m in methods]
     if not args.logs:
         raise DataError(
             f"estimators: got robot {args.robot} and no log; expected logs to fit, as in "
@@ -235,14 +227,9 @@ def run_estimators(args: argparse.Namespace) -> Json:
         tried = side_by_side(observation, compiled, held, methods, bar)
     lines = tuple(observation.report.lines())
     tables = (aligned(table, (0,)) for table in (table_of(tried), values_of(tried)))
-    for line in (*lines, *(row.rstrip() for table in tables for row in ("", *table)), ""):
-        say(line)
-    for method, remark in remarks_of(tried):
-        say(f"{method}: {remark}")
-    if args.report is not None:
-        with working("drawing the page"):
-            place = write_estimators(Path(args.report), args.robot, tried, lines)
-        say(f"written: {place}")
+    say_lines([*lines, *(row.rstrip() for table in tables for row in ("", *table)), ""])
+    say_lines(f"{method}: {remark}" for method, remark in remarks_of(tried))
+    draw_page(args.report, lambda: estimators_page(args.robot, tried, lines))
     return {
         "training": list(args.logs),
         "holdout": list(args.holdout),

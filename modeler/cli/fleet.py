@@ -7,7 +7,7 @@ from pathlib import Path
 
 from modeler.api import compile_model, derive, generate
 from modeler.api.fleets import file_and_at, reduce_logs
-from modeler.cli.console import Json, progress, say, working
+from modeler.cli.console import Json, draw_page, progress, say_lines, working
 from modeler.cli.lists import robot_of
 from modeler.cli.places import LOG_ENDINGS
 from modeler.core.errors import DataError
@@ -16,7 +16,7 @@ from modeler.fleet.fleet import fleet_of
 from modeler.fleet.naming import Named, listed_logs, named_logs
 from modeler.fleet.result import fleet_lines
 from modeler.observation.settings import Processing
-from modeler.report.fleet import write_fleet
+from modeler.report.fleet import fleet_page
 
 _MANY = 32  # logs from which several processes are worth their start
 
@@ -39,12 +39,8 @@ def run_fleet(args: argparse.Namespace) -> Json:
         given = reduce_logs(compiled, emitted, named, workers, processing, args.map, bar)
     with working("comparing machines and days"):
         found = fleet_of(emitted.spec, given)
-    for line in fleet_lines(found):
-        say(line)
-    if args.report is not None:
-        with working("drawing the page"):
-            place = write_fleet(Path(args.report), found)
-        say(f"written: {place}")
+    say_lines(fleet_lines(found))
+    draw_page(args.report, lambda: fleet_page(found))
     return found.as_dict()
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from modeler.api.postures import chosen_mode
 from modeler.api.postures import home as home_modes
-from modeler.cli.console import Json, say, working
+from modeler.cli.console import Json, say, say_lines, working
 from modeler.cli.lists import read_told
 from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
 from modeler.core.errors import DataError
@@ -15,8 +15,8 @@ from modeler.core.files import check_writable, write_atomically
 from modeler.derivation.derive import HomeModes, written
 from modeler.derivation.walks import Linkage
 from modeler.report.robot_closing import Posture
-from modeler.report.robot_page import modes_html
-from modeler.report.robot_skeleton import PICTURE_KINDS, size_of, skeleton_of
+from modeler.report.robot_page import PICTURE_KINDS, modes_html
+from modeler.report.robot_skeleton import size_of, skeleton_of
 from modeler.robot.edit import home_lines, with_home_text
 from modeler.robot.loops import read_home
 from modeler.robot.robot import Place, Robot
@@ -41,8 +41,7 @@ def run_home(args: argparse.Namespace) -> Json:
     with working(f"closing the loops of {robot.name}"):
         found = home_modes(robot, near, args.anew)
     chosen = chosen_mode(found, args.mode, args.near is not None)
-    for line in _table(found):
-        say(line)
+    say_lines(_table(found))
     if args.pictures is not None:
         with working("drawing"):
             write_atomically(Path(args.pictures), _pictures(found, kind))
@@ -56,8 +55,7 @@ def run_home(args: argparse.Namespace) -> Json:
         say(f"mode {found.modes[chosen].letter} written into {args.robot} as [home]")
     else:
         say(f"[home] of mode {found.modes[chosen].letter} (--write puts it into the file):")
-        for line in home_lines(home):
-            say(f"  {line}")
+        say_lines(home_lines(home), "  ")
     return {
         "robot": robot.name,
         "chosen": found.modes[chosen].letter,

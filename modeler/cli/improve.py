@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 import modeler.api.improve as improve
-from modeler.cli.console import Json, progress, say, say_next, working
+from modeler.cli.console import Json, progress, say, say_lines, say_next, working
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.table import DIGITS, percent
@@ -13,9 +13,9 @@ from modeler.diagnosis.added_model import added, notes
 from modeler.diagnosis.sentences import lines
 from modeler.effects.catalogue import effect_named
 from modeler.estimation.model_file import IdentifiedModel, load_model, save_model
-from modeler.report.diagnosis import write_diagnosis
-from modeler.report.history import write_additions
-from modeler.report.page import Origin, after_add, after_diagnosis
+from modeler.report.diagnosis import diagnosis_page
+from modeler.report.history import additions_page, step_name
+from modeler.report.page import Origin, after_add, after_diagnosis, write_page
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import near
 
@@ -40,12 +40,11 @@ def run_diagnose(args: argparse.Namespace) -> Json:
             f"logs explained: {', '.join(shown[: len(args.logs)])}",
             *model.warning,
         ]
-        origin = Origin(args.model, shown, bool(diagnosis.held_out))
+        origin = Origin(args.model, shown, bool(diagnosis.held_out), following)
         with working("drawing"):
-            place = write_diagnosis(Path(args.report), diagnosis, provenance, origin, following)
+            place = write_page(Path(args.report), diagnosis_page(diagnosis, provenance, origin))
         wrote = [f"written: {place}"]
-    for line in (*lines(diagnosis), *model.warning, *wrote):
-        say(line)
+    say_lines([*lines(diagnosis), *model.warning, *wrote])
     say_next(following)
     return diagnosis.to_json()
 
@@ -99,19 +98,14 @@ def run_add(args: argparse.Namespace) -> Json:
         places.append(args.robot)
     if args.report is not None and better.history:
         held = better.history[-1].held_out
-        origin = Origin(args.out, held or args.logs, bool(held))
-        write_additions(Path(args.report), better, left_out, origin, following)
+        origin = Origin(args.out, held or args.logs, bool(held), following)
+        write_page(Path(args.report), additions_page(better, left_out, origin))
         places.append(args.report)
-    for line in (
-        *waterfall(better),
-        *added(better),
-        *left_out,
-        *notes(better, max(1, len(model.history))),
-        *model.warning,
-        *([] if better.fit.verdict is None else [f"now: {better.fit.verdict.line}"]),
-        *(f"written: {place}" for place in places),
-    ):
-        say(line)
+    say_lines([*waterfall(better), *added(better), *left_out])
+    say_lines([*notes(better, max(1, len(model.history))), *model.warning])
+    if better.fit.verdict is not None:
+        say(f"now: {better.fit.verdict.line}")
+    say_lines(places, "written: ")
     say_next(following)
     steps = [step.to_json() for step in better.history]
     return better.fit.to_json() | {"waterfall": steps, "left_out": list(left_out)}
@@ -129,8 +123,7 @@ def waterfall(model: IdentifiedModel) -> list[str]:
     lines = [f"{'':<30} {title}"]
     largest = max(step.error for step in model.history) or 1.0
     for step in model.history:
-        name = f"+ {step.effect}" if step.effect else "model as fitted"
-        name += f" @{step.joint}" if step.joint else ""
+        name = step_name(step) if step.effect else "model as fitted"
         bar = "#" * round(_WIDTH * step.error / largest)
         fitted = percent(step.training_error, DIGITS)
         lines.append(f"{name:<30} {percent(step.error, DIGITS):>8} {bar}  (fitted {fitted})")

@@ -4,7 +4,7 @@ import argparse
 import math
 from collections.abc import Callable
 
-from modeler.cli.console import Json, note, say, working
+from modeler.cli.console import Json, note, say, say_lines, working
 from modeler.core.builtin import builtin_names
 from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE, effect_named
@@ -166,8 +166,7 @@ def run_effects(args: argparse.Namespace) -> Json:
             for name, value in fact.items():
                 if name not in ("id", "equation", "title") and value:
                     say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")
-            for line in signature_lines(chosen[0]):
-                say(line)
+            say_lines(signature_lines(chosen[0]))
     return facts
 
 

@@ -11,7 +11,7 @@ import modeler.api.workflow as workflow
 from modeler.api.checks import look_at
 from modeler.api.fitting import Way, judged
 from modeler.api.long_logs import are_long, judged_long, too_long
-from modeler.cli.console import Json, progress, say, working
+from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.lists import read_told
 from modeler.core.errors import ModelerError
 from modeler.core.table import aligned, percent
@@ -25,7 +25,8 @@ from modeler.observation.observation import Observation
 from modeler.observation.read import source_of
 from modeler.observation.survey import WholeNeeded
 from modeler.report.figure_page import write_files
-from modeler.report.log import channel_rows, clock_line, log_pictures, write_log_page
+from modeler.report.log import channel_rows, clock_line, log_page, log_pictures
+from modeler.report.page import write_page
 from modeler.runtime.model import CompiledModel
 
 _WIDEST = 44  # letters of a cell
@@ -50,12 +51,11 @@ def run_log(args: argparse.Namespace) -> Json:
             doubts = [line for line in doubts if line not in seen.ranged]
             seen = dataclasses.replace(seen, suggested=seen.plain)
         doubts += [line for line in heard if line not in doubts]
-    for line in _lines(seen, doubts):
-        say(line)
+    say_lines(_lines(seen, doubts))
     places = []
     if args.page is not None:
         with working("drawing the page"):
-            places.append(str(write_log_page(Path(args.page), seen, doubts, [])))
+            places.append(str(write_page(Path(args.page), log_page(seen, doubts, []))))
     if args.pictures is not None:
         with progress("drawing pictures") as bar:
             written = write_files(Path(args.pictures), log_pictures(seen), bar)

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import modeler.api.motion as motions
 from modeler import simulation
-from modeler.cli.console import Json, progress, say, working
+from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.lists import robot_of
 from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
+from modeler.core.json import entries
 from modeler.core.table import percent
 from modeler.estimation.model_file import load_model
 from modeler.excitation.criterion import signals
@@ -44,8 +45,7 @@ def run_excite(args: argparse.Namespace) -> Json:
         else:
             motion = subject.search(bounds, wish, bar)
             lines = motion.lines()
-    for line in lines:
-        say(line)
+    say_lines(lines)
     columns = motion.sampled(args.rate)
     table = csv_text(columns) if args.out.endswith(".csv") else motion_table(columns)
     write_atomically(Path(args.out), table)
@@ -164,7 +164,7 @@ def _choose(args: argparse.Namespace, subject: motions.Subject) -> Json:
     }
 
 
-_SETTINGS = ("rate", "seed", "parameter_seed", "encoder_counts", "process_noise", "controller")
+_SETTINGS = "rate seed parameter_seed encoder_counts process_noise controller"
 """Options of `modeler simulate` that are settings of the simulation by the same name."""
 
 
@@ -172,7 +172,7 @@ def run_simulate(args: argparse.Namespace) -> Json:
     """Simulates and writes the log."""
     simulation.check_suffix(Path(args.out))
     robot = robot_of(args)
-    given = {name: getattr(args, name) for name in _SETTINGS} | {"torque_noise": args.noise}
+    given = entries(args, _SETTINGS) | {"torque_noise": args.noise}
     made = args.motion in MOTIONS
     if args.duration is not None:
         if not made:

@@ -4,10 +4,11 @@ import argparse
 from pathlib import Path
 
 from modeler.api.physical_parameters import UNITS, Physical, PhysicalValues, physical
-from modeler.cli.console import Json, note, progress, say, working
+from modeler.cli.console import Json, note, progress, say, say_lines, working
 from modeler.cli.lists import read_told
-from modeler.codegen.derivation import derive
+from modeler.codegen.workflow import derive
 from modeler.core.errors import DataError
+from modeler.core.json import entries
 from modeler.core.table import percent
 from modeler.estimation.model_file import load_model
 from modeler.formulas.cad import CadComparison, KnownAgainstFit
@@ -68,11 +69,8 @@ def _overview(system: PhysicalSystem, source: str, fitted: bool) -> dict[str, Js
     if system.constants:
         say("  known from the table: "
             + ", ".join(f"{k} = {v:.6g}" for k, v in system.constants.items()))  # fmt: skip
-    for name, text in system.abbreviations.items():
-        say(f"  {name} = {text}")
-    say()
-    for line in definition_lines(system):
-        say(line)
+    say_lines(f"  {name} = {text}" for name, text in system.abbreviations.items())
+    say_lines(["", *definition_lines(system)])
     easiest = easiest_set(system)
     say()
     parameters = "parameter" if number == 1 else "parameters"
@@ -97,20 +95,16 @@ def _known(args: argparse.Namespace, subject: Physical) -> dict[str, Json]:
     with working("solving"):
         solution = subject.formulas(given)
     mark = {"python": "# ", "latex": "% ", "text": ""}[args.format]
-    for line in system.map_lines:
-        say(f"{mark}{line}")
+    say_lines(system.map_lines, mark)
     if system.map_lines:
         say()
-    for line in solution_lines(solution, args.format):
-        say(line)
-    say()
+    say_lines([*solution_lines(solution, args.format), ""])
     unknown = len(system.letters) - len(solution.known)
     say(f"{mark}{len(solution.steps)} of {unknown} unknown parameters follow; each formula holds "
         f"exactly for {VERIFIED} of {VERIFIED} random robots")  # fmt: skip
     if solution.surplus:
         say(f"{mark}{solution.surplus} more known than these need: with a model they are tested")
-    for line in missing_lines(solution):
-        say(f"{mark}{line}")
+    say_lines(missing_lines(solution), mark)
     told = solution_json(solution, {"robots": VERIFIED, "right": VERIFIED})
     if fitted is not None:
         near = given_from_text(args.near or "", system, "--near")
@@ -163,8 +157,7 @@ def _values(found: PhysicalValues) -> Json:
                 "variance_shares": shares,
             }
         )
-    for text in doubts.values():
-        say(f"not told: {text}")
+    say_lines(doubts.values(), "not told: ")
     _tell_tested(found.tested)
     return {"parameters": rows, "known_against_fit": [vars(row) for row in found.tested]}
 
@@ -213,15 +206,11 @@ def _sets(subject: Physical, size: int | None, cad: Given | None) -> Json:
             for r in ratings
         ]
         lines = lines or [f"  {','.join(members)}" for members in found.easiest]
-        for line in lines[:_SHOWN]:
-            say(line)
+        say_lines(lines[:_SHOWN])
         if len(found.easiest) > _SHOWN:
             say(f"  and {len(found.easiest) - _SHOWN} more (all with --json)")
     return {
-        "size": found.size,
-        "smallest": found.smallest,
-        "possible": found.possible,
-        "count": found.count,
+        **entries(found, "size smallest possible count"),
         "classes": [
             {"masses_and_lengths": k[0], "centres": k[1], "inertias": k[2], "count": n}
             for k, n in found.classes.items()
@@ -239,13 +228,11 @@ def _against_cad(subject: Physical, cad: Given) -> Json:
         mark = "suspicious" if row.suspicious else ""
         say(f"{row.name:<8} {row.identified:>12.5g} {row.sigma:>9.2g} {row.cad:>12.5g} "
             f"{row.z:>8.1f}  {' '.join(row.letters)}  {mark}".rstrip())  # fmt: skip
-    for name, why in found.left_out.items():
-        say(f"{name:<8} not compared: {why}")
+    say_lines(f"{name:<8} not compared: {why}" for name, why in found.left_out.items())
     _tell_explained(found)
     return {
         "rows": [vars(row) | {"letters": list(row.letters)} for row in found.rows],
-        "limit": found.limit,
-        "chi_squared": found.chi_squared,
+        **entries(found, "limit chi_squared"),
         "left_out": dict(found.left_out),
         "implicated": list(found.implicated),
         "explanations": [

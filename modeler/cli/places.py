@@ -26,15 +26,30 @@ class Word(str):
     """A text that names no file."""
 
 
-class Input(str):
-    """A file that is read."""
+class FilePlace(str):
+    """A file.
 
-    what = "the file that is read"
+    Attributes:
+        endings: of the names of such files.
+    """
+
+    endings: tuple[str, ...] = ("",)
 
     @property
     def file(self) -> Path:
         """Where it is."""
         return Path(self)
+
+    @staticmethod
+    def names() -> tuple[str, ...]:
+        """Words that stand for such a file."""
+        return ()
+
+
+class Input(FilePlace):
+    """A file that is read."""
+
+    what = "the file that is read"
 
 
 class MapWord(Input):
@@ -47,12 +62,15 @@ class ModelFile(Input):
     """A model file."""
 
     what = "the model that is read"
+    endings = (".json",)
 
 
 class RobotFile(Input):
     """A robot file, or the name of a built-in robot."""
 
     what = "the robot file that is read"
+    endings = (".toml", *OTHER_PROGRAMS)
+    names = staticmethod(builtin_names)
 
     @property
     def file(self) -> Path:
@@ -63,11 +81,14 @@ class RobotFile(Input):
 class RobotOrModel(RobotFile):
     """A robot file, the name of a built-in robot, or a model file."""
 
+    endings = (*RobotFile.endings, *ModelFile.endings)
+
 
 class LogFile(Input):
     """A log, as FILE or FILE@START:END."""
 
     what = "a log"
+    endings = LOG_ENDINGS
 
     @property
     def file(self) -> Path:
@@ -100,10 +121,16 @@ class MotionFile(Input):
     """A table of a motion: a whole log, or what `modeler excite` writes."""
 
     what = LogFile.what
+    endings = LOG_ENDINGS
 
 
 class MotionOrKind(MotionFile):
     """Such a file, or the name of a kind of motion."""
+
+    @staticmethod
+    def names() -> tuple[str, ...]:
+        """The kinds."""
+        return MOTIONS
 
     def __new__(cls, text: str) -> "MotionOrKind":
         """Refuses what is neither, as a wrong usage."""
@@ -114,13 +141,8 @@ class MotionOrKind(MotionFile):
         return super().__new__(cls, text)
 
 
-class Output(str):
+class Output(FilePlace):
     """A file that is written; it is no log."""
-
-    @property
-    def file(self) -> Path:
-        """Where it is."""
-        return Path(self)
 
 
 class NewLog(Output):

@@ -74,11 +74,11 @@ def _run(words: Sequence[str], phase: Phase) -> int:
 def _answer(words: Sequence[str], phase: Phase) -> None:
     with phase():
         from modeler.cli.commands import parsed
-        from modeler.cli.console import Loudness, tell_error, tell_start, told
+        from modeler.cli.console import Loudness, tell_error, tell_start, using_loudness
         from modeler.core.errors import ModelerError
 
         args, wanted = parsed(words)
-    with told(wanted):
+    with using_loudness(wanted):
         try:
             tell_start(words)
             _carried_out(args, phase, wanted is Loudness.VERBOSE)

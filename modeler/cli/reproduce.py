@@ -5,8 +5,9 @@ import enum
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 
-from modeler.cli.console import Json, progress, say, working
+from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.core.errors import ModelerError
+from modeler.core.table import aligned
 from modeler.papers.briot import briot_methods
 from modeler.papers.check import Line, LineVerdict, check_paper
 from modeler.papers.guegan import guegan_methods
@@ -90,16 +91,12 @@ def _methods(paper: Paper) -> list[MethodTable]:
     with progress(f"simulating the experiment of {paper.name}") as report:
         tables = METHODS[paper.name](paper, report)
     for table in tables:
-        say()
-        say(table.title)
-        for sentence in table.setting:
-            say(f"  {sentence}")
+        say_lines(["", table.title])
+        say_lines(table.setting, "  ")
         cells = [(row.what, row.printed, row.ours) for row in table.rows]
-        heads = ("", "printed", "ours")
-        wide = [max(len(cell[i]) for cell in (heads, *cells)) for i in range(3)]
-        say("  " + "  ".join(f"{head:<{w}}" for head, w in zip(heads, wide, strict=True)).rstrip())
-        for row, cell in zip(table.rows, cells, strict=True):
-            text = "  ".join(f"{part:<{w}}" for part, w in zip(cell, wide, strict=True))
+        head, *texts = aligned([("", "printed", "ours"), *cells], (0, 1, 2))
+        say(f"  {head.rstrip()}")
+        for row, text in zip(table.rows, texts, strict=True):
             say(f"  {text}  [{row.outcome.value}]" + (f" {row.why}" if row.why else ""))
     say()
     say(f"methods: {_counted([row.outcome for table in tables for row in table.rows])}")

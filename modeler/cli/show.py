@@ -3,13 +3,12 @@
 import argparse
 from pathlib import Path
 
-from modeler.cli.console import Json, say, working
+from modeler.cli.console import Json, say, say_lines, working
 from modeler.cli.lists import read_told
 from modeler.cli.places import Output, check_places
 from modeler.core.errors import ModelerError
 from modeler.core.files import Kind, destination, write_atomically
-from modeler.report.robot_page import posture_json, posture_lines
-from modeler.report.showing import show
+from modeler.report.robot_page import posture_json, posture_lines, show
 from modeler.robot.par_convert import converted
 from modeler.robot.read import robot_from_text
 
@@ -28,8 +27,7 @@ def run_convert(args: argparse.Namespace) -> Json:
     write_atomically(out, found.text)
     loops = f", {len(robot.loops)} loops" if robot.loops else ""
     say(f"{robot.name}: {len(robot.moving)} joints{loops}, written to {out}")
-    for note in found.notes:
-        say(f"* {note}")
+    say_lines(found.notes, "* ")
     return {
         "robot": robot.name,
         "file": str(args.file),
@@ -51,10 +49,8 @@ def run_show(args: argparse.Namespace) -> Json:
         check_places(args)
     with working(f"drawing {robot.name}"):
         found = show(robot, args.out, args.png)
-    for line in posture_lines(found.skeleton, found.posture):
-        say(line)
+    say_lines(posture_lines(found.skeleton, found.posture))
     places = {"page": args.out, "picture": args.png}
     written = {what: str(place) for what, place in places.items() if place is not None}
-    for what, place in written.items():
-        say(f"{what}: {place}")
+    say_lines(f"{what}: {place}" for what, place in written.items())
     return {**posture_json(found.skeleton, found.posture), **written}

@@ -18,18 +18,7 @@ from modeler.codegen.elimination import (
     pattern_of,
     sampled_jacobians,
 )
-from modeler.codegen.functions import (
-    Arguments,
-    CFunction,
-    Closed,
-    arguments_of,
-    beta_symbols,
-    dynamics_functions,
-    entries_of,
-    grouping_function,
-    reads_more,
-    tree_functions,
-)
+from modeler.codegen.functions import Arguments, CFunction, Closed, entries_of
 from modeler.codegen.fused import Turns, base_columns, fused_regressor, turns_of
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec
@@ -254,7 +243,7 @@ def closed_functions(
         base: the base parameters of the same model.
         solving: how the loops are solved.
     """
-    if model.signals or reads_more(model):
+    if model.signals or layout.reads_more(model):
         raise EmitError(
             f"{model.robot.name} has loops, and effects that read more than speeds and "
             "accelerations; these have no C there; leave them out of [effects]"
@@ -271,16 +260,16 @@ def closed_functions(
         role="forward_kinematics",
     )  # fmt: skip
     public = [*_regressors(frame, model, base), *_dynamics(frame), _inertia_matrix(frame)]
-    public += [kinematics, *_postures(frame), grouping_function(model, base, frame.given)]
+    public += [kinematics, *_postures(frame), layout.grouping_function(model, base, frame.given)]
     for platform in platforms:
         public += [_regressors(platform, model, base)[1], _dynamics(platform)[0]]
         public += _postures(platform)
     # Of the opened tree, of u.
-    found = {f.role: f for f in tree_functions(model, base)}
+    found = {f.role: f for f in layout.tree_functions(model, base)}
     for role in ("base_regressor_nonzeros", "base_parameters"):
         del found[role]
-    given, drift = arguments_of(model.robot.free, model, base), solving.closure.drift
-    found["coriolis"] = _tree_coriolis(model, beta_symbols(model, base), given)
+    given, drift = layout.arguments_of(model.robot.free, model, base), solving.closure.drift
+    found["coriolis"] = _tree_coriolis(model, layout.beta_symbols(model, base), given)
     found["drift"] = CFunction(
         "", "drift", "d/dt(df/du) ud.", "df/du udd + drift = 0", (given.q, given.qd),
         ArgumentSpec("values", (len(drift),), "m/s2 or 1/s2", "drift"), entries_of(drift),
@@ -300,8 +289,8 @@ def closed_dynamics(
         beta: {column: the base parameter that stands for it, or its value}.
     """
     frame, *platforms = _frames(model, base)
-    given = arguments_of(model.robot.free, model, base)
-    tree = {f.role: f for f in dynamics_functions(model, beta, given)}
+    given = layout.arguments_of(model.robot.free, model, base)
+    tree = {f.role: f for f in layout.dynamics_functions(model, beta, given)}
     tree["coriolis"] = _tree_coriolis(model, beta, given)
     public = [*_dynamics(frame), _inertia_matrix(frame)]
     public += [_dynamics(platform)[0] for platform in platforms]
@@ -313,10 +302,10 @@ def _frames(model: SymbolicModel, base: BaseParameters) -> list[_Frame]:
     closure = model.closure
     assert closure is not None
     n = len(closure.home)
-    frames = [_Frame("", arguments_of(model.robot.coordinates, model, base), n)]
+    frames = [_Frame("", layout.arguments_of(model.robot.coordinates, model, base), n)]
     if closure.platform is not None:
         joints = [model.robot.free[k] for k in closure.platform]
-        x = arguments_of(joints, model, base)
+        x = layout.arguments_of(joints, model, base)
         positions = f"positions of the platform: {', '.join(joint.name for joint in joints)}"
         x = dataclasses.replace(
             x,

@@ -14,43 +14,18 @@ from modeler.codegen.block import Block, float_text, make_block
 from modeler.codegen.closed import closed_functions, closure_tables, solving_of
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
-from modeler.codegen.functions import (
-    CFunction,
-    enumerators,
-    graph_places,
-    module_prefix,
-    symbol_constants,
-    symbol_macros,
-    tree_functions,
-)
+from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT
 from modeler.codegen.fused import Tile, tile_of
 from modeler.codegen.package import package_files, render
 from modeler.codegen.targets import OF_PRECISION, WIDE, of_precision
 from modeler.codegen.vectors import stored_states
+from modeler.core import manifest
 from modeler.core.errors import EmitError, Precision
 from modeler.core.expression import Expression
 from modeler.core.files import resource_dir
-from modeler.core.manifest import (
-    CLOSURE_RUNTIME,
-    FORMAT,
-    MANIFEST,
-    RUNTIME,
-    TILE_RUNTIME,
-    BaseSpec,
-    ClosureSpec,
-    Emitted,
-    FittedSpec,
-    FunctionSpec,
-    JointSpec,
-    ModuleSpec,
-    ParameterSpec,
-    SignalSpec,
-    SymbolSpec,
-    TermSpec,
-    code_digest,
-    text_digest,
-)
+from modeler.core.json import entries
+from modeler.core.manifest import Emitted, FittedSpec, FunctionSpec, ModuleSpec
 from modeler.derivation.geometry import Geometry, geometric_symbol
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.precise import precise_values
@@ -66,36 +41,28 @@ def module_spec(
 ) -> ModuleSpec:
     """The manifest of the module with these functions."""
     robot, closure, closing = model.robot, model.closure, None
-    prefix = module_prefix(robot.name)
+    prefix = layout.module_prefix(robot.name)
     if closure is not None:
-        closing = ClosureSpec(
+        closing = manifest.ClosureSpec(
+            **entries(closure, "given home"),
             variables=tuple(joint.name for joint in robot.free),
             units=tuple(joint.unit for joint in robot.free),
-            given=closure.given,
             platform=closure.platform or (),
-            home=closure.home,
             carrier=robot.platform[-1] if robot.platform else "",
         )
     joints = tuple(
-        JointSpec(
-            name=joint.name,
+        manifest.JointSpec(
+            **entries(joint, "name unit effort_unit actuated"),
             kind="revolute" if joint.angular else "prismatic",
-            unit=joint.unit,
-            effort_unit=joint.effort_unit,
-            actuated=joint.actuated,
             drive_gain=robot.drive_gains.get(joint.name),
         )
         for joint in robot.coordinates
     )
     standard = tuple(
-        ParameterSpec(
-            name=column.name,
-            unit=column.unit,
-            kind=column.kind,
-            effect=column.effect,
+        manifest.ParameterSpec(
+            **entries(column, "name unit kind effect nonnegative"),
             joint=robot.joints[column.row].name,
             nominal=robot.parameters.get(column.name),
-            nonnegative=column.nonnegative,
         )
         for column in model.columns
     )
@@ -105,8 +72,8 @@ def module_spec(
         robot=robot.name,
         title=robot.title,
         prefix=prefix,
-        format=FORMAT,
-        symbols=tuple(SymbolSpec(*symbol) for symbol in model.geometry.values.items()),
+        format=manifest.FORMAT,
+        symbols=tuple(manifest.SymbolSpec(*symbol) for symbol in model.geometry.values.items()),
         joints=joints,
         standard=standard,
         base=_bases(model, base),
@@ -114,13 +81,13 @@ def module_spec(
         functions=function_specs(prefix, list(blocks)),
         closure=closing,
         signals=tuple(
-            SignalSpec(signal.kind, joint, units[signal.kind], signal.value)
+            manifest.SignalSpec(signal.kind, joint, units[signal.kind], signal.value)
             for signal, joint in zip(model.signals, measured, strict=True)
         ),
     )
 
 
-def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[BaseSpec, ...]:
+def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[manifest.BaseSpec, ...]:
     """The base parameters; entries of the regressor and equal coefficients are looked at once."""
     rows: dict[int, list[int]] = {}
     for joint, place in model.regressor:
@@ -136,14 +103,15 @@ def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[BaseSpec, ...]:
     for parameter in base.parameters:
         column = model.columns[parameter.column]
         found.append(
-            BaseSpec(
+            manifest.BaseSpec(
                 name=parameter.name,
                 column_of=column.name,
-                unit=column.unit,
-                kind=column.kind,
+                **entries(column, "unit kind"),
                 # With loops a column can enter the torque of every coordinate.
                 rows=tuple(every or sorted(rows.get(parameter.column, ()))),
-                terms=tuple(TermSpec(*terms[t.coefficient], t.parameter) for t in parameter.terms),
+                terms=tuple(
+                    manifest.TermSpec(*terms[t.coefficient], t.parameter) for t in parameter.terms
+                ),
             )
         )
     return tuple(found)
@@ -172,8 +140,7 @@ def function_specs(
         found.append(
             FunctionSpec(
                 name=f"{prefix}_{function.role}",
-                equation=function.equation,
-                inputs=function.inputs,
+                **entries(function, "equation inputs"),
                 outputs=(function.output,),
                 additions=sum(additions for additions, _ in parts),
                 multiplications=sum(multiplications for _, multiplications in parts),
@@ -355,7 +322,7 @@ def emit(
         return {
             **package_files(spec, code, stored),
             "base_parameters.md": render("base_parameters.md", **values),
-            MANIFEST: spec.to_json(),
+            manifest.MANIFEST: spec.to_json(),
         }
 
     return Emitted(spec, _Files({**code, **kernels}, others))
@@ -388,18 +355,18 @@ class _Files(Mapping[str, str]):
 
 def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) -> dict[str, Any]:
     """What the templates read; the functions' bodies and the places of symbols with it."""
-    prefix = module_prefix(model.robot.name)
-    macros = symbol_macros(prefix, model.robot.symbols)
+    prefix = layout.module_prefix(model.robot.name)
+    macros = layout.symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
     solving = solving_of(model, base) if model.closure is not None else None
     parameters += solving.symbols if solving is not None else []
     parameters += ["dt[0]", *(f"s[{k}]" for k in range(len(model.signals)))]
-    constants = symbol_constants(prefix, model.geometry.values)
-    places = graph_places(model.geometry.coordinates, constants, parameters)
+    constants = layout.symbol_constants(prefix, model.geometry.values)
+    places = layout.graph_places(model.geometry.coordinates, constants, parameters)
     functions = (
         closed_functions(model, base, solving) if solving is not None
-        else tree_functions(model, base)
+        else layout.tree_functions(model, base)
     )  # fmt: skip
     blocks = [(f, _block(f, places, precision)) for f in functions]
     spec = dataclasses.replace(module_spec(model, base, blocks), precision=precision)
@@ -422,7 +389,7 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
         "standard": chi,
         "base": beta,
         "enums": [
-            layout.name_lines(enumerators(prefix, kind, [each.name for each in parameters]))
+            layout.name_lines(layout.enumerators(prefix, kind, [each.name for each in parameters]))
             for kind, parameters in (("chi", spec.standard), ("beta", spec.base))
         ],
         "joints": ", ".join(joint.name for joint in spec.joints),
@@ -446,7 +413,7 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
         "places": places,
         "tile": None if single else tile_of(functions, places, spec.nonzeros),
     }
-    spec = dataclasses.replace(spec, code=code_digest(_code(spec, values)))
+    spec = dataclasses.replace(spec, code=manifest.code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
     return values
 
@@ -480,9 +447,11 @@ def _fitted_unit(
         "geometry": list(values["symbols"].macros),
     }
     # The signature stands in the unit, so it comes last: it covers all the rest.
-    fitted = dataclasses.replace(fitted, code=code_digest(_fitted_files(prefix, values, fitted)))
+    fitted = dataclasses.replace(
+        fitted, code=manifest.code_digest(_fitted_files(prefix, values, fitted))
+    )
     spec = dataclasses.replace(spec, fitted=fitted)
-    fitted = dataclasses.replace(fitted, signature=text_digest(spec.to_json()))
+    fitted = dataclasses.replace(fitted, signature=manifest.text_digest(spec.to_json()))
     return dataclasses.replace(spec, fitted=fitted), _fitted_files(prefix, values, fitted)
 
 
@@ -502,18 +471,18 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
         own = [f for f in functions if f.unit == unit]
         more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
         files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
-    runtime: tuple[str, ...] = RUNTIME
+    runtime: tuple[str, ...] = manifest.RUNTIME
     if spec.closure is not None:  # the opened tree's functions, and what closes the loops
         inner = [f for f in functions if f.internal]
         outer = [f for f in functions if f.unit == "_loops"]
         files[f"{prefix}_tree.h"] = render("tree.h", **{**values, "functions": inner})
         files[f"{prefix}_loops.c"] = render("loops.c", **{**values, "functions": outer})
-        runtime += CLOSURE_RUNTIME
+        runtime += manifest.CLOSURE_RUNTIME
     if spec.tile_sources:
         given = {**values, "constants": _constants([values["tile"]], values, initial)}
         for kind in ("h", "c"):
             files[f"{prefix}{TILE_UNIT}.{kind}"] = render(f"tile.{kind}", **given)
-        runtime += TILE_RUNTIME
+        runtime += manifest.TILE_RUNTIME
     folder = resource_dir("csrc")
     for name in runtime:  # its own in that precision, where it has one
         source = folder / spec.precision / name
@@ -545,9 +514,7 @@ def _written(prefix: str, function: CFunction, block: Block) -> _Written:
         declaration=layout.prototype(name, layout.arguments(function, ""), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
         lines=[] if function.closed else layout.body_lines(function, block),
-        symbols=block.symbols,
-        additions=block.additions,
-        multiplications=block.multiplications,
+        **entries(block, "symbols additions multiplications"),
     )
 
 

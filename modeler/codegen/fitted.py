@@ -14,12 +14,7 @@ from typing import Any
 
 from modeler.codegen import functions as layout
 from modeler.codegen.closed import closed_dynamics
-from modeler.codegen.functions import (
-    CFunction,
-    arguments_of,
-    dynamics_functions,
-    enumerators,
-)
+from modeler.codegen.functions import CFunction
 from modeler.core.errors import EmitError
 from modeler.core.manifest import FittedSpec, ModuleSpec
 from modeler.derivation.columns import ShaftColumn
@@ -77,8 +72,8 @@ def fitted_functions(
         for parameter, known in zip(base.parameters, fitted.parameters, strict=True)
     }
     if model.closure is None:
-        given = arguments_of(model.robot.free, model, base)
-        return tuple(map(_public, dynamics_functions(model, values, given)))
+        given = layout.arguments_of(model.robot.free, model, base)
+        return tuple(map(_public, layout.dynamics_functions(model, values, given)))
     tree, public = closed_dynamics(model, base, values)
     inner = [dataclasses.replace(_public(f), role=f"{_TREE}_{f.role}", internal=True) for f in tree]
     return (*inner, *map(_public, public))
@@ -130,7 +125,7 @@ def fitted_texts(spec: ModuleSpec, fitted: FittedSpec, found: Sequence[Width]) -
     doubts = [f"Doubt: {doubt}" for doubt in fitted.doubts if doubt not in fitted.verdict]
     warning = "" if fitted.usable else "WARNING. "
     # Lines of the C table: the value, which it is, its unit, how sure it is.
-    places = enumerators(spec.prefix, "beta", [base.name for base in spec.base])
+    places = layout.enumerators(spec.prefix, "beta", [base.name for base in spec.base])
     lines: list[str] = []
     for parameter, place in zip(fitted.parameters, places, strict=True):
         sure = "set aside: the logs do not tell it"

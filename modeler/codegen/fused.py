@@ -15,6 +15,7 @@ from modeler.codegen.block import make_block
 from modeler.codegen.elimination import Elimination
 from modeler.codegen.functions import CFunction
 from modeler.codegen.targets import TILE
+from modeler.core.json import entries
 from modeler.derivation.graph import Expr, Graph
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
@@ -201,10 +202,10 @@ def tile_of(
     if function is None or not function.entries:
         return None
     # Column after column as there; the link's own joint first is another 5 % faster with vectors.
-    entries = sorted(
+    ordered = sorted(
         function.entries, key=lambda entry: (nonzeros[entry[0]][1], -nonzeros[entry[0]][0])
     )
-    outputs = [(f"MODELER_PUT({index})", value) for index, value in entries]
+    outputs = [(f"MODELER_PUT({index})", value) for index, value in ordered]
     # `q[3]` of all lanes is the variable q_3.
     lanes = {s: re.sub(r"^(q|qd|qdd|s)\[(\d+)\]$", r"\1_\2", at) for s, at in places.items()}
     block = make_block(outputs, lanes, target=TILE)
@@ -229,8 +230,6 @@ def tile_of(
             for name, length in lengths.items()
             if name not in unread
         ),
-        symbols=block.symbols,
-        additions=block.additions,
-        multiplications=block.multiplications,
+        **entries(block, "symbols additions multiplications"),
         signals=lengths.get("s", 0),
     )

@@ -1,6 +1,6 @@
 """What an object prints of itself: one short line, however much it holds."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 LONGEST = 160
@@ -43,20 +43,15 @@ def _shown(value: Any) -> str:
     if hasattr(value, "shape") and hasattr(value, "dtype"):
         return f"array{tuple(value.shape)}".replace(",)", ")")
     if isinstance(value, Mapping):
-        return _counted(value, "entries")
+        return f"<{len(value)} entries>"
     if isinstance(value, tuple | list | set | frozenset):
         return _several(value)
     return type(value).__name__
 
 
-def _several(values: Iterable[Any]) -> str:
-    found = list(values)
+def _several(found: Collection[Any]) -> str:
     if len(found) <= _FEW and all(isinstance(x, str | int | float) for x in found):
         text = f"({', '.join(_shown(x) for x in found)})"
         if len(text) <= _TEXT:
             return text
-    return _counted(found, "items")
-
-
-def _counted(values: Any, what: str) -> str:
-    return f"<{len(values)} {what}>"
+    return f"<{len(found)} items>"

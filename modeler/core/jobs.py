@@ -30,6 +30,11 @@ R = TypeVar("R")
 Done = Callable[[float], None]
 """Called with the share of the jobs that are done, 0 to 1."""
 
+
+def untold(share: float) -> None:
+    """Nobody wants to know it."""
+
+
 LOCAL = "local"
 """In place of the address of a scheduler: a cluster of this machine's processors."""
 
@@ -42,7 +47,7 @@ class Workers:
     """
 
     def each(
-        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = untold
     ) -> list[R]:
         """What `work` makes of each job, in the order of the jobs.
 
@@ -58,7 +63,7 @@ class Workers:
         found = []
         for k, job in enumerate(jobs, start=1):
             found.append(work(shared, job))
-            tell(done, k, len(jobs))
+            done(k / len(jobs))
         return found
 
     def begun(
@@ -100,12 +105,6 @@ def open_workers(dask: str | None = None, processes: int = 1) -> Iterator[Worker
             yield workers
     else:
         yield Workers()
-
-
-def tell(done: Done | None, count: int, all_: int) -> None:
-    """The share, to who wants it."""
-    if done is not None:
-        done(count / all_)
 
 
 def in_pairs(results: Sequence[R], merge: Callable[[R, R], R]) -> R:
@@ -151,7 +150,7 @@ class Cluster(Workers):
         self._client = client
 
     def each(
-        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = untold
     ) -> list[R]:
         """See `Workers`."""
         futures = self._sent(work, shared, jobs)
@@ -161,7 +160,7 @@ class Cluster(Workers):
             for k, future in enumerate(as_completed(futures), start=1):
                 if future.status == "error":
                     future.result()
-                tell(done, k, len(futures))
+                done(k / len(futures))
             found: list[R] = self._client.gather(futures)
         return found
 
@@ -284,7 +283,7 @@ class Processes(Workers):
         self._pool = pool
 
     def each(
-        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done | None = None
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = untold
     ) -> list[R]:
         """See `Workers`."""
         return _gathered(self._sent(work, shared, jobs), done)
@@ -294,18 +293,18 @@ class Processes(Workers):
     ) -> Callable[[], R]:
         """See `Workers`; merged in this process."""
         futures = self._sent(work, shared, jobs)
-        return lambda: in_pairs(_gathered(futures, None), merge)
+        return lambda: in_pairs(_gathered(futures, untold), merge)
 
     def _sent(self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J]) -> "list[Future[R]]":
         with undisturbed(), _deaf_to_interrupts():  # here they are started
             return [self._pool.submit(work, shared, job) for job in jobs]
 
 
-def _gathered(futures: "Sequence[Future[R]]", done: Done | None) -> list[R]:
+def _gathered(futures: "Sequence[Future[R]]", done: Done) -> list[R]:
     try:
         for k, future in enumerate(as_completed(futures), start=1):
             future.result()
-            tell(done, k, len(futures))
+            done(k / len(futures))
         return [future.result() for future in futures]
     except BrokenProcessPool:
         raise DataError(

@@ -20,11 +20,6 @@ Figures = Mapping[str, Callable[[], Any]]
 """Drawers of matplotlib Figures by name, the main one first."""
 
 
-def none(thing: Any) -> Mapping[str, Any]:
-    """No tables, no figures."""
-    return {}
-
-
 @dataclass(frozen=True)
 class Presentation:
     """How the objects of a class are shown.
@@ -39,8 +34,8 @@ class Presentation:
 
     noun: str
     summary: Callable[[Any], str]
-    tables: Callable[[Any], Tables] = none
-    figures: Callable[[Any], Figures] = none
+    tables: Callable[[Any], Tables] = lambda thing: {}
+    figures: Callable[[Any], Figures] = lambda thing: {}
     page: tuple[str, ...] | None = None
 
 
@@ -48,9 +43,9 @@ _PRESENTATIONS: dict[type, Presentation] = {}
 _LATER: dict[str, Callable[[], None]] = {}
 
 
-def present(kind: type, presentation: Presentation) -> None:
-    """Says how the objects of a class are shown."""
-    _PRESENTATIONS[kind] = presentation
+def present(presentations: Mapping[type, Presentation]) -> None:
+    """Says how the objects of classes are shown."""
+    _PRESENTATIONS.update(presentations)
 
 
 def present_later(names: Iterable[str], load: Callable[[], None]) -> None:

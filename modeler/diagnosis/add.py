@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from modeler.codegen.derivation import derive, generate
+from modeler.codegen.workflow import derive, generate
 from modeler.core.errors import DataError, RobotError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent, printed

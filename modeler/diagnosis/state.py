@@ -30,7 +30,7 @@ from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, tu
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation, observe, observed
 from modeler.observation.prepare import Mending, Prepared
-from modeler.observation.processing import Processing
+from modeler.observation.settings import Processing
 
 if TYPE_CHECKING:
     from modeler.runtime.model import CompiledModel

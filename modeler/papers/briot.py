@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.derivation import derive, generate
+from modeler.codegen.workflow import derive, generate
 from modeler.core.builtin import builtin_text
 from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.payload import Payload, identify_with_payloads

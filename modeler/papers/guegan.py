@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.codegen.derivation import derive, generate, load
+from modeler.codegen.workflow import derive, generate, load
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
 from modeler.observation.observation import Observation, observe

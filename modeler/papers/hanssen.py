@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.derivation import Derivation, derive, generate
+from modeler.codegen.workflow import Derivation, derive, generate
 from modeler.core.builtin import builtin_text
 from modeler.core.expression import parse
 from modeler.core.table import percent

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.derivation import derive, generate
+from modeler.codegen.workflow import derive, generate
 from modeler.core.builtin import builtin_text
 from modeler.estimation.energy_fit import identify_energy
 from modeler.estimation.identify import identify

@@ -77,8 +77,8 @@ class JudgedLine:
 
 
 @dataclass(frozen=True)
-class Verdicts:
-    """A list of judgements."""
+class Verdict:
+    """Judgements below one another."""
 
     lines: Sequence[JudgedLine]
     block: str = "verdicts"
@@ -109,4 +109,4 @@ class Code:
     block: str = "code"
 
 
-Block = PageTable | Paragraph | Items | Verdicts | Figure | FormulaBlock | Code
+Block = PageTable | Paragraph | Items | Verdict | Figure | FormulaBlock | Code

@@ -2,8 +2,7 @@
 
 import math
 import statistics
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 
 from modeler.core.figure import Picture
 from modeler.core.table import percent
@@ -14,10 +13,9 @@ from modeler.report.blocks import (
     PageCell,
     PageTable,
     Paragraph,
-    Verdicts,
+    Verdict,
 )
-from modeler.report.figure_page import write_files
-from modeler.report.page import Origin, Page, Section, page, write_page
+from modeler.report.page import Origin, Page, Section
 from modeler.validation.comparison import Comparison, JointComparison, by_log, method_lines, or_dash
 from modeler.validation.models import DOUBT, Contest, JointContest, contest_sentences, headline_of
 from modeler.validation.pictures import overlay_picture, overview_picture, residual_picture
@@ -35,53 +33,31 @@ from modeler.validation.verdict import (
 # The page of several models side by side.
 
 
-def write_contest(
-    path: Path,
-    found: Contest,
-    provenance: Sequence[str] = (),
-    held_out: bool | None = None,
-    following: Sequence[str] = (),
-) -> Path:
-    """Write the page; returns the path of the file written.
+def contest_page(
+    found: Contest, provenance: Sequence[str] = (), held_out: bool | None = None
+) -> Page:
+    """The page of models side by side.
 
     Args:
-        path: an `.html` file, or a folder, which then gets `compare.html`.
         found: from `contest`.
         provenance: lines on how the data came about.
         held_out: False if a model was fitted on rows of these logs.
-        following: commands to go on with.
-
-    Raises:
-        ModelerError: the place cannot be written.
     """
     first = found.predictions[0]
-    sheet = Page(
+    return Page(
         title=f"{first.robot}: {len(found.names)} models side by side",
         headline=headline_of(found),
         sections=_model_sections(found),
         origin=Origin(", ".join(found.names), first.logs, held_out),
         facts=[(name, _fact(found, k)) for k, name in enumerate(found.names)],
-        next=following,
         provenance=provenance,
         command="compare",
     )
-    return write_page(path, sheet, "compare.html")
 
 
-def write_overlays(
-    folder: Path, found: Contest, progress: Callable[[float], None] | None = None
-) -> tuple[Path, ...]:
-    """Write the pictures as PNG and SVG and their numbers as CSV; the paths written.
-
-    Args:
-        folder: made if it is not there.
-        found: from `contest`.
-        progress: called with the share done, 0 to 1.
-
-    Raises:
-        ModelerError: the folder cannot be written.
-    """
-    return write_files(folder, [_picture(found, item) for item in found.joints], progress)
+def contest_pictures(found: Contest) -> list[Picture]:
+    """Measured torque and that of every model, joint by joint."""
+    return [_picture(found, item) for item in found.joints]
 
 
 def _fact(found: Contest, k: int) -> str:
@@ -153,22 +129,6 @@ def all_pictures(comparison: Comparison) -> tuple[Picture, ...]:
     return (overview_picture(comparison), *drawn)
 
 
-def write_pictures(
-    folder: Path, comparison: Comparison, progress: Callable[[float], None] | None = None
-) -> tuple[Path, ...]:
-    """Write every picture as PNG and SVG and its numbers as CSV; returns the paths written.
-
-    Args:
-        folder: made if it is not there.
-        comparison: from `compare`.
-        progress: called with the share done, 0 to 1.
-
-    Raises:
-        ModelerError: the folder cannot be written.
-    """
-    return write_files(folder, all_pictures(comparison), progress)
-
-
 _TAGS = {"pattern": "pattern left", "noise": "noise only", "other": "unclear"}
 _REGION_PHRASES = {
     "fast -": "fast in the negative direction",
@@ -183,37 +143,16 @@ _HEAD = (
 )  # fmt: skip
 
 
-def write_report(
-    path: Path,
-    comparison: Comparison,
-    provenance: Sequence[str] = (),
-    origin: Origin | None = None,
-    following: Sequence[str] = (),
-) -> Path:
-    """Write the page; returns the path of the file written.
+def comparison_page(
+    comparison: Comparison, provenance: Sequence[str] = (), origin: Origin | None = None
+) -> Page:
+    """The page of a comparison.
 
     Args:
-        path: an `.html` file, or a folder, which then gets `compare.html`.
         comparison: from `compare`.
         provenance: lines on how the data came about (filtering, model, versions), as they are.
         origin: model, logs, and whether they were held out; robot and logs if it is left out.
-        following: commands to go on with.
-
-    Raises:
-        ModelerError: the place cannot be written.
     """
-    return write_page(path, _sheet(comparison, provenance, origin, following), "compare.html")
-
-
-def report_html(comparison: Comparison, provenance: Sequence[str] = ()) -> str:
-    """The page as text; its security policy forbids any network access."""
-    return page(_sheet(comparison, provenance, None, ()))
-
-
-def _sheet(
-    comparison: Comparison, provenance: Sequence[str], origin: Origin | None,
-    following: Sequence[str],
-) -> Page:  # fmt: skip
     prediction = comparison.prediction
     figure, _, rest = headline(comparison).partition(" of ")
     return Page(
@@ -222,7 +161,6 @@ def _sheet(
         sections=_sections(comparison),
         origin=origin or Origin(prediction.robot, prediction.logs),
         facts=_facts(comparison),
-        next=following,
         provenance=(
             f"Robot: {prediction.robot}.",
             f"Logs: {', '.join(prediction.logs)}.",
@@ -245,7 +183,7 @@ def _sections(comparison: Comparison) -> list[Section]:
         "covariance of the fit. " + method,
         {"relative error": "bar", "at": "text"},
     )
-    found = [Section("Verdict", [Verdicts(_judged(comparison)), table, *_log_table(comparison)])]
+    found = [Section("Verdict", [Verdict(_judged(comparison)), table, *_log_table(comparison)])]
     if comparison.joints:
         found.append(Section("All joints", [Figure(overview_picture(comparison), titled=False)]))
     for item in comparison.joints:
@@ -311,7 +249,8 @@ def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
 def _judged(comparison: Comparison) -> list[JudgedLine]:
     lines = []
     for item in comparison.joints:
-        kind, (first, _, rest) = kind_of_residual(item), joint_verdict(item).partition(": ")
+        kind, text = kind_of_residual(item), joint_verdict(item)
+        first, _, rest = text.partition(": ")
         lines.append(JudgedLine(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
     lines += [
         JudgedLine("", "not judged", f"Joint {name}", f"{reason}.")

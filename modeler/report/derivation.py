@@ -1,38 +1,24 @@
 """Robots and what is derived from them: page, tables and figures of a notebook."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Sequence
 from typing import Any
 
-from modeler.codegen.derivation import Derivation
-from modeler.core.formula import Formula
+from modeler.codegen.workflow import Derivation
 from modeler.core.manifest import Emitted, ModuleSpec
-from modeler.core.result import Figures, Presentation, Tables, present
+from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import MathCell, Table
+from modeler.derivation import relations
 from modeler.derivation.derive import HomeModes, written
-from modeler.derivation.relations import relation_latex, relation_text
 from modeler.report.blocks import Block, FormulaBlock, PageTable, Paragraph
 from modeler.report.figures import robot_figure
-from modeler.report.page import Origin, Page, Section, write_page
+from modeler.report.page import Origin, Page, Section
 from modeler.report.robot_page import table_head, table_rows
 from modeler.robot.robot import JointKind, Robot
 from modeler.runtime.model import CompiledModel
 
 _COLUMNS = (("gamma", "rad"), ("b", "m"), ("alpha", "rad"), ("d", "m"), ("theta", "rad"),
             ("r", "m"))  # fmt: skip
-
-
-def present_robots() -> None:
-    """Robot, Derivation, Emitted, CompiledModel, HomeModes."""
-    present(Robot, Presentation("a robot", _robot_summary, _robot_tables, _robot_figures))
-    present(Derivation, Presentation("a derivation", _derivation_summary, _derivation_tables,
-                                     lambda d: _robot_figures(d.robot)))  # fmt: skip
-    present(Emitted, Presentation("an emitted module", _emitted_summary, _emitted_tables))
-    present(CompiledModel, Presentation("a compiled model", _compiled_summary,
-                                        lambda m: _functions(m.spec)))  # fmt: skip
-    present(HomeModes, Presentation("a set of assembly modes", _modes_summary, _modes_tables))
 
 
 def _robot_summary(robot: Robot) -> str:
@@ -79,10 +65,9 @@ def _robot_figures(robot: Robot) -> Figures:
 
 def _derivation_summary(derivation: Derivation) -> str:
     base, robot = derivation.base, derivation.robot
-    counts = ", ".join(f"{n} {kind}" for kind, n in base.counts().items() if n)
     return "\n".join([
         f"{robot.name}: {len(base.columns)} standard parameters, {base.rank} base parameters "
-        f"({counts})",
+        f"({_counts(derivation)})",
         f"proof: {base.proof.kind}; rank {base.proof.numeric_rank} in floating point, singular "
         f"values {base.proof.gap[0]:.3g} (last kept) and {base.proof.gap[1]:.1e} (first dropped)",
         f"no effect: {' '.join(base.unidentifiable) or 'none'}",
@@ -100,11 +85,11 @@ def _derivation_tables(derivation: Derivation) -> Tables:
 def _base_table(derivation: Derivation) -> Table:
     base, rows = derivation.base, list[tuple[Any, ...]]()
     for parameter in base.parameters:
-        left, right = relation_latex(parameter).split(" = ", 1)
+        left, right = relations.relation_latex(parameter).split(" = ", 1)
         column = base.columns[parameter.column]
         rows.append((
             MathCell(parameter.name, left),
-            MathCell(relation_text(parameter).split(" = ", 1)[1], right),
+            MathCell(relations.relation_text(parameter).split(" = ", 1)[1], right),
             column.unit, column.kind.replace("_", " "),
         ))  # fmt: skip
     title = f"{derivation.robot.name}: base parameters"
@@ -171,63 +156,58 @@ def _modes_tables(found: HomeModes) -> Tables:
     return {"modes": lambda: Table.of(f"{found.linkage.robot.name}: assembly modes", head, rows)}
 
 
+PRESENTATIONS = {
+    Robot: Presentation("a robot", _robot_summary, _robot_tables, _robot_figures),
+    Derivation: Presentation("a derivation", _derivation_summary, _derivation_tables,
+                             lambda d: _robot_figures(d.robot)),
+    Emitted: Presentation("an emitted module", _emitted_summary, _emitted_tables),
+    CompiledModel: Presentation("a compiled model", _compiled_summary,
+                                lambda m: _functions(m.spec)),
+    HomeModes: Presentation("a set of assembly modes", _modes_summary, _modes_tables),
+}  # fmt: skip
+
+
 # The page of a derivation: table, base parameters with their relations typeset, proof.
 
 
-@dataclass(frozen=True)
-class Derived:
-    """What a derivation says, without its symbols.
-
-    Attributes:
-        relations: the formula of each base parameter in pieces, and its unit.
-        standard: number of standard parameters.
-        counts: of base parameters by the kind of their column.
-        unidentifiable: names of parameters without effect.
-        tied: how joints move each other, in lines.
-        proof: kind of proof, and its lines.
-    """
-
-    relations: Sequence[tuple[Sequence[Formula], str]]
-    standard: int
-    counts: Mapping[str, int]
-    unidentifiable: Sequence[str]
-    tied: Sequence[str]
-    proof: tuple[str, Sequence[str]]
-
-
-def write_derivation(path: Path, robot: Robot, derived: Derived, given: str) -> Path:
-    """Write the page; returns the path of the file written.
+def derivation_page(
+    derivation: Derivation, tied: Sequence[str], agreement: str, given: str
+) -> Page:
+    """The page of a derivation.
 
     Args:
-        path: an `.html` file, or a folder, which then gets `derive.html`.
-        robot: as it was derived.
-        derived: what was found.
+        derivation: of the robot.
+        tied: how joints move each other, in lines.
+        agreement: of both derivations, a line.
         given: file or name that the robot was read from.
-
-    Raises:
-        ModelerError: the place cannot be written.
     """
-    kind, lines = derived.proof
-    counts = ", ".join(f"{n} {what}" for what, n in derived.counts.items() if n)
-    none = ", ".join(derived.unidentifiable) or "none"
-    sheet = Page(
+    robot, base = derivation.robot, derivation.base
+    none = ", ".join(base.unidentifiable) or "none"
+    formulas = [(relations.relation_formula(parameter), base.columns[parameter.column].unit)
+                 for parameter in base.parameters]  # fmt: skip
+    proof = [*relations.proof_paragraphs(base.proof), agreement]
+    return Page(
         title=f"{robot.name}: {robot.title}" if robot.title else robot.name,
         headline=(
-            str(len(derived.relations)),
-            f"base parameters of {derived.standard} standard parameters; proof: {kind}",
+            str(len(formulas)),
+            f"base parameters of {len(base.columns)} standard parameters; proof: {base.proof.kind}",
         ),
         sections=[
-            Section("Table", _table(robot, derived.tied)),
-            Section("Base parameters", [FormulaBlock(derived.relations)]),
+            Section("Table", _table(robot, tied)),
+            Section("Base parameters", [FormulaBlock(formulas)]),
             Section("Parameters without effect", [Paragraph(f"{none}.")]),
-            Section("Proof", [Paragraph(line) for line in lines]),
+            Section("Proof", [Paragraph(line) for line in proof]),
         ],
-        origin=Origin(given),
-        facts=[("Base parameters", counts), ("Without effect", f"{len(derived.unidentifiable)}")],
-        next=[f"modeler generate {given} --out {robot.name}_c"],
+        origin=Origin(given, next=[f"modeler generate {given} --out {robot.name}_c"]),
+        facts=[("Base parameters", _counts(derivation)),
+               ("Without effect", f"{len(base.unidentifiable)}")],
         command="derive",
-    )
-    return write_page(path, sheet, "derive.html")
+    )  # fmt: skip
+
+
+def _counts(derivation: Derivation) -> str:
+    """Of base parameters by the kind of their column."""
+    return ", ".join(f"{n} {kind}" for kind, n in derivation.base.counts().items() if n)
 
 
 def _table(robot: Robot, tied: Sequence[str]) -> list[Block]:

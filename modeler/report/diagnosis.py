@@ -1,7 +1,6 @@
 """The page of a diagnosis: one HTML file, no network."""
 
 from collections.abc import Sequence
-from pathlib import Path
 
 from modeler.core.table import percent, printed
 from modeler.diagnosis.result import Diagnosis, Finding
@@ -10,42 +9,31 @@ from modeler.diagnosis.sentences import blind_spots, tie_names, tied, unit, wher
 from modeler.effects.catalogue import effect_named
 from modeler.report.blocks import Block, Figure, Items, PageCell, PageTable, Paragraph
 from modeler.report.evidence import evidence_picture, rivals_of, rivals_table
-from modeler.report.page import Origin, Page, Section, write_page
+from modeler.report.page import Origin, Page, Section
 from modeler.report.shown import figures, shown
 from modeler.report.torque_picture import play_picture, push_picture, torque_picture
 
 
-def write_diagnosis(
-    path: Path,
-    diagnosis: Diagnosis,
-    provenance: Sequence[str] = (),
-    origin: Origin | None = None,
-    following: Sequence[str] = (),
-) -> Path:
-    """Write the page of a diagnosis; the path of the file written.
+def diagnosis_page(
+    diagnosis: Diagnosis, provenance: Sequence[str] = (), origin: Origin | None = None
+) -> Page:
+    """The page of a diagnosis.
 
     Args:
-        path: an `.html` file, or a folder, which then gets `diagnosis.html`.
         diagnosis: what it shows.
         provenance: lines on how the data came about.
         origin: model, logs, and whether some were held out; what the diagnosis knows of them if it
             is left out.
-        following: commands to go on with.
-
-    Raises:
-        ModelerError: the place cannot be written.
     """
-    sheet = Page(
+    return Page(
         title=f"{diagnosis.robot}: which effect is missing",
         headline=_headline(diagnosis),
         sections=_sections(diagnosis),
         origin=origin or Origin(diagnosis.robot, diagnosis.held_out, bool(diagnosis.held_out)),
         facts=_facts(diagnosis),
-        next=following,
         provenance=[*diagnosis.sentences, *provenance],
         command="diagnose",
     )
-    return write_page(path, sheet, "diagnosis.html")
 
 
 def _headline(diagnosis: Diagnosis) -> tuple[str, str]:

@@ -1,27 +1,20 @@
 """The page of all estimators on the same logs."""
 
 from collections.abc import Sequence
-from pathlib import Path
 
 from modeler.estimation.result import ParameterEstimate
 from modeler.estimation.side_by_side import Tried
 from modeler.report.blocks import Items, PageTable
-from modeler.report.page import Origin, Page, Section, write_page
+from modeler.report.page import Origin, Page, Section
 
 
-def write_estimators(
-    path: Path, robot: str, tried: Sequence[Tried], provenance: Sequence[str]
-) -> Path:
-    """Write the page; returns the path of the file written.
+def estimators_page(robot: str, tried: Sequence[Tried], provenance: Sequence[str]) -> Page:
+    """The page of all estimators on the logs of a robot of that name.
 
     Args:
-        path: an `.html` file, or a folder, which then gets `estimators.html`.
         robot: its name.
         tried: from `estimation.side_by_side`.
         provenance: lines on how the data came about.
-
-    Raises:
-        ModelerError: the place cannot be written.
     """
     (head, *errors), (names, *values) = table_of(tried), values_of(tried)
     sections = [
@@ -30,7 +23,7 @@ def write_estimators(
         Section("What each says", [Items(remarks_of(tried))]),
     ]
     done = sum(own.fit is not None for own in tried)
-    sheet = Page(
+    return Page(
         f"Estimators on {robot}",
         (str(done), f"of {len(tried)} estimators fit these logs"),
         sections,
@@ -38,7 +31,6 @@ def write_estimators(
         provenance=provenance,
         command="estimators",
     )
-    return write_page(path, sheet, "estimators.html")
 
 
 def table_of(tried: Sequence[Tried]) -> list[list[str]]:

@@ -33,7 +33,7 @@ class Numbers:
         self._kinds: list[list[float]] = []
         self._bytes: list[bytes] = []
 
-    def seen(self, values: np.ndarray) -> int:
+    def coarse(self, values: np.ndarray) -> int:
         """The number of an array that a linear axis shows; what is not finite becomes NaN."""
         exact = np.asarray(values, dtype=np.float64)
         held = np.isfinite(exact)
@@ -185,7 +185,7 @@ def _series(
     if isinstance(series, Band):
         places = {"low": numbers.exact(series.low), "high": numbers.exact(series.high)}
         return found | {"kind": "band", "x": numbers.exact(series.x)} | places
-    along = numbers.exact if log else numbers.seen
+    along = numbers.exact if log else numbers.coarse
     across = along if isinstance(series, Points) else numbers.exact
     found |= {"x": across(series.x), "y": along(series.y)}
     if isinstance(series, Means):

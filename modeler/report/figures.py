@@ -13,9 +13,9 @@ import numpy as np
 from modeler.core.figure import Bars, Curve, Panel, Picture
 from modeler.core.result import Figures
 from modeler.core.style import BLUE, COLORS, ORANGE, Style
-from modeler.core.thinning import thin_curves
+from modeler.core.thinning import LIMIT, thin_curves
 from modeler.estimation.result import FitResult
-from modeler.report.showing import show
+from modeler.report.robot_page import show
 from modeler.robot.robot import Robot
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def log_figure(
 ) -> "Drawing":
     """Positions and torques of all joints against time."""
     panels = tuple(
-        (Panel(what, "time [s]", label, tuple(_curves(joints, time, values)), zero=True),)
+        (Panel(what, "time [s]", label, curves(joints, time, list(values.T)), zero=True),)
         for what, label, values in (
             ("positions", "q [rad, m]", q),
             ("torques", "tau [N m, N]", tau),
@@ -101,10 +101,13 @@ def log_figure(
     ))  # fmt: skip
 
 
-def _curves(joints: Sequence[str], time: np.ndarray, values: np.ndarray) -> list[Curve]:
+def curves(
+    names: Sequence[str], time: np.ndarray, columns: Sequence[np.ndarray], limit: int = LIMIT
+) -> tuple[Curve, ...]:
+    """Columns against time, each in a colour of its own and of at most `limit` points."""
     found = []
-    for j, name in enumerate(joints):
-        rows = thin_curves((values[:, j],))
-        color = COLORS[j % len(COLORS)]
-        found.append(Curve(name, time[rows], values[rows, j], Style(color, dash=j >= len(COLORS))))
-    return found
+    for k, (name, values) in enumerate(zip(names, columns, strict=True)):
+        rows = thin_curves((values,), limit)
+        style = Style(COLORS[k % len(COLORS)], dash=k >= len(COLORS))
+        found.append(Curve(name, time[rows], values[rows], style))
+    return tuple(found)

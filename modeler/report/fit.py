@@ -2,32 +2,21 @@
 
 from collections.abc import Sequence
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
 from modeler.core.estimators import titled
-from modeler.core.result import Figures, Presentation, Tables, present
+from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Table, percent
 from modeler.estimation.model_file import Addition, IdentifiedModel
 from modeler.estimation.result import FitResult, ParameterEstimate
 from modeler.estimation.side_by_side import SideBySide
-from modeler.report.blocks import Items, JudgedLine, PageTable, Verdicts
+from modeler.report.blocks import Items, JudgedLine, PageTable, Verdict
 from modeler.report.estimators import remarks_of, table_of, values_of
 from modeler.report.figures import parameters_figure, picture_figure
 from modeler.report.history import step_name, waterfall_picture
-from modeler.report.page import Origin, Page, Section, after_fit, write_page
+from modeler.report.page import Origin, Page, Section, after_fit
 from modeler.report.values import joints_table, values_table
-
-
-def present_models() -> None:
-    """FitResult, IdentifiedModel, Addition, SideBySide."""
-    present(FitResult, Presentation("a fit", _fit_summary, fit_tables, _fit_figures,
-                                    ("parameters", "errors")))  # fmt: skip
-    present(IdentifiedModel, Presentation("a model", _model_summary, _model_tables, _model_figures,
-                                          ("parameters", "errors", "waterfall")))  # fmt: skip
-    present(Addition, Presentation("an addition", _step_line))
-    present(SideBySide, Presentation("a comparison of estimators", _trials_summary, _trials_tables))
 
 
 def _fit_summary(fit: FitResult) -> str:
@@ -133,6 +122,16 @@ def _trials_tables(trials: SideBySide) -> Tables:
     }
 
 
+PRESENTATIONS = {
+    FitResult: Presentation("a fit", _fit_summary, fit_tables, _fit_figures,
+                            ("parameters", "errors")),
+    IdentifiedModel: Presentation("a model", _model_summary, _model_tables, _model_figures,
+                                  ("parameters", "errors", "waterfall")),
+    Addition: Presentation("an addition", _step_line),
+    SideBySide: Presentation("a comparison of estimators", _trials_summary, _trials_tables),
+}  # fmt: skip
+
+
 # The page of a fit: values with sigma, what each is the sum of, condition, doubts.
 
 
@@ -140,38 +139,30 @@ _TANGLED = 0.95  # correlation of two estimates from which on they are told
 _MOST = 12  # pairs that are told
 
 
-def write_fit(
-    path: Path,
-    model: IdentifiedModel,
-    provenance: Sequence[str] = (),
-    place: str = "MODEL",
+def fit_page(
+    model: IdentifiedModel, provenance: Sequence[str] = (), place: str = "MODEL",
     following: Sequence[str] = (),
-) -> Path:
-    """Write the page; returns the path of the file written.
+) -> Page:  # fmt: skip
+    """The page of a fit.
 
     Args:
-        path: an `.html` file, or a folder, which then gets `fit.html`.
         model: fitted.
         provenance: lines on how the data came about.
         place: of the model file.
         following: commands to go on with; none: those for any logs.
-
-    Raises:
-        ModelerError: the place cannot be written.
     """
     fit = model.fit
     judged = "nobody has judged it" if fit.verdict is None else fit.verdict.line
-    sheet = Page(
+    following = following or after_fit(place, ["LOG"], fit.robot, fit)
+    return Page(
         title=f"{fit.robot}: fitted values",
         headline=(fit.error_told(), f"left on the fitted logs: {judged}"),
         sections=_sections(model),
-        origin=Origin(place, [log.name for log in model.logs], False),
+        origin=Origin(place, [log.name for log in model.logs], False, following),
         facts=_facts(fit),
-        next=following or after_fit(place, ["LOG"], fit.robot, fit),
         provenance=provenance,
         command="fit",
     )
-    return write_page(path, sheet, "fit.html")
 
 
 def _facts(fit: FitResult) -> list[tuple[str, str]]:
@@ -213,14 +204,14 @@ def _sections(model: IdentifiedModel) -> list[Section]:
     return found
 
 
-def _judged(fit: FitResult) -> list[Verdicts | Items]:
-    blocks: list[Verdicts | Items] = []
+def _judged(fit: FitResult) -> list[Verdict | Items]:
+    blocks: list[Verdict | Items] = []
     if fit.verdict is not None:
         kind, tag = ("noise", "usable") if fit.verdict.usable else ("pattern", "not usable")
         lines = [JudgedLine(kind, tag, "This fit", fit.verdict.line)]
         lines += [JudgedLine("other", "doubt", f"Doubt {k}", text)
                   for k, text in enumerate(fit.verdict.doubts, start=1)]  # fmt: skip
-        blocks.append(Verdicts(lines))
+        blocks.append(Verdict(lines))
     if fit.sentences:
         blocks.append(Items([("", line) for line in fit.sentences]))
     return blocks

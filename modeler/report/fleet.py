@@ -2,50 +2,29 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
 from modeler.core.figure import Curve, Heat, Means, Panel, Picture
-from modeler.core.result import Figures, Presentation, Tables, present
+from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.style import BLUE, COLORS, GREY, Style
 from modeler.core.table import Table, percent
-from modeler.fleet.result import (
-    HEAD,
-    Fleet,
-    FleetFinding,
-    Followed,
-    Values,
-    effect_title,
-    fleet_lines,
-    headline_of,
-    left_lines,
-    rows_of,
-    sentence,
-)
-from modeler.report.blocks import Figure, Items, JudgedLine, PageTable, Paragraph, Verdicts
+from modeler.fleet import result
+from modeler.fleet.result import Fleet, FleetFinding, Followed, Values
+from modeler.report.blocks import Figure, Items, JudgedLine, PageTable, Paragraph, Verdict
 from modeler.report.figures import picture_figures
-from modeler.report.page import Origin, Page, Section, write_page
+from modeler.report.page import Origin, Page, Section
 
 _PICTURES = 12  # findings that are drawn
 _COLUMNS = 24  # machines of one map
 _TOP = 10.0  # sigmas at which cells are darkest
 
 
-def write_fleet(path: Path, found: Fleet, provenance: Sequence[str] = ()) -> Path:
-    """Write the page; returns the path of the file written.
-
-    Args:
-        path: an `.html` file, or a folder, which then gets `fleet.html`.
-        found: from `fleet_of`.
-        provenance: lines on how the data came about.
-
-    Raises:
-        ModelerError: the place cannot be written.
-    """
-    sheet = Page(
+def fleet_page(found: Fleet, provenance: Sequence[str] = ()) -> Page:
+    """The page of a fleet; `provenance` are lines on how the data came about."""
+    return Page(
         title=f"{found.robot}: what drifts where",
-        headline=headline_of(found),
+        headline=result.headline_of(found),
         sections=_sections(found),
         origin=Origin(found.robot, [f"{name}: {len(p)}" for name, p in found.machines.items()]),
         facts=[
@@ -53,10 +32,9 @@ def write_fleet(path: Path, found: Fleet, provenance: Sequence[str] = ()) -> Pat
             ("logs", str(found.logs)),
             ("chance of any finding where nothing drifts", percent(found.false_alarm)),
         ],
-        provenance=[*found.notes, *left_lines(found), *provenance],
+        provenance=[*found.notes, *result.left_lines(found), *provenance],
         command="fleet",
     )
-    return write_page(path, sheet, "fleet.html")
 
 
 def _sections(found: Fleet) -> list[Section]:
@@ -66,7 +44,7 @@ def _sections(found: Fleet) -> list[Section]:
         Section(
             f"Machine {one.machine}, {one.quantity.parameter}",
             [
-                Paragraph(f"{sentence(one, found.unit)}."),
+                Paragraph(f"{result.sentence(one, found.unit)}."),
                 Figure(finding_picture(found, one), False),
             ],
             _id(k),
@@ -85,16 +63,16 @@ def _id(k: int) -> str:
     return f"finding-{k + 1}"
 
 
-def _verdict(found: Fleet) -> Verdicts | Paragraph:
+def _verdict(found: Fleet) -> Verdict | Paragraph:
     if not found.findings:
         return Paragraph("No machine drifts and none is apart from the others, beyond doubt.")
     lines = []
     for k, one in enumerate(found.findings):
         joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
-        head = f"{one.machine}, {joint}{effect_title(one.quantity)}"
+        head = f"{one.machine}, {joint}{result.effect_title(one.quantity)}"
         link = _id(k) if k < _PICTURES else ""
-        lines.append(JudgedLine("pattern", one.shape, head, sentence(one, found.unit), link))
-    return Verdicts(lines)
+        lines.append(JudgedLine("pattern", one.shape, head, result.sentence(one, found.unit), link))
+    return Verdict(lines)
 
 
 def finding_picture(found: Fleet, one: FleetFinding) -> Picture:
@@ -111,9 +89,9 @@ def finding_picture(found: Fleet, one: FleetFinding) -> Picture:
     label = f"{one.quantity.parameter} [{one.quantity.unit}]"
     panel = Panel("", f"time [{found.unit}]", label, tuple(series))
     caption = (
-        f"{effect_title(one.quantity)} of {one.quantity.whose}, log by log: blue the machine of "
-        "this finding, with two standard deviations (scatter from period to period included), "
-        "grey all others."
+        f"{result.effect_title(one.quantity)} of {one.quantity.whose}, log by log: blue the "
+        "machine of this finding, with two standard deviations (scatter from period to period "
+        "included), grey all others."
     )
     place = found.findings.index(one) + 1
     return Picture(f"finding_{place}", label, caption, ((panel,),), 320)
@@ -128,8 +106,8 @@ def quantity_picture(found: Fleet, each: Followed) -> Picture:
     label = f"{each.quantity.parameter} [{each.quantity.unit}]"
     panel = Panel("", f"time [{found.unit}]", label, series)
     caption = (
-        f"{effect_title(each.quantity)} of {each.quantity.whose}, log by log, one line a machine; "
-        "whiskers: two standard deviations, scatter from period to period included."
+        f"{result.effect_title(each.quantity)} of {each.quantity.whose}, log by log, one line a "
+        "machine; whiskers: two standard deviations, scatter from period to period included."
     )
     return Picture("quantity", label, caption, ((panel,),), 320)
 
@@ -170,7 +148,7 @@ def _map(found: Fleet, machines: Sequence[str], number: int) -> Picture:
 
 
 def _followed(found: Fleet) -> PageTable:
-    head, *rows = rows_of(found)
+    head, *rows = result.rows_of(found)
     return PageTable(
         head,
         rows,
@@ -182,11 +160,6 @@ def _followed(found: Fleet) -> PageTable:
 
 
 # Fleets.
-
-
-def present_fleets() -> None:
-    """Fleet."""
-    present(Fleet, Presentation("a fleet", lambda f: "\n".join(fleet_lines(f)), _tables, _figures))
 
 
 def _tables(found: Fleet) -> Tables:
@@ -225,11 +198,11 @@ def _values(found: Fleet) -> Table:
 
 def _quantities(found: Fleet) -> Table:
     rows = [
-        (each.quantity.joint, effect_title(each.quantity), each.quantity.parameter, each.level,
-         each.quantity.unit, each.factor, each.told)
+        (each.quantity.joint, result.effect_title(each.quantity), each.quantity.parameter,
+         each.level, each.quantity.unit, each.factor, each.told)
         for each in found.followed
     ]  # fmt: skip
-    return Table.of("what may drift", HEAD, rows)
+    return Table.of("what may drift", result.HEAD, rows)
 
 
 def _figures(found: Fleet) -> Figures:
@@ -239,3 +212,8 @@ def _figures(found: Fleet) -> Figures:
     for k, each in enumerate(found.followed, start=1):
         drawn[f"quantity {k}"] = partial(quantity_picture, found, each)
     return picture_figures(drawn)
+
+
+PRESENTATIONS = {
+    Fleet: Presentation("a fleet", lambda f: "\n".join(result.fleet_lines(f)), _tables, _figures),
+}

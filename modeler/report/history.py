@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from modeler.effects.catalogue import effect_named
 from modeler.effects.effect import Effect
 from modeler.estimation.model_file import Addition, IdentifiedModel
 from modeler.report.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
-from modeler.report.page import Origin, Page, Section, write_page
+from modeler.report.page import Origin, Page, Section
 from modeler.report.values import added_names, joints_table, shapes_table, values_table
 from modeler.robot.read import robot_from_text
 
@@ -22,41 +21,30 @@ SAME, CHANGED = Style(SKY), Style(GREEN)
 _ACROSS = 3  # panels side by side
 
 
-def write_additions(
-    path: Path,
-    model: IdentifiedModel,
-    left_out: Sequence[str] = (),
-    origin: Origin | None = None,
-    following: Sequence[str] = (),
-) -> Path:
-    """Write the page of a model's history: the error after every effect, joint by joint; values.
+def additions_page(
+    model: IdentifiedModel, left_out: Sequence[str] = (), origin: Origin | None = None
+) -> Page:
+    """The page of a model's history: the error after every effect, joint by joint; values.
 
     Args:
-        path: an `.html` file, or a folder, which then gets `improved.html`.
         model: with its history.
         left_out: effects that were not added, and why.
         origin: model, logs, and whether some were held out.
-        following: commands to go on with.
-
-    Raises:
-        ModelerError: the place cannot be written.
     """
     history, robot = model.history, model.spec.robot
     held, last = history[-1].held_out, history[-1].error
     fact = f"judged on {', '.join(held)}" if held else "training only: nothing was held out"
     several = len(history[-1].joints) > 1
-    sheet = Page(
+    return Page(
         title=f"{robot}: effects added",
         headline=(percent(last, DIGITS), f"error left of {percent(history[0].error, DIGITS)}"
                   + (", rms over the joints" if several else "")),
         sections=_sections(model, left_out),
         origin=origin or Origin(robot, held, bool(held)),
         facts=_facts(model, fact, left_out),
-        next=following,
         provenance=[*model.warning, f"fitted on {', '.join(log.name for log in model.logs)}"],
         command="add",
     )  # fmt: skip
-    return write_page(path, sheet, "improved.html")
 
 
 def _facts(

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from modeler.core.figure import Picture
-from modeler.core.result import Figures, Presentation, Tables, present
+from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Cell, Table
 from modeler.diagnosis.result import Diagnosis, Finding
 from modeler.diagnosis.search import Step
@@ -21,19 +21,6 @@ from modeler.validation.pictures import overview_picture, residual_picture
 from modeler.validation.prediction import Prediction, residual
 from modeler.validation.time_picture import time_picture
 from modeler.validation.verdict import headline, verdict
-
-
-def present_judgements() -> None:
-    """Comparison, Contest, Diagnosis, FreeRun."""
-    present(
-        FreeRun, Presentation("a free run", FreeRun.summary, _free_run_tables, _free_run_figures)
-    )
-    present(Contest, Presentation("a contest of models", _contest_summary, _contest_tables))
-    present(Comparison, Presentation("a comparison", _comparison_summary, _comparison_tables,
-                                     _comparison_figures))  # fmt: skip
-    present(Diagnosis, Presentation("a diagnosis", lambda d: "\n".join(lines(d)),
-                                    _diagnosis_tables, _diagnosis_figures,
-                                    ("effects", "joints")))  # fmt: skip
 
 
 def _contest_summary(found: Contest) -> str:
@@ -193,3 +180,13 @@ def _free_run_figures(found: FreeRun) -> Figures:
     drawn = [partial(free_run_picture, found, j) for j in range(len(found.joints))]
     names = [f"joint {joint.name}" for joint in found.joints]
     return picture_figures(dict(zip(names, drawn, strict=True)))
+
+
+PRESENTATIONS = {
+    FreeRun: Presentation("a free run", FreeRun.summary, _free_run_tables, _free_run_figures),
+    Contest: Presentation("a contest of models", _contest_summary, _contest_tables),
+    Comparison: Presentation("a comparison", _comparison_summary, _comparison_tables,
+                             _comparison_figures),
+    Diagnosis: Presentation("a diagnosis", lambda d: "\n".join(lines(d)), _diagnosis_tables,
+                            _diagnosis_figures, ("effects", "joints")),
+}  # fmt: skip

@@ -2,15 +2,14 @@
 
 from collections.abc import Sequence
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
-from modeler.core.figure import Curve, Panel, Picture, Points
-from modeler.core.result import Figures, Presentation, Tables, present
-from modeler.core.style import COLORS, SLATE, Style
+from modeler.core.figure import Panel, Picture, Points
+from modeler.core.result import Figures, Presentation, Tables
+from modeler.core.style import SLATE, Style
 from modeler.core.table import Cell, Table, percent
-from modeler.core.thinning import thin_curves, thin_points
+from modeler.core.thinning import thin_points
 from modeler.excitation.result import Exciting
 from modeler.logs.guess import template_of
 from modeler.logs.inspect import Clock, Look
@@ -18,56 +17,43 @@ from modeler.observation.log import Log
 from modeler.observation.observation import Observation
 from modeler.observation.report import DataReport
 from modeler.report.blocks import Code, Figure, Items, PageTable, Paragraph
-from modeler.report.figures import log_figure, picture_figure
-from modeler.report.page import Origin, Page, Section, write_page
+from modeler.report.figures import curves, log_figure, picture_figure
+from modeler.report.page import Origin, Page, Section
 from modeler.simulation.log import SimulatedLog
 
 _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remarks")
 _LIMIT = 600  # points of one curve
 
 
-def write_log_page(
-    path: Path, seen: Look, doubts: Sequence[str], provenance: Sequence[str]
-) -> Path:
-    """Write the page; returns the path of the file written.
+def log_page(look: Look, doubts: Sequence[str], provenance: Sequence[str]) -> Page:
+    """The page of a log.
 
     Args:
-        path: an `.html` file, or a folder, which then gets `log.html`.
-        seen: what is in the log.
+        look: what is in the log.
         doubts: about it, those of a fit too.
         provenance: lines on how it was read.
-
-    Raises:
-        ModelerError: the place cannot be written.
     """
-    head, *rows = channel_rows(seen)
+    head, *rows = channel_rows(look)
+    table = PageTable(head, rows, kinds=dict.fromkeys(("unit", "remarks"), "text"))
+    listed = Items([("", line) for line in doubts]) if doubts else Paragraph("None.")
     sections = [
-        Section(
-            "Doubts", [Items([("", line) for line in doubts])] if doubts else [Paragraph("None.")]
-        ),
-        Section(
-            "Channels",
-            [
-                PageTable(head, rows, kinds=dict.fromkeys(("unit", "remarks"), "text")),
-                *map(Figure, channel_pictures(seen)),
-            ],
-        ),
+        Section("Doubts", [listed]),
+        Section("Channels", [table, *map(Figure, channel_pictures(look))]),
     ]
-    picture = clock_picture(seen)
-    if seen.clock is not None and picture is not None:
-        sections.append(Section("Clock", [Paragraph(clock_line(seen.clock)), Figure(picture)]))
-    if seen.suggested:
-        sections.append(Section("A [log] to start from", [Code(seen.suggested)]))
-    sheet = Page(
-        f"What is in {seen.name}",
+    picture = clock_picture(look)
+    if look.clock is not None and picture is not None:
+        sections.append(Section("Clock", [Paragraph(clock_line(look.clock)), Figure(picture)]))
+    if look.suggested:
+        sections.append(Section("A [log] to start from", [Code(look.suggested)]))
+    return Page(
+        f"What is in {look.name}",
         (str(len(doubts)), "doubts" if len(doubts) != 1 else "doubt"),
         sections,
-        Origin(logs=(seen.name,)),
-        [("rows", str(seen.rows)), ("clock", clock_line(seen.clock) if seen.clock else "none")],
-        provenance=[*seen.notes, *provenance],
+        Origin(logs=(look.name,)),
+        [("rows", str(look.rows)), ("clock", clock_line(look.clock) if look.clock else "none")],
+        provenance=[*look.notes, *provenance],
         command="log",
     )
-    return write_page(path, sheet, "log.html")
 
 
 def clock_line(clock: Clock) -> str:
@@ -89,10 +75,10 @@ def clock_line(clock: Clock) -> str:
     return ", ".join(parts)
 
 
-def channel_rows(seen: Look) -> list[list[str]]:
+def channel_rows(look: Look) -> list[list[str]]:
     """Header and one row a channel, as text."""
     rows = [list(_HEAD)]
-    for channel in seen.channels:
+    for channel in look.channels:
         remarks = ["never changes"] if channel.constant else []
         remarks += [
             f"stays at {x:.4g} in {percent(share)} of the rows" for x, share in channel.limits
@@ -109,36 +95,31 @@ def channel_rows(seen: Look) -> list[list[str]]:
     return rows
 
 
-def log_pictures(seen: Look) -> list[Picture]:
+def log_pictures(look: Look) -> list[Picture]:
     """All pictures of a log."""
-    clock = clock_picture(seen)
-    return [*channel_pictures(seen), *([clock] if clock is not None else [])]
+    clock = clock_picture(look)
+    return [*channel_pictures(look), *([clock] if clock is not None else [])]
 
 
-def channel_pictures(seen: Look) -> list[Picture]:
+def channel_pictures(look: Look) -> list[Picture]:
     """One picture for the columns of each kind, against time."""
     groups: dict[str, list[str]] = {}
-    for name in seen.values:
+    for name in look.values:
         groups.setdefault(template_of(name)[0], []).append(name)
-    time = f"time column {seen.clock.column}" if seen.clock is not None else ""
+    time = f"time column {look.clock.column}" if look.clock is not None else ""
     return [
-        _against_time(seen, number, template, names)
+        _against_time(look, number, template, names)
         for number, (template, names) in enumerate(groups.items(), start=1)
         if template != "time" and not (len(names) == 1 and time.endswith(names[0]))
     ]
 
 
-def _against_time(seen: Look, number: int, template: str, names: Sequence[str]) -> Picture:
+def _against_time(look: Look, number: int, template: str, names: Sequence[str]) -> Picture:
     title = template.replace("{}", "*")
-    unit = next((c.unit for c in seen.channels if c.unit and names[0] in c.name), "")
+    unit = next((c.unit for c in look.channels if c.unit and names[0] in c.name), "")
     label = f"{title} [{unit}]" if unit else title
-    curves = []
-    for k, name in enumerate(names):
-        values = seen.values[name]
-        rows = thin_curves((values,), _LIMIT)
-        style = Style(COLORS[k % len(COLORS)], dash=k >= len(COLORS))
-        curves.append(Curve(name, seen.time[rows], values[rows], style))
-    panel = Panel("", _time_label(seen), label, tuple(curves))
+    drawn = curves(names, look.time, [look.values[name] for name in names], _LIMIT)
+    panel = Panel("", _time_label(look), label, drawn)
     caption = (
         f"{title} against time, as logged, {len(names)} columns: every extreme is drawn, values "
         "between them are thinned. A value that is missing breaks its line."
@@ -146,16 +127,16 @@ def _against_time(seen: Look, number: int, template: str, names: Sequence[str]) 
     return Picture(f"channels_{number}", title, caption, ((panel,),), 320)
 
 
-def clock_picture(seen: Look) -> Picture | None:
+def clock_picture(look: Look) -> Picture | None:
     """The steps of the clock against time; None without a clock."""
-    time, steps = seen.steps[0], 1e3 * seen.steps[1]
-    if seen.clock is None or not np.isfinite(steps).any():
+    time, steps = look.steps[0], 1e3 * look.steps[1]
+    if look.clock is None or not np.isfinite(steps).any():
         return None
     rows = thin_points(time, steps)
     dots = Points("step", time[rows], steps[rows], Style(SLATE, width=2.0))
     known = steps[np.isfinite(steps)]
     reach = (min(0.0, float(known.min())), float(max(known.max(), 2.0 * np.median(known))))
-    panel = Panel("", _time_label(seen), "step of the clock [ms]", (dots,), y_range=reach)
+    panel = Panel("", _time_label(look), "step of the clock [ms]", (dots,), y_range=reach)
     caption = (
         "Time from each row to the next. A level line is a steady clock; dots above it are gaps, "
         "dots at or below 0 times that repeat or go back."
@@ -163,48 +144,27 @@ def clock_picture(seen: Look) -> Picture | None:
     return Picture("clock", "Clock", caption, ((panel,),), 260)
 
 
-def _time_label(seen: Look) -> str:
-    return "row" if seen.clock is None else "time [s]"
+def _time_label(look: Look) -> str:
+    return "row" if look.clock is None else "time [s]"
 
 
 # Logs, observations of them, and motions.
 
 
-def present_logs() -> None:
-    """Look, Log, SimulatedLog, Observation, DataReport, Exciting."""
-    look = Presentation("a look at a log", _look_summary, _look_tables, _look_figures)
-    log = Presentation("a log", _log_summary, _log_tables, _log_figures)
-    simulated = Presentation("a simulated log", _simulated_summary, _simulated_tables, _log_figures)
-    observed = Presentation(
-        "an observation", _observation_summary, lambda o: _report_tables(o.report)
-    )
-    report = Presentation("a report", lambda r: "\n".join(r.lines()), _report_tables)
-    motion = Presentation("a motion", _motion_summary, lambda m: {"limits": partial(_limits, m)})
-    shown = {
-        Look: look,
-        Log: log,
-        SimulatedLog: simulated,
-        Observation: observed,
-        DataReport: report,
-    }
-    for kind, presentation in {**shown, Exciting: motion}.items():
-        present(kind, presentation)
+def _look_summary(look: Look) -> str:
+    clock = "no clock" if look.clock is None else clock_line(look.clock)
+    lines = [f"{look.name}: {look.rows} rows, {len(look.channels)} channels", clock]
+    lines += [f"note: {note}" for note in look.notes]
+    return "\n".join([*lines, *([f"doubt: {doubt}" for doubt in look.doubts] or ["no doubts"])])
 
 
-def _look_summary(seen: Look) -> str:
-    clock = "no clock" if seen.clock is None else clock_line(seen.clock)
-    lines = [f"{seen.name}: {seen.rows} rows, {len(seen.channels)} channels", clock]
-    lines += [f"note: {note}" for note in seen.notes]
-    return "\n".join([*lines, *([f"doubt: {doubt}" for doubt in seen.doubts] or ["no doubts"])])
+def _look_tables(look: Look) -> Tables:
+    head, *rows = channel_rows(look)
+    return {"channels": lambda: Table.of(f"channels of {look.name}", head, rows)}
 
 
-def _look_tables(seen: Look) -> Tables:
-    head, *rows = channel_rows(seen)
-    return {"channels": lambda: Table.of(f"channels of {seen.name}", head, rows)}
-
-
-def _look_figures(seen: Look) -> Figures:
-    return {picture.name: partial(picture_figure, picture) for picture in log_pictures(seen)}
+def _look_figures(look: Look) -> Figures:
+    return {picture.name: partial(picture_figure, picture) for picture in log_pictures(look)}
 
 
 def _log_summary(log: Log) -> str:
@@ -306,3 +266,15 @@ def _limits(motion: Exciting) -> Table:
         "acceleration limit",
         [(name, *(float(column[j]) for column in columns)) for j, name in enumerate(b.joints)],
     )
+
+
+PRESENTATIONS = {
+    Look: Presentation("a look at a log", _look_summary, _look_tables, _look_figures),
+    Log: Presentation("a log", _log_summary, _log_tables, _log_figures),
+    SimulatedLog: Presentation("a simulated log", _simulated_summary, _simulated_tables,
+                               _log_figures),
+    Observation: Presentation("an observation", _observation_summary,
+                              lambda o: _report_tables(o.report)),
+    DataReport: Presentation("a report", lambda r: "\n".join(r.lines()), _report_tables),
+    Exciting: Presentation("a motion", _motion_summary, lambda m: {"limits": partial(_limits, m)}),
+}  # fmt: skip

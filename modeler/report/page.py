@@ -45,10 +45,6 @@ class Drawings:
         """The numbers of all pictures so far."""
         return script_json(self.numbers.block())
 
-    def has_axes(self, picture: Picture) -> bool:
-        """False for a picture of cells alone, which is a table."""
-        return bool(plotted(picture)[0])
-
 
 def render(template: str, **values: Any) -> str:
     """Text of `templates/pages/<template>.html.jinja` with these values."""
@@ -72,7 +68,13 @@ def _environment() -> jinja2.Environment:
         autoescape=True,
     )
     made.globals.update(
-        asset=_asset, plotly=_plotly, cells=cells, keys=keys, json=script_json, about=None
+        asset=_asset,
+        plotly=_plotly,
+        plotted=plotted,
+        cells=cells,
+        keys=keys,
+        json=script_json,
+        about=None,
     )
     made.filters["share"] = _share
     return made
@@ -204,18 +206,20 @@ class Section:
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a page comes from, for its first screen.
+    """Where a page comes from, for its first screen, and what to go on with from there.
 
     Attributes:
         model: file or robot that it is about.
         logs: names of logs.
         held_out: True if what is judged was never fitted, False for training data, None if a page
             judges no fit.
+        next: commands to go on with.
     """
 
     model: str = ""
     logs: Sequence[str] = ()
     held_out: bool | None = None
+    next: Sequence[str] = ()
 
 
 @dataclass(frozen=True)
@@ -228,7 +232,6 @@ class Page:
         sections: in order.
         origin: model, logs, badge.
         facts: names and what stands below them.
-        next: commands to go on with.
         provenance: how it was made, in lines.
         command: of `modeler`, that makes such pages.
     """
@@ -238,12 +241,11 @@ class Page:
     sections: Sequence[Section]
     origin: Origin = dataclasses.field(default_factory=Origin)
     facts: Sequence[tuple[str, str]] = ()
-    next: Sequence[str] = ()
     provenance: Sequence[str] = ()
     command: str = ""
 
 
-def page(sheet: Page) -> str:
+def page_text(sheet: Page) -> str:
     """The page as text; its security policy forbids any network access."""
     return render("sheet", sheet=sheet, about=_page_facts(sheet))
 
@@ -255,19 +257,22 @@ def _page_facts(sheet: Page) -> dict[str, Any]:
     return dict(zip(_TEXTS, texts, strict=True)) | {"logs": logs, "held_out": held}
 
 
-def write_page(path: Path, sheet: Page, name: str) -> Path:
+_FILES = {"diagnose": "diagnosis.html", "add": "improved.html"}
+"""Name of a page in a folder, by command; of others it is the command's."""
+
+
+def write_page(path: Path, sheet: Page) -> Path:
     """Write the page; returns the path of the file written.
 
     Args:
-        path: an `.html` file, or a folder, which then gets `name` and an index of its pages.
+        path: an `.html` file, or a folder, which then gets the page and an index of its pages.
         sheet: what it says.
-        name: of the file in a folder.
 
     Raises:
         ModelerError: the place cannot be written.
     """
-    place = page_place(Path(path), name)
-    write_atomically(place, page(sheet))
+    place = page_place(Path(path), _FILES.get(sheet.command, f"{sheet.command}.html"))
+    write_atomically(place, page_text(sheet))
     if place != Path(path):
         write_index(place.parent)
     return place

@@ -57,14 +57,14 @@ class PaperSheet:
         pose = self.frames[frame]
         return np.asarray(points @ pose[:3, :3].T + pose[:3, 3])
 
-    def seen(self, points: np.ndarray) -> np.ndarray:
+    def on_paper(self, points: np.ndarray) -> np.ndarray:
         """(n, 3) x and y on the paper, and depth in m, of points in frame 0."""
         turned = points @ self.rotation.T
         return np.column_stack([turned[:, :2] * self.scale + self.shift, turned[:, 2]])
 
     def point(self, point: Point) -> np.ndarray:
         """(3,) of a point that hangs on a frame."""
-        return np.asarray(self.seen(self.world(point[0], np.array([point[1]])))[0])
+        return np.asarray(self.on_paper(self.world(point[0], np.array([point[1]])))[0])
 
 
 def paper(size: tuple[float, float], kind: type[Figure] = Figure) -> Any:
@@ -95,7 +95,9 @@ def draw_parts(axes: Any, scene: Scene, sheet: PaperSheet, size: float) -> None:
 def outline(scene: Scene, sheet: PaperSheet) -> np.ndarray:
     """(n, 2) corners of the parts on the paper."""
     points = [sheet.point(end)[:2] for line in scene.lines for end in line.ends]
-    points += [xy for f in scene.faces for xy in sheet.seen(sheet.world(f.frame, f.points))[:, :2]]
+    points += [
+        xy for f in scene.faces for xy in sheet.on_paper(sheet.world(f.frame, f.points))[:, :2]
+    ]
     return np.array(points)
 
 
@@ -109,7 +111,7 @@ def _faces(scene: Scene, sheet: PaperSheet) -> list[Any]:
         if face.opacity == 1.0 and normal @ sheet.rotation[2] <= 0.0:
             continue
         bright = 0.74 + 0.42 * max(0.0, float(normal @ light)) if face.opacity == 1.0 else 1.0
-        points, color = sheet.seen(corners), _shaded(face.color, bright)
+        points, color = sheet.on_paper(corners), _shaded(face.color, bright)
         patch = Polygon(points[:, :2], facecolor=color, edgecolor=color, linewidth=0.3,
                         alpha=face.opacity)  # fmt: skip
         found.append((float(points[:, 2].mean()), partial(_patched, patch)))
@@ -138,7 +140,7 @@ def _lines(scene: Scene, sheet: PaperSheet, size: float) -> list[Any]:
         front = size * _FRONT.get(line.layer, 0.0)
         count = 1 if line.arrow or line.dashed else max(1, int(np.ceil(length / (0.06 * size))))
         cuts = np.linspace(0.0, 1.0, count + 1)[:, None]
-        points = sheet.seen(start + cuts * (end - start))
+        points = sheet.on_paper(start + cuts * (end - start))
         for a, b in itertools.pairwise(points):
             found.append((float(a[2] + b[2]) / 2.0 + front, _piece(line, a[:2], b[:2])))
     return found

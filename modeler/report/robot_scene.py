@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -167,24 +167,16 @@ def scene_of(skeleton: Skeleton, posture: Posture) -> Scene:
     parts = [*maker.base(), *maker.platform(), *maker.loops()]
     for i, row in enumerate(skeleton.rows):
         if not row.virtual:
-            parts += [
-                *maker.link(i, row),
-                *maker.joint(i, row),
-                *maker.frame(i),
-                *maker.end(i, row),
-            ]
+            parts += [*maker.link(i, row), *maker.joint(i, row)]
+            parts += [*maker.frame(i), *maker.end(i, row)]
         parts += maker.mass(i, row)
 
-    def every(kind: type[P]) -> tuple[P, ...]:
-        return tuple(part for part in parts if isinstance(part, kind))
-
-    return Scene(
-        maker.radius, every(SceneLine), every(Face), every(Dot), every(Label), every(Sleeve)
-    )
+    kinds = (SceneLine, Face, Dot, Label, Sleeve)
+    sorted_: Any = (tuple(part for part in parts if isinstance(part, kind)) for kind in kinds)
+    return Scene(maker.radius, *sorted_)
 
 
 Part = SceneLine | Face | Dot | Label | Sleeve
-P = TypeVar("P", SceneLine, Face, Dot, Label, Sleeve)
 
 
 class _Maker:

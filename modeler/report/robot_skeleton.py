@@ -188,9 +188,3 @@ def size_of(skeleton: Skeleton, u: np.ndarray) -> float:
     span = np.ptp(np.array(points), axis=0)
     size = float(np.linalg.norm(span))
     return 1.0 if size <= 1e-9 else size
-
-
-# Kinds of picture that a robot can be drawn as.
-
-
-PICTURE_KINDS = (".png", ".svg", ".pdf")

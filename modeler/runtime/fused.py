@@ -16,15 +16,8 @@ import numpy as np
 from modeler.core.checks import as_mask, as_samples, no_signals, same_samples
 from modeler.core.errors import ManifestError, ShapeError
 from modeler.core.manifest import FunctionSpec, ModuleSpec
-from modeler.runtime.bind import (
-    Functions,
-    FusedLibrary,
-    Library,
-    Samples,
-    TileLibrary,
-    fused_library,
-    tile_library,
-)
+from modeler.runtime import bind
+from modeler.runtime.bind import Functions, FusedLibrary, Library, Samples, TileLibrary
 from modeler.runtime.threads import mapped, shares
 
 BLOCK = 16384
@@ -125,7 +118,7 @@ def of_samples(
         state: of earlier samples, which these are added to.
         level: of instructions; 0: the best of this processor.
     """
-    library = fused_library()
+    library = bind.fused_library()
 
     def one(block: slice) -> Triangles:
         own, part = no_rows(pattern), given.part(block)
@@ -155,7 +148,7 @@ def products_of_samples(
     Returns:
         (last_j - first + 1, k + 1, k + 1) of each joint, over its own k columns and the torque.
     """
-    library, lags = fused_library(), np.ascontiguousarray(last, dtype=np.intc)
+    library, lags = bind.fused_library(), np.ascontiguousarray(last, dtype=np.intc)
     assert lags.max(initial=0) <= PAST and len(lags) == len(pattern.columns)
     rows, counts = pattern.rows_of_entries, [max(int(lag) - first + 1, 0) for lag in lags]
     sizes = [count * size * size for count, size in zip(counts, pattern.sizes, strict=True)]
@@ -192,7 +185,7 @@ def of_dense(
         given: checked arrays.
         state: of earlier samples, which these are added to.
     """
-    library = fused_library()
+    library = bind.fused_library()
 
     def one(block: slice) -> Triangles:
         phi, without = evaluate(block)
@@ -223,7 +216,7 @@ def of_rows(
         state: of earlier rows, which these are added to.
         level: of instructions; 0: the best of this processor.
     """
-    library, before = fused_library(), no_rows(pattern) if state is None else state
+    library, before = bind.fused_library(), no_rows(pattern) if state is None else state
     packed, rows, phi = before.packed.copy(), before.rows.copy(), np.ascontiguousarray(phi)
     kept = None if use is None else use.view(np.uint8)
     for j, (columns, triangle) in enumerate(
@@ -271,8 +264,25 @@ TILED_FROM = 2**18
 _SLICE = 2**14  # samples that a thread is worth starting for
 
 
-class Tiling:
-    """What a compiled model makes of many samples."""
+def checked_out(out: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+    """`out`, if it can be filled.
+
+    Raises:
+        ShapeError: says what it must be.
+    """
+    if not isinstance(out, np.ndarray) or out.shape != shape:
+        got = out.shape if isinstance(out, np.ndarray) else type(out).__name__
+        raise ShapeError(f"out: got {got}, expected an array {shape}")
+    if out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
+        raise ShapeError(
+            f"out: got type {out.dtype}, expected a writeable C-contiguous float64 array; "
+            f"make one with np.empty({shape})"
+        )
+    return out
+
+
+class Batches:
+    """What a compiled model makes of many samples; n samples, c base parameters."""
 
     spec: ModuleSpec
     _library: Library
@@ -330,7 +340,7 @@ class Tiling:
         wanted = self.spec.tile_sources
         if not wanted or not all(name in self._tile_files for name in wanted):
             return None
-        return tile_library(self.spec, self._tile_files)
+        return bind.tile_library(self.spec, self._tile_files)
 
     def _motion(self, q: Any, qd: Any, qdd: Any, s: Any) -> tuple[np.ndarray, ...]:
         """Checked q, qd, qdd and, where effects read any, signals."""
@@ -357,29 +367,7 @@ class Tiling:
             raise ShapeError(f"s: got {len(checked)} samples, expected {samples} as of q")
         return checked
 
-
-def checked_out(out: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
-    """`out`, if it can be filled.
-
-    Raises:
-        ShapeError: says what it must be.
-    """
-    if not isinstance(out, np.ndarray) or out.shape != shape:
-        got = out.shape if isinstance(out, np.ndarray) else type(out).__name__
-        raise ShapeError(f"out: got {got}, expected an array {shape}")
-    if out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
-        raise ShapeError(
-            f"out: got type {out.dtype}, expected a writeable C-contiguous float64 array; "
-            f"make one with np.empty({shape})"
-        )
-    return out
-
-
-# Least squares of a compiled model while samples pass: neither W nor a part of it is kept.
-
-
-class Reducing(Tiling):
-    """What a compiled model makes of y = W beta without W; n samples, c base parameters."""
+    # Least squares while samples pass: neither W nor a part of it is kept.
 
     def triangles(
         self, q: Any, qd: Any, qdd: Any, tau: Any, use: Any = None, s: Any = None,

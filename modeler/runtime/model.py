@@ -13,7 +13,7 @@ from modeler.core.manifest import MANIFEST, Emitted, FunctionSpec, ModuleSpec, m
 from modeler.core.result import Presented
 from modeler.runtime.bind import Library, check_names
 from modeler.runtime.build import build_library
-from modeler.runtime.fused import Reducing, checked_out
+from modeler.runtime.fused import Batches, checked_out
 
 _STATUS = {
     1: "the loops cannot be closed",
@@ -24,7 +24,7 @@ _STATUS = {
 """What a status of the C code says."""
 
 
-class CompiledModel(Reducing, Presented):
+class CompiledModel(Batches, Presented):
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
 
     q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the
@@ -109,19 +109,14 @@ class CompiledModel(Reducing, Presented):
         With loops f(q, qd): passive joints rub too, and how fast they move depends on q. Effects
         that read positions, loads or signals need q, qdd and s.
         """
-        if len(self._functions["friction"].inputs) > 3:
-            if q is None or qdd is None:
-                raise ShapeError(
-                    f"{self.spec.robot}: its effects depend on positions and loads; give q and qdd"
-                )
-            return self._evaluate("friction", {"q": q, "qd": qd, "qdd": qdd}, beta, s)
-        if self.spec.closure is None:
-            return self._evaluate("friction", {"qd": qd}, beta, s)
-        if q is None:
-            raise ShapeError(
-                f"{self.spec.robot} has loops: its friction depends on the positions; give q"
-            )
-        return self._evaluate("friction", {"q": q, "qd": qd}, beta, s)
+        reads = {argument.name for argument in self._functions["friction"].inputs}
+        states = {n: x for n, x in {"q": q, "qd": qd, "qdd": qdd}.items() if n in reads}
+        if any(value is None for value in states.values()):
+            why = " has loops: its friction depends on the positions; give q"
+            if "qdd" in reads:
+                why = ": its effects depend on positions and loads; give q and qdd"
+            raise ShapeError(self.spec.robot + why)
+        return self._evaluate("friction", states, beta, s)
 
     def close(self, q: Any) -> np.ndarray:
         """All free variables u of the opened tree, (n, len(u)), in the order of the manifest.

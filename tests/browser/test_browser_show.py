@@ -10,9 +10,8 @@ import pytest
 
 from modeler.core.builtin import builtin_text
 from modeler.report.robot_closing import Posture, gaps_of, home_posture, jacobian, residuals
-from modeler.report.robot_page import page_content, robot_html
+from modeler.report.robot_page import page_content, robot_html, show
 from modeler.report.robot_skeleton import Skeleton, poses, skeleton_of
-from modeler.report.showing import show
 from modeler.robot.read import read_robot, robot_from_text
 from tests.browser.chromium import Chromium
 from tests.robots import ROBOTS

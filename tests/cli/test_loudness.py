@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import main, parser
-from modeler.cli.console import Loudness, clock, told, working
+from modeler.cli.console import Loudness, clock, using_loudness, working
 
 
 def run(capsys, *words: str) -> tuple[int, str, str]:
@@ -117,7 +117,7 @@ class Terminal:
 @pytest.mark.parametrize("loudness", Loudness)
 def test_work_shows_its_seconds_on_a_terminal(monkeypatch, loudness: Loudness) -> None:
     terminal = Terminal(monkeypatch)
-    with told(loudness), working("closing loops"), working("inside"):  # one bar, not two
+    with using_loudness(loudness), working("closing loops"), working("inside"):  # one bar, not two
         threading.Event().wait(0.3)
     text = terminal.written()
     assert ("closing loops" in text) == (loudness is not Loudness.QUIET)

@@ -11,7 +11,8 @@ from modeler.core.style import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
 from modeler.core.table import percent
 from modeler.numerics.spectra import order_spectrum
 from modeler.observation.motion import travel_since_reversal
-from modeler.report.comparison import all_pictures, report_html
+from modeler.report.comparison import all_pictures, comparison_page
+from modeler.report.page import page_text
 from modeler.validation.comparison import compare
 from modeler.validation.prediction import FullRate, JointInfo, Motor, Prediction
 from modeler.validation.verdict import best_pattern, joint_verdict, kind_of_residual
@@ -102,7 +103,7 @@ def test_no_temperature_where_a_log_lacks_it() -> None:
     share = found.joints[1].structure
     assert share is not None and np.isnan(share.share("temperature"))
     assert "temperature" not in json.loads(found.to_json())["joints"]["1"]["structure"]["shares"]
-    assert "temperature [" not in report_html(found)
+    assert "temperature [" not in page_text(comparison_page(found))
 
 
 def at_full_rate(p: Prediction, joint: int, waves: float, amplitude: float) -> Prediction:
@@ -189,7 +190,7 @@ def test_errors_of_each_log() -> None:
                 np.linalg.norm(e[rows, j]) / np.linalg.norm(p.measured[rows, j])
             )
     assert percent(told[1]["relative_error"]) in found.summary().splitlines()[-1]
-    assert "Relative error by log" in report_html(found)
+    assert "Relative error by log" in page_text(comparison_page(found))
 
 
 def test_long_names_keep_the_columns() -> None:

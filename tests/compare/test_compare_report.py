@@ -20,9 +20,10 @@ from modeler.cli.places import PictureFolder
 from modeler.core.errors import ModelerError
 from modeler.core.figure import Bars, Curve, Heat, Panel, Picture
 from modeler.core.thinning import LIMIT, thin_curves, thin_points
-from modeler.report.comparison import all_pictures, report_html, write_pictures, write_report
+from modeler.report.comparison import all_pictures, comparison_page
 from modeler.report.figure_matplotlib import images
-from modeler.report.figure_page import Numbers, picture_csv
+from modeler.report.figure_page import Numbers, picture_csv, write_files
+from modeler.report.page import page_text, write_page
 from modeler.validation.comparison import Comparison, compare
 from modeler.validation.pictures import binned_means
 from modeler.validation.prediction import JointInfo
@@ -40,7 +41,7 @@ def small() -> Comparison:
 
 @pytest.fixture(scope="module")
 def page(found: Comparison) -> str:
-    return report_html(found, ["Filter: 20 Hz <both sides>."])
+    return page_text(comparison_page(found, ["Filter: 20 Hz <both sides>."]))
 
 
 class Tags(HTMLParser):
@@ -159,8 +160,9 @@ def test_numbers_of_any_size_come_through() -> None:
     odd = np.array([np.nan, np.inf, 0.0, -1e-3, 1e30])
     decades = np.geomspace(1e-12, 1e3, 9)
     still = np.full(4, 2.5)
-    places = [numbers.exact(clock), numbers.seen(odd), numbers.exact(decades), numbers.seen(still),
-              numbers.seen(np.array([])), numbers.exact(clock.copy())]  # fmt: skip
+    places = [numbers.exact(clock), numbers.coarse(odd), numbers.exact(decades),
+              numbers.coarse(still), numbers.coarse(np.array([])),
+              numbers.exact(clock.copy())]  # fmt: skip
     block = json.dumps(numbers.block())
     arrays = unpacked(f'<script type="application/json" id="numbers">{block}</script>')
     assert places == [0, 1, 2, 3, 4, 0] and arrays[4].size == 0
@@ -201,20 +203,23 @@ def test_stacked_bars_fill_the_whole(found: Comparison, page: str) -> None:
 
 
 def test_page_is_the_same_twice(small: Comparison) -> None:
-    assert report_html(small) == report_html(small)
+    assert page_text(comparison_page(small)) == page_text(comparison_page(small))
 
 
 def test_page_without_a_judged_joint() -> None:
     p = prediction()
     empty = compare(dataclasses.replace(p, measured=np.zeros_like(p.measured)))
-    page = report_html(empty)
+    page = page_text(comparison_page(empty))
     assert "no joint could be judged" in page and "not judged" in page
     assert tags(page).stack == []
 
 
 def test_files_and_folders(small: Comparison, tmp_path: Path) -> None:
-    assert write_report(tmp_path / "page.html", small) == tmp_path / "page.html"
-    assert write_report(tmp_path / "folder", small) == tmp_path / "folder" / "compare.html"
+    assert write_page(tmp_path / "page.html", comparison_page(small)) == tmp_path / "page.html"
+    assert (
+        write_page(tmp_path / "folder", comparison_page(small))
+        == tmp_path / "folder" / "compare.html"
+    )
     assert sorted(path.name for path in tmp_path.rglob("*.html")) == [
         "compare.html",
         "index.html",
@@ -222,7 +227,7 @@ def test_files_and_folders(small: Comparison, tmp_path: Path) -> None:
     ]
     (tmp_path / "plain").write_text("a file")
     with pytest.raises(ModelerError, match="cannot be written"):
-        write_report(tmp_path / "plain", small)
+        write_page(tmp_path / "plain", comparison_page(small))
 
 
 def test_a_page_may_go_into_a_pipe(small: Comparison, tmp_path: Path) -> None:
@@ -230,14 +235,14 @@ def test_a_page_may_go_into_a_pipe(small: Comparison, tmp_path: Path) -> None:
     read: list[str] = []
     reader = threading.Thread(target=lambda: read.append((tmp_path / "pipe").read_text("utf-8")))
     reader.start()
-    assert write_report(tmp_path / "pipe", small) == tmp_path / "pipe"
+    assert write_page(tmp_path / "pipe", comparison_page(small)) == tmp_path / "pipe"
     reader.join(20)
-    assert read == [report_html(small)] and (tmp_path / "pipe").is_fifo()
+    assert read == [page_text(comparison_page(small))] and (tmp_path / "pipe").is_fifo()
 
 
 def test_pictures_as_files(small: Comparison, tmp_path: Path) -> None:
     done: list[float] = []
-    written = write_pictures(tmp_path, small, done.append)
+    written = write_files(tmp_path, all_pictures(small), done.append)
     assert done == pytest.approx([1 / 3, 2 / 3, 1.0])
     assert {path.suffix for path in written} == {".png", ".svg", ".csv"}
     for path in written:  # the command line keeps these names free of its other files
@@ -313,6 +318,6 @@ def test_the_page_of_six_noisy_joints_stays_small() -> None:
     six = dataclasses.replace(
         three, joints=joints, **{**twice, "measured": twice["measured"] + noise}
     )
-    page = report_html(compare(six))
+    page = page_text(comparison_page(compare(six)))
     assert len(figures(page)) == 1 + 2 * 6
     assert len(page.encode()) < 1_000_000

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.codegen.derivation import Derivation
+from modeler.codegen.workflow import Derivation
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.read import read_log

@@ -12,7 +12,8 @@ from modeler.diagnosis.detected import detected
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.score import Change, Score
 from modeler.effects.catalogue import CATALOGUE, effect_named
-from modeler.report.diagnosis import write_diagnosis
+from modeler.report.diagnosis import diagnosis_page
+from modeler.report.page import write_page
 from modeler.report.torque_picture import play_picture
 from tests.diagnose.conftest import Case, motion, on_joint
 
@@ -173,5 +174,5 @@ def test_play_is_found_beside_a_spring_in_simulated_runs(case: Case, tmp_path: P
     means = panel.series[1]
     near, far = (means.y[(np.abs(means.x) < 0.05) == inside].mean() for inside in (True, False))
     assert near > 3.0 * far
-    page = write_diagnosis(tmp_path / "page.html", found).read_text()
+    page = write_page(tmp_path / "page.html", diagnosis_page(found)).read_text()
     assert "Play in the gear: joint 1" in page and "spring, joint 3" in page

@@ -12,7 +12,8 @@ from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
 from modeler.effects.catalogue import effect_named
 from modeler.observation.log import Log
-from modeler.report.diagnosis import write_diagnosis
+from modeler.report.diagnosis import diagnosis_page
+from modeler.report.page import write_page
 from modeler.report.torque_picture import push_picture
 from tests.diagnose.conftest import Case, motion, on_joint
 
@@ -72,7 +73,7 @@ def assert_drawn(diagnosis: Diagnosis, page: Path) -> None:
         outside = (curve.x < start - 0.2) | (curve.x > end + 0.2)
         pushed, quiet = (np.nanmedian(np.abs(curve.y[x])) for x in (inside, outside))
         assert pushed > 20.0 * quiet
-    assert "Something pushed" in write_diagnosis(page, diagnosis).read_text()
+    assert "Something pushed" in write_page(page, diagnosis_page(diagnosis)).read_text()
 
 
 def test_what_acts_again_is_no_push(case: Case) -> None:

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 from scipy.signal import lfilter
 
-from modeler.codegen.derivation import derive, generate, load
+from modeler.codegen.workflow import derive, generate, load
 from modeler.core.manifest import Emitted
 from modeler.fleet.naming import Named
 from modeler.fleet.summary import LogSummary, summary

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from modeler.codegen.derivation import Derivation, derive
+from modeler.codegen.workflow import Derivation, derive
 from modeler.derivation.numeric_rank import grouping_matrix
 from modeler.robot.read import robot_from_text
 from tests.loops.drawn_robots import DRAWN, drawn

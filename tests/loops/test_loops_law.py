@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model
-from modeler.codegen.derivation import derive, generate
 from modeler.codegen.emit import emit
+from modeler.codegen.workflow import derive, generate
 from modeler.core.builtin import builtin_names, builtin_text
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.columns import standard_columns

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model
-from modeler.codegen.derivation import derive, generate
+from modeler.codegen.workflow import derive, generate
 from modeler.robot.read import robot_from_text
 
 PAGE = Path(__file__).resolve().parents[2] / "docs/parallel-examples.md"

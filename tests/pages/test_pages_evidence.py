@@ -17,9 +17,10 @@ from modeler.effects.catalogue import CATALOGUE
 from modeler.effects.effect import VARIABLES
 from modeler.observation.log import Log
 from modeler.observation.low_speed import bristle
-from modeler.report.diagnosis import write_diagnosis
+from modeler.report.diagnosis import diagnosis_page
 from modeler.report.evidence import EFFECT, MEANS, RIVAL, ROWS, evidence_picture
 from modeler.report.evidence_axes import bins_of, calm_rows
+from modeler.report.page import write_page
 from modeler.report.shown import figures, shown
 from modeler.report.torque_picture import play_picture
 from modeler.robot.read import robot_from_text
@@ -137,7 +138,7 @@ def test_figures_stand_by_the_picture(case: Case, tmp_path: Path) -> None:
     assert after < 0.3 * before and after < 1.2 * rival < before
     size = float(np.sqrt(np.mean(item.after**2)))
     assert after == pytest.approx(size, rel=0.2)
-    page = write_diagnosis(tmp_path / "page.html", diagnosis).read_text()
+    page = write_page(tmp_path / "page.html", diagnosis_page(diagnosis)).read_text()
     assert text in html.unescape(page)
 
 

@@ -17,10 +17,10 @@ def sheet(command: str, figure: str = "3 %", held_out: bool | None = None) -> Pa
 
 
 def test_a_folder_gets_an_index_and_a_file_does_not(tmp_path: Path) -> None:
-    write_page(tmp_path / "alone.html", sheet("compare"), "compare.html")
+    write_page(tmp_path / "alone.html", sheet("compare"))
     assert [path.name for path in tmp_path.iterdir()] == ["alone.html"]
-    write_page(tmp_path, sheet("diagnose", held_out=True), "diagnosis.html")
-    write_page(tmp_path / "sub", sheet("fit"), "fit.html")
+    write_page(tmp_path, sheet("diagnose", held_out=True))
+    write_page(tmp_path / "sub", sheet("fit"))
     assert {path.name for path in tmp_path.iterdir()} == {
         "alone.html", "diagnosis.html", "index.html", "sub",
     }  # fmt: skip
@@ -29,8 +29,8 @@ def test_a_folder_gets_an_index_and_a_file_does_not(tmp_path: Path) -> None:
 
 def test_it_says_what_each_page_says(tmp_path: Path) -> None:
     for command, held in (("diagnose", True), ("compare", False), ("derive", None)):
-        write_page(tmp_path / f"{command}.html", sheet(command, held_out=held), "x")
-        write_page(tmp_path / "sub" / f"{command}.html", sheet(command), "x")
+        write_page(tmp_path / f"{command}.html", sheet(command, held_out=held))
+        write_page(tmp_path / "sub" / f"{command}.html", sheet(command))
     place = write_index(tmp_path, "all <of> it")
     assert place == tmp_path / "index.html"
     found = entries(tmp_path)
@@ -56,7 +56,7 @@ def test_it_says_what_each_page_says(tmp_path: Path) -> None:
 def test_somebody_elses_index_stays(tmp_path: Path, content: str) -> None:
     (tmp_path / "index.html").write_text(content)
     (tmp_path / "other.html").write_bytes(b"\xff\xfe no page of ours")
-    write_page(tmp_path, sheet("compare"), "compare.html")
+    write_page(tmp_path, sheet("compare"))
     assert write_index(tmp_path) is None
     assert (tmp_path / "index.html").read_text() == content
     assert [entry.place for entry in entries(tmp_path)] == ["compare.html"]

@@ -12,7 +12,8 @@ import pytest
 from modeler.cli import main
 from modeler.estimation.model_file import IdentifiedModel, load_model
 from modeler.report.fit import tangled
-from modeler.report.history import joints_picture, waterfall_picture, write_additions
+from modeler.report.history import additions_page, joints_picture, waterfall_picture
+from modeler.report.page import write_page
 from modeler.report.values import relation
 from tests.captions import assert_all_named
 
@@ -187,7 +188,7 @@ def test_the_page_of_additions_has_every_joint_and_value(made: Made, tmp_path: P
         assert after <= 1.05 * before
     assert "as fitted + spring @3" in text
     refused = ["left out: backlash, joint 2 (the error does not fall (no joint changes))"]
-    page = write_additions(tmp_path / "page.html", made.after, refused).read_text()
+    page = write_page(tmp_path / "page.html", additions_page(made.after, refused)).read_text()
     assert "backlash, joint 2: the error does not fall (no joint changes)" in plain(page)
 
 

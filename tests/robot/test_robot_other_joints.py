@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from modeler.codegen.derivation import derive
+from modeler.codegen.workflow import derive
 from modeler.core.errors import RobotError
 from modeler.derivation.relations import as_json
 from modeler.robot.loops import OTHER_JOINTS

@@ -6,7 +6,7 @@ import re
 import pytest
 
 from modeler.api import load, own_effect
-from modeler.codegen.derivation import derive
+from modeler.codegen.workflow import derive
 from modeler.core.errors import DerivationError, RobotError
 from modeler.effects.catalogue import CATALOGUE, effect_named
 from modeler.effects.effect import Acts

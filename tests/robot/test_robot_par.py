@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from modeler.codegen.derivation import derive
+from modeler.codegen.workflow import derive
 from modeler.core.errors import RobotError
 from modeler.derivation.relations import as_json
 from modeler.robot.par_convert import par_to_toml

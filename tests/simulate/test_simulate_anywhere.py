@@ -21,7 +21,7 @@ from modeler.simulation.portable_math import (
 _WRITE = """
 import sys
 import numpy as np
-from modeler.codegen.derivation import load
+from modeler.codegen.workflow import load
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate
 name, hidden, out = sys.argv[1:]
 hidden = tuple(hidden_from_text(text) for text in hidden.split())

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from modeler.api import compile_model, derive, generate, load
-from modeler.codegen.derivation import Derivation
+from modeler.codegen.workflow import Derivation
 from modeler.formulas.closed_form import function_name
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import CompiledModel
