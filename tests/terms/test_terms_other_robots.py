@@ -17,7 +17,7 @@ from tests.terms.cases import TEXTS, edited_wrist, robot_text, table_of
 ROBOTS = ["two-link", "scara", "general3", "odd", "weightless", "emps", "demo-arm"]
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", [*ROBOTS, "orthoglide-leg"])
 def test_combinations_hold_at_a_random_point(name):
     """Exactly, modulo a prime: every coefficient is the combination that the table states."""
     table = table_of(name)
