@@ -1,9 +1,9 @@
 """The robots that every test of every stage runs over: a new built-in is tested by being there."""
 
 from collections.abc import Iterable
+from typing import Any
 
 import pytest
-from _pytest.mark import ParameterSet
 
 from modeler.core.builtin import builtin_names
 from modeler.robot.read import read_robot
@@ -20,7 +20,7 @@ KINDS = ("demo-arm", "emps", "dvrk-psm", "sr400", "five-bar", "orthoglide-2003",
 """One of each kind: serial, prismatic, tree, parallelogram, closed, spatial loops, coupled."""
 
 
-def kinds_first(names: Iterable[str]) -> list[str | ParameterSet]:
+def kinds_first(names: Iterable[str]) -> list[Any]:
     """Names for parametrize: one robot of each kind always, the others in the long tests."""
     slow = pytest.mark.slow
     return [name if name in KINDS else pytest.param(name, marks=slow) for name in names]
