@@ -9,7 +9,6 @@ import pyarrow.parquet as pq
 import pytest
 from physical import KINDS, rough_log
 from stand_in import Row, StandIn, planar_arm, rotor, slider
-from test_observation_rows import exact_log, some_beta
 
 from modeler.core.manifest import JointSpec
 from modeler.observation.log import Log
@@ -267,22 +266,3 @@ def test_nothing_is_found_in_measured_logs(measured_folder):
         assert repaired(read_log(path, spec), spec)[1] == (), path.name
         count += 1
     assert count >= 30
-
-
-@pytest.mark.parametrize("seed", range(2))
-def test_what_is_usual_in_a_log_finds_in_it_what_the_log_finds_alone(seed):
-    """With the floors of the whole log given, medians are taken near candidates only."""
-    model = planar_arm()
-    log = exact_log(model, some_beta(model), seconds=30.0, seed=seed, logged=seed == 1)
-    random = np.random.default_rng(seed)
-    q = log.q + random.normal(scale=1e-5, size=log.q.shape)
-    tau = log.tau + random.normal(scale=0.05, size=log.tau.shape)
-    for k in random.integers(50, log.rows - 50, 6):
-        tau[k, k % 2] += 30.0 * np.ptp(log.tau)
-        q[k : k + 2, (k + 1) % 2] += 1.0
-    damaged = dataclasses.replace(log, q=q, tau=tau)
-    mended, found, usual = defects(damaged, model.spec)
-    again, found_again, _ = defects(damaged, model.spec, usual)
-    assert found == found_again and any(any(own) for own in found["q"])
-    for name in ("q", "tau"):
-        np.testing.assert_array_equal(getattr(mended, name), getattr(again, name))
