@@ -16,7 +16,9 @@ from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.modules import compiled, module
 
 
-@pytest.mark.parametrize("name", ["orthoglide-leg-tree", "sr400-tree"])
+@pytest.mark.parametrize(
+    "name", ["orthoglide-leg-tree", pytest.param("sr400-tree", marks=pytest.mark.slow)]
+)
 def test_a_simulated_robot_with_passive_joints_comes_back(name, tmp_path):
     """Truth of the simulation, not of the fit: 30 to 50 values, each within its sigmas."""
     symbolic, base, emitted = module(name)
