@@ -1,5 +1,10 @@
 """The robots that every test of every stage runs over: a new built-in is tested by being there."""
 
+from collections.abc import Iterable
+from typing import Any
+
+import pytest
+
 from modeler.core.builtin import builtin_names
 from modeler.robot.read import read_robot
 
@@ -10,3 +15,12 @@ TREES = tuple(name for name in ROBOTS if not (read_robot(name).loops or read_rob
 
 TIED = tuple(name for name in ROBOTS if name not in TREES)
 """Robots with relations or loops."""
+
+KINDS = ("demo-arm", "emps", "dvrk-psm", "sr400", "five-bar", "orthoglide-2003", "wrist-coupled")
+"""One of each kind: serial, prismatic, tree, parallelogram, closed, spatial loops, coupled."""
+
+
+def kinds_first(names: Iterable[str]) -> list[Any]:
+    """Names for parametrize: one robot of each kind always, the others in the long tests."""
+    slow = pytest.mark.slow
+    return [name if name in KINDS else pytest.param(name, marks=slow) for name in names]

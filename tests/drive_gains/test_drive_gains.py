@@ -80,13 +80,13 @@ def test_it_is_the_estimate_of_greatest_likelihood():
 
 def test_standard_deviations_are_those_of_many_draws():
     z = []
-    for seed in range(200):
+    for seed in range(100):
         found = estimated(*drawn(seed, 1.0))
         sigma = np.sqrt(np.diag(found.covariance))[:7]
         z.append((np.append(found.gains, found.beta[:4]) - [*TRUE, 1.0, -0.7, 2.0, 0.5]) / sigma)
     rms = np.sqrt(np.mean(np.square(z), axis=0))
-    assert np.all((rms > 0.85) & (rms < 1.15))
-    assert np.all(np.abs(np.mean(z, axis=0)) < 0.3)
+    assert np.all((rms > 0.8) & (rms < 1.2))
+    assert np.all(np.abs(np.mean(z, axis=0)) < 0.35)
     assert estimated(*drawn(1, 1.0)).singular[-1] == pytest.approx(1.0, abs=0.02)
 
 
@@ -96,9 +96,9 @@ def test_a_column_that_others_reproduce_cannot_set_the_scale():
     assert estimated(W, V, joint) is None
 
 
-def test_sixty_noisy_runs_of_an_arm_spread_as_the_sigmas_say(arm):
+def test_noisy_runs_of_an_arm_spread_as_the_sigmas_say(arm):
     gains, values = [], []
-    for seed in range(60):
+    for seed in range(25):
         fit = identify_gains(arm.compiled, arm.seen(TRUE, 0.03, seed), [arm.payload()]).result
         gains.append([(g.value - t) / g.sigma for g, t in zip(fit.gains, TRUE, strict=True)])
         values.append(
@@ -159,7 +159,7 @@ def test_one_wrong_gain_is_told_although_the_weight_may_agree(arm):
     assert "joint 3 1.05" in line and "joint 1" not in line and "joint 2" not in line
 
 
-@pytest.mark.parametrize("seed", range(1, 9))
+@pytest.mark.parametrize("seed", range(1, 3))
 def test_right_weights_and_gains_are_not_doubted(arm, seed):
     for noise in (0.005, 0.05):
         seen = arm.seen(np.ones(3), noise, seed)

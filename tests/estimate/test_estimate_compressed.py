@@ -4,7 +4,6 @@ from functools import reduce
 
 import numpy as np
 
-from modeler.estimation.least_squares import least_squares
 from modeler.numerics.least_squares import Compressed, compress, merged
 
 NAMES = tuple(f"p{k}" for k in range(7))
@@ -40,15 +39,3 @@ def test_merged_triangles_have_the_singular_values_of_all_rows():
         difference = np.linalg.svd(own, compute_uv=False) - np.linalg.svd(stacked, compute_uv=False)
         assert np.abs(difference).max() < 1e-14 * norm
         assert np.abs(own.T @ own - stacked.T @ stacked).max() < 1e-14 * norm**2
-
-
-def test_a_fit_does_not_see_where_rows_were_parted():
-    W, y, joint = _rows(2, 1e-3)
-    whole = least_squares(compress(W, y, joint, 2, NAMES))
-    for cuts in ([200], [50, 100, 150, 350], list(range(10, 400, 10))):
-        parts = _parts(W, y, joint, cuts)
-        for order in (parts, parts[::-1]):
-            found = least_squares(reduce(merged, order))
-            assert np.allclose(found.beta, whole.beta, rtol=1e-10, atol=0.0)
-            assert np.allclose(found.sigma, whole.sigma, rtol=1e-10, atol=0.0)
-            assert np.allclose(found.covariance, whole.covariance, rtol=1e-9, atol=1e-15)

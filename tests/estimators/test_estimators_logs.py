@@ -45,7 +45,7 @@ def test_every_method_finds_the_values_of_a_well_measured_arm(observation, run, 
 
 def test_the_noise_of_a_coarse_encoder_bends_weighted_values_and_not_those_of_iv():
     """1500 counts a turn: over machines the weighted values lie to one side, by many sigmas."""
-    found = covered(range(1, 9), "coarse", ["weighted", "iv"])
+    found = covered(range(1, 7), "coarse", ["weighted", "iv"])
     side = {name: np.linalg.norm(np.nanmean(own.z, axis=0)) for name, own in found.items()}
     assert side["iv"] < 0.7 * side["weighted"]
     near = {name: np.mean(np.abs(own.z) < 2) for name, own in found.items()}
@@ -192,17 +192,16 @@ def test_short_pieces_with_derivatives_of_their_own_are_followed_by_these():
     """Differentiating q again, and a controller that follows its noise: 4.0 % in the mean."""
     error = [
         identify(api.observe(compiled(), [pieces(seed)]), "didim", compiled()).relative_error
-        for seed in (3, 4, 5)
+        for seed in (3, 4)
     ]
     assert np.mean(error) < 0.026
 
 
-@pytest.mark.parametrize("late", [25, 100])
-def test_didim_says_where_it_ends_worse_than_it_began(run, observation, late):
+def test_didim_says_where_it_ends_worse_than_it_began(run, observation):
     """Commands that come late are not the ones that the robot followed."""
     log, _ = run
     wrong = Log(
-        "late", log.joints, log.time, log.q, log.tau, commanded=np.roll(log.commanded, late, axis=0)
+        "late", log.joints, log.time, log.q, log.tau, commanded=np.roll(log.commanded, 100, axis=0)
     )
     fit = identify(api.observe(compiled(), [wrong]), "didim", compiled())
     start = identify(observation, "weighted", compiled())
@@ -212,6 +211,7 @@ def test_didim_says_where_it_ends_worse_than_it_began(run, observation, late):
     assert not any("times the error" in said for said in honest.own)
 
 
+@pytest.mark.slow
 def test_a_loop_that_loses_the_robot_later_is_given_up(monkeypatch):
     """An encoder so coarse that the values of a later step are those of no machine.
 
@@ -242,10 +242,12 @@ def test_the_command_compares_on_the_same_data(folder, capsys):
     page, raw = folder / "page.html", folder / "all.json"
     argv = ["estimators", "two-link", str(folder / "a.parquet")]
     argv += ["--holdout", str(folder / "held.parquet"), "--report", str(page), "--json", str(raw)]
+    methods = ["weighted", "iv", "didim"]
+    argv += ["--methods", ",".join(methods)]
     assert main(argv) == 0
     out = capsys.readouterr().out
     said = json.loads(raw.read_text())
-    assert [own["method"] for own in said["methods"]] == list(METHODS)
+    assert [own["method"] for own in said["methods"]] == methods
     for own in said["methods"]:
         assert own["fit"]["relative_error"] < 0.02 and own["held_out_error"] < 0.02
         assert own["seconds"] > 0.0 and own["remarks"] and own["avoid"]
@@ -311,6 +313,7 @@ def test_the_suite_refuses_unknown_names():
             suite(argv)
 
 
+@pytest.mark.slow
 def test_real_axis_and_every_method(measured_folder, capsys):
     """EMPS has published loops: 14 Hz of speed, 1.8 times that of position, nothing else."""
     assert suite(["measured", "--sets", "emps"]) == 0
@@ -319,6 +322,7 @@ def test_real_axis_and_every_method(measured_folder, capsys):
     assert out.count("no integral action and no feedforward") == len(SIMULATED)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["kinova_gen3", "panda"])
 def test_real_arms_without_commands_are_simulated_as_well_as_fitted(measured_folder, name):
     """Pieces of half a second; and a wrist whose fitted inertia is negative."""

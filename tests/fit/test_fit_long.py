@@ -93,13 +93,6 @@ def test_a_log_in_chunks_gives_the_fit_of_the_whole_log(logged, cutoff):
     assert "chunks" in told_chunked.lines()[1]
 
 
-def test_of_another_length_rows_lie_elsewhere_and_the_fit_stays_within_sigmas():
-    """Rows half a spacing apart correlate by exp(-(0.2 / 0.265)^2) = 0.57: 0.93 sigma apart."""
-    whole, chunked, _, _ = both(noisy_log(seconds=33.337))
-    sigma = np.array([parameter.sigma for parameter in whole.parameters])
-    assert np.abs((chunked.beta - whole.beta) / sigma).max() < 3.0
-
-
 def test_a_chunk_is_filtered_as_the_whole_log_but_for_what_the_filter_forgot():
     """exp(-2.4 x 12) = 3e-13 of the leap that the extension at the margin's end makes."""
     random = np.random.default_rng(3)
@@ -112,17 +105,6 @@ def test_a_chunk_is_filtered_as_the_whole_log_but_for_what_the_filter_forgot():
         assert left < 1e-11 * np.ptp(values[3000 - beside : 4000 + beside])
         short = low_pass(values[3000 - beside // 8 : 4000 + beside // 8], 5e-3, cutoff)
         assert np.abs(short[beside // 8 : -(beside // 8)] - whole[3000:4000]).max() > 1e3 * left
-
-
-def test_rows_are_one_chunks_own_each_and_in_order():
-    log = noisy_log(seconds=30.0)
-    found = list(chunks(MemorySource(log), ROWS, 200))
-    assert [chunk.start for chunk in found] == list(range(0, log.rows, ROWS))
-    own = np.concatenate([chunk.log.time[chunk.own] for chunk in found])
-    np.testing.assert_array_equal(own, log.time)
-    assert [chunk.last for chunk in found] == [False] * (len(found) - 1) + [True]
-    inner = found[2]
-    assert inner.own == slice(200, 200 + ROWS) and inner.log.rows == ROWS + 400
 
 
 def test_gaps_holes_limits_spikes_and_segments_across_borders_are_as_in_the_whole_log():
@@ -172,7 +154,7 @@ def test_windows_choose_for_all_rows(small_windows):
     assert np.sqrt(np.mean(((fit.beta - BETA) / sigma) ** 2)) < 2.5
 
 
-@pytest.mark.parametrize("zero", [-450.0, 0.5, 1000.0, 1.7e9])
+@pytest.mark.parametrize("zero", [-450.0, 1.7e9])
 def test_the_zero_of_the_clock_changes_nothing(zero, monkeypatch):
     """Stamps differ by their rounding: 1e-13 s, or 2.4e-7 s where they count from 1970."""
     for name, value in (("WINDOW", 512), ("SECONDS", 0.0), ("WINDOWS", 8)):
@@ -220,10 +202,9 @@ def verdict_of(log):
     return with_verdict(ARM, long.observation, fit, data=long.data).verdict, fit
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_what_the_windows_do_not_show_makes_a_fit_not_usable(seed, small_windows, any_machine):
+def test_what_the_windows_do_not_show_makes_a_fit_not_usable(small_windows, any_machine):
     """A torque wrong by half, in a thirtieth of the log, between two windows."""
-    log = noisy_log(seconds=60.0, seed=seed)
+    log = noisy_log(seconds=60.0)
     clean, _ = verdict_of(log)
     assert clean.usable and not [line for line in clean.doubts if "windows" in line]
     tau = log.tau.copy()
@@ -312,11 +293,10 @@ def test_what_is_wrong_in_one_window_is_not_said_of_all(small_windows):
     assert "all windows" not in str(told.value)
 
 
-@pytest.mark.parametrize("factor", [1e3, 1e-3])
-def test_a_time_that_changes_its_unit_is_told_by_the_windows(factor, small_windows, monkeypatch):
+def test_a_time_that_changes_its_unit_is_told_by_the_windows(small_windows, monkeypatch):
     log = noisy_log(seconds=60.0)
     time = log.time.copy()
-    time[6000:] = time[6000] + factor * (time[6000:] - time[6000])
+    time[6000:] = time[6000] + 1e3 * (time[6000:] - time[6000])
     monkeypatch.setattr(streamed, "reduce_chunk", None)  # no row is reduced
     with pytest.raises(DataError, match=r"column time: a row every 0\.005 s at 7\.5 s and every"):
         stream(ARM, [MemorySource(dataclasses.replace(log, time=time))], rows=ROWS)
@@ -370,25 +350,18 @@ def test_an_error_or_an_interrupt_ends_the_threads(monkeypatch):
     assert len(begun) < 6 < log.rows / 512
 
 
-@pytest.mark.parametrize("method", ["weighted", "ordinary"])
-def test_sigmas_of_windows_are_those_of_all_rows(method, small_windows):
+def test_sigmas_of_windows_are_those_of_all_rows(small_windows):
     """Coloured residuals: the factor on the sigmas of all rows, from a sixth of them."""
     log = noisy_log(seconds=120.0)
     pole = np.exp(-log.step / 0.2)
     white = np.random.default_rng(8).normal(size=log.tau.shape)
     noise = np.sqrt(1.0 - pole**2) * lfilter([1.0], [1.0, -pole], white, axis=0)
     log = dataclasses.replace(log, tau=log.tau + noise)
-    whole = identify(observe(ARM, [log]), method)
-    long = identify_long(stream(ARM, [MemorySource(log)], rows=ROWS), method)
+    whole = identify(observe(ARM, [log]))
+    long = identify_long(stream(ARM, [MemorySource(log)], rows=ROWS))
     ratio = np.sqrt(np.diag(long.covariance) / np.diag(whole.covariance))
     assert np.all((ratio > 0.5) & (ratio < 2.0)) and np.median(ratio) == pytest.approx(1, abs=0.25)
     assert long.essential is not None
-
-
-def test_methods_that_need_every_row_are_refused_in_a_line():
-    long = stream(ARM, [MemorySource(noisy_log())], rows=ROWS)
-    with pytest.raises(DataError, match="method robust reads every row again"):
-        identify_long(long, "robust")
 
 
 def test_uneven_stamps_fit_as_well_in_chunks():

@@ -1,12 +1,11 @@
-"""Measured logs through the whole chain: robot file, emitted C, fit, held-out errors.
+"""Measured logs through the whole chain: robot file, emitted C, fit, held-out errors, verdict.
 
 The limits are the held-out residuals that the README of each data folder says a plain script
 reached (a numpy regressor, one Butterworth filter, weights per joint). Joints where we are above
-them stand in EXCEPTIONS.
+them stand in EXCEPTIONS. Verdicts are those of an expert.
 """
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import pytest
 
@@ -24,27 +23,27 @@ from modeler.api import (
 from modeler.observation.settings import Processing
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
+from tests.measured_sets.sets import DATA
 
-DATA = next(
-    (p / "shared" / "data" for p in Path(__file__).resolve().parents
-     if (p / "shared" / "data").is_dir()),
-    None,
-)  # fmt: skip
 pytestmark = [
     pytest.mark.measured,
-    pytest.mark.skipif(DATA is None, reason="no measured logs: shared/data is not beside us"),
+    pytest.mark.skipif(not DATA.is_dir(), reason=f"NOT CHECKED: no measured logs in {DATA}"),
 ]
+
+
+LIKE_MOTION = ("like motion", "is left and is no noise")
 
 
 @dataclass(frozen=True)
 class Run:
-    """A built-in robot, its logs, and the README's held-out residual per joint, %."""
+    """A built-in robot, its logs, the README's held-out residual per joint, %, and the verdict."""
 
     robot: str
     folder: str
     training: tuple[str, ...]
     held_out: tuple[str, ...]
     readme: tuple[float, ...]
+    verdict: tuple[str, str] = ("physics", "a machine with these values")
     processing: Processing | None = None
 
 
@@ -55,7 +54,7 @@ RUNS = {
         Run(
             "odrive", "odrive_cogging",
             ("slow2__nocomp_0.parquet", "slow2__nocomp_1.parquet"),
-            ("slow2__nocomp_2.parquet",), (93.5,),
+            ("slow2__nocomp_2.parquet",), (93.5,), ("nothing", "joint 1: "),
         ),
         Run(
             "tx40", "tx40", ("log_joint.parquet@0:4.6",), ("log_joint.parquet@4.6:7.45",),
@@ -72,16 +71,18 @@ RUNS = {
             "kinova_gen3", "kinova_gen3",
             ("traj_1.parquet", "traj_3.parquet", "traj_5.parquet"),
             ("traj_2.parquet", "traj_4.parquet"),
-            (28.8, 16.0, 15.0, 9.2, 12.5, 15.7, 6.9),
+            (28.8, 16.0, 15.0, 9.2, 12.5, 15.7, 6.9), LIKE_MOTION,
         ),
         # Near the README's filter of 5.4 Hz. Automatic: 5.1 15.0 13.2 14.7 19.5 19.3 21.2 %.
         Run(
             "dvrk-psm", "dvrk_psm", ("one.parquet",), ("two.parquet",),
-            (4.9, 14.8, 13.8, 15.9, 22.1, 21.6, 23.5),
+            (4.9, 14.8, 13.8, 15.9, 22.1, 21.6, 23.5), LIKE_MOTION,
             Processing(position_cutoff=8.0, parallel_cutoff=5.4),
         ),
     )
 }  # fmt: skip
+
+QUICK = ("emps", "odrive", "tx40")
 
 EXCEPTIONS = {("kinova_gen3", 3): 15.7, ("kinova_gen3", 4): 11.7}
 """(robot, joint) -> %, above the README.
@@ -94,7 +95,6 @@ below 11 %; a parallel filter of 2 Hz brings joint 3 to 14.8 % and joint 4 to 14
 
 
 def places(run: Run, names: tuple[str, ...]) -> list[str]:
-    assert DATA is not None
     return [str(DATA / run.folder / name) for name in names]
 
 
@@ -121,16 +121,40 @@ def results():
     return result
 
 
-@pytest.mark.parametrize("robot", RUNS)
+@pytest.mark.parametrize(
+    "robot", [r if r in QUICK else pytest.param(r, marks=pytest.mark.slow) for r in RUNS]
+)
 def test_held_out_errors_are_below_the_published_ones(results, robot):
-    _, comparison = results(robot)
+    model, comparison = results(robot)
     found = {item.joint.name: 100 * item.relative_error for item in comparison.joints}
     limits = {str(j): limit for j, limit in enumerate(RUNS[robot].readme, start=1)}
     limits |= {str(j): limit for (name, j), limit in EXCEPTIONS.items() if name == robot}
     assert found.keys() == limits.keys()
     assert {joint: error for joint, error in found.items() if error >= limits[joint]} == {}
+    verdict, (usable_for, words) = model.fit.verdict, RUNS[robot].verdict
+    assert verdict.usable_for == usable_for and words in verdict.line, verdict.line
+    assert verdict.usable is (usable_for != "nothing")
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("robot", "log", "words"),
+    [
+        # the built-in robot has no friction
+        ("panda", "panda/excitation.parquet", "joint 7: "),
+        # of one joint
+        ("ur10e", "ur10e/ur-20_01_22-joint_5.parquet", "not enough data for 58 parameters"),
+    ],
+)
+def test_other_measured_logs_make_no_model(robot, log, words):
+    derivation = derive(load(robot))
+    emitted = generate(derivation)
+    model = fit(derivation, emitted, observe(compile_model(emitted), [str(DATA / log)]))
+    line = model.fit.verdict.line
+    assert line.startswith("not usable: ") and words in line
+
+
+@pytest.mark.slow
 def test_every_exception_is_still_needed(results):
     for (robot, joint), limit in EXCEPTIONS.items():
         found = 100 * results(robot)[1].joints[joint - 1].relative_error
@@ -170,6 +194,7 @@ def test_tx40_published_values(results):
         assert found[name] == pytest.approx(value, rel=0.1), name
 
 
+@pytest.mark.slow
 def test_the_readme_offsets_of_kinova_do_not_carry_over(results):
     """With the README's offsets on all joints, joint 1 is as bad as there: 28.8 % in the README."""
     run = RUNS["kinova_gen3"]

@@ -7,30 +7,24 @@ import pytest
 from stand_in import Row, StandIn
 from test_observation_rows import exact_log, some_beta
 
-from modeler.codegen.emit import emit
 from modeler.core.errors import DataError
-from modeler.derivation.base_parameters import base_parameters
-from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import grouping_matrix
 from modeler.estimation.identify import identify
 from modeler.observation.observation import observe
 from modeler.observation.read import read_log
-from modeler.robot.read import read_robot
-from modeler.runtime.model import load
 from modeler.simulation import SimulationSettings, simulate, write_log
+from tests.modules import compiled, module
 
 
-@pytest.mark.parametrize("name", ["orthoglide-leg-tree", "sr400-tree"])
+@pytest.mark.parametrize(
+    "name", ["orthoglide-leg-tree", pytest.param("sr400-tree", marks=pytest.mark.slow)]
+)
 def test_a_simulated_robot_with_passive_joints_comes_back(name, tmp_path):
     """Truth of the simulation, not of the fit: 30 to 50 values, each within its sigmas."""
-    robot = read_robot(name)
-    symbolic = derive_model(robot)
-    base = base_parameters(symbolic)
-    emitted = emit(symbolic, base)
-    compiled = load(emitted.spec, emitted.files)
-    run = simulate(robot, SimulationSettings(duration=6.0, seed=1))
+    symbolic, base, emitted = module(name)
+    run = simulate(symbolic.robot, SimulationSettings(duration=6.0, seed=1))
     write_log(tmp_path / "run.csv", run)
-    fit = identify(observe(compiled, [read_log(tmp_path / "run.csv", emitted.spec)]))
+    fit = identify(observe(compiled(name), [read_log(tmp_path / "run.csv", emitted.spec)]))
     chi = np.array([run.truth.parameters[parameter] for parameter in symbolic.names])
     beta = grouping_matrix(symbolic, base.parameters) @ chi
     assert fit.status == "ok" and fit.relative_error < 0.01
@@ -62,6 +56,8 @@ def test_a_dead_channel_leaves_the_other_joints_alone(arm, method):
     assert fit.joints[0].rows == 0 and fit.joints[0].relative_error is None
     assert any(s.startswith("joint 1: its torque is 0 in every row") for s in fit.sentences)
     assert not any("its torque is 0" in s for s in healthy.sentences)
+    with pytest.raises(DataError, match="run: the torque of every joint with a motor is 0"):
+        identify(observe(robot, [dataclasses.replace(log, tau=0.0 * log.tau)]), method)
     for j in (1, 2):
         assert fit.joints[j].relative_error < 1.05 * healthy.joints[j].relative_error
     kept = [p.status == "estimated" for p in fit.parameters]
@@ -69,13 +65,6 @@ def test_a_dead_channel_leaves_the_other_joints_alone(arm, method):
     for parameter, true in zip(fit.parameters, beta, strict=True):
         if parameter.sigma is not None and parameter.name[-1] == "3":
             assert abs(parameter.value - true) < 5.0 * parameter.sigma
-
-
-def test_no_torque_at_all_is_refused(arm):
-    robot, _, log = arm
-    seen = observe(robot, [dataclasses.replace(log, tau=0.0 * log.tau)])
-    with pytest.raises(DataError, match="run: the torque of every joint with a motor is 0"):
-        identify(seen)
 
 
 def test_the_unit_of_the_torque_does_not_decide_the_rank(arm):

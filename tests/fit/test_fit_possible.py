@@ -3,58 +3,30 @@
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, generate, load
 from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
 from modeler.robot.robot import INERTIAL
+from tests.bodies import buildable
+from tests.modules import compiled
 
-_TREES_AND_LOOPS = ("two-link", "ur10e", "kinova_gen3", "dvrk-psm", "sr400", "orthoglide-2003")
-
-
-def spec_of(name):
-    return generate(derive(load(name))).spec
+_KINDS = ("two-link", "dvrk-psm", "sr400", "orthoglide-2003")
 
 
-def cloud(rng):
-    """The ten parameters of point masses, by their definition as sums."""
-    mass, (x, y, z) = rng.uniform(0.2, 2.0, 8), 0.3 * rng.normal(size=(3, 8))
-    sums = {
-        "XX": y * y + z * z, "XY": -x * y, "XZ": -x * z, "YY": x * x + z * z,
-        "YZ": -y * z, "ZZ": x * x + y * y, "MX": x, "MY": y, "MZ": z, "M": np.ones(8),
-    }  # fmt: skip
-    return {prefix: float(mass @ values) for prefix, values in sums.items()}
-
-
-def chi_of(spec, rng):
-    """Standard parameters of links that are clouds of points, with friction above 0."""
-    links = {p.joint: cloud(rng) for p in spec.standard if p.effect == "rigid_body"}
-    return np.array(
-        [
-            links[p.joint][p.name.removesuffix(p.joint)]
-            if p.effect == "rigid_body"
-            else rng.uniform(0.1, 1.0)
-            for p in spec.standard
-        ]
-    )
-
-
-@pytest.mark.parametrize("name", _TREES_AND_LOOPS)
+@pytest.mark.parametrize("name", _KINDS)
 def test_a_machine_that_could_be_built_is_at_no_distance(name):
-    emitted = generate(derive(load(name)))
-    machine = machine_of(emitted.spec)
-    rng = np.random.default_rng(41)
-    chi = chi_of(emitted.spec, rng)
+    machine = machine_of(compiled(name).spec)
+    chi = buildable(compiled(name).spec, np.random.default_rng(41))
     beta = machine.K[:, : len(chi)] @ chi
-    np.testing.assert_allclose(beta, compile_model(emitted).base_parameters(chi), rtol=1e-9)
+    np.testing.assert_allclose(beta, compiled(name).base_parameters(chi), rtol=1e-9)
     root = np.diag(1.0 / (0.01 * np.abs(beta) + 1e-6))  # one percent
     found = nearest_possible(machine, beta, root)
     assert found is not None and found.distance < 1e-2  # standard deviations
 
 
 def test_a_friction_below_zero_is_as_far_as_it_is_below():
-    spec = spec_of("two-link")
+    spec = compiled("two-link").spec
     machine = machine_of(spec)
     names = [base.name for base in spec.base]
-    chi = chi_of(spec, np.random.default_rng(42))
+    chi = buildable(spec, np.random.default_rng(42))
     beta = machine.K[:, : len(chi)] @ chi
     sigma = 0.05 * np.ones(len(beta))
     beta[names.index("Fv2")] = -0.4
@@ -67,10 +39,10 @@ def test_a_friction_below_zero_is_as_far_as_it_is_below():
 
 def test_a_moment_of_inertia_below_zero_and_who_carries_it():
     # ZZ2 is a base parameter by itself; however heavy link 2 is, ZZ2 M2 >= MX2^2 keeps it above 0.
-    spec = spec_of("two-link")
+    spec = compiled("two-link").spec
     machine = machine_of(spec)
     names = [base.name for base in spec.base]
-    chi = chi_of(spec, np.random.default_rng(43))
+    chi = buildable(spec, np.random.default_rng(43))
     beta = machine.K[:, : len(chi)] @ chi
     beta[names.index("ZZ2")] = -0.3
     weights = np.full(len(beta), 1e-3)  # all else is free to follow
@@ -84,9 +56,9 @@ def test_a_moment_of_inertia_below_zero_and_who_carries_it():
 
 def test_links_share_their_faults_as_their_parameters_do():
     # M2 is in ZZ1R and MX1R, with L1: a body of link 2 cannot take what it has not.
-    spec = spec_of("two-link")
+    spec = compiled("two-link").spec
     machine = machine_of(spec)
-    chi = chi_of(spec, np.random.default_rng(44))
+    chi = buildable(spec, np.random.default_rng(44))
     beta = machine.K[:, : len(chi)] @ chi
     names = [base.name for base in spec.base]
     beta[names.index("MX1R")] *= 40.0  # far out, with the inertia that it had
@@ -99,7 +71,7 @@ def test_links_share_their_faults_as_their_parameters_do():
 
 
 def test_links_have_ten_parameters_each_even_if_torques_feel_two():
-    machine = machine_of(spec_of("scara"))
+    machine = machine_of(compiled("scara").spec)
     for own in machine.links.values():
         assert tuple(sorted(own)) == tuple(sorted(INERTIAL))
     places = [place for own in machine.links.values() for place in own.values()]

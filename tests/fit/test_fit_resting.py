@@ -1,28 +1,22 @@
 """Logs in which joints rest: every command and every estimator has a result, or one clear line."""
 
-import functools
 import warnings
 
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, generate, load
 from modeler.cli import main
 from modeler.core.errors import TWO_STEPS
 from modeler.core.estimators import ABOUT
+from tests.modules import compiled
 
 ROBOT, JOINTS, MASS = "demo-arm", 3, 2.0
-RESTING = [(0,), (1,), (2,), (0, 1, 2)]
-
-
-@functools.cache
-def machine():
-    return compile_model(generate(derive(load(ROBOT))))
+RESTING = [(1,), (0, 1, 2), pytest.param((0,), marks=pytest.mark.slow)]
 
 
 def written(place, rest, seed, load=0.0, kind="tau"):
-    """A log of 4 s: sines on the joints that move, noise of 1 % on all torques."""
-    rng, time = np.random.default_rng(seed), np.arange(0.0, 4.0, 0.01)
+    """A log of 3 s: sines on the joints that move, noise of 1 % on all torques."""
+    rng, time = np.random.default_rng(seed), np.arange(0.0, 3.0, 0.01)
     q = np.tile(rng.uniform(-0.5, 0.5, JOINTS), (time.size, 1))
     qd, qdd = np.zeros_like(q), np.zeros_like(q)
     for j in range(JOINTS):
@@ -31,9 +25,9 @@ def written(place, rest, seed, load=0.0, kind="tau"):
             q[:, j] += a * np.sin(w * time + p)
             qd[:, j] += a * w * np.cos(w * time + p)
             qdd[:, j] -= a * w * w * np.sin(w * time + p)
-    spec, value = machine().spec, {"M3": 5.0 + load}
+    spec, value = compiled(ROBOT).spec, {"M3": 5.0 + load}
     beta = [value.get(p.name, 1.0 if p.nonnegative else 0.1) for p in spec.standard]
-    tau = np.einsum("sjc,c->sj", machine().regressor(q, qd, qdd, None), np.array(beta))
+    tau = np.einsum("sjc,c->sj", compiled(ROBOT).regressor(q, qd, qdd, None), np.array(beta))
     tau += 0.01 * tau.std() * rng.normal(size=tau.shape)
     q += 1e-6 * rng.normal(size=q.shape)
     names = [f"{letter}{j + 1}" for letter in ("q", kind) for j in range(JOINTS)]
@@ -57,14 +51,14 @@ def folder(tmp_path_factory):
 FITS = [f"fit {ROBOT} R --method {method} --out X" for method in (*ABOUT, TWO_STEPS)]
 FITS += [f"fit {ROBOT} R --model energy --out X"]
 LOADED = [
-    f"fit {ROBOT} {bare} --payload-log {loaded} --payload-mass {MASS} --method {method} --out X"
-    for bare, loaded in (("R", "RL"), ("full.csv", "RL"), ("R", "loaded.csv"))
-    for method in ("weighted", "robust")
-]
-CURRENTS = [
-    f"fit {ROBOT} {bare} --payload-log {loaded} --payload-mass {MASS} --method tls --out X"
-    for bare, loaded in (("RI", "RLI"), ("bare_i.csv", "RLI"), ("RI", "loaded_i.csv"))
-]
+    f"fit {ROBOT} {logs} --payload-mass {MASS} --method {method} --out X"
+    for logs, method in (
+        ("R --payload-log RL", "weighted"), ("full.csv --payload-log RL", "robust"),
+        ("R --payload-log loaded.csv", "weighted"), ("bare_i.csv --payload-log RLI", "tls"),
+        ("RI --payload-log loaded_i.csv", "tls"),
+    )
+]  # fmt: skip
+BOTH = [f"fit {ROBOT} RI --payload-log RLI --payload-mass {MASS} --method tls --out X"]
 OTHERS = [
     f"log R --robot {ROBOT}", f"estimators {ROBOT} R --holdout other.csv --methods weighted",
     f"fleet {ROBOT} R full.csv", "compare m.json R", "free-run m.json R",
@@ -75,8 +69,10 @@ OTHERS = [
 
 
 @pytest.mark.parametrize("rest", RESTING)
-@pytest.mark.parametrize("commands", [FITS, LOADED, CURRENTS, OTHERS],
-                         ids=["fits", "loaded", "currents", "others"])  # fmt: skip
+@pytest.mark.parametrize(
+    "commands", [FITS, LOADED, OTHERS, pytest.param(BOTH, marks=pytest.mark.slow)],
+    ids=["fits", "loaded", "others", "currents"],
+)  # fmt: skip
 def test_a_result_or_one_clear_line(folder, rest, commands, capsys, monkeypatch):
     """`main` raises whatever is no ModelerError: a traceback fails."""
     monkeypatch.chdir(folder)

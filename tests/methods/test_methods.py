@@ -18,13 +18,17 @@ TITLES = {
     "houda": ["Table 1", "Table 1", "The energy model"],
     "hanssen-2000": ["Eq. (3)", "Persistent excitation", "Two steps", "Physical parameters"],
 }
+QUICK = "hanssen-2000"
 
 
 def test_every_paper_has_its_method():
     assert set(METHODS) == set(paper_names())
 
 
-@pytest.mark.parametrize("name", paper_names())
+@pytest.mark.parametrize(
+    "name",
+    [n if n == QUICK else pytest.param(n, marks=pytest.mark.slow) for n in paper_names()],
+)
 def test_every_identification_is_reproduced(name, capsys, tmp_path):
     place = tmp_path / "methods.json"
     assert main(["reproduce", name, "--section", "methods", "--json", str(place)]) == 0

@@ -14,7 +14,7 @@ from modeler.observation.observation import observe
 from modeler.observation.settings import Processing
 from tests.modules import compiled
 
-SWING = {"sr400-tree": 0.4, "five-bar": 0.15, "evra": 0.02, "wrist": 0.8}
+SWING = {"sr400-tree": 0.4, "five-bar": 0.15, "wrist": 0.8}
 BROAD = Processing(derivatives="log", position_cutoff=0.0, parallel_cutoff=10.0)
 
 

@@ -1,7 +1,6 @@
 """Logged velocities and accelerations that are the derivatives of the positions, or are not."""
 
 import dataclasses
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,13 +13,9 @@ from modeler.observation.observation import observe
 from modeler.observation.read import read_log
 from modeler.observation.segments import split
 from modeler.observation.settings import Processing, processing_from_json
+from tests.measured_sets.sets import DATA
 
-DATA = next(
-    (p / "shared" / "data" for p in Path(__file__).resolve().parents
-     if (p / "shared" / "data").is_dir()),
-    None,
-)  # fmt: skip
-measured = pytest.mark.skipif(DATA is None, reason="no measured logs: shared/data not beside us")
+measured = pytest.mark.skipif(not DATA.is_dir(), reason=f"NOT CHECKED: no measured logs in {DATA}")
 
 
 def sines(rate=100, seconds=20.0):

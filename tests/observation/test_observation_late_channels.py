@@ -29,7 +29,7 @@ def observed(folder, name, seed, hidden=(), **late):
     return observe(compiled(name), [log])
 
 
-@pytest.mark.parametrize("name", ["two-link", "demo-arm", "puma560"])
+@pytest.mark.parametrize("name", ["demo-arm", pytest.param("puma560", marks=pytest.mark.slow)])
 def test_whose_time_and_by_how_much(name, tmp_path):
     rng = np.random.default_rng([8, *name.encode()])
     c = compiled(name)
@@ -47,12 +47,15 @@ def test_whose_time_and_by_how_much(name, tmp_path):
         assert ms == pytest.approx(1e3 * samples / RATE, abs=5.0)
 
 
-@pytest.mark.parametrize("name", ["demo-arm", pytest.param("ur10e", marks=pytest.mark.slow)])
+EFFECTS = ("", "elasticity", "backlash", "cable_hysteresis", "counterbalance", "external_force")
+MORE = ("stribeck", "presliding", "load_friction", "asymmetric_viscous", "payload", "motor_ripple")
+
+
 @pytest.mark.parametrize(
-    "hidden",
-    ["", "stribeck", "elasticity", "backlash", "presliding", "cable_hysteresis", "load_friction",
-     "counterbalance", "external_force", "asymmetric_viscous", "payload", "motor_ripple"],
-)  # fmt: skip
+    ("name", "hidden"),
+    [("demo-arm", hidden) for hidden in EFFECTS]
+    + [pytest.param("ur10e", hidden, marks=pytest.mark.slow) for hidden in EFFECTS[1:] + MORE],
+)
 def test_physics_is_not_late(name, hidden, tmp_path):
     rng = np.random.default_rng([9, *name.encode(), *hidden.encode()])
     seen = observed(tmp_path, name, int(rng.integers(1000)), hidden=[hidden] if hidden else [])

@@ -43,12 +43,12 @@ def told(log, cutoff=5.0):
     return consistency(log, pieces, cutoff)
 
 
-@pytest.mark.parametrize("rate", [100, 250, 1000])
-@pytest.mark.parametrize("joints", [2, 4, 7])
+@pytest.mark.parametrize("rate", [100, 1000])
+@pytest.mark.parametrize("joints", [2, 7])
 def test_the_late_joint_is_named_with_its_delay(rate, joints):
-    """12 to 80 ms, drawn; six of each."""
+    """12 to 80 ms, drawn; three of each."""
     random = np.random.default_rng([rate, joints])
-    for _ in range(6):
+    for _ in range(3):
         j, lag = int(random.integers(joints)), random.uniform(0.012, 0.08)
         log, _ = drawn(random, rate, [lag * (k == j) for k in range(joints)], joints)
         found = told(log)

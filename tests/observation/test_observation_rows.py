@@ -8,7 +8,6 @@ from stand_in import Row, StandIn, planar_arm, rotor, slider
 
 from modeler.core.errors import DataError
 from modeler.numerics.filters import filter_at
-from modeler.observation import stretch as stretch_module
 from modeler.observation.excitation import excitation
 from modeler.observation.log import Log
 from modeler.observation.low_speed import shafts
@@ -106,16 +105,6 @@ def test_rows_know_their_joint_sample_and_log():
     assert np.all(np.diff(seen.time[seen.run == 1]) > 0)
     assert [log.samples for log in seen.report.logs] == [np.sum(seen.run == i) for i in (0, 1)]
     assert seen.names == tuple(base.name for base in model.spec.base)
-
-
-def test_blocks_make_no_difference(monkeypatch):
-    model = planar_arm()
-    log = exact_log(model, some_beta(model))
-    whole = observe(model, [log])
-    monkeypatch.setattr(stretch_module, "_BLOCK", 100)
-    parts = observe(model, [log])
-    np.testing.assert_allclose(parts.columns, whole.columns, rtol=1e-12, atol=1e-12)
-    np.testing.assert_allclose(parts.torque, whole.torque, rtol=1e-12, atol=1e-12)
 
 
 def test_further_columns_go_through_the_same_filter():

@@ -6,6 +6,7 @@ import pinocchio as pin
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from modeler.simulation import PlantParameters
+from tests.elementary_motions import row_pose
 
 PENDULUM = """
 name = "pendulum"
@@ -99,6 +100,31 @@ rotor_inertia = ["2", "3"]
 viscous = "all"
 """
 
+# A crank that drives a slider, without relations or limits; every length is known in closed form.
+CRANK = """
+name = "crank"
+gravity = [0, "-g", 0]
+[symbols]
+g = 9.81
+R = 0.10
+L = 0.35
+[mdh]
+columns = ["j", "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
+rows = [
+  ["1",   "0", 1, 0, 0,      0,      0,   "q1", 0],
+  ["2",   "1", 0, 0, 0,      0,      "R", "q2", 0],
+  ["tip", "2", 0, 2, 0,      0,      "L", 0,    0],
+  ["3",   "0", 0, 1, "pi/2", "pi/2", 0,   0,    "q3"],
+]
+[loops]
+columns = ["loop", "frame", "meets", "joint"]
+rows = [["pin", "tip", "3", "position"]]
+[home]
+q1 = "pi/2"
+q2 = -1.86
+q3 = 0.33
+"""
+
 
 def robot(text: str, **changes: str) -> Robot:
     """The robot of the text, with further tables appended: robot(ARM, limits="1 = ...")."""
@@ -115,9 +141,7 @@ def pinocchio_model(source: Robot, parameters: PlantParameters) -> pin.Model:
     for row in source.joints:
         values = {**symbols, row.variable: 0.0}
         cells = ("gamma", "b", "alpha", "d", "theta", "r")
-        gamma, b, alpha, d, theta, r = (getattr(row, cell).number(values) for cell in cells)
-        pose = _turn(2, gamma) @ _shift(2, b) @ _turn(0, alpha) @ _shift(0, d)
-        pose = pose @ _turn(2, theta) @ _shift(2, r)
+        pose = row_pose(*(getattr(row, cell).number(values) for cell in cells))
         holder, there = holders[row.antecedent]
         if not row.moves:
             holders[row.name] = (holder, there @ pose)
@@ -135,15 +159,3 @@ def pinocchio_model(source: Robot, parameters: PlantParameters) -> pin.Model:
     armature = [parameters.standard.get(f"Ia{row.name}", 0.0) for row in source.moving]
     model.armature = np.array(armature)
     return model
-
-
-def _turn(axis: int, angle: float) -> np.ndarray:
-    pose = np.eye(4)
-    pose[:3, :3] = pin.AngleAxis(angle, np.eye(3)[axis]).toRotationMatrix()
-    return pose
-
-
-def _shift(axis: int, length: float) -> np.ndarray:
-    pose = np.eye(4)
-    pose[axis, 3] = length
-    return pose

@@ -7,7 +7,7 @@ import casadi as ca
 import numpy as np
 import pytest
 from closed_energy import energies, without_effects
-from simulated_robots import robot
+from simulated_robots import CRANK, robot
 
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError, RobotError
@@ -25,7 +25,7 @@ from modeler.simulation.closing import (
 )
 from modeler.simulation.plant import of_free
 from tests.modules import compiled, module
-from tests.robots import TIED
+from tests.robots import TIED, kinds_first
 
 LOOPS = [name for name in TIED if read_robot(name).loops]
 RELATIONS = [name for name in TIED if name not in LOOPS]
@@ -33,33 +33,8 @@ IDEAL = SimulationSettings(
     duration=1.5, rate=400, encoder_counts=0, linear_resolution=0, torque_noise=0
 )
 
-# A crank that drives a slider, without relations or limits; every length is known in closed form.
-CRANK = """
-name = "crank"
-gravity = [0, "-g", 0]
-[symbols]
-g = 9.81
-R = 0.10
-L = 0.35
-[mdh]
-columns = ["j", "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
-rows = [
-  ["1",   "0", 1, 0, 0,      0,      0,   "q1", 0],
-  ["2",   "1", 0, 0, 0,      0,      "R", "q2", 0],
-  ["tip", "2", 0, 2, 0,      0,      "L", 0,    0],
-  ["3",   "0", 0, 1, "pi/2", "pi/2", 0,   0,    "q3"],
-]
-[loops]
-columns = ["loop", "frame", "meets", "joint"]
-rows = [["pin", "tip", "3", "position"]]
-[home]
-q1 = "pi/2"
-q2 = -1.86
-q3 = 0.33
-"""
 
-
-@pytest.mark.parametrize("name", LOOPS)
+@pytest.mark.parametrize("name", kinds_first(LOOPS))
 def test_the_motors_power_is_what_the_energy_gains(name):
     """Central differences at two sampling times: their error falls with the square."""
     source = without_effects(name)
@@ -78,7 +53,7 @@ def test_the_motors_power_is_what_the_energy_gains(name):
     assert errors[1] < 1e-3 and errors[1] < 0.3 * errors[0]
 
 
-@pytest.mark.parametrize("name", LOOPS)
+@pytest.mark.parametrize("name", kinds_first(LOOPS))
 def test_loops_stay_closed_and_rates_are_those_of_the_positions(name):
     source, rate = read_robot(name), 2000.0
     truth = simulate(source, dataclasses.replace(IDEAL, rate=rate, duration=1.0)).truth
@@ -93,7 +68,7 @@ def test_loops_stay_closed_and_rates_are_those_of_the_positions(name):
         assert np.abs(difference - high[1:-1]).max() < 0.01 * np.abs(high).max()
 
 
-@pytest.mark.parametrize("name", LOOPS)
+@pytest.mark.parametrize("name", kinds_first(LOOPS))
 @pytest.mark.parametrize("motion", ["exciting", "point-to-point"])
 def test_the_limits_are_kept(name, motion):
     source = read_robot(name)
@@ -144,7 +119,7 @@ def test_multipliers_agree_with_a_least_squares_solution(name):
         np.testing.assert_allclose(found[: len(S.T)], tau[i], atol=1e-8)
 
 
-@pytest.mark.parametrize("name", RELATIONS)
+@pytest.mark.parametrize("name", kinds_first(RELATIONS))
 def test_relations_are_kept_by_the_controlled_robot(name):
     """Torques as the model's wherever no joint creeps; joints without motor swing."""
     source = read_robot(name)
@@ -166,7 +141,7 @@ def test_relations_are_kept_by_the_controlled_robot(name):
     assert error.max() < 1e-9 * np.abs(truth.tau).max()
 
 
-@pytest.mark.parametrize("name", RELATIONS)
+@pytest.mark.parametrize("name", kinds_first(RELATIONS))
 def test_energy_of_robots_with_relations(name):
     """The motors' work over each tick, with held torques, is what T + U gains."""
     source = without_effects(name)

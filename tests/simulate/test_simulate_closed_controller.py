@@ -20,14 +20,9 @@ from modeler.simulation import (
 )
 from modeler.simulation.closing import constraints_of, followed, rates, sampled
 from modeler.simulation.plant import build_plant, inner_states, tick_function
-from tests.robots import TIED
+from tests.robots import TIED, kinds_first
 
-QUICK = ("five-bar", "sr400", "orthoglide-2003")
-LOOPS = [
-    name if name in QUICK else pytest.param(name, marks=pytest.mark.slow)
-    for name in TIED
-    if read_robot(name).loops
-]
+LOOPS = kinds_first(name for name in TIED if read_robot(name).loops)
 DRIVEN = SimulationSettings(
     duration=1.5, rate=1000, encoder_counts=0, linear_resolution=0, torque_noise=0, controller=True
 )
@@ -89,7 +84,7 @@ def test_loops_stay_closed(name: str) -> None:
     np.testing.assert_allclose(again, v, atol=1e-8)
 
 
-@pytest.mark.parametrize("name", ["five-bar", "sr400"])
+@pytest.mark.parametrize("name", ["five-bar", pytest.param("sr400", marks=pytest.mark.slow)])
 def test_a_stiffer_controller_keeps_nearer_to_the_command(name: str) -> None:
     errors = []
     for bandwidth in (4.0, 8.0, 16.0):

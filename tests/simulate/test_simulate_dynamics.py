@@ -45,8 +45,7 @@ def column(function, *arguments) -> np.ndarray:
 @pytest.mark.parametrize(
     "text", [ARM, SIX, TREE, BACKWARDS], ids=["arm", "six", "tree", "backwards"]
 )
-@pytest.mark.parametrize("seed", [0, 1, 2])
-def test_forward_dynamics_agree_with_pinocchio(text, seed):
+def test_forward_dynamics_agree_with_pinocchio(text, seed=0):
     source = robot(text)
     plant, parameters = plant_of(source, seed)
     friction = friction_of(source, seed)
@@ -114,15 +113,6 @@ def test_pendulum_is_that_of_the_textbook():
 
 
 NO_PRODUCTS = "XX1 = 0.1\nXY1 = 0\nXZ1 = 0\nYY1 = 0.95\nYZ1 = 0\nZZ1 = 0.9\nMY1 = 0\nMZ1 = 0\n"
-
-
-def test_a_pendulum_that_turns_against_z_is_that_of_the_textbook():
-    """The mass centre is at height -c sin q."""
-    text = PENDULUM.replace('"q1"', '"-q1"')
-    plant, _ = plant_of(robot(text, parameters=NO_PRODUCTS + "MX1 = 1.2\nM1 = 2"))
-    for q, qd, qdd in ((0.3, 1.1, -2.0), (-2.0, -0.4, 0.7)):
-        expected = 0.9 * qdd - 9.81 * 1.2 * np.cos(q)
-        assert float(plant.torque(q, qd, qdd, [])) == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize(("cell", "sign"), [("q1", 1), ("-q1", -1)])

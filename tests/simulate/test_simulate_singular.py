@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from simulated_robots import CRANK
 
 from modeler.cli import main
 from modeler.robot.read import read_robot, robot_from_text
@@ -14,7 +15,7 @@ from modeler.robot.robot import Robot
 from modeler.simulation import SimulationSettings, simulate
 from tests.further_robots import FurtherRobots
 from tests.loops.table_kinematics import Table
-from tests.robots import TIED
+from tests.robots import TIED, kinds_first
 
 SHARE = 0.45
 """Of home's distance; less than what is promised by what two ways to write a loop differ."""
@@ -23,29 +24,9 @@ LOOPS = [name for name in TIED if read_robot(name).loops]
 STEPS, EVERY = 10, 40
 
 # The rod is hardly longer than the crank: the slider goes mad where the crank stands upright.
-STEEP = """
-name = "steep"
-gravity = [0, "-g", 0]
-[symbols]
-g = 9.81
-R = 0.10
-L = 0.1001
-[mdh]
-columns = ["j", "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
-rows = [
-  ["1",   "0", 1, 0, 0,      0,      0,   "q1", 0],
-  ["2",   "1", 0, 0, 0,      0,      "R", "q2", 0],
-  ["tip", "2", 0, 2, 0,      0,      "L", 0,    0],
-  ["3",   "0", 0, 1, "pi/2", "pi/2", 0,   0,    "q3"],
-]
-[loops]
-columns = ["loop", "frame", "meets", "joint"]
-rows = [["pin", "tip", "3", "position"]]
-[home]
-q1 = 1.25
-q2 = -2.496
-q3 = 0.063
-"""
+STEEP = CRANK.replace("L = 0.35", "L = 0.1001")
+for old, new in (('"pi/2"\nq2 = -1.86', "1.25\nq2 = -2.496"), ("q3 = 0.33", "q3 = 0.063")):
+    STEEP = STEEP.replace(old, new)
 
 
 def closed_home(table: Table) -> np.ndarray:
@@ -68,17 +49,14 @@ def least_share(robot: Robot, q: np.ndarray) -> float:
     return float(least[1:].min() / least[0])
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("name", LOOPS)
-def test_half_of_homes_distance_is_kept(name: str, seed: int) -> None:
+@pytest.mark.parametrize("name", kinds_first(LOOPS))
+def test_half_of_homes_distance_is_kept(name: str) -> None:
     robot = read_robot(name)
-    log = simulate(robot, SimulationSettings(duration=20.0, rate=50.0, seed=seed))
+    log = simulate(robot, SimulationSettings(duration=20.0, rate=50.0, seed=1))
     assert least_share(robot, log.truth.q) > SHARE
 
 
-@pytest.mark.parametrize(
-    "file", ["3rpr_passive", "3rpr_sim", "excavator_sim", "offset_parallelogram", "rccc_wide"]
-)
+@pytest.mark.parametrize("file", ["3rpr_passive", "offset_parallelogram", "rccc_wide"])
 def test_on_robots_from_elsewhere(file: str, loop_robots_folder: FurtherRobots) -> None:
     robot = read_robot(str(loop_robots_folder / f"{file}.toml"))
     log = simulate(robot, SimulationSettings(duration=8.0, rate=50.0, seed=2))

@@ -6,8 +6,10 @@ from modeler.core.builtin import builtin_text
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.model import SymbolicModel
+from modeler.derivation.result import BaseParameters
 from modeler.formulas.coefficients import CoefficientTable, coefficient_table
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.read import robot_from_text
+from tests.modules import module
 
 HEAD = 'name = "{name}"\ntitle = "{name}"\ngravity = {gravity}\n[symbols]\n{symbols}\n[mdh]\n'
 COLUMNS = 'columns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]\nrows = [\n'
@@ -84,12 +86,17 @@ SMALL = (*TEXTS, "two-link", "scara", "wrist", "emps", "demo-arm", "orthoglide-l
 @cache
 def model_of(name: str) -> SymbolicModel:
     text = {**TEXTS, **TIED}.get(name)
-    return derive_model(robot_from_text(text, name) if text else read_robot(name))
+    return derive_model(robot_from_text(text, name)) if text else module(name).model
+
+
+@cache
+def base_of(name: str) -> BaseParameters:
+    return base_parameters(model_of(name)) if name in {**TEXTS, **TIED} else module(name).base
 
 
 @cache
 def table_of(name: str) -> CoefficientTable:
-    return coefficient_table(model_of(name), base_parameters(model_of(name)))
+    return coefficient_table(model_of(name), base_of(name))
 
 
 def edited_wrist(*edits: tuple[str, str]) -> SymbolicModel:

@@ -4,11 +4,10 @@ from functools import cache
 
 import numpy as np
 
-from modeler.derivation.base_parameters import base_parameters
 from modeler.formulas.physical_system import PhysicalSystem, physical_system
 from modeler.formulas.printed import read_print
 from modeler.formulas.values import SolvedNumbers
-from tests.terms.cases import model_of
+from tests.terms.cases import base_of, model_of
 
 SEVEN = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33")
 """What Hanssen, Hovland and Brogardh take as known."""
@@ -16,8 +15,7 @@ SEVEN = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33")
 
 @cache
 def system_of(name: str, source: str | None = None) -> PhysicalSystem:
-    model = model_of(name)
-    return physical_system(model, base_parameters(model), source)
+    return physical_system(model_of(name), base_of(name), source)
 
 
 def example() -> dict[str, float]:

@@ -10,9 +10,10 @@ import numpy as np
 from modeler.api import compile_model, derive, generate, load
 from modeler.codegen.workflow import Derivation
 from modeler.formulas.closed_form import function_name
-from modeler.robot.read import robot_from_text
 from modeler.runtime.model import CompiledModel
-from tests.terms.cases import TEXTS, TIED
+from tests import modules
+from tests.robots import ROBOTS
+from tests.terms.cases import base_of, model_of
 
 SAMPLES = 5
 FUNCTIONS = {"sin": sin, "cos": cos, "sqrt": sqrt, "pi": pi, "sign": np.sign, "abs": abs}
@@ -21,12 +22,15 @@ FUNCTIONS = {"sin": sin, "cos": cos, "sqrt": sqrt, "pi": pi, "sign": np.sign, "a
 @cache
 def derived(name: str | Path) -> Derivation:
     """A robot of `cases`, or built in, or of a file."""
-    text = {**TEXTS, **TIED}.get(str(name))
-    return derive(robot_from_text(text, str(name)) if text else load(name))
+    if isinstance(name, Path):
+        return derive(load(name))
+    return Derivation(model_of(name).robot, model_of(name), base_of(name))
 
 
 @cache
 def compiled(name: str | Path) -> CompiledModel:
+    if name in ROBOTS:
+        return modules.compiled(str(name))
     return compile_model(generate(derived(name)))
 
 

@@ -55,20 +55,6 @@ def test_seven_never_suffice():
     assert (found.count, found.possible, found.smallest) == (0, 480700, 8)
 
 
-def test_the_best_class_is_a_product():
-    """{am, bm, cm, bl1} x {at2 | bt2} x {bt1 | ct1} x 11 pairs of inertias."""
-    own = ("aJ11", "bJ11", "bJ22", "bJ33", "cJ22", "cJ33")
-    never = {("aJ11", "bJ11"), ("bJ22", "cJ22"), ("bJ22", "cJ33"), ("cJ22", "cJ33")}
-    pairs = [pair for pair in combinations(own, 2) if pair not in never]
-    expected = {
-        frozenset(("am", "bm", "cm", "bl1", a, b, *pair))
-        for a in ("at2", "bt2") for b in ("bt1", "ct1") for pair in pairs
-    }  # fmt: skip
-    easiest = known_sets(system_of("wrist")).easiest
-    assert len(easiest) == 44 and {frozenset(s) for s in easiest} == expected
-    assert easiest_set(system_of("wrist")) in easiest
-
-
 def class_of(system, members):
     """(masses, lengths and rotor inertias, centres, inertias) of a set."""
     eases = [EASE[system.kinds[x]] for x in members]
@@ -94,7 +80,7 @@ def test_counts_by_brute_force(name, size):
             assert set(found.easiest) == set(members)
 
 
-@pytest.mark.parametrize("name", ["two-link", "scara", "puma560", "rx90", "orthoglide-2003"])
+@pytest.mark.parametrize("name", ["scara", "puma560", "orthoglide-2003"])
 def test_the_easiest_set_suffices_and_is_smallest(name):
     system, known = system_of(name), set(easiest_set(system_of(name)))
     J = jacobian(system)

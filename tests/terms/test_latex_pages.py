@@ -64,11 +64,9 @@ def check_log(log: str) -> None:
 @pytest.mark.parametrize(
     "words",
     [
-        ("wrist", *ALL_FORMS),
         ("wrist", "--closed-form", "--terms", "--expanded", "--document"),
         ("orthoglide-2003", "--closed-form", "--regressor"),
-        ("stewart", "--document"),
-        ("every", *ALL_FORMS),
+        pytest.param(("stewart", "--document"), marks=pytest.mark.slow),
         ("every", *ALL_FORMS, "--document"),
     ],
     ids="".join,
@@ -100,7 +98,7 @@ def equations(page: str) -> list[tuple[str, str]]:
     return [tuple(line.split(" ={}& ")) for line in lines]
 
 
-@pytest.mark.parametrize("name", ["puma560", "orthoglide-2003", "every"])
+@pytest.mark.parametrize("name", ["orthoglide-2003", "every"])
 @pytest.mark.parametrize("form", [short_form, regressor_form])
 def test_latex_has_the_values_of_the_text(every, name, form) -> None:
     """Both are evaluated line after line; names of LaTeX stay apart."""

@@ -9,17 +9,17 @@ import pytest
 from modeler.formulas.solve import determined, solution_lines, solve
 from modeler.formulas.sufficient_sets import smallest_number
 from modeler.formulas.values import derive_values
-from tests.robots import ROBOTS
+from tests.robots import ROBOTS, kinds_first
 from tests.terms.cases import model_of
 from tests.terms.physical_cases import SEVEN, data_of, random_letters, system_of
 
 EVERY = ("two-link", "emps")
 """Robots of which all smallest sets are tried."""
-SAMPLED = {"wrist": 5, "scara": 4, "odrive": 6, "five-bar": 4, "3rrr": 2}
+SAMPLED = {"wrist": 3, "scara": 2, "odrive": 2, "five-bar": 2, "3rrr": 1}
 """Of these some, by chance."""
 DONE = {*EVERY, *SAMPLED, "evra", "stewart"}
 """The last two take 30 s, and have no quotient of another kind than the others."""
-ROOTS = [("wrist", (*SEVEN, x)) for x in ("bJ11", "bJ22", "aJ11")]
+ROOTS = [("wrist", (*SEVEN, x)) for x in ("bJ11", "aJ11")]
 
 
 def sets_of(name: str) -> list[tuple[str, ...]]:
@@ -71,7 +71,7 @@ def test_printed_python_of_roots(name, known):
     assert check(name, known) >= 1
 
 
-@pytest.mark.parametrize("name", [name for name in ROBOTS if name not in DONE])
+@pytest.mark.parametrize("name", kinds_first(sorted({*ROBOTS} - DONE)))
 def test_printed_python_with_masses_and_centres_known(name):
     system = system_of(name)
     check(name, tuple(x for x in system.letters if system.kinds[x] in ("mass", "centre")))

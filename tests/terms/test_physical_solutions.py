@@ -1,7 +1,6 @@
 """Physical parameters in closed form: against the paper, against numbers, and what is refused."""
 
 import dataclasses
-import random
 
 import numpy as np
 import pytest
@@ -71,7 +70,7 @@ def test_formulas_are_those_of_the_paper():
         assert sympy.cancel(value - theirs) == 0, letter
 
 
-@pytest.mark.parametrize("eighth", ["bJ11", "bJ22", "aJ11"])
+@pytest.mark.parametrize("eighth", ["bJ11", "aJ11"])
 def test_cm_as_the_root_of_a_cubic(eighth):
     solution = solve(system_of("wrist"), (*SEVEN, eighth))
     (step,) = [step for step in solution.steps if step.equation is not None]
@@ -95,18 +94,6 @@ def test_what_does_not_help_is_told(eighth):
         assert len(determined(system_of("wrist"), (*SEVEN, eighth, more))[0]) == 16, more
 
 
-def test_random_sufficient_sets_all_have_formulas():
-    system, chance, done = system_of("wrist"), random.Random(11), 0
-    while done < 8:
-        known = chance.sample(system.letters, 8)
-        if len(determined(system, known)[0]) < 17:
-            continue
-        done += 1
-        solution = solve(system, known)
-        assert len(solution.steps) == 17 and not solution.without_formula, known
-        assert verify(solution, 4) == 4, known
-
-
 def test_a_wrong_formula_is_not_verified():
     solution = solve(system_of("wrist"), (*SEVEN, "cm"))
     for k, step in enumerate(solution.steps):
@@ -123,8 +110,7 @@ def test_a_quotient_of_zeros_is_not_verified():
     assert verify(dataclasses.replace(solution, steps=steps)) == 0
 
 
-@pytest.mark.parametrize("name", ["two-link", "scara", "odd", "puma560", "rx90", "3rrr", "sr400",
-                                  "orthoglide-2003", "emps"])  # fmt: skip
+@pytest.mark.parametrize("name", ["two-link", "odd", "puma560", "3rrr", "orthoglide-2003"])
 def test_masses_and_centres_known_on_other_robots(name):
     """Inertias follow, or their groups are told to be short of some; every formula is exact."""
     system = system_of(name)
@@ -139,7 +125,7 @@ def test_masses_and_centres_known_on_other_robots(name):
         assert more[1] == rank
 
 
-@pytest.mark.parametrize("name", ["wrist", "puma560", "odd", "3rrr", "scara"])
+@pytest.mark.parametrize("name", ["wrist", "odd", "3rrr"])
 def test_determined_as_the_null_space_says(name):
     """In floating point: x follows if every vector of the kernel is zero at x."""
     system, rng = system_of(name), np.random.default_rng(5)
@@ -167,10 +153,6 @@ def test_two_links_as_in_a_textbook():
         "Izz2 = ZZ2 - m2*(cx2**2 + cy2**2)",
         "Izz1 = ZZ1R - m1*(cx1**2 + cy1**2) - m2*L1**2",
     }
-
-
-def test_a_sliding_axis_tells_its_mass():
-    assert solution_lines(solve(system_of("emps"), ())) == ["m1 = M1"]
 
 
 def test_rotor_inertias_are_parameters():

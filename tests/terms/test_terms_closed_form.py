@@ -56,14 +56,6 @@ def test_torque_of_the_closed_form_is_that_of_newton_and_euler(name):
         assert np.allclose(found, expected, rtol=1e-11, atol=1e-11 * np.abs(expected).max())
 
 
-def test_puma_has_a_closed_form():
-    model = model_of("puma560")
-    closed, chi = closed_form(model), random_parameters(model)
-    q, qd, qdd = random_state(6, 1)
-    expected = graph_torque(model, q, qd, qdd, chi)
-    assert np.allclose(evaluate(closed, q, chi).torque(qd, qdd), expected, rtol=1e-10)
-
-
 @pytest.mark.parametrize("name", ["wrist", "general3", "odd", "scara"])
 def test_base_parameters_give_the_same_torque(name):
     model = model_of(name)
@@ -93,21 +85,6 @@ def test_power_of_the_velocity_torques_is_half_the_growth_of_the_inertia(name):
     assert power == pytest.approx((energies[0] - energies[1]) / 2e-6, rel=1e-7, abs=1e-8)
 
 
-def test_gravity_is_the_slope_of_one_potential():
-    model = model_of("odd")
-    closed, chi = closed_form(model), random_parameters(model)
-    q = [0.3, -0.2, 1.1]
-
-    def slope(i: int, k: int) -> float:
-        """dg_i / dq_k."""
-        ends = [[x + s * 1e-6 * (n == k) for n, x in enumerate(q)] for s in (1, -1)]
-        high, low = (evaluate(closed, end, chi).gravity.get(i, 0.0) for end in ends)
-        return (high - low) / 2e-6
-
-    for i, k in ((0, 1), (0, 2), (1, 2)):
-        assert slope(i, k) == pytest.approx(slope(k, i), rel=1e-6, abs=1e-7)
-
-
 def as_sympy(closed: ClosedForm, name: str) -> sympy.Expr:
     """A function as a sympy expression of s, c, parameters: for an independent recount."""
     function = closed.by_name[name]
@@ -126,8 +103,8 @@ def monomials(expression: sympy.Expr, motion: list[sympy.Symbol]) -> int:
 
 @pytest.mark.parametrize(
     ("robot", "name"),
-    [("general3", name) for name in ("J11", "J12", "J22", "S112", "S113", "S213")]
-    + [("orthoglide-leg-tree", name) for name in ("J22", "J33", "S223")]
+    [("general3", name) for name in ("J12", "J22", "S213")]
+    + [("orthoglide-leg-tree", name) for name in ("J22", "S223")]
     + [("two-link", "J11")],
 )
 def test_no_choice_of_squares_has_fewer_monomials(robot, name):
@@ -143,15 +120,6 @@ def test_no_choice_of_squares_has_fewer_monomials(robot, name):
             reduced = sympy.expand(reduced.subs(old**2, 1 - new**2))
         counts.append(monomials(reduced, motion))
     assert len(closed.by_name[name].terms) == min(counts)
-
-
-def test_free_choice_needs_no_more_monomials_than_the_paper():
-    paper = closed_form(edited_wrist())
-    free = closed_form(edited_wrist(('keep_sine_squares = ["J11", "J12"]', "")))
-    assert {f.name for f in free.functions} == {f.name for f in paper.functions}
-    for function in free.functions:
-        assert len(function.terms) <= len(paper.by_name[function.name].terms)
-    assert free.monomials < paper.monomials
 
 
 def test_cosine_squares_everywhere_give_the_canonical_count():

@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from modeler.api import load
-from modeler.derivation.derive import derive_model
 from modeler.formulas.function_sheet import sheet_lines
 from modeler.formulas.regressor_form import regressor_form, short_form
+from tests.terms.cases import model_of
 from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines
 from tests.terms.test_terms_regressor_form import printed_columns
 from tests.terms.test_terms_whole_torque import check
@@ -22,6 +21,7 @@ def motor_states(name):
         yield (home + rng.uniform(-0.03, 0.03, len(home)), *rng.uniform(-1, 1, (2, len(home))))
 
 
+@pytest.mark.slow
 def test_a_block_of_four_equations(loop_robots_folder):
     check(loop_robots_folder / "rccc.toml")
 
@@ -71,7 +71,14 @@ def test_spheres_are_those_of_the_paper():
         assert found[f"fp{k}"] == pytest.approx(eval(text, {}, values), abs=1e-12)
 
 
-@pytest.mark.parametrize("name", ["orthoglide-2003", "delta", "3rrr", "stewart"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "orthoglide-2003",
+        "3rrr",
+        *(pytest.param(n, marks=pytest.mark.slow) for n in ("delta", "stewart")),
+    ],
+)
 def test_spheres_vanish_where_the_loops_are_closed(name):
     derivation, model = derived(name), compiled(name)
     none = replace(derivation.base, parameters=())
@@ -87,7 +94,7 @@ def test_spheres_vanish_where_the_loops_are_closed(name):
 
 def test_six_motors_leave_the_inverse_of_k_to_a_solver():
     """J_t = L K^-1 of a Stewart platform, L and K printed, against the closure's Jacobian."""
-    model = derive_model(load("stewart"))
+    model = model_of("stewart")
     none = replace(derived("five-bar").base, parameters=())
     form = short_form(model, none)
     assert any("F J_t = 0" in line for line in form.loops)

@@ -9,7 +9,7 @@ from modeler.formulas.function_sheet import sheet_latex, sheet_lines, sheet_mark
 from modeler.formulas.regressor_form import regressor_form
 from tests.terms.printed_lines import SAMPLES, compiled, derived, known, run_lines
 
-ROBOTS = ["two-link", "puma560", "odd", "geared", "orthoglide-leg", "sr400"]
+ROBOTS = ["puma560", "odd", "geared", "sr400"]
 
 
 def printed_columns(derivation, found) -> np.ndarray:

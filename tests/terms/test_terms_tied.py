@@ -1,6 +1,5 @@
 """Expanded forms and coefficients of robots whose joints follow others, and their motions."""
 
-import random
 from fractions import Fraction
 from typing import Any
 
@@ -10,7 +9,6 @@ from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
-from modeler.derivation.field import value_modulo
 from modeler.formulas.closed_form import closed_form
 from modeler.formulas.coefficients import independent_coefficients
 from modeler.formulas.ring import base_map, motions_of
@@ -46,19 +44,6 @@ def test_a_leg_has_34_coefficients_of_rank_12():
     assert len(table.known_geometry) == len(table.map.columns) == 12 and table.map.determinant
     assert [c.monomial for c in table.coefficients if c.function == "g3"] == ["s3", "c3"]
     assert "m5" not in table.physical.letters  # link 5 has no body
-
-
-def test_combinations_of_a_tied_robot_hold_at_a_random_point():
-    table = table_of("orthoglide-leg")
-    chance = random.Random(4)
-    prime = 2**31 - 1
-    point = [chance.randrange(1, prime) for _ in table.physical.names]
-    values = {c.name: value_modulo(c.physical, point, prime) for c in table.coefficients}
-    for key, combination in table.relations.combinations.items():
-        total = sum(
-            v.numerator * pow(v.denominator, -1, prime) * values[k] for k, v in combination.items()
-        )
-        assert (values[key] - total) % prime == 0, key
 
 
 def test_motions_of_gears_screws_and_sums():

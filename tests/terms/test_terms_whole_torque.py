@@ -11,7 +11,7 @@ import pytest
 
 from modeler.formulas.function_sheet import sheet_lines
 from modeler.formulas.regressor_form import equation_of
-from tests.robots import ROBOTS
+from tests.robots import ROBOTS, kinds_first
 from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines, torque
 
 SAMPLES = 3
@@ -29,11 +29,33 @@ def states(derivation):
             yield np.array([q, *rng.uniform(-1, 1, (2, len(home)))])
 
 
+def monomials(node: ast.expr, sign: int = 1) -> list[tuple[int, tuple[str, ...]]]:
+    """Terms of a printed sum, a product with one bracket multiplied out: (sign, factors)."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
+        other = sign if isinstance(node.op, ast.Add) else -sign
+        return monomials(node.left, sign) + monomials(node.right, other)
+    if isinstance(node, ast.UnaryOp):
+        return monomials(node.operand, -sign)
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+        left, right = monomials(node.left, sign), monomials(node.right)
+        if len(left) == 1 or len(right) == 1:
+            return [(a * b, tuple(sorted(f + g))) for a, f in left for b, g in right]
+    return [(sign, (ast.unparse(node),))]
+
+
 def check(name) -> None:
+    """The torque; and nothing cancels within a sum.
+
+    S315 of a PUMA was ... + MX5c*(k34 + k51) - MX5c*(k34 - k51): 2*MX5c*k51.
+    """
     derivation, model = derived(name), compiled(name)
     text = derivation.closed_form().text
     lines, names = text.splitlines(), [j.name for j in derivation.model.robot.free]
     chain = "S_kij = -S_jik" in text
+    for statement in ast.parse(text).body:
+        terms = monomials(statement.value)
+        gone = {f for sign, f in terms if sign > 0} & {f for sign, f in terms if sign < 0}
+        assert not gone, ast.unparse(statement)
     rng = np.random.default_rng(5)
     for q, qd, qdd in states(derivation):
         beta, s = rng.normal(size=derivation.base.rank), rng.uniform(0.2, 0.8, 3)
@@ -54,22 +76,23 @@ def check(name) -> None:
         assert np.max(np.abs(tau - expected)) < 1e-12 * np.max(np.abs(expected))
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", kinds_first(ROBOTS))
 def test_printed_lines_are_the_whole_torque_of_the_c(name):
     check(name)
 
 
-@pytest.mark.parametrize("name", ["odd", "geared"])
+@pytest.mark.parametrize("name", ["odd", "geared", "puma560"])
 def test_printed_lines_of_awkward_robots(name):
     check(name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", ["offset_parallelogram.toml", "twoloops.toml"])
 def test_printed_lines_of_further_robots(loop_robots_folder, file):
     check(loop_robots_folder / file)
 
 
-@pytest.mark.parametrize("name", ["two-link", "puma560", "sr400", "orthoglide-2003", "dvrk-psm"])
+@pytest.mark.parametrize("name", ["puma560", "sr400", "orthoglide-2003"])
 def test_a_document_of_both_has_one_thing_under_each_name(name):
     """The torque and the columns on one sheet: names are given once, and before they are read."""
     derivation = derived(name)
@@ -83,26 +106,3 @@ def test_a_document_of_both_has_one_thing_under_each_name(name):
     read = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
     assert not set(names) & set(values)
     assert {d.name for d in found.sheet.definitions if not d.result} <= read
-
-
-def monomials(node: ast.expr, sign: int = 1) -> list[tuple[int, tuple[str, ...]]]:
-    """Terms of a printed sum, a product with one bracket multiplied out: (sign, factors)."""
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
-        other = sign if isinstance(node.op, ast.Add) else -sign
-        return monomials(node.left, sign) + monomials(node.right, other)
-    if isinstance(node, ast.UnaryOp):
-        return monomials(node.operand, -sign)
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
-        left, right = monomials(node.left, sign), monomials(node.right)
-        if len(left) == 1 or len(right) == 1:
-            return [(a * b, tuple(sorted(f + g))) for a, f in left for b, g in right]
-    return [(sign, (ast.unparse(node),))]
-
-
-@pytest.mark.parametrize("name", ROBOTS)
-def test_nothing_cancels_within_a_printed_sum(name):
-    """S315 of a PUMA was ... + MX5c*(k34 + k51) - MX5c*(k34 - k51): 2*MX5c*k51."""
-    for statement in ast.parse(derived(name).closed_form().text).body:
-        terms = monomials(statement.value)
-        gone = {f for s, f in terms if s > 0} & {f for s, f in terms if s < 0}
-        assert not gone, ast.unparse(statement)

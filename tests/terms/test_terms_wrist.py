@@ -1,6 +1,5 @@
 """The wrist's coefficients against an independent derivation (tests/reference)."""
 
-from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -140,36 +139,3 @@ def test_grouped_parameters_are_khalils(table):
     for name, text in expected.items():
         same = {s: sympy.Symbol(s.name) for s in found[name].free_symbols}
         assert sympy.expand(found[name].subs(same) - sympy.sympify(text)) == 0
-
-
-def test_identities_of_the_christoffel_coefficients(table):
-    """S211 = -S112/2, S311 = -S113/2, S213 = -S312, S223 = -2 S322, monomial by monomial."""
-    name_at = {(c.function, c.exponents): c.name for c in table.coefficients}
-    for one, other, factor in (
-        ("S211", "S112", Fraction(-1, 2)),
-        ("S311", "S113", Fraction(-1, 2)),
-        ("S213", "S312", Fraction(-1)),
-        ("S223", "S322", Fraction(-2)),
-    ):
-        first, second = table.closed.by_name[one].terms, table.closed.by_name[other].terms
-        assert first.keys() == second.keys()
-        for at in first:
-            a = table.relations.combinations[name_at[one, at]]
-            b = table.relations.combinations[name_at[other, at]]
-            assert a == {name: value * factor for name, value in b.items()}
-
-
-def test_base_form_is_the_standard_form(table):
-    """The coefficient in base parameters, their definitions put in, is that in standard ones."""
-    parameters = table.base.parameters
-    algebra = table.closed.algebra
-    for coefficient in table.coefficients:
-        total = sympy.Integer(0)
-        for k, factor in coefficient.base.items():
-            for term in parameters[k].terms:
-                total += factor.as_expr() * term.coefficient * sympy.Symbol(term.parameter)
-        for column, factor in coefficient.standard.items():
-            total -= factor.as_expr() * sympy.Symbol(table.closed.parameters[column])
-        plain = {s: sympy.Symbol(s.name) for s in total.free_symbols}
-        assert sympy.expand(total.subs(plain)) == 0, coefficient.name
-    assert algebra.names[algebra.moving :] == ("g", "al1", "bl1")
