@@ -9,8 +9,8 @@ from pathlib import Path
 
 from benchmarks.line import Key, Line, Missing
 from benchmarks.robots import ROBOTS, emitted
-from modeler.codegen.package import write_emitted
-from modeler.runtime.build import find_toolchain
+from modeler.codegen import write_emitted
+from modeler.runtime import find_toolchain
 
 MUST = {"wrist": None, "puma560": 1300.0, "panda": 1900.0}
 AIM = {"wrist": None, "puma560": 1150.0, "panda": 1700.0}

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from benchmarks.line import Key, Line, Missing
 from benchmarks.robots import lossy
-from modeler.codegen.workflow import derive, generate
+from modeler.codegen import derive, generate
 
 ROBOTS = {"puma560": (4600.0, 4300.0), "panda": (7400.0, 7000.0)}
 COMPILER = "arm-none-eabi-gcc"

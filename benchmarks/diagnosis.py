@@ -17,13 +17,9 @@ from pathlib import Path
 from typing import Any
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.diagnosis.add import add_effect
-from modeler.diagnosis.added_model import Logs
-from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.state import analysed
-from modeler.observation.log import Log
-from modeler.observation.read import read_log
-from modeler.robot.read import robot_from_text
+from modeler.diagnosis import Logs, add_effect, analysed, diagnose
+from modeler.observation import Log, read_log
+from modeler.robot import robot_from_text
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
 
 EFFECT, JOINT = "load_friction", "2"

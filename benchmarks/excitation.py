@@ -16,12 +16,16 @@ from scipy.optimize import differential_evolution, minimize
 
 from modeler.api import compile_model, derive, generate
 from modeler.cli.motion import bounds_of
-from modeler.excitation.criterion import condition
-from modeler.excitation.search import Wish, excite, random_motion, task_of, usual_harmonics
-from modeler.excitation.task import Task
-from modeler.robot.edit import with_effects
-from modeler.robot.read import read_robot, robot_from_text
-from modeler.robot.robot import Robot
+from modeler.excitation import (
+    Task,
+    Wish,
+    condition,
+    excite,
+    random_motion,
+    task_of,
+    usual_harmonics,
+)
+from modeler.robot import Robot, read_robot, robot_from_text, with_effects
 
 ROBOTS = ("scara", "ur10e", "tx40", "panda")
 PATIENCE = 4.0

@@ -10,8 +10,8 @@ from pathlib import Path
 from benchmarks.line import Line, Missing, ratio
 from benchmarks.regressor import HERE
 from benchmarks.robots import emitted
-from modeler.codegen.package import write_emitted
-from modeler.runtime.build import find_toolchain
+from modeler.codegen import write_emitted
+from modeler.runtime import find_toolchain
 
 ROBOT = "puma560"
 _ROUNDS, _FEW = 200, 40

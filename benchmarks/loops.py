@@ -10,10 +10,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from benchmarks.line import Key, Line
-from modeler.codegen.workflow import derive, generate
-from modeler.codegen.workflow import load as robot
-from modeler.derivation.numeric_rank import random_states
-from modeler.runtime.model import CompiledModel, load
+from modeler.codegen import derive, generate, load as robot
+from modeler.derivation import random_states
+from modeler.runtime import CompiledModel, load
 
 ROBOTS = (
     "sr400", "dvrk-psm", "five-bar", "3rrr", "delta", "orthoglide-2003", "orthoglide-2012",

@@ -12,7 +12,7 @@ import numpy as np
 
 from benchmarks.line import Key, Line
 from benchmarks.robots import compiled
-from modeler.runtime.build import find_toolchain
+from modeler.runtime import find_toolchain
 
 ROBOTS = ("puma560", "panda")
 SAMPLES, _FEW_SAMPLES = 1_000_000, 100_000

@@ -12,8 +12,8 @@ from pathlib import Path
 from benchmarks.line import Key, Line, Missing, ratio
 from benchmarks.peers import pinocchio
 from benchmarks.robots import ROBOTS, emitted, lossy
-from modeler.codegen.package import write_emitted
-from modeler.runtime.build import find_toolchain
+from modeler.codegen import write_emitted
+from modeler.runtime import find_toolchain
 
 HERE = Path(__file__).resolve().parent
 _ROUNDS, _FEW = 400, 40

@@ -3,11 +3,10 @@
 import dataclasses
 import functools
 
-from modeler.codegen.workflow import derive, generate
+from modeler.codegen import derive, generate
 from modeler.core.manifest import Emitted
-from modeler.robot.read import read_robot
-from modeler.robot.robot import EffectUse, Robot
-from modeler.runtime.model import CompiledModel, load
+from modeler.robot import EffectUse, Robot, read_robot
+from modeler.runtime import CompiledModel, load
 
 ROBOTS = ("wrist", "puma560", "panda")
 EFFECTS = ("rotor_inertia", "viscous", "coulomb")

@@ -6,12 +6,11 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 
 from docsite.markdown import block, cell, code, table
-from modeler.codegen.workflow import Derivation, derive, generate
+from modeler.codegen import Derivation, derive, generate
 from modeler.core.builtin import builtin_names, builtin_text
-from modeler.derivation.relations import as_markdown
-from modeler.report.robot_drawing import picture_bytes
-from modeler.report.robot_page import show
-from modeler.robot.read import read_robot
+from modeler.derivation import as_markdown
+from modeler.report import picture_bytes, show
+from modeler.robot import read_robot
 
 
 @dataclass(frozen=True)

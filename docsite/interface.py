@@ -3,9 +3,6 @@
 import importlib
 import importlib.util
 import inspect
-from collections.abc import Iterator
-from types import ModuleType
-from typing import Any
 
 STAGES = (
     "robot", "derivation", "formulas", "codegen", "runtime", "observation", "estimation",
@@ -28,26 +25,14 @@ def _stages() -> list[str]:
 
 
 def exported(module_name: str) -> list[tuple[str, str]]:
-    """(name, where it is defined) of the functions and classes that a module hands on."""
+    """(name, where it is defined) of the functions and classes that a room offers."""
     module = importlib.import_module(module_name)
-    entries = f"{module_name}.entries"  # of stages that are loaded when they are needed
-    if hasattr(module, "__path__") and importlib.util.find_spec(entries) is not None:
-        module = importlib.import_module(entries)
-    return [(name, f"{found.__module__}.{found.__qualname__}") for name, found in _public(module)]
-
-
-def _public(module: ModuleType) -> Iterator[tuple[str, Any]]:
-    for name, found in vars(module).items():
-        ours = str(getattr(found, "__module__", "")).startswith("modeler")
-        kind = inspect.isfunction(found) or inspect.isclass(found)
-        if ours and kind and name[0] != "_" and _is_handed_on(module, name, found):
-            yield name, found
-
-
-def _is_handed_on(module: ModuleType, name: str, found: Any) -> bool:
-    """Defined there, or imported as itself (`import x as x`), which hands it on."""
-    inside = found.__module__ == module.__name__
-    return inside or f"import {name} as {name}\n" in inspect.getsource(module)
+    offered = {name: getattr(module, name) for name in getattr(module, "__all__", ())}
+    return [
+        (name, f"{found.__module__}.{found.__qualname__}")
+        for name, found in offered.items()
+        if inspect.isfunction(found) or inspect.isclass(found)
+    ]
 
 
 def _index() -> str:

@@ -19,9 +19,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
-        "--regenerate",
-        action="store_true",
-        help="rewrite generated/ instead of comparing with it",
+        "--regenerate", action="store_true", help="rewrite generated/ instead of comparing with it"
     )
 
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from benchmarks.line import Missing
 from benchmarks.robots import compiled, lossy
-from modeler.robot.robot import Robot
-from modeler.runtime.build import cache_folder
+from modeler.robot import Robot
+from modeler.runtime import cache_folder
 
 SOURCE = Path(__file__).with_suffix(".cpp")
 FLAGS = (

@@ -20,7 +20,7 @@ from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-import modeler.report.notebook as notebook
+from modeler.report import notebook
 
 _FIRST = {
     **dict.fromkeys(("load", "own_effect", "derive", "generate", "compile_model"), "workflow"),

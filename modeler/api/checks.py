@@ -5,28 +5,28 @@ from pathlib import Path
 from string import ascii_uppercase
 
 import modeler.api.workflow as workflow
+from modeler import validation
 from modeler.api.long_logs import are_long, sources_of, too_long
 from modeler.api.workflow import AnyLog, Mapped
 from modeler.core.errors import DataError
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.logs.blocks import blocks_of, windows_of
-from modeler.logs.inspect import Look, look
-from modeler.logs.log_table import LogTable
-from modeler.observation.log import FINGER, LONG, Log, check_apart
-from modeler.observation.observation import Observation
-from modeler.observation.survey import WINDOW, WINDOWS, WholeNeeded
-from modeler.runtime.model import CompiledModel
-from modeler.validation.comparison import Comparison
-from modeler.validation.comparison import compare as compare_prediction
-from modeler.validation.free_run import FreeRunSettings
-from modeler.validation.free_run import free_run as run_freely
-from modeler.validation.free_run_result import FreeRun
-from modeler.validation.models import Contest, predict_together
-from modeler.validation.models import contest as judged
-from modeler.validation.predict import compare_long, predict
+from modeler.estimation import IdentifiedModel
+from modeler.logs import LogTable, Look, blocks_of, look, windows_of
+from modeler.observation import (
+    FINGER,
+    LONG,
+    WINDOW,
+    WINDOWS,
+    Log,
+    Observation,
+    WholeNeeded,
+    check_apart,
+)
+from modeler.runtime import CompiledModel
 
 
-def compare(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> Comparison:
+def compare(
+    model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()
+) -> validation.Comparison:
     """Measured against predicted torque on logs, after the processing of the fit."""
     return compared(model, logs, workflow.recompile(model), mapping)[0]
 
@@ -38,7 +38,7 @@ def compared(
     mapping: Mapped = (),
     progress: Callable[[float], None] = lambda share: None,
     tell: Callable[[str], None] = lambda line: None,
-) -> tuple[Comparison, Observation]:
+) -> tuple[validation.Comparison, Observation]:
     """The same, and the observation behind it; long logs are read in chunks.
 
     Args:
@@ -52,7 +52,7 @@ def compared(
     if are_long(logs):
         try:
             sources = sources_of(compiled, logs, mapping)
-            comparison, observation = compare_long(model, sources, compiled, progress)
+            comparison, observation = validation.compare_long(model, sources, compiled, progress)
             check_apart(observation.report.logs)
             return comparison, observation
         except WholeNeeded as error:
@@ -61,15 +61,15 @@ def compared(
             tell(f"{error}; read as a whole instead")
     read = workflow.read_logs(compiled, logs, mapping)
     check_apart(read, places=[str(log) for log in logs])
-    prediction, observation = predict(model, read, compiled)
-    return compare_prediction(prediction), observation
+    prediction, observation = validation.predict(model, read, compiled)
+    return validation.compare(prediction), observation
 
 
 def contest(
     models: Mapping[str, IdentifiedModel] | Sequence[IdentifiedModel],
     logs: Sequence[AnyLog],
     mapping: Mapped = (),
-) -> Contest:
+) -> validation.Contest:
     """Models side by side: the error of each by joint, and which is better beyond doubt.
 
     Args:
@@ -102,7 +102,7 @@ def contested(
     logs: Sequence[AnyLog],
     mapping: Mapped = (),
     places: Sequence[str] = (),
-) -> tuple[Contest, list[Log]]:
+) -> tuple[validation.Contest, list[Log]]:
     """The same of compiled models, and the logs.
 
     Args:
@@ -115,16 +115,16 @@ def contested(
     read = [workflow.read_logs(own, logs, mapping) for own in compiled]
     check_apart(read[0], places=places)
     names = list(models)
-    predictions, _ = predict_together(list(models.values()), compiled, read, names)
-    return judged(names, predictions), read[0]
+    predictions, _ = validation.predict_together(list(models.values()), compiled, read, names)
+    return validation.contest(names, predictions), read[0]
 
 
 def free_run(
     model: IdentifiedModel,
     logs: Sequence[AnyLog],
-    asked: FreeRunSettings | None = None,
+    asked: validation.FreeRunSettings | None = None,
     mapping: Mapped = (),
-) -> FreeRun:
+) -> validation.FreeRun:
     """Positions of the fitted robot under the logged torques, beside the logged ones.
 
     Args:
@@ -137,8 +137,11 @@ def free_run(
         DataError: a log cannot be run; says why.
     """
     compiled = workflow.recompile(model)
-    return run_freely(
-        model, workflow.read_logs(compiled, logs, mapping), compiled, asked or FreeRunSettings()
+    return validation.free_run(
+        model,
+        workflow.read_logs(compiled, logs, mapping),
+        compiled,
+        asked or validation.FreeRunSettings(),
     )
 
 

@@ -7,35 +7,17 @@ from typing import Any, Literal
 import numpy as np
 
 import modeler.api.workflow as workflow
+from modeler import estimation
 from modeler.api.arguments import Steps, fitting, silent
 from modeler.api.workflow import AnyLog, Mapped
-from modeler.codegen.workflow import Derivation
+from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
 from modeler.core.manifest import Emitted
-from modeler.estimation import two_step_result as two_step
-from modeler.estimation.doubts import Doubt, LogFinding, not_together, remounted
-from modeler.estimation.drive_gains import are_currents, identify_gains
-from modeler.estimation.energy_fit import identify_energy
-from modeler.estimation.identify import Equations, identify
-from modeler.estimation.known import deviations, known_doubts
-from modeler.estimation.model_file import IdentifiedModel, provenance
-from modeler.estimation.payload import Payload, identify_with_payloads, loaded_equations
-from modeler.estimation.result import FitResult
-from modeler.estimation.side_by_side import SideBySide
-from modeler.estimation.side_by_side import side_by_side as tried_on
-from modeler.estimation.two_step import Directions
-from modeler.estimation.verdict import with_verdict
 from modeler.numerics.least_squares import Compressed
-from modeler.observation.findings import findings_of_fit
-from modeler.observation.log import Log, check_apart
-from modeler.observation.observation import Observation, observe
-from modeler.observation.settings import Processing
-from modeler.robot.edit import with_drive_gains
-from modeler.robot.motors import joint_directions
-from modeler.robot.read import robot_from_text
-from modeler.robot.robot import Robot, near
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Log, Observation, Processing, check_apart, findings_of_fit, observe
+from modeler.robot import Robot, joint_directions, near, robot_from_text, with_drive_gains
+from modeler.runtime import CompiledModel
 
 WITHOUT_LOADS = ("iv", "iv-direct", "didim", "consistent", TWO_STEPS)
 """Methods that know no loads."""
@@ -59,7 +41,7 @@ class FitRequest:
     method: str = "weighted"
     energy: bool = False
     window: float | None = None
-    payloads: tuple[Payload, ...] = ()
+    payloads: tuple[estimation.Payload, ...] = ()
     below: float | None = None
 
 
@@ -76,12 +58,12 @@ class Way:
         equations: that were fitted; None: those of the bare robot.
     """
 
-    result: FitResult
-    told: Sequence[LogFinding] = ()
+    result: estimation.FitResult
+    told: Sequence[estimation.LogFinding] = ()
     refit: Callable[[np.ndarray], np.ndarray] | None = None
     lines: Sequence[str] = ()
     further: Mapping[str, Any] = dataclasses.field(default_factory=dict)
-    equations: Equations | None = None
+    equations: estimation.Equations | None = None
 
 
 def estimated(
@@ -95,25 +77,31 @@ def estimated(
     _check(asked)
     method: Any = asked.method
     if asked.energy:
-        energy = identify_energy(compiled, observation, asked.window, method, asked.below)
+        energy = estimation.identify_energy(
+            compiled, observation, asked.window, method, asked.below
+        )
         return Way(energy.result, refit=energy.without)
     if asked.method == TWO_STEPS:
-        ways = Directions(joint_directions(robot))
-        steps = two_step.identify_in_two_steps(compiled, observation, ways, asked.below)
+        ways = estimation.Directions(joint_directions(robot))
+        steps = estimation.two_step_result.identify_in_two_steps(
+            compiled, observation, ways, asked.below
+        )
         further = {"two_step": steps.to_json()}
         return Way(steps.result, steps.doubts(), lines=steps.lines(), further=further)
     if asked.payloads:
-        result = identify_with_payloads(compiled, observation, asked.payloads, method, asked.below)
-        current = are_currents(observation.report.logs)
-        told = known_doubts(compiled, observation, asked.payloads, current)
-        equations = loaded_equations(compiled, observation, asked.payloads).equations
+        result = estimation.identify_with_payloads(
+            compiled, observation, asked.payloads, method, asked.below
+        )
+        current = estimation.are_currents(observation.report.logs)
+        told = estimation.known_doubts(compiled, observation, asked.payloads, current)
+        equations = estimation.loaded_equations(compiled, observation, asked.payloads).equations
         return Way(result, told, equations=equations)
-    return Way(identify(observation, method, compiled, asked.below))
+    return Way(estimation.identify(observation, method, compiled, asked.below))
 
 
 def judged(
     compiled: CompiledModel, observation: Observation, way: Way, data: Compressed | None = None
-) -> FitResult:
+) -> estimation.FitResult:
     """Its result with the verdict, to which all that is found in the logs counts.
 
     Args:
@@ -123,7 +111,9 @@ def judged(
         data: all rows that were fitted, where the observation has a part of them only.
     """
     told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
-    return with_verdict(compiled, observation, way.result, told, way.equations, way.refit, data)
+    return estimation.with_verdict(
+        compiled, observation, way.result, told, way.equations, way.refit, data
+    )
 
 
 def _check(asked: FitRequest) -> None:
@@ -159,9 +149,9 @@ def fit(
     *,
     energy: bool = False,
     window: float | None = None,
-    payloads: Sequence[Payload] = (),
+    payloads: Sequence[estimation.Payload] = (),
     essential_below: float | None = None,
-) -> IdentifiedModel:
+) -> estimation.IdentifiedModel:
     """The base parameters from an observation, with all that a model file holds.
 
     Args:
@@ -202,7 +192,7 @@ def fitted(
     compiled: CompiledModel,
     observation: Observation,
     working: Steps = silent,
-) -> tuple[IdentifiedModel, Way]:
+) -> tuple[estimation.IdentifiedModel, Way]:
     """The same, and the way that was taken."""
     with working("estimating"):
         way = estimated(asked, derivation.robot, compiled, observation)
@@ -212,15 +202,15 @@ def fitted(
 
 
 def identified(
-    derivation: Derivation, emitted: Emitted, observation: Observation, result: FitResult
-) -> IdentifiedModel:
+    derivation: Derivation, emitted: Emitted, observation: Observation, result: estimation.FitResult
+) -> estimation.IdentifiedModel:
     """A fit with all that a model file holds."""
-    return IdentifiedModel(
+    return estimation.IdentifiedModel(
         robot_text=derivation.robot.text,
         spec=emitted.spec,
         sources=emitted.code,
         fit=result,
-        logs=provenance(observation.report),
+        logs=estimation.provenance(observation.report),
     )
 
 
@@ -247,18 +237,15 @@ class Load:
         """One log alone stands for a list of it."""
         object.__setattr__(self, "logs", fitting("Load", "logs", Sequence[AnyLog], self.logs))
 
-    def payloads(self, loaded: Sequence[Log]) -> list[Payload]:
+    def payloads(self, loaded: Sequence[Log]) -> list[estimation.Payload]:
         """It, as the fit knows it; one for each log if it was taken off in between."""
-        payload = Payload(tuple(log.name for log in loaded), self.link, self.mass)
-        return remounted(payload) if self.moved else [payload]
+        payload = estimation.Payload(tuple(log.name for log in loaded), self.link, self.mass)
+        return estimation.remounted(payload) if self.moved else [payload]
 
 
 def fit_gains(
-    derivation: Derivation,
-    logs: Sequence[AnyLog],
-    load: Load,
-    processing: Processing | None = None,
-) -> IdentifiedModel:
+    derivation: Derivation, logs: Sequence[AnyLog], load: Load, processing: Processing | None = None
+) -> estimation.IdentifiedModel:
     """The model whose robot file has the drive gains that the logs tell (see docs/drive-gains.md).
 
     Args:
@@ -283,7 +270,7 @@ def found_with_gains(
     check: Callable[[Sequence[Log], Sequence[Log]], None] | None = None,
     working: Steps = silent,
     mapping: Mapped = (),
-) -> tuple[IdentifiedModel, Observation]:
+) -> tuple[estimation.IdentifiedModel, Observation]:
     """The same, and the observation that the model was fitted to.
 
     The gains are found first. Then the logs are read once more with them, as whoever uses the model
@@ -291,7 +278,9 @@ def found_with_gains(
     loaded, that do not belong together; None: those that share rows.
     """
 
-    def observed(model: CompiledModel, processing: Processing) -> tuple[Observation, list[Payload]]:
+    def observed(
+        model: CompiledModel, processing: Processing
+    ) -> tuple[Observation, list[estimation.Payload]]:
         bare, loaded = (workflow.read_currents(model, some, mapping) for some in (logs, load.logs))
         if check is None:
             check_apart([*bare, *loaded])
@@ -301,7 +290,7 @@ def found_with_gains(
 
     with working("finding the drive gains"):
         observation, payloads = observed(compiled, processing)
-        found = identify_gains(compiled, observation, payloads)
+        found = estimation.identify_gains(compiled, observation, payloads)
     choices = observation.report.choices
     with working("reading the currents with these gains"):
         gains = {joint: float(f"{gain:.7g}") for joint, gain in found.gains.items()}
@@ -312,13 +301,13 @@ def found_with_gains(
         emitted = workflow.generate(derivation)
         again = workflow.compile_model(emitted)
         observation, payloads = observed(again, observation.report.processing)
-        result = identify_gains(again, observation, payloads).result
+        result = estimation.identify_gains(again, observation, payloads).result
     with working("judging the fit"):
-        apart = not_together(again, observation, payloads)
-        told = [Doubt(line, values=True) for line in apart]
-        equations = loaded_equations(again, observation, payloads).equations
+        apart = estimation.not_together(again, observation, payloads)
+        told = [estimation.Doubt(line, values=True) for line in apart]
+        equations = estimation.loaded_equations(again, observation, payloads).equations
         result = judged(again, observation, Way(result, told, equations=equations))
-    if lines := deviations(compiled.spec, found):
+    if lines := estimation.deviations(compiled.spec, found):
         against = f"against the robot file: {'; '.join(lines)}"
         result = dataclasses.replace(result, sentences=(*result.sentences, against))
     report = dataclasses.replace(observation.report, choices=choices)
@@ -335,7 +324,7 @@ def side_by_side(
     holdout: Sequence[AnyLog] = (),
     methods: Sequence[str] | None = None,
     progress: Callable[[float], None] | None = None,
-) -> SideBySide:
+) -> estimation.SideBySide:
     """Every estimator on the same logs: values, errors, seconds, and what each says of itself.
 
     Args:
@@ -355,15 +344,12 @@ def side_by_side(
         else robot
     )
     observation, held = observed_apart(compiled, logs, holdout)
-    tried = tried_on(observation, compiled, held, chosen, progress)
-    return SideBySide(compiled.spec.robot, tried, tuple(observation.report.lines()))
+    tried = estimation.side_by_side(observation, compiled, held, chosen, progress)
+    return estimation.SideBySide(compiled.spec.robot, tried, tuple(observation.report.lines()))
 
 
 def observed_apart(
-    compiled: CompiledModel,
-    logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog],
-    mapping: Mapped = (),
+    compiled: CompiledModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog], mapping: Mapped = ()
 ) -> tuple[Observation, Observation | None]:
     """Logs to fit, and held-out ones processed alike; None without any."""
     given, kept = (workflow.read_logs(compiled, some, mapping) for some in (logs, holdout))

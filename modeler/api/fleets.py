@@ -5,17 +5,25 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from modeler.api.workflow import AnyLog, Mapped, compile_model, file_and_span, log_map, read_logs
-from modeler.codegen.workflow import derive, generate
+from modeler.codegen import derive, generate
 from modeler.core.errors import DataError, LoopError, file_and_window
 from modeler.core.jobs import Workers, open_workers
 from modeler.core.manifest import Emitted
-from modeler.fleet.fleet import fleet_of
-from modeler.fleet.naming import Named, in_order, named_logs
-from modeler.fleet.result import Fleet
-from modeler.fleet.summary import Left, LogJob, LogSummary, reduce_log, summary
-from modeler.observation.settings import Processing
-from modeler.robot.robot import Robot
-from modeler.runtime.model import CompiledModel
+from modeler.fleet import (
+    Fleet,
+    Left,
+    LogJob,
+    LogSummary,
+    Named,
+    fleet_of,
+    in_order,
+    named_logs,
+    reduce_log,
+    summary,
+)
+from modeler.observation import Processing
+from modeler.robot import Robot
+from modeler.runtime import CompiledModel
 
 Progress = Callable[[float], None]
 

@@ -2,18 +2,14 @@
 
 from collections.abc import Callable, Sequence
 
+from modeler import diagnosis
 from modeler.api.arguments import Steps, silent
 from modeler.api.workflow import AnyLog, Mapped, read_logs, recompile
 from modeler.core.errors import DataError
-from modeler.diagnosis.add import add_effect, add_findings, undone
-from modeler.diagnosis.added_model import Logs
-from modeler.diagnosis.candidates import Known
-from modeler.diagnosis.diagnosis import diagnose as find_missing
-from modeler.diagnosis.result import Diagnosis
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.observation.log import check_apart
-from modeler.robot.read import robot_from_text
-from modeler.runtime.model import CompiledModel
+from modeler.estimation import IdentifiedModel
+from modeler.observation import check_apart
+from modeler.robot import robot_from_text
+from modeler.runtime import CompiledModel
 
 
 def diagnose(
@@ -23,7 +19,7 @@ def diagnose(
     without: Sequence[str] = (),
     progress: Callable[[float], None] | None = None,
     mapping: Mapped = (),
-) -> Diagnosis:
+) -> diagnosis.Diagnosis:
     """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
     compiled, given = logs_of(model, logs, holdout, mapping)
     return missing(model, compiled, given, without, progress)
@@ -52,7 +48,7 @@ def add(
             cannot be added.
     """
     compiled, given = logs_of(model, logs, holdout, mapping)
-    return add_effect(model, compiled, effect, joint, given)
+    return diagnosis.add_effect(model, compiled, effect, joint, given)
 
 
 def auto(
@@ -77,16 +73,16 @@ def undo(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -
     Raises:
         DataError: none was added.
     """
-    return undone(model, logs_of(model, logs, (), mapping)[1])
+    return diagnosis.undone(model, logs_of(model, logs, (), mapping)[1])
 
 
 def auto_added(
     model: IdentifiedModel,
     compiled: CompiledModel,
-    logs: Logs,
+    logs: diagnosis.Logs,
     progress: Callable[[float], None] | None = None,
     working: Steps = silent,
-) -> tuple[IdentifiedModel, tuple[str, ...], Diagnosis]:
+) -> tuple[IdentifiedModel, tuple[str, ...], diagnosis.Diagnosis]:
     """The model with what a diagnosis names, why some of it is left out, and the diagnosis.
 
     Raises:
@@ -95,7 +91,7 @@ def auto_added(
     found = missing(model, compiled, logs, (), progress)
     findings = [*found.effects, *found.refinements]
     with working("adding what is missing"):
-        better, left_out = add_findings(model, compiled, findings, logs)
+        better, left_out = diagnosis.add_findings(model, compiled, findings, logs)
     if better is model and not left_out:
         raise DataError(
             "auto: nothing is added, because nothing that can be added is missing in this model "
@@ -107,27 +103,27 @@ def auto_added(
 def missing(
     model: IdentifiedModel,
     compiled: CompiledModel,
-    logs: Logs,
+    logs: diagnosis.Logs,
     without: Sequence[str] = (),
     progress: Callable[[float], None] | None = None,
-) -> Diagnosis:
+) -> diagnosis.Diagnosis:
     """What a diagnosis finds, which tries the effects that the robot file defines too."""
     robot = robot_from_text(model.robot_text, f"model of {model.spec.robot}, robot")
-    known = Known(robot.catalogue, robot.coupling)
-    return find_missing(
+    known = diagnosis.Known(robot.catalogue, robot.coupling)
+    return diagnosis.diagnose(
         model, compiled, logs.fitted, logs.held_out, without, progress=progress, known=known
     )
 
 
 def logs_of(
     model: IdentifiedModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog], mapping: Mapped = ()
-) -> tuple[CompiledModel, Logs]:
+) -> tuple[CompiledModel, diagnosis.Logs]:
     """The robot of a model, compiled, and the logs that it is held against.
 
     Raises:
         DataError: a log cannot be read, or rows are given twice.
     """
     compiled = recompile(model)
-    given = Logs(*(read_logs(compiled, some, mapping) for some in (logs, holdout)))
+    given = diagnosis.Logs(*(read_logs(compiled, some, mapping) for some in (logs, holdout)))
     check_apart(given.fitted, given.held_out)
     return compiled, given

@@ -5,23 +5,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeGuard
 
+from modeler import observation
 from modeler.api.fitting import Way, identified, judged
 from modeler.api.workflow import AnyLog, Mapped, file_and_span, log_map, read_logs
-from modeler.codegen.workflow import Derivation
+from modeler.codegen import Derivation
 from modeler.core.errors import DataError, Method
 from modeler.core.jobs import Workers
 from modeler.core.manifest import Emitted
-from modeler.estimation import long_logs as chunked
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.estimation.result import FitResult
-from modeler.logs.blocks import blocks_of
-from modeler.logs.mapping import LogMap
-from modeler.observation.chunk import chunks_between
-from modeler.observation.log import LONG, MOST_WHOLE, Log, check_apart
-from modeler.observation.read import FileSource, MemorySource, Source, source_of
-from modeler.observation.settings import Processing
-from modeler.observation.survey import Chosen
-from modeler.runtime.model import CompiledModel, compiled_once
+from modeler.estimation import FitResult, IdentifiedModel, long_logs as chunked
+from modeler.logs import LogMap, blocks_of
+from modeler.runtime import CompiledModel, compiled_once
 
 
 def rows_of(places: Sequence[AnyLog]) -> int:
@@ -32,7 +25,7 @@ def rows_of(places: Sequence[AnyLog]) -> int:
     """
     rows = 0
     for place in places:
-        if isinstance(place, Log):
+        if isinstance(place, observation.Log):
             rows += place.rows
         elif isinstance(place, str | Path):
             path, span = file_and_span(place)
@@ -43,12 +36,12 @@ def rows_of(places: Sequence[AnyLog]) -> int:
 
 def are_long(places: Sequence[AnyLog]) -> bool:
     """True of logs whose fit reads them in chunks."""
-    return rows_of(places) > LONG
+    return rows_of(places) > observation.LONG
 
 
 def too_long(places: Sequence[AnyLog]) -> bool:
     """True of logs that are not read at once, whatever for."""
-    return rows_of(places) > MOST_WHOLE
+    return rows_of(places) > observation.MOST_WHOLE
 
 
 def check_whole(places: Sequence[AnyLog], what: str) -> None:
@@ -60,26 +53,26 @@ def check_whole(places: Sequence[AnyLog], what: str) -> None:
     if too_long(places):
         raise DataError(
             f"fit: {what} keeps all rows in memory; got {rows_of(places)} rows, expected "
-            f"at most {MOST_WHOLE}; give a part of the log, FILE@START:END, or take --method "
-            f"{' or '.join(chunked.OF_TRIANGLES)}, which read logs of any length"
+            f"at most {observation.MOST_WHOLE}; give a part of the log, FILE@START:END, or take "
+            f"--method {' or '.join(chunked.OF_TRIANGLES)}, which read logs of any length"
         )
 
 
 def sources_of(
     compiled: CompiledModel, places: Sequence[AnyLog], mapping: Mapped = ()
-) -> list[Source]:
+) -> list[observation.Source]:
     """The rows of logs, in blocks where their format allows it.
 
     Raises:
         DataError: a log cannot be read.
     """
     names = log_map(compiled, mapping)
-    found: list[Source] = []
+    found: list[observation.Source] = []
     for place in places:
         source = None
         if isinstance(place, str | Path) and file_and_span(place)[1] is None:
-            source = source_of(Path(place), compiled.spec, names)
-        found.append(source or MemorySource(read_logs(compiled, [place], mapping)[0]))
+            source = observation.source_of(Path(place), compiled.spec, names)
+        found.append(source or observation.MemorySource(read_logs(compiled, [place], mapping)[0]))
     return found
 
 
@@ -87,9 +80,9 @@ def fit_long(
     derivation: Derivation,
     emitted: Emitted,
     compiled: CompiledModel,
-    sources: Sequence[Source],
+    sources: Sequence[observation.Source],
     method: Method = "weighted",
-    processing: Processing | None = None,
+    processing: observation.Processing | None = None,
     progress: Callable[[float], None] = lambda share: None,
     reducer: chunked.Reducer | None = None,
 ) -> tuple[IdentifiedModel, chunked.Streamed]:
@@ -109,7 +102,7 @@ def fit_long(
         DataError: see `stream` and `identify_long`.
     """
     streamed = chunked.stream(compiled, sources, processing, progress, reducer=reducer)
-    check_apart(streamed.observation.report.logs)
+    observation.check_apart(streamed.observation.report.logs)
     result = judged_long(compiled, streamed, method)
     return identified(derivation, emitted, streamed.observation, result), streamed
 
@@ -134,7 +127,7 @@ class Shared:
     emitted: Emitted
     path: Path
     mapping: LogMap | None
-    chosen: Chosen
+    chosen: observation.Chosen
     rows: int
 
 
@@ -150,7 +143,9 @@ def by_workers(workers: Workers, emitted: Emitted) -> chunked.Reducer:
         emitted: the C of the robot, which they compile, or take from their caches.
     """
 
-    def reducer(model: CompiledModel, source: Source, chosen: Chosen) -> Iterator[chunked.Partial]:
+    def reducer(
+        model: CompiledModel, source: observation.Source, chosen: observation.Chosen
+    ) -> Iterator[chunked.Partial]:
         if not from_anywhere(source):
             return chunked.by_threads(model, source, chosen)
         path, mapping = source.place
@@ -167,9 +162,9 @@ def by_workers(workers: Workers, emitted: Emitted) -> chunked.Reducer:
     return reducer
 
 
-def from_anywhere(source: Source) -> TypeGuard[FileSource]:
+def from_anywhere(source: observation.Source) -> TypeGuard[observation.FileSource]:
     """True of a log whose rows a worker can read by itself, from the middle of its file."""
-    return isinstance(source, FileSource) and source.exact
+    return isinstance(source, observation.FileSource) and source.exact
 
 
 def reduce_rows(shared: Shared, numbers: range) -> chunked.Partial:
@@ -179,14 +174,14 @@ def reduce_rows(shared: Shared, numbers: range) -> chunked.Partial:
         DataError: the worker does not see the file, or sees another.
     """
     model, chosen = compiled_once(shared.emitted), shared.chosen
-    source = source_of(shared.path, model.spec, shared.mapping)
+    source = observation.source_of(shared.path, model.spec, shared.mapping)
     if source is None or source.rows != shared.rows:
         got = "none" if source is None else f"one of {source.rows} rows"
         raise DataError(
             f"{shared.path}: a worker sees {got}, expected a file of {shared.rows} rows; workers "
             "must see the logs by the same paths"
         )
-    parts = chunks_between(source, numbers, chosen.own, chosen.beside)
+    parts = observation.chunks_between(source, numbers, chosen.own, chosen.beside)
     return chunked.merge_all(chunked.reduce_chunk(model, part, chosen) for part in parts)
 
 

@@ -9,20 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from modeler import simulation
+from modeler import excitation, simulation
 from modeler.api.workflow import compile_model, derive, generate, recompile
 from modeler.core.errors import DataError
-from modeler.effects.catalogue import effect_named
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.excitation.motion import Bounds, Box
-from modeler.excitation.result import Exciting
-from modeler.excitation.search import Wish, usual_harmonics
-from modeler.excitation.search import excite as excited
-from modeler.excitation.separate import Apart, Question
-from modeler.excitation.separate import tell_apart as told_apart
-from modeler.robot.read import robot_from_text
-from modeler.robot.robot import Limits, Robot, near
-from modeler.runtime.model import CompiledModel
+from modeler.effects import effect_named
+from modeler.estimation import IdentifiedModel
+from modeler.robot import Limits, Robot, near, robot_from_text
+from modeler.runtime import CompiledModel
 from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
 
 Progress = Callable[[float], None]
@@ -49,9 +42,13 @@ class Subject:
     kept: np.ndarray | None = None
     beta: np.ndarray | None = None
 
-    def search(self, bounds: Bounds, wish: Wish, progress: Progress = _untold) -> Exciting:
+    def search(
+        self, bounds: excitation.Bounds, wish: excitation.Wish, progress: Progress = _untold
+    ) -> excitation.Exciting:
         """The motion that tells its parameters apart."""
-        return excited(self.compiled, bounds, wish, self.sigma, self.kept, self.beta, progress)
+        return excitation.excite(
+            self.compiled, bounds, wish, self.sigma, self.kept, self.beta, progress
+        )
 
 
 def subject_of(thing: Robot | IdentifiedModel) -> Subject:
@@ -75,7 +72,7 @@ def excite(
     boxes: Mapping[str, Sequence[float]] | None = None,
     progress: Progress = _untold,
     **wish: Any,
-) -> Exciting:
+) -> excitation.Exciting:
     """A motion within limits along which the parameters are well told apart (docs/excitation.md).
 
     Args:
@@ -104,7 +101,7 @@ def tell_apart(
     boxes: Mapping[str, Sequence[float]] | None = None,
     progress: Progress = _untold,
     **wish: Any,
-) -> tuple[Exciting, Apart]:
+) -> tuple[excitation.Exciting, excitation.Apart]:
     """The motion along which two effects that the model lacks are least alike.
 
     Args:
@@ -122,19 +119,19 @@ def tell_apart(
     subject = subject_of(model)
     bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {})
     question = question_of(subject, f"{first},{second}", "tell_apart:")
-    return told_apart(subject.compiled, bounds, _wish(bounds, wish), question, progress)
+    return excitation.tell_apart(subject.compiled, bounds, _wish(bounds, wish), question, progress)
 
 
-def _wish(bounds: Bounds, given: Mapping[str, Any]) -> Wish:
-    known = [field.name for field in dataclasses.fields(Wish)]
+def _wish(bounds: excitation.Bounds, given: Mapping[str, Any]) -> excitation.Wish:
+    known = [field.name for field in dataclasses.fields(excitation.Wish)]
     for name in given:
         if name not in known:
             raise DataError(f"excite: got {name}; expected some of {', '.join(known)}")
-    duration = given.get("duration", Wish().duration)
-    return Wish(**{"harmonics": usual_harmonics(bounds, duration), **given})
+    duration = given.get("duration", excitation.Wish().duration)
+    return excitation.Wish(**{"harmonics": excitation.usual_harmonics(bounds, duration), **given})
 
 
-def question_of(subject: Subject, texts: str, where: str = "--between") -> Question:
+def question_of(subject: Subject, texts: str, where: str = "--between") -> excitation.Question:
     """Which two effects are to be told apart.
 
     Args:
@@ -171,7 +168,7 @@ def question_of(subject: Subject, texts: str, where: str = "--between") -> Quest
     if len(found) != 2 or found[0] == found[1]:
         raise DataError(f"{where} {texts}: expected two effects, as stribeck@2,spring@2")
     assert subject.beta is not None
-    return Question((found[0], found[1]), subject.beta, subject.sigma)
+    return excitation.Question((found[0], found[1]), subject.beta, subject.sigma)
 
 
 def bounds_of(
@@ -179,7 +176,7 @@ def bounds_of(
     compiled: CompiledModel,
     limits: Mapping[str, Sequence[float]],
     boxes: Mapping[str, Sequence[float]],
-) -> Bounds:
+) -> excitation.Bounds:
     """The limits of the robot file, with those that are given in their place.
 
     Args:
@@ -220,11 +217,11 @@ def bounds_of(
         name: _checked("boxes", name, given, moving, (6,), "x0, x1, y0, y1, z0, z1")
         for name, given in boxes.items()
     }
-    return Bounds(
+    return excitation.Bounds(
         tuple(coordinates), lower, upper, speed, acceleration,
         torque=np.array([torques.get(name, np.inf) for name in coordinates]),
         boxes=tuple(
-            Box(name, moving.index(name), (x[0], x[2], x[4]), (x[1], x[3], x[5]))
+            excitation.Box(name, moving.index(name), (x[0], x[2], x[4]), (x[1], x[3], x[5]))
             for name, x in corners.items()
         ),
         passive=tuple(passive), home=home,

@@ -4,24 +4,14 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from modeler import report
 from modeler.core.errors import DataError
-from modeler.diagnosis.result import Diagnosis
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.estimation.side_by_side import SideBySide
-from modeler.fleet.result import Fleet
-from modeler.logs.inspect import Look
-from modeler.report.comparison import comparison_page, contest_page
-from modeler.report.diagnosis import diagnosis_page
-from modeler.report.estimators import estimators_page
-from modeler.report.fit import fit_page
-from modeler.report.fleet import fleet_page
-from modeler.report.history import additions_page
-from modeler.report.log import log_page
-from modeler.report.page import Page, write_page
-from modeler.report.robot_page import show
-from modeler.robot.robot import Robot
-from modeler.validation.comparison import Comparison
-from modeler.validation.models import Contest
+from modeler.diagnosis import Diagnosis
+from modeler.estimation import IdentifiedModel, SideBySide
+from modeler.fleet import Fleet
+from modeler.logs import Look
+from modeler.robot import Robot
+from modeler.validation import Comparison, Contest
 
 Reported = Robot | Look | IdentifiedModel | Comparison | Contest | Diagnosis | SideBySide | Fleet
 """What has a page."""
@@ -42,23 +32,25 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
         ModelerError: the place cannot be written.
     """
     if isinstance(thing, Robot):
-        show(thing, path)
+        report.show(thing, path)
         return Path(path)
     for kind, page_of in _PAGES.items():
         if isinstance(thing, kind):
-            return write_page(Path(path), page_of(thing, notes))
+            return report.write_page(Path(path), page_of(thing, notes))
     raise DataError(
         f"write_report: got {type(thing).__name__}; expected a robot, a model, a comparison, a "
         "diagnosis, models side by side, estimators side by side or a fleet"
     )
 
 
-_PAGES: Mapping[type, Callable[[Any, Sequence[str]], Page]] = {
-    Look: lambda look, notes: log_page(look, look.doubts, notes),
-    SideBySide: lambda s, notes: estimators_page(s.robot, s.tried, [*s.data, *notes]),
-    IdentifiedModel: lambda m, notes: (additions_page if m.history else fit_page)(m, notes),
-    Comparison: comparison_page,
-    Contest: contest_page,
-    Diagnosis: diagnosis_page,
-    Fleet: fleet_page,
+_PAGES: Mapping[type, Callable[[Any, Sequence[str]], report.Page]] = {
+    Look: lambda look, notes: report.log_page(look, look.doubts, notes),
+    SideBySide: lambda s, notes: report.estimators_page(s.robot, s.tried, [*s.data, *notes]),
+    IdentifiedModel: lambda m, notes: (report.additions_page if m.history else report.fit_page)(
+        m, notes
+    ),
+    Comparison: report.comparison_page,
+    Contest: report.contest_page,
+    Diagnosis: report.diagnosis_page,
+    Fleet: report.fleet_page,
 }

@@ -7,19 +7,33 @@ from typing import Literal
 
 import numpy as np
 
-from modeler.codegen.workflow import Derivation, derive
+from modeler.codegen import Derivation, derive
 from modeler.core.errors import DataError, ModelerError
 from modeler.core.result import Presentation, Presented, present
 from modeler.core.table import Table, percent
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.formulas import values as rules
-from modeler.formulas.cad import CadComparison, KnownAgainstFit, compare_cad, test_known
-from modeler.formulas.physical_system import PhysicalSystem, physical_system
-from modeler.formulas.solve import ClosedSolution, solve
-from modeler.formulas.sufficient_sets import KnownSets, easiest_set, known_sets, smallest_number
-from modeler.formulas.values import VERIFIED, DerivedValue, Given, Rated, given_from_text, rated
-from modeler.robot.read import robot_from_text
-from modeler.robot.robot import Robot
+from modeler.estimation import IdentifiedModel
+from modeler.formulas import (
+    VERIFIED,
+    CadComparison,
+    ClosedSolution,
+    DerivedValue,
+    Given,
+    KnownAgainstFit,
+    KnownSets,
+    PhysicalSystem,
+    Rated,
+    compare_cad,
+    easiest_set,
+    given_from_text,
+    known_sets,
+    physical_system,
+    rated,
+    smallest_number,
+    solve,
+    test_known,
+    values as rules,
+)
+from modeler.robot import Robot, robot_from_text
 
 UNITS = {
     "mass": "kg", "length": "m", "centre": "m", "inertia": "kg m^2", "rotor inertia": "kg m^2",

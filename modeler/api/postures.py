@@ -4,10 +4,8 @@ import dataclasses
 from collections.abc import Mapping
 
 from modeler.core.errors import DataError
-from modeler.derivation.derive import HomeModes, modes_near, written
-from modeler.robot.edit import with_home_text
-from modeler.robot.read import robot_from_text
-from modeler.robot.robot import Robot
+from modeler.derivation import HomeModes, modes_near, written
+from modeler.robot import Robot, robot_from_text, with_home_text
 
 
 def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = False) -> HomeModes:

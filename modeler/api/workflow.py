@@ -6,36 +6,27 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from modeler.codegen.workflow import Derivation as Derivation
-from modeler.codegen.workflow import derive as derive
-from modeler.codegen.workflow import generate as generate_robot
-from modeler.codegen.workflow import load as load
+from modeler import observation
+from modeler.codegen import (
+    Derivation as Derivation,
+    derive as derive,
+    generate as generate_robot,
+    load as load,
+)
 from modeler.core.builtin import builtin_names
 from modeler.core.errors import DataError, ManifestError, Precision, file_and_window
 from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.table import Table
-from modeler.effects.catalogue import CATALOGUE
-from modeler.estimation import model_file
-from modeler.estimation.drive_gains import check_currents, in_drive_units
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.logs.mapping import LogMap, map_from_table, map_from_words
-from modeler.observation.chunk import read_part, window
-from modeler.observation.log import LONG, Log, check_apart
-from modeler.observation.observation import Observation
-from modeler.observation.observation import observe as observe_logs
-from modeler.observation.read import read_log, source_of
-from modeler.observation.settings import Processing
-from modeler.robot.edit import with_own_effect
-from modeler.robot.read import read_robot, robot_from_text
-from modeler.robot.robot import Robot
-from modeler.runtime.gpu import GpuModel, load_gpu
-from modeler.runtime.model import CompiledModel
-from modeler.runtime.model import load as load_compiled
-from modeler.simulation.log import SimulatedLog, write_log
+from modeler.effects import CATALOGUE
+from modeler.estimation import IdentifiedModel, check_currents, in_drive_units, model_file
+from modeler.logs import LogMap, map_from_table, map_from_words
+from modeler.robot import Robot, read_robot, robot_from_text, with_own_effect
+from modeler.runtime import CompiledModel, GpuModel, load as load_compiled, load_gpu
+from modeler.simulation import SimulatedLog, write_log
 
-AnyLog = str | Path | Log | SimulatedLog
+AnyLog = str | Path | observation.Log | SimulatedLog
 """A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated."""
 
 Mapped = Mapping[str, Any] | Sequence[str]
@@ -97,7 +88,9 @@ def compile_model(emitted: Emitted) -> CompiledModel:
     return load_compiled(emitted.spec, emitted.code, emitted.log)
 
 
-def read_logs(compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> list[Log]:
+def read_logs(
+    compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()
+) -> list[observation.Log]:
     """Logs by path, `path@start:end` for a piece of it in seconds, or as they are.
 
     Args:
@@ -111,7 +104,7 @@ def read_logs(compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped =
 
 def read_currents(
     compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()
-) -> list[Log]:
+) -> list[observation.Log]:
     """Logs of currents; where the robot file states no drive gain, torques are in drive units.
 
     Raises:
@@ -136,31 +129,31 @@ def given_map(mapping: Mapped) -> LogMap:
     return map_from_words(mapping)
 
 
-def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> Log:
-    if isinstance(log, Log):
+def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> observation.Log:
+    if isinstance(log, observation.Log):
         return log
     if not isinstance(log, SimulatedLog):
         return read_mapped(log, spec, names)
     with TemporaryDirectory() as folder:  # read as whoever gets the file will read it
         place = Path(folder) / f"{log.robot}-seed{log.settings.seed}.parquet"
         write_log(place, log)
-        return read_log(place, spec)
+        return observation.read_log(place, spec)
 
 
-def read_mapped(place: str | Path, spec: ModuleSpec, names: LogMap) -> Log:
+def read_mapped(place: str | Path, spec: ModuleSpec, names: LogMap) -> observation.Log:
     """A log, or a piece of it, with the columns of a map."""
     path, span = file_and_span(place)
     if span is None:
-        return read_log(path, spec, names)
-    source = source_of(Path(path), spec, names)
-    if source is not None and source.rows > (LONG if source.exact else 2 * LONG):
-        return read_part(source, spec, *span)
-    return window(read_log(path, spec, names), *span)
+        return observation.read_log(path, spec, names)
+    source = observation.source_of(Path(path), spec, names)
+    if source is not None and source.rows > (
+        observation.LONG if source.exact else 2 * observation.LONG
+    ):
+        return observation.read_part(source, spec, *span)
+    return observation.window(observation.read_log(path, spec, names), *span)
 
 
-def file_and_span(
-    place: str | Path,
-) -> tuple[str | Path, tuple[float | None, float | None] | None]:
+def file_and_span(place: str | Path) -> tuple[str | Path, tuple[float | None, float | None] | None]:
     """The file of a log, and the seconds that `@start:end` after it means; None for all of it.
 
     Raises:
@@ -185,13 +178,13 @@ def file_and_span(
 def observe(
     compiled: CompiledModel,
     logs: Sequence[AnyLog],
-    processing: Processing | None = None,
+    processing: observation.Processing | None = None,
     mapping: Mapped = (),
-) -> Observation:
+) -> observation.Observation:
     """The rows y = W beta of logs."""
     given = read_logs(compiled, logs, mapping)
-    check_apart(given)
-    return observe_logs(compiled, given, processing)
+    observation.check_apart(given)
+    return observation.observe(compiled, given, processing)
 
 
 def recompile(model: IdentifiedModel) -> CompiledModel:

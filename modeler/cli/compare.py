@@ -6,24 +6,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import modeler.api.checks as checks
+from modeler import validation
 from modeler.api.workflow import Mapped, read_logs, recompile
 from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, say_lines, working
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
-from modeler.estimation.model_file import IdentifiedModel, load_model, with_essential_only
-from modeler.observation.channels import Fault
-from modeler.observation.findings import findings_of_prediction
-from modeler.observation.log import check_apart
-from modeler.observation.observation import Observation
-from modeler.report import comparison as pages
-from modeler.report.page import Origin, after_compare
-from modeler.runtime.model import CompiledModel
-from modeler.validation.comparison import Comparison, compare
-from modeler.validation.free_run import FreeRunSettings, Gains, free_run
-from modeler.validation.free_run_result import free_run_pictures
-from modeler.validation.models import check_joints, contest_lines
-from modeler.validation.verdict import looks_like_noise, verdict
+from modeler.estimation import IdentifiedModel, load_model, with_essential_only
+from modeler.observation import Fault, Observation, check_apart, findings_of_prediction
+from modeler.report import Origin, after_compare, comparison as pages
+from modeler.runtime import CompiledModel
 
 _TRAINING = "training only: "
 
@@ -41,9 +33,11 @@ def run_compare(args: argparse.Namespace) -> Json:
     doubts = [fault.line for fault in found]
     told = [line for line in lines if line.startswith((_TRAINING, "long logs: "))]
     summary = [comparison.summary(), ""]
-    say_lines([*summary, *verdict(comparison), *model.warning, *told, *doubts])
+    say_lines([*summary, *validation.verdict(comparison), *model.warning, *told, *doubts])
     held = not any(line.startswith(_TRAINING) for line in lines)
-    noise = all(looks_like_noise(item) for item in comparison.joints) and not model.warning
+    noise = (
+        all(validation.looks_like_noise(item) for item in comparison.joints) and not model.warning
+    )
     fitted = [log.name for log in model.logs]
     following = after_compare(args.model, fitted, args.logs, held, noise)
     origin = Origin(args.model, comparison.prediction.logs, held, [following])
@@ -56,7 +50,7 @@ def run_compare(args: argparse.Namespace) -> Json:
 def judged(
     model: IdentifiedModel, logs: list[str], compiled: CompiledModel, mapping: Mapped = (),
     share: Callable[[float], None] = lambda share: None,
-) -> tuple[Comparison, list[str], tuple[Fault, ...]]:  # fmt: skip
+) -> tuple[validation.Comparison, list[str], tuple[Fault, ...]]:  # fmt: skip
     """The comparison on logs, where everything came from, in lines, and what is wrong with it."""
     comparison, observation = checks.compared(model, logs, compiled, mapping, share, note)
     fitted = ", ".join(log.name for log in model.logs)
@@ -94,7 +88,7 @@ def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
             "run.parquet; name at least one after them"
         )
     names = _names(places)
-    check_joints(models, names)
+    validation.check_joints(models, names)
     with progress("predicting") as bar:
         compiled = []
         for k, model in enumerate(models):
@@ -118,10 +112,15 @@ def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
     lines += [
         f"{_TRAINING}{name} was fitted on rows of {log}, which flatters it" for name, log in trained
     ]
-    say_lines([*contest_lines(found), *lines, *(w for model in models for w in model.warning)])
+    say_lines(
+        [*validation.contest_lines(found), *lines, *(w for model in models for w in model.warning)]
+    )
     draw_page(args.report, lambda: pages.contest_page(found, lines, not trained))
     draw_pictures(args.pictures, lambda: pages.contest_pictures(found))
-    return compare(found.predictions[0]).as_dict() | {"models": found.as_dicts(), "doubts": []}
+    return validation.compare(found.predictions[0]).as_dict() | {
+        "models": found.as_dicts(),
+        "doubts": [],
+    }
 
 
 def _loaded(args: argparse.Namespace, place: str) -> IdentifiedModel:
@@ -151,20 +150,20 @@ def _names(places: Sequence[str]) -> list[str]:
 
 def run_free_run(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes the pictures."""
-    asked = FreeRunSettings(args.window, args.bound, _gains(args.controller))
+    asked = validation.FreeRunSettings(args.window, args.bound, _gains(args.controller))
     model = load_model(args.model)
     with working("deriving the robot of the model"):
         compiled = recompile(model)
         logs = read_logs(compiled, args.logs, args.map)
     check_apart(logs, places=args.logs)
     with progress("simulating") as bar:
-        found = free_run(model, logs, compiled, asked, bar)
+        found = validation.free_run(model, logs, compiled, asked, bar)
     say_lines([*found.summary().splitlines(), *model.warning])
-    draw_pictures(args.pictures, lambda: free_run_pictures(found))
+    draw_pictures(args.pictures, lambda: validation.free_run_pictures(found))
     return found.to_json()
 
 
-def _gains(text: str | None) -> Gains | None:
+def _gains(text: str | None) -> validation.Gains | None:
     """Of `--controller`."""
     if text is None:
         return None

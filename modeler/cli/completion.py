@@ -10,7 +10,7 @@ from modeler.cli.console import Json, say, say_lines
 from modeler.cli.options import arguments_of, options_of, sorted_words
 from modeler.core.builtin import paper_names
 from modeler.core.estimators import ABOUT
-from modeler.effects.catalogue import CATALOGUE as EFFECTS
+from modeler.effects import CATALOGUE as EFFECTS
 
 _BASH = """\
 _modeler() {

@@ -22,7 +22,7 @@ from modeler.core.json import nulled
 
 if TYPE_CHECKING:
     from modeler.core.figure import Picture
-    from modeler.report.page import Page
+    from modeler.report import Page
 
 # How much is told beside the results: `--quiet` and `--verbose`.
 
@@ -163,7 +163,7 @@ def say_next(commands: Sequence[str]) -> None:
 def draw_page(place: str | None, page: "Callable[[], Page]") -> None:
     """Writes the page of a result, if a place for it is given."""
     if place is not None:
-        from modeler.report.page import write_page  # pages take long to load
+        from modeler.report import write_page  # pages take long to load
 
         with working("drawing the page"):
             written = write_page(Path(place), page())
@@ -173,7 +173,7 @@ def draw_page(place: str | None, page: "Callable[[], Page]") -> None:
 def draw_pictures(folder: str | None, pictures: "Callable[[], Sequence[Picture]]") -> None:
     """Writes pictures and their numbers into a folder, if one is given."""
     if folder is not None:
-        from modeler.report.figure_page import write_files
+        from modeler.report import write_files
 
         with progress("drawing pictures") as bar:
             written = write_files(Path(folder), pictures(), bar)

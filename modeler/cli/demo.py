@@ -4,26 +4,24 @@ import argparse
 from dataclasses import dataclass
 from pathlib import Path
 
-import modeler.report.page as pages
 from modeler.api.fitting import fit
 from modeler.api.workflow import compile_model, derive, generate, load, observe, read_logs
 from modeler.cli.compare import judged
 from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.improve import waterfall
-from modeler.diagnosis.add import add_findings
-from modeler.diagnosis.added_model import Logs
-from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.result import Diagnosis
-from modeler.diagnosis.sentences import lines
-from modeler.estimation.model_file import IdentifiedModel, save_model
-from modeler.report.comparison import all_pictures, comparison_page
-from modeler.report.diagnosis import diagnosis_page
-from modeler.report.figure_page import write_files
-from modeler.report.history import additions_page
-from modeler.runtime.model import CompiledModel
-from modeler.simulation import HiddenEffect, SimulationSettings, simulate, write_log
-from modeler.simulation.settings import check_settings
-from modeler.validation.verdict import verdict
+from modeler.diagnosis import Diagnosis, Logs, add_findings, diagnose, lines
+from modeler.estimation import IdentifiedModel, save_model
+from modeler.report import (
+    additions_page,
+    all_pictures,
+    comparison_page,
+    diagnosis_page,
+    page as pages,
+    write_files,
+)
+from modeler.runtime import CompiledModel
+from modeler.simulation import HiddenEffect, SimulationSettings, check_settings, simulate, write_log
+from modeler.validation import verdict
 
 _RUNS = (("train", 1), ("held_out", 2))
 

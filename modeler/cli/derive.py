@@ -10,26 +10,26 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler import formulas
 from modeler.cli.console import Json, complain, say, say_lines, working
 from modeler.cli.lists import robot_of, robot_with_effects
 from modeler.cli.options import FEW_JOINTS, Form
-from modeler.codegen.workflow import Derivation, derive, generate
+from modeler.codegen import Derivation, derive, generate
 from modeler.core.errors import DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
 from modeler.core.formula import latex_text
 from modeler.core.manifest import FunctionSpec
-from modeler.derivation import relations
-from modeler.derivation.columns import LinkColumn
-from modeler.derivation.model import SymbolicModel
-from modeler.derivation.numeric_rank import random_states, regressor_values
-from modeler.derivation.result import BaseParameters
-from modeler.formulas import coefficients, function_sheet, render
-from modeler.formulas.closed_form import ClosedForm, closed_form
-from modeler.formulas.print_report import terms_report
-from modeler.formulas.regressor_form import equation_of, nonzero_base
+from modeler.derivation import (
+    BaseParameters,
+    LinkColumn,
+    SymbolicModel,
+    random_states,
+    regressor_values,
+    relations,
+)
 
 if TYPE_CHECKING:
-    from modeler.estimation.model_file import IdentifiedModel
+    from modeler.estimation import IdentifiedModel
 
 # Words around printed formulas: as they are, as comments of LaTeX, or as a whole document.
 
@@ -141,20 +141,20 @@ _FORMS: dict[Form, Callable[[BaseParameters], str]] = {
     "latex": relations.as_latex,
     "markdown": relations.as_markdown,
 }
-_CLOSED_FORMS: dict[Form, Callable[[ClosedForm], str]] = {
-    "text": render.closed_form_text,
-    "latex": render.closed_form_latex,
-    "markdown": render.closed_form_markdown,
+_CLOSED_FORMS: dict[Form, Callable[[formulas.ClosedForm], str]] = {
+    "text": formulas.render.closed_form_text,
+    "latex": formulas.render.closed_form_latex,
+    "markdown": formulas.render.closed_form_markdown,
 }
-_SHEETS: dict[Form, Callable[[function_sheet.Sheet, Words], str]] = {
-    "text": lambda sheet, _: "\n".join(function_sheet.sheet_lines(sheet)),
-    "latex": lambda sheet, words: function_sheet.sheet_latex(sheet, words.heading),
-    "markdown": lambda sheet, _: function_sheet.sheet_markdown(sheet),
+_SHEETS: dict[Form, Callable[[formulas.function_sheet.Sheet, Words], str]] = {
+    "text": lambda sheet, _: "\n".join(formulas.function_sheet.sheet_lines(sheet)),
+    "latex": lambda sheet, words: formulas.function_sheet.sheet_latex(sheet, words.heading),
+    "markdown": lambda sheet, _: formulas.function_sheet.sheet_markdown(sheet),
 }
-_TABLES: dict[Form, Callable[[coefficients.CoefficientTable], str]] = {
-    "text": render.coefficients_text,
-    "latex": render.coefficients_latex,
-    "markdown": render.coefficients_markdown,
+_TABLES: dict[Form, Callable[[formulas.coefficients.CoefficientTable], str]] = {
+    "text": formulas.render.coefficients_text,
+    "latex": formulas.render.coefficients_latex,
+    "markdown": formulas.render.coefficients_markdown,
 }
 _WIDTH = 96
 _COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
@@ -192,8 +192,10 @@ def run_derive(args: argparse.Namespace) -> Json:
     words.say(agreement)
     result |= say_closed_forms(args, derivation, words)
     if args.page is not None:
-        from modeler.report.derivation import derivation_page  # pages take long to load
-        from modeler.report.page import write_page
+        from modeler.report import (
+            derivation_page,  # pages take long to load
+            write_page,
+        )
 
         page = derivation_page(derivation, tied, agreement, args.robot)
         words.say(f"written: {write_page(Path(args.page), page)}")
@@ -233,7 +235,7 @@ def second_opinion(derivation: Derivation, samples: int = 50) -> float:
     link = np.array([isinstance(column, LinkColumn) for column in model.columns])
     chi = np.where(link, rng.normal(size=len(link)), 0.0)
     tau = regressor_values(model, states) @ chi
-    from modeler.derivation.lagrange import lagrange_torque  # casadi takes long to load
+    from modeler.derivation import lagrange_torque  # casadi takes long to load
 
     other = lagrange_torque(model, *states, chi)
     largest = float(np.max(np.abs(other)))
@@ -248,18 +250,18 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Wo
     """
     model, base = derivation.model, derivation.base
     if args.nonzero:
-        base = nonzero_base(model, base)
+        base = formulas.nonzero_base(model, base)
     added: Json = {}
     if args.closed_form and args.expanded:
         words.say()
-        closed = closed_form(model, base)
+        closed = formulas.closed_form(model, base)
         if args.format == "latex":
-            words.say(render.equation(closed))
+            words.say(formulas.render.equation(closed))
         words.formulas(_CLOSED_FORMS[args.format](closed))
     motion = args.closed_form and not args.expanded
     asked = {"closed_form": motion, "regressor": args.regressor}
     if any(asked.values()):
-        found = equation_of(model, base, motion=motion, columns=args.regressor)
+        found = formulas.equation_of(model, base, motion=motion, columns=args.regressor)
         mark = _COMMENT[args.format]
         words.say()
         for line in found.words:
@@ -267,7 +269,7 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Wo
             words.say(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))
         words.say()
         words.formulas(_SHEETS[args.format](found.sheet, words))
-        told = {"equation": list(found.words), **function_sheet.sheet_json(found.sheet)}
+        told = {"equation": list(found.words), **formulas.function_sheet.sheet_json(found.sheet)}
         added |= {key: told for key, wanted in asked.items() if wanted}
     few = len(model.robot.coordinates) <= FEW_JOINTS and model.closure is None
     unasked = few and args.format == "text" and not (args.closed_form or args.regressor)
@@ -275,7 +277,7 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Wo
     if wanted:
         _say_coefficients(args, derivation, words)
     if args.report is not None:
-        write_atomically(Path(args.report), terms_report(model, derivation.base))
+        write_atomically(Path(args.report), formulas.terms_report(model, derivation.base))
         words.say(f"written: {args.report}")
     return added
 
@@ -284,9 +286,12 @@ def _say_coefficients(args: argparse.Namespace, derivation: Derivation, words: W
     # What was not asked for must not take away what was.
     unasked = args.terms is None and args.report is None
     try:
-        table = coefficients.coefficient_table(derivation.model, derivation.base)
+        table = formulas.coefficients.coefficient_table(derivation.model, derivation.base)
         few = args.expanded or len(table.coefficients) <= MANY
-        shown, lines = table if few else coefficients.independent_coefficients(table), _facts(table)
+        shown, lines = (
+            table if few else formulas.coefficients.independent_coefficients(table),
+            _facts(table),
+        )
     except ModelerError as error:
         if not unasked:
             raise
@@ -306,7 +311,7 @@ def _say_coefficients(args: argparse.Namespace, derivation: Derivation, words: W
         words.say(line)
 
 
-def _facts(table: coefficients.CoefficientTable) -> list[str]:
+def _facts(table: formulas.coefficients.CoefficientTable) -> list[str]:
     """How many coefficients, what they tell, and what follows from what."""
     first = [coefficient.function[0] for coefficient in table.coefficients]
     counts = {"PG": first.count("g"), "PJ": first.count("J"), "PS": first.count("S")}
@@ -319,10 +324,10 @@ def _facts(table: coefficients.CoefficientTable) -> list[str]:
         f"effect: {' '.join(found.vanishing) or 'none'}",
     ]
     lines += [f"only together: {' '.join(group)}" for group in found.sums]
-    size, determinant = len(table.map.rows), render.determinant_text(table)
+    size, determinant = len(table.map.rows), formulas.render.determinant_text(table)
     if determinant is not None:
         lines += [f"map to the base parameters, {size} x {size}, determinant {determinant}:"]
-        lines += [f"  {line}" for line in render.backward_lines(table)]
+        lines += [f"  {line}" for line in formulas.render.backward_lines(table)]
     return lines
 
 
@@ -348,7 +353,7 @@ def run_generate(args: argparse.Namespace) -> Json:
     single = ", single precision" if spec.precision == "single" else ""
     say(f"{spec.robot}: {len(spec.base)} base parameters{single}, written to {args.out}:")
     say_lines([*sorted(emitted.files), *map(_function_line, spec.functions)], "  ")
-    from modeler.codegen.package import leftovers  # jinja2, which `derive` has no use for
+    from modeler.codegen import leftovers  # jinja2, which `derive` has no use for
 
     for name in leftovers(emitted, args.out):
         complain(
@@ -378,7 +383,7 @@ def _model(args: argparse.Namespace) -> "IdentifiedModel | None":
             f"--effects: got it with {args.robot}, a model, which has the effects that it was "
             "fitted with; leave --effects out, or fit the robot with them"
         )
-    from modeler.estimation.model_file import load_model  # a robot needs no fits
+    from modeler.estimation import load_model  # a robot needs no fits
 
     return load_model(args.robot)
 

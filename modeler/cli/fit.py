@@ -10,7 +10,7 @@ import modeler.api.long_logs as long_logs
 from modeler.api.workflow import compile_model, derive, generate, read_logs
 from modeler.cli.console import Json, draw_page, note, progress, say, say_lines, say_next, working
 from modeler.cli.lists import robot_of
-from modeler.codegen.workflow import Derivation
+from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError
 from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
@@ -18,19 +18,11 @@ from modeler.core.jobs import open_workers
 from modeler.core.json import entries
 from modeler.core.manifest import Emitted
 from modeler.core.table import aligned
-from modeler.estimation.long_logs import OF_TRIANGLES
-from modeler.estimation.model_file import IdentifiedModel, save_model
-from modeler.estimation.side_by_side import side_by_side
-from modeler.observation.log import Log, check_apart
-from modeler.observation.observation import Observation, observe
-from modeler.observation.settings import Processing
-from modeler.observation.survey import WholeNeeded
-from modeler.report.estimators import estimators_page, remarks_of, table_of, values_of
-from modeler.report.page import after_fit, write_page
-from modeler.robot.edit import with_parameters
-from modeler.robot.read import robot_from_text
-from modeler.robot.robot import INERTIAL
-from modeler.runtime.model import CompiledModel
+from modeler.estimation import OF_TRIANGLES, IdentifiedModel, save_model, side_by_side
+from modeler.observation import Log, Observation, Processing, WholeNeeded, check_apart, observe
+from modeler.report import after_fit, estimators_page, remarks_of, table_of, values_of, write_page
+from modeler.robot import INERTIAL, robot_from_text, with_parameters
+from modeler.runtime import CompiledModel
 
 
 def run_fit(args: argparse.Namespace) -> Json:
@@ -177,7 +169,7 @@ def _written(
     say_lines([*observation.report.lines(), "", *lines, *told])
     say(f"written: {args.out}")
     if args.report is not None:
-        from modeler.report.fit import fit_page  # pages take long to load
+        from modeler.report import fit_page  # pages take long to load
 
         following = after_fit(args.out, args.logs, args.robot, model.fit)
         page = fit_page(model, observation.report.lines(), args.out, following)

@@ -12,11 +12,9 @@ from modeler.cli.lists import robot_of
 from modeler.cli.places import LOG_ENDINGS
 from modeler.core.errors import DataError
 from modeler.core.jobs import open_workers
-from modeler.fleet.fleet import fleet_of
-from modeler.fleet.naming import Named, listed_logs, named_logs
-from modeler.fleet.result import fleet_lines
-from modeler.observation.settings import Processing
-from modeler.report.fleet import fleet_page
+from modeler.fleet import Named, fleet_lines, fleet_of, listed_logs, named_logs
+from modeler.observation import Processing
+from modeler.report import fleet_page
 
 _MANY = 32  # logs from which several processes are worth their start
 

@@ -5,21 +5,15 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.api.postures import chosen_mode
-from modeler.api.postures import home as home_modes
+from modeler.api.postures import chosen_mode, home as home_modes
 from modeler.cli.console import Json, say, say_lines, working
 from modeler.cli.lists import read_told
 from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
 from modeler.core.errors import DataError
 from modeler.core.files import check_writable, write_atomically
-from modeler.derivation.derive import HomeModes, written
-from modeler.derivation.walks import Linkage
-from modeler.report.robot_closing import Posture
-from modeler.report.robot_page import PICTURE_KINDS, modes_html
-from modeler.report.robot_skeleton import size_of, skeleton_of
-from modeler.robot.edit import home_lines, with_home_text
-from modeler.robot.loops import read_home
-from modeler.robot.robot import Place, Robot
+from modeler.derivation import HomeModes, Linkage, written
+from modeler.report import PICTURE_KINDS, Posture, modes_html, size_of, skeleton_of
+from modeler.robot import Place, Robot, home_lines, read_home, with_home_text
 
 MODE_PICTURES = (*PICTURE_KINDS, ".html")
 
@@ -76,7 +70,7 @@ def run_home(args: argparse.Namespace) -> Json:
 
 def _pictures(found: HomeModes, kind: str) -> bytes:
     """A small picture of every assembly mode, beside each other: a file that needs no other."""
-    from modeler.report.robot_drawing import modes_bytes
+    from modeler.report import modes_bytes
 
     robot = found.linkage.robot
     skeleton = skeleton_of(robot)
@@ -129,10 +123,7 @@ def _table(found: HomeModes) -> list[str]:
     linkage, modes = found.linkage, found.modes
     given = list(linkage.loops.given)
     count = f"{len(modes)} assembly mode{'s' if len(modes) > 1 else ''}"
-    lines = [
-        f"{linkage.robot.name}: {count} with {_values(linkage, modes[0].posture, given)}",
-        "",
-    ]
+    lines = [f"{linkage.robot.name}: {count} with {_values(linkage, modes[0].posture, given)}", ""]
     # The joints by which people tell modes apart: the platform's, else the first that follow.
     names = [joint.name for joint in linkage.free]
     shown = [names.index(name) for name in linkage.robot.platform if name in names]

@@ -4,20 +4,15 @@ import argparse
 from pathlib import Path
 
 import modeler.api.improve as improve
+from modeler import report
 from modeler.cli.console import Json, progress, say, say_lines, say_next, working
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.table import DIGITS, percent
-from modeler.diagnosis.add import add_effect, undone
-from modeler.diagnosis.added_model import added, notes
-from modeler.diagnosis.sentences import lines
-from modeler.effects.catalogue import effect_named
-from modeler.estimation.model_file import IdentifiedModel, load_model, save_model
-from modeler.report.diagnosis import diagnosis_page
-from modeler.report.history import additions_page, step_name
-from modeler.report.page import Origin, after_add, after_diagnosis, write_page
-from modeler.robot.read import robot_from_text
-from modeler.robot.robot import near
+from modeler.diagnosis import add_effect, added, lines, notes, undone
+from modeler.effects import effect_named
+from modeler.estimation import IdentifiedModel, load_model, save_model
+from modeler.robot import near, robot_from_text
 
 _WIDTH = 40  # characters of the longest bar
 
@@ -30,7 +25,7 @@ def run_diagnose(args: argparse.Namespace) -> Json:
         compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map)
     with progress("looking for missing effects") as bar:
         diagnosis = improve.missing(model, compiled, logs, args.without, bar)
-    following = after_diagnosis(args.model, args.logs, args.holdout, diagnosis)
+    following = report.after_diagnosis(args.model, args.logs, args.holdout, diagnosis)
     wrote = []
     if args.report is not None:
         shown = [Path(place).name for place in (*args.logs, *args.holdout)]
@@ -40,9 +35,11 @@ def run_diagnose(args: argparse.Namespace) -> Json:
             f"logs explained: {', '.join(shown[: len(args.logs)])}",
             *model.warning,
         ]
-        origin = Origin(args.model, shown, bool(diagnosis.held_out), following)
+        origin = report.Origin(args.model, shown, bool(diagnosis.held_out), following)
         with working("drawing"):
-            place = write_page(Path(args.report), diagnosis_page(diagnosis, provenance, origin))
+            place = report.write_page(
+                Path(args.report), report.diagnosis_page(diagnosis, provenance, origin)
+            )
         wrote = [f"written: {place}"]
     say_lines([*lines(diagnosis), *model.warning, *wrote])
     say_next(following)
@@ -92,14 +89,14 @@ def run_add(args: argparse.Namespace) -> Json:
         with working(f"adding {args.effect}"):
             better = add_effect(model, compiled, args.effect, args.joint, logs)
     save_model(args.out, better)
-    places, following = [args.out], after_add(args.out, args.holdout)
+    places, following = [args.out], report.after_add(args.out, args.holdout)
     if args.robot is not None:
         write_atomically(Path(args.robot), better.robot_text)
         places.append(args.robot)
     if args.report is not None and better.history:
         held = better.history[-1].held_out
-        origin = Origin(args.out, held or args.logs, bool(held), following)
-        write_page(Path(args.report), additions_page(better, left_out, origin))
+        origin = report.Origin(args.out, held or args.logs, bool(held), following)
+        report.write_page(Path(args.report), report.additions_page(better, left_out, origin))
         places.append(args.report)
     say_lines([*waterfall(better), *added(better), *left_out])
     say_lines([*notes(better, max(1, len(model.history))), *model.warning])
@@ -123,7 +120,7 @@ def waterfall(model: IdentifiedModel) -> list[str]:
     lines = [f"{'':<30} {title}"]
     largest = max(step.error for step in model.history) or 1.0
     for step in model.history:
-        name = step_name(step) if step.effect else "model as fitted"
+        name = report.step_name(step) if step.effect else "model as fitted"
         bar = "#" * round(_WIDTH * step.error / largest)
         fitted = percent(step.training_error, DIGITS)
         lines.append(f"{name:<30} {percent(step.error, DIGITS):>8} {bar}  (fitted {fitted})")

@@ -7,12 +7,16 @@ from collections.abc import Callable
 from modeler.cli.console import Json, note, say, say_lines, working
 from modeler.core.builtin import builtin_names
 from modeler.core.errors import RobotError
-from modeler.effects.catalogue import CATALOGUE, effect_named
-from modeler.effects.effect import Acts, Effect, Form
-from modeler.robot.edit import with_effects, with_home_text
-from modeler.robot.par_convert import conversion_notes
-from modeler.robot.read import read_robot, robot_from_text
-from modeler.robot.robot import Robot, near
+from modeler.effects import CATALOGUE, Acts, Effect, Form, effect_named
+from modeler.robot import (
+    Robot,
+    conversion_notes,
+    near,
+    read_robot,
+    robot_from_text,
+    with_effects,
+    with_home_text,
+)
 
 # The signature of an effect, drawn in characters: torque against what it depends on.
 
@@ -80,7 +84,7 @@ def robot_of(args: argparse.Namespace) -> Robot:
     robot = robot_with_effects(args)
     if not robot.loops:
         return robot
-    from modeler.derivation.derive import with_home  # not needed by commands that answer at once
+    from modeler.derivation import with_home  # not needed by commands that answer at once
 
     with working(f"closing the loops of {robot.name}"):
         home = with_home(robot)

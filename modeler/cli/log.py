@@ -15,19 +15,11 @@ from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.lists import read_told
 from modeler.core.errors import ModelerError
 from modeler.core.table import aligned, percent
-from modeler.estimation.identify import identify
-from modeler.estimation.long_logs import stream
-from modeler.estimation.result import FitResult
-from modeler.logs.inspect import Look
-from modeler.logs.mapping import LogMap, map_from_table, map_from_words
-from modeler.observation.findings import findings_of_fit
-from modeler.observation.observation import Observation
-from modeler.observation.read import source_of
-from modeler.observation.survey import WholeNeeded
-from modeler.report.figure_page import write_files
-from modeler.report.log import channel_rows, clock_line, log_page, log_pictures
-from modeler.report.page import write_page
-from modeler.runtime.model import CompiledModel
+from modeler.estimation import FitResult, identify, stream
+from modeler.logs import LogMap, Look, map_from_table, map_from_words
+from modeler.observation import Observation, WholeNeeded, findings_of_fit, source_of
+from modeler.report import channel_rows, clock_line, log_page, log_pictures, write_files, write_page
+from modeler.runtime import CompiledModel
 
 _WIDEST = 44  # letters of a cell
 

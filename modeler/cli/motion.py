@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import modeler.api.motion as motions
-from modeler import simulation
+from modeler import excitation, simulation
 from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.lists import robot_of
 from modeler.core.builtin import MOTIONS
@@ -14,14 +14,9 @@ from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.json import entries
 from modeler.core.table import percent
-from modeler.estimation.model_file import load_model
-from modeler.excitation.criterion import signals
-from modeler.excitation.motion import Bounds
-from modeler.excitation.result import check_kind, csv_text, motion_table, picture
-from modeler.excitation.search import Wish, usual_harmonics
-from modeler.excitation.separate import choose, tell_apart
-from modeler.robot.robot import Robot, near
-from modeler.runtime.model import CompiledModel
+from modeler.estimation import load_model
+from modeler.robot import Robot, near
+from modeler.runtime import CompiledModel
 
 
 def run_excite(args: argparse.Namespace) -> Json:
@@ -31,28 +26,36 @@ def run_excite(args: argparse.Namespace) -> Json:
     bounds = bounds_of(subject.robot, subject.compiled, args.limit, args.box)
     if args.choose is not None:
         return _choose(args, subject)
-    wish = Wish(
-        args.duration,
-        usual_harmonics(bounds, args.duration) if args.harmonics is None else args.harmonics,
+    harmonics = args.harmonics
+    if harmonics is None:
+        harmonics = excitation.usual_harmonics(bounds, args.duration)
+    wish = excitation.Wish(
+        args.duration, harmonics,
         args.objective, args.starts, args.seed, args.time_limit, args.laps,
     )  # fmt: skip
     extra = {}
     with progress(f"looking for a motion of {subject.robot.name}") as bar:
         if args.between is not None:
             question = motions.question_of(subject, args.between)
-            motion, apart = tell_apart(subject.compiled, bounds, wish, question, bar)
+            motion, apart = excitation.tell_apart(subject.compiled, bounds, wish, question, bar)
             lines, extra = [*apart.lines(), *motion.lines()[2:]], {"between": apart.to_json()}
         else:
             motion = subject.search(bounds, wish, bar)
             lines = motion.lines()
     say_lines(lines)
     columns = motion.sampled(args.rate)
-    table = csv_text(columns) if args.out.endswith(".csv") else motion_table(columns)
+    table = (
+        excitation.csv_text(columns)
+        if args.out.endswith(".csv")
+        else excitation.motion_table(columns)
+    )
     write_atomically(Path(args.out), table)
     say(f"written: {args.out}, {len(columns['time'])} samples, {motion.seconds:.1f} s of search")
     if args.picture is not None:
         with working("drawing"):
-            drawn = picture(motion, subject.compiled, check_kind(args.picture))
+            drawn = excitation.picture(
+                motion, subject.compiled, excitation.check_kind(args.picture)
+            )
         write_atomically(Path(args.picture), drawn)
         say(f"written: {args.picture}")
     return motion.to_json() | {"effects": [u.effect for u in subject.robot.effects]} | extra
@@ -73,7 +76,7 @@ def _check_usage(args: argparse.Namespace) -> None:
     if args.out is not None:
         simulation.check_suffix(Path(args.out))
     if args.picture is not None:
-        check_kind(args.picture)
+        excitation.check_kind(args.picture)
     if not (math.isfinite(args.rate) and 0.0 < args.rate <= 1e5):
         raise DataError(f"--rate: got {args.rate:g}; expected more than 0, at most 1e5")
 
@@ -98,7 +101,7 @@ def _subject(args: argparse.Namespace) -> motions.Subject:
 
 def bounds_of(
     robot: Robot, compiled: CompiledModel, limits: Sequence[str], boxes: Sequence[str]
-) -> Bounds:
+) -> excitation.Bounds:
     """The limits of the robot file, with those of the command line in their place.
 
     Raises:
@@ -143,10 +146,10 @@ def _choose(args: argparse.Namespace, subject: motions.Subject) -> Json:
     with working("building the rows of the motions"):
         for place in args.candidates:
             motion = simulation.read_motion(place, names)
-            s = signals(compiled.spec, motion.q, motion.time)
+            s = excitation.signals(compiled.spec, motion.q, motion.time)
             phi = compiled.base_regressor(motion.q, motion.qd, motion.qdd, s)[:, :, kept]
             rows.append((phi * weights).reshape(-1, phi.shape[2]))
-        choice = choose(rows, args.choose)
+        choice = excitation.choose(rows, args.choose)
     for k, place in enumerate(args.candidates):
         mark = "chosen  " if k in choice.places else "        "
         say(f"{mark}{place}: condition number {choice.alone[k]:.4g} by itself")

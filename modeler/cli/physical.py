@@ -3,19 +3,15 @@
 import argparse
 from pathlib import Path
 
+from modeler import formulas
 from modeler.api.physical_parameters import UNITS, Physical, PhysicalValues, physical
 from modeler.cli.console import Json, note, progress, say, say_lines, working
 from modeler.cli.lists import read_told
-from modeler.codegen.workflow import derive
+from modeler.codegen import derive
 from modeler.core.errors import DataError
 from modeler.core.json import entries
 from modeler.core.table import percent
-from modeler.estimation.model_file import load_model
-from modeler.formulas.cad import CadComparison, KnownAgainstFit
-from modeler.formulas.physical_system import PhysicalSystem
-from modeler.formulas.solve import definition_lines, missing_lines, solution_json, solution_lines
-from modeler.formulas.sufficient_sets import easiest_set, smallest_number
-from modeler.formulas.values import VERIFIED, Given, given_from_text
+from modeler.estimation import load_model
 
 _SHOWN = 10
 _KINDS = {"mass": "masses", "length": "lengths", "centre": "mass centres", "inertia": "inertias",
@@ -55,9 +51,9 @@ def run_physical(args: argparse.Namespace) -> Json:
     return result
 
 
-def _overview(system: PhysicalSystem, source: str, fitted: bool) -> dict[str, Json]:
+def _overview(system: formulas.PhysicalSystem, source: str, fitted: bool) -> dict[str, Json]:
     """Parameters, quantities, and the easiest set."""
-    number = smallest_number(system)
+    number = formulas.smallest_number(system)
     say(f"{system.robot}: {len(system.data)} identified quantities, {len(system.letters)} physical "
         f"parameters with an effect, {len(system.vanishing)} without")  # fmt: skip
     for kind, plural in _KINDS.items():
@@ -70,8 +66,8 @@ def _overview(system: PhysicalSystem, source: str, fitted: bool) -> dict[str, Js
         say("  known from the table: "
             + ", ".join(f"{k} = {v:.6g}" for k, v in system.constants.items()))  # fmt: skip
     say_lines(f"  {name} = {text}" for name, text in system.abbreviations.items())
-    say_lines(["", *definition_lines(system)])
-    easiest = easiest_set(system)
+    say_lines(["", *formulas.definition_lines(system)])
+    easiest = formulas.easiest_set(system)
     say()
     parameters = "parameter" if number == 1 else "parameters"
     say(f"at least {number} {parameters} must be known that all others follow")
@@ -90,7 +86,7 @@ def _overview(system: PhysicalSystem, source: str, fitted: bool) -> dict[str, Js
 def _known(args: argparse.Namespace, subject: Physical) -> dict[str, Json]:
     """Formulas; values if there is a model."""
     system, fitted = subject.system, subject.fitted
-    given = given_from_text(args.known, system)
+    given = formulas.given_from_text(args.known, system)
     _check_given(args, given, fitted is not None)
     with working("solving"):
         solution = subject.formulas(given)
@@ -98,21 +94,23 @@ def _known(args: argparse.Namespace, subject: Physical) -> dict[str, Json]:
     say_lines(system.map_lines, mark)
     if system.map_lines:
         say()
-    say_lines([*solution_lines(solution, args.format), ""])
+    say_lines([*formulas.solution_lines(solution, args.format), ""])
     unknown = len(system.letters) - len(solution.known)
     say(f"{mark}{len(solution.steps)} of {unknown} unknown parameters follow; each formula holds "
-        f"exactly for {VERIFIED} of {VERIFIED} random robots")  # fmt: skip
+        f"exactly for {formulas.VERIFIED} of {formulas.VERIFIED} random robots")  # fmt: skip
     if solution.surplus:
         say(f"{mark}{solution.surplus} more known than these need: with a model they are tested")
-    say_lines(missing_lines(solution), mark)
-    told = solution_json(solution, {"robots": VERIFIED, "right": VERIFIED})
+    say_lines(formulas.missing_lines(solution), mark)
+    told = formulas.solution_json(
+        solution, {"robots": formulas.VERIFIED, "right": formulas.VERIFIED}
+    )
     if fitted is not None:
-        near = given_from_text(args.near or "", system, "--near")
+        near = formulas.given_from_text(args.near or "", system, "--near")
         told["values"] = _values(subject.solved(solution, given, near.values))
     return dict(told)
 
 
-def _check_given(args: argparse.Namespace, given: Given, fitted: bool) -> None:
+def _check_given(args: argparse.Namespace, given: formulas.Given, fitted: bool) -> None:
     """A model needs values of all that is known, a robot has no use for any."""
     if not fitted and (given.values or args.near is not None):
         raise DataError(
@@ -162,7 +160,7 @@ def _values(found: PhysicalValues) -> Json:
     return {"parameters": rows, "known_against_fit": [vars(row) for row in found.tested]}
 
 
-def _tell_tested(tested: tuple[KnownAgainstFit, ...]) -> None:
+def _tell_tested(tested: tuple[formulas.KnownAgainstFit, ...]) -> None:
     """The known parameters against the fit.
 
     Raises:
@@ -188,7 +186,7 @@ def _tell_tested(tested: tuple[KnownAgainstFit, ...]) -> None:
         )
 
 
-def _sets(subject: Physical, size: int | None, cad: Given | None) -> Json:
+def _sets(subject: Physical, size: int | None, cad: formulas.Given | None) -> Json:
     system = subject.system
     with progress("counting") as tell:
         found = subject.sets(size, tell)
@@ -221,7 +219,7 @@ def _sets(subject: Physical, size: int | None, cad: Given | None) -> Json:
     }
 
 
-def _against_cad(subject: Physical, cad: Given) -> Json:
+def _against_cad(subject: Physical, cad: formulas.Given) -> Json:
     found = subject.against(cad)
     say(f"{'quantity':<8} {'identified':>12} {'sigma':>9} {'CAD':>12} {'z':>8}  depends on")
     for row in found.rows:
@@ -242,7 +240,7 @@ def _against_cad(subject: Physical, cad: Given) -> Json:
     }
 
 
-def _tell_explained(found: CadComparison) -> None:
+def _tell_explained(found: formulas.CadComparison) -> None:
     say()
     if not found.suspicious:
         say(f"all {len(found.rows)} agree with CAD (|z| below {found.limit:.2f})")

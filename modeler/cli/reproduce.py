@@ -5,35 +5,31 @@ import enum
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 
+from modeler import papers
 from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.core.errors import ModelerError
 from modeler.core.table import aligned
-from modeler.papers.briot import briot_methods
-from modeler.papers.check import Line, LineVerdict, check_paper
-from modeler.papers.guegan import guegan_methods
-from modeler.papers.hanssen import hanssen_methods
-from modeler.papers.houda import houda_methods
-from modeler.papers.methods import MethodTable, Outcome
-from modeler.papers.paper import SLIPS, DerivedPaper, Paper, derived_robot, read_paper
 
-METHODS: dict[str, Callable[[Paper, Callable[[float], None]], list[MethodTable]]] = {
-    "briot-2012": briot_methods,
-    "guegan-2003": guegan_methods,
-    "hanssen-2000": hanssen_methods,
-    "houda": houda_methods,
+METHODS: dict[str, Callable[[papers.Paper, Callable[[float], None]], list[papers.MethodTable]]] = {
+    "briot-2012": papers.briot_methods,
+    "guegan-2003": papers.guegan_methods,
+    "hanssen-2000": papers.hanssen_methods,
+    "houda": papers.houda_methods,
 }
 """Of a paper's identification, run again in simulation."""
 
 
 def run_reproduce(args: argparse.Namespace) -> Json:
     """Prints the lines; raises if one is different."""
-    paper = read_paper(args.paper)
+    paper = papers.read_paper(args.paper)
     say(paper.title)
     args.after, args.different = after_reproduce, []
     found: dict[str, object] = {"paper": paper.name}
     if args.section != "methods":
         lines = _lines(paper)
-        args.different += [line.printed for line in lines if line.verdict is LineVerdict.DIFFERENT]
+        args.different += [
+            line.printed for line in lines if line.verdict is papers.LineVerdict.DIFFERENT
+        ]
         found["lines"] = [asdict(line) | {"verdict": line.verdict.value} for line in lines]
     if args.section != "print":
         tables = _methods(paper)
@@ -56,38 +52,38 @@ def after_reproduce(args: argparse.Namespace) -> None:
         )
 
 
-def _lines(paper: Paper) -> list[Line]:
-    found: dict[str, DerivedPaper] = {}
+def _lines(paper: papers.Paper) -> list[papers.Line]:
+    found: dict[str, papers.DerivedPaper] = {}
     for name in paper.robots:
         with working(f"deriving {name}"):
-            found[name] = derived_robot(name, paper.variants.get(name))
-    lines = check_paper(paper, found)
+            found[name] = papers.derived_robot(name, paper.variants.get(name))
+    lines = papers.check_paper(paper, found)
     for name in paper.robots:
         _say_robot(name, found[name], [line for line in lines if line.robot == name])
     say()
     for line in lines:
-        if line.verdict is LineVerdict.UNCHECKED:
+        if line.verdict is papers.LineVerdict.UNCHECKED:
             say(f"  [{line.verdict.value}] {line.place}: {line.why}")
     say()
     say(_counted([line.verdict for line in lines]))
     return lines
 
 
-def _say_robot(name: str, derived: DerivedPaper, lines: Sequence[Line]) -> None:
+def _say_robot(name: str, derived: papers.DerivedPaper, lines: Sequence[papers.Line]) -> None:
     say()
     say(f"{name}: {derived.robot.title}")
     for line in lines:
-        slip = f": {SLIPS[line.slip]}" if line.verdict is LineVerdict.MISPRINT else ""
+        slip = f": {papers.SLIPS[line.slip]}" if line.verdict is papers.LineVerdict.MISPRINT else ""
         say(f"  [{line.verdict.value}{slip}] {line.place}: {line.printed}")
-        if line.verdict in (LineVerdict.MEASURED, LineVerdict.CONSISTENT):
+        if line.verdict in (papers.LineVerdict.MEASURED, papers.LineVerdict.CONSISTENT):
             say(f"      must hold: {line.derived}")
-        if line.verdict in (LineVerdict.MISPRINT, LineVerdict.DIFFERENT):
+        if line.verdict in (papers.LineVerdict.MISPRINT, papers.LineVerdict.DIFFERENT):
             say(f"      derived: {line.derived}")
         if line.why:
             say(f"      {line.why}")
 
 
-def _methods(paper: Paper) -> list[MethodTable]:
+def _methods(paper: papers.Paper) -> list[papers.MethodTable]:
     with progress(f"simulating the experiment of {paper.name}") as report:
         tables = METHODS[paper.name](paper, report)
     for table in tables:
@@ -108,15 +104,15 @@ def _counted(found: Sequence[enum.Enum]) -> str:
     return ", ".join(f"{count} {kind.value}" for kind, count in counts.items() if count)
 
 
-def _failed(tables: Sequence[MethodTable]) -> list[str]:
+def _failed(tables: Sequence[papers.MethodTable]) -> list[str]:
     return [
         f"{table.title}: {row.what}"
         for table in tables
         for row in table.rows
-        if row.outcome is Outcome.FAILED
+        if row.outcome is papers.Outcome.FAILED
     ]
 
 
-def _table_json(table: MethodTable) -> dict[str, object]:
+def _table_json(table: papers.MethodTable) -> dict[str, object]:
     rows = [asdict(row) | {"outcome": row.outcome.value} for row in table.rows]
     return {"title": table.title, "setting": list(table.setting), "rows": rows}

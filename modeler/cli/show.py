@@ -8,9 +8,8 @@ from modeler.cli.lists import read_told
 from modeler.cli.places import Output, check_places
 from modeler.core.errors import ModelerError
 from modeler.core.files import Kind, destination, write_atomically
-from modeler.report.robot_page import posture_json, posture_lines, show
-from modeler.robot.par_convert import converted
-from modeler.robot.read import robot_from_text
+from modeler.report import posture_json, posture_lines, show
+from modeler.robot import converted, robot_from_text
 
 
 def run_convert(args: argparse.Namespace) -> Json:

@@ -14,7 +14,7 @@ from fractions import Fraction
 
 from modeler.codegen.targets import DOUBLE, FUNCTIONS, Target
 from modeler.core.errors import EmitError
-from modeler.derivation.graph import Expr, Graph
+from modeler.derivation import Expr, Graph
 
 # One operation as C99 text.
 #

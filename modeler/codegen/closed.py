@@ -22,10 +22,7 @@ from modeler.codegen.functions import Arguments, CFunction, Closed, entries_of
 from modeler.codegen.fused import Turns, base_columns, fused_regressor, turns_of
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec
-from modeler.derivation.closure import Closure
-from modeler.derivation.graph import Expr
-from modeler.derivation.model import SymbolicModel
-from modeler.derivation.result import BaseParameters
+from modeler.derivation import BaseParameters, Closure, Expr, SymbolicModel
 
 # What the emitted code solves the loops with: functions of the opened tree, and tables.
 

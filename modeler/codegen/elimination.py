@@ -11,8 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from modeler.derivation.graph import Expr, Graph
-from modeler.derivation.model import SymbolicModel
+from modeler.derivation import Expr, Graph, SymbolicModel
 
 SMALLEST = 1e-2
 """Share of its row's size below which a pivot counts as small when the code runs."""

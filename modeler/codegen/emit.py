@@ -15,8 +15,7 @@ from modeler.codegen.closed import closed_functions, closure_tables, solving_of
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
-from modeler.codegen.fused import UNIT as TILE_UNIT
-from modeler.codegen.fused import Tile, tile_of
+from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
 from modeler.codegen.package import package_files, render
 from modeler.codegen.targets import OF_PRECISION, WIDE, of_precision
 from modeler.codegen.vectors import stored_states
@@ -26,12 +25,15 @@ from modeler.core.expression import Expression
 from modeler.core.files import resource_dir
 from modeler.core.json import entries
 from modeler.core.manifest import Emitted, FittedSpec, FunctionSpec, ModuleSpec
-from modeler.derivation.geometry import Geometry, geometric_symbol
-from modeler.derivation.model import SymbolicModel
-from modeler.derivation.precise import precise_values
-from modeler.derivation.relations import coefficient_text
-from modeler.derivation.result import BaseParameters
-from modeler.robot.robot import Robot
+from modeler.derivation import (
+    BaseParameters,
+    Geometry,
+    SymbolicModel,
+    coefficient_text,
+    geometric_symbol,
+    precise_values,
+)
+from modeler.robot import Robot
 
 # The manifest of an emitted module: everything the numeric stages will know of the robot.
 

@@ -17,9 +17,7 @@ from modeler.codegen.closed import closed_dynamics
 from modeler.codegen.functions import CFunction
 from modeler.core.errors import EmitError
 from modeler.core.manifest import FittedSpec, ModuleSpec
-from modeler.derivation.columns import ShaftColumn
-from modeler.derivation.model import SymbolicModel, along
-from modeler.derivation.result import BaseParameters
+from modeler.derivation import BaseParameters, ShaftColumn, SymbolicModel, along
 
 UNIT = "_fitted"
 """C file of these functions, without the robot's name and `.c`."""

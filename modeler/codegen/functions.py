@@ -9,13 +9,16 @@ from fractions import Fraction
 from modeler.codegen.block import Block
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, ModuleSpec
-from modeler.derivation.columns import ShaftColumn
-from modeler.derivation.graph import Expr
-from modeler.derivation.model import SymbolicModel
-from modeler.derivation.relations import relation_text
-from modeler.derivation.result import BaseParameter, BaseParameters
-from modeler.effects.effect import Acts
-from modeler.robot.robot import Joint
+from modeler.derivation import (
+    BaseParameter,
+    BaseParameters,
+    Expr,
+    ShaftColumn,
+    SymbolicModel,
+    relation_text,
+)
+from modeler.effects import Acts
+from modeler.robot import Joint
 
 
 @dataclass(frozen=True)
@@ -186,9 +189,7 @@ def _regressors(
     )  # fmt: skip
 
 
-def _by_column(
-    values: Mapping[tuple[int, int], Expr],
-) -> list[tuple[tuple[int, int], Expr]]:
+def _by_column(values: Mapping[tuple[int, int], Expr]) -> list[tuple[tuple[int, int], Expr]]:
     """Entries of {(joint, column): value} column after column.
 
     So what the columns of a link read is computed, read and done with before the next link: row

@@ -16,9 +16,7 @@ from modeler.codegen.elimination import Elimination
 from modeler.codegen.functions import CFunction
 from modeler.codegen.targets import TILE
 from modeler.core.json import entries
-from modeler.derivation.graph import Expr, Graph
-from modeler.derivation.model import SymbolicModel
-from modeler.derivation.result import BaseParameters
+from modeler.derivation import BaseParameters, Expr, Graph, SymbolicModel
 
 _TURNS = ("sin", "cos")
 _ARITHMETIC: Mapping[str, Callable[[Expr, Expr], Expr]] = {
@@ -123,10 +121,7 @@ def fused_regressor(
 
 
 def replaced(
-    graph: Graph,
-    outputs: Sequence[Expr],
-    nodes: Mapping[int, Expr],
-    symbols: Mapping[str, Expr],
+    graph: Graph, outputs: Sequence[Expr], nodes: Mapping[int, Expr], symbols: Mapping[str, Expr]
 ) -> list[Expr]:
     """The outputs with other expressions in place of some nodes, and of symbols by name."""
     found: dict[int, Expr] = {0: graph.constant(0), **nodes}
@@ -187,9 +182,7 @@ class Tile:
 
 
 def tile_of(
-    functions: Iterable[CFunction],
-    places: Mapping[str, str],
-    nonzeros: Sequence[tuple[int, int]],
+    functions: Iterable[CFunction], places: Mapping[str, str], nonzeros: Sequence[tuple[int, int]]
 ) -> Tile | None:
     """The tile of a module; None where it has no function of the entries: with loops.
 

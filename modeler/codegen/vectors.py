@@ -14,10 +14,18 @@ import numpy as np
 
 from modeler.codegen.functions import CFunction, Closed, name_lines
 from modeler.core.errors import EmitError
-from modeler.derivation.closure import Closure, moved_postures
-from modeler.derivation.enclosed import EnclosedState, Enclosures, NotEnclosed
-from modeler.derivation.model import SymbolicModel
-from modeler.derivation.precise import Ball, ball_function, exact_ball, flint
+from modeler.derivation import (
+    Ball,
+    Closure,
+    EnclosedState,
+    Enclosures,
+    NotEnclosed,
+    SymbolicModel,
+    ball_function,
+    exact_ball,
+    flint,
+    moved_postures,
+)
 
 STATES = 2
 PRODUCTS = ("regressor", "base_regressor", "base_regressor_nonzeros", "platform_base_regressor")

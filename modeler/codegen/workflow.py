@@ -8,13 +8,16 @@ from modeler.core.errors import Precision
 from modeler.core.formula import Formulas
 from modeler.core.manifest import Emitted, FittedSpec
 from modeler.core.result import Presented
-from modeler.derivation.base_parameters import base_parameters
-from modeler.derivation.derive import derive_model
-from modeler.derivation.model import SymbolicModel
-from modeler.derivation.relations import as_latex, as_markdown, as_text
-from modeler.derivation.result import BaseParameters
-from modeler.robot.read import read_robot
-from modeler.robot.robot import Robot
+from modeler.derivation import (
+    BaseParameters,
+    SymbolicModel,
+    as_latex,
+    as_markdown,
+    as_text,
+    base_parameters,
+    derive_model,
+)
+from modeler.robot import Robot, read_robot
 
 
 @dataclass(frozen=True)
@@ -37,7 +40,7 @@ class Derivation(Presented):
         Args:
             nonzero: True to leave out parameters that the robot file states as 0.
         """
-        from modeler.formulas.regressor_form import nonzero_base, short_form
+        from modeler.formulas import nonzero_base, short_form
 
         base = nonzero_base(self.model, self.base) if nonzero else self.base
         return short_form(self.model, base).formulas()
@@ -48,7 +51,7 @@ class Derivation(Presented):
         Args:
             nonzero: as of `closed_form`.
         """
-        from modeler.formulas.regressor_form import nonzero_base, regressor_form
+        from modeler.formulas import nonzero_base, regressor_form
 
         base = nonzero_base(self.model, self.base) if nonzero else self.base
         return regressor_form(self.model, base).formulas()

@@ -35,7 +35,7 @@ from modeler.derivation.result import (
     SampledRank,
     Sampling,
 )
-from modeler.effects.effect import EnergyBlock
+from modeler.effects import EnergyBlock
 
 SEED = 20030914
 _AGREEMENT = 1e-9

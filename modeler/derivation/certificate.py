@@ -19,7 +19,7 @@ import sympy
 from modeler.derivation.columns import LinkColumn, ShaftColumn, StandardColumn, in_block
 from modeler.derivation.field import ExactField, cosine_letter
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
-from modeler.effects.effect import EnergyBlock
+from modeler.effects import EnergyBlock
 
 # Vectors of residues modulo a prime: one entry per random point.
 #

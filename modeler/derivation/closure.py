@@ -22,7 +22,7 @@ from modeler.derivation.geometry import Geometry
 from modeler.derivation.graph import Algebra, Expr, Graph, GraphAlgebra, derivatives
 from modeler.derivation.kinematics import Pose, dot, plus, poses_from, times
 from modeler.derivation.precise import decimal, precise_values
-from modeler.robot.robot import INERTIAL, Loop, Robot
+from modeler.robot import INERTIAL, Loop, Robot
 
 # The loops in floating point, for many postures at once: Newton on all equations, redundant ones
 # included, in the sense of least squares; what the emitted C does with an independent set of them

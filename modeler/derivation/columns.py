@@ -9,8 +9,8 @@ from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
 from modeler.derivation.geometry import Geometry
-from modeler.effects.effect import Acts, EnergyBlock, Memory
-from modeler.robot.robot import Joint, Robot
+from modeler.effects import Acts, EnergyBlock, Memory
+from modeler.robot import Joint, Robot
 
 _INERTIAL_UNITS = dict.fromkeys(("XX", "XY", "XZ", "YY", "YZ", "ZZ"), "kg m2") | dict.fromkeys(
     ("MX", "MY", "MZ"), "kg m"

@@ -16,7 +16,7 @@ from modeler.derivation.graph import Graph
 from modeler.derivation.implied import implied_relations
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.walks import Linkage, linkage_of
-from modeler.robot.robot import Robot
+from modeler.robot import Robot
 
 # [home]: taken as stated where it is good, else found; refused where it is singular.
 #

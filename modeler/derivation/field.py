@@ -15,8 +15,7 @@ from typing import Any, TypeAlias
 
 import sympy
 from sympy import QQ
-from sympy.polys.fields import FracElement
-from sympy.polys.fields import field as rational_functions
+from sympy.polys.fields import FracElement, field as rational_functions
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.rings import PolyElement, PolyRing, ring
 
@@ -436,7 +435,7 @@ def as_fraction(value: Any) -> Fraction:
     return Fraction(int(value.numerator), int(value.denominator))
 
 
-Vector: TypeAlias = Mapping[Any, Any]
+SparseVector: TypeAlias = Mapping[Any, Any]
 """Sparse vector over Q: {place: rational number}."""
 
 
@@ -458,7 +457,7 @@ class Relations:
         return len(self.independent)
 
 
-def relations(vectors: Mapping[Any, Vector]) -> Relations:
+def linear_relations(vectors: Mapping[Any, SparseVector]) -> Relations:
     """The independent vectors, first come first kept, and all the others in terms of them."""
     names, places = list(vectors), places_of(vectors.values())
     columns: dict[int, dict[int, Any]] = {}
@@ -474,6 +473,6 @@ def relations(vectors: Mapping[Any, Vector]) -> Relations:
     return Relations(tuple(names[k] for k in pivots), found)
 
 
-def places_of(vectors: Iterable[Vector]) -> dict[Any, int]:
+def places_of(vectors: Iterable[SparseVector]) -> dict[Any, int]:
     """Row by place, in order of appearance."""
     return {place: i for i, place in enumerate(dict.fromkeys(p for v in vectors for p in v))}

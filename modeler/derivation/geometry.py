@@ -11,7 +11,7 @@ import sympy
 from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
-from modeler.robot.robot import Joint, Robot
+from modeler.robot import Joint, Robot
 
 # Cosine and sine of constant angles, exactly, with as few different ones as possible.
 #

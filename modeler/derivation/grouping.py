@@ -11,15 +11,15 @@ import sympy
 
 from modeler.core.errors import DerivationError
 from modeler.derivation.columns import LinkColumn, StandardColumn, in_block, link_column
-from modeler.derivation.field import Element, ExactField, relations, sparse_row_reduce
+from modeler.derivation.field import Element, ExactField, linear_relations, sparse_row_reduce
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.loop_relations import closure_relations, loop_relations, on_link
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameter, Term
 from modeler.derivation.tied import has_energy, tied_relations
 from modeler.derivation.tree import INERTIA, OFFSET, group_tree
-from modeler.effects.effect import EnergyBlock
-from modeler.robot.robot import INERTIAL
+from modeler.effects import EnergyBlock
+from modeler.robot import INERTIAL
 
 # The units of grouping: every inertial parameter of every link, whether the robot has it or not.
 #
@@ -169,7 +169,7 @@ def _dependent(
             for part in column.parts:
                 for key, c in function(part.shaft).items() if part.shaft else ():
                     total[key] = total.get(key, 0) + sympy.QQ(c.numerator, c.denominator)
-    found = relations(vectors)
+    found = linear_relations(vectors)
     return [
         {place: Fraction(1), **{kept: -factor for kept, factor in combination.items()}}
         for place, combination in found.combinations.items()

@@ -28,7 +28,7 @@ from modeler.derivation.precise import (
     precise_values,
 )
 from modeler.derivation.walks import closed_motion, closed_walk
-from modeler.robot.robot import Robot
+from modeler.robot import Robot
 
 Term = tuple[Fraction, str]
 """factor * text."""

@@ -18,11 +18,7 @@ from modeler.derivation.graph import Algebra, Scalar, Vector
 
 def cross(a: Vector, b: Vector) -> Vector:
     """a x b."""
-    return [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def dot(a: Vector, b: Vector) -> Scalar:
@@ -446,11 +442,7 @@ def inertia_matrix(
 
 
 def _fill(
-    matrix: list[list[Scalar]],
-    geometry: Geometry,
-    frames: Sequence[Pose],
-    link: Composite,
-    k: int,
+    matrix: list[list[Scalar]], geometry: Geometry, frames: Sequence[Pose], link: Composite, k: int
 ) -> None:
     row = geometry.rows[k]
     assert row.index is not None

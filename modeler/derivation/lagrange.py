@@ -14,7 +14,7 @@ from modeler.derivation.columns import LinkColumn
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.walks import closed_motion
-from modeler.robot.robot import INERTIAL
+from modeler.robot import INERTIAL
 
 
 def _torque_function(geometry: Geometry, parameters: Sequence[tuple[int, str]]) -> casadi.Function:

@@ -30,20 +30,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from modeler.derivation.certificate import (
-    ModularState,
-    Residues,
-    cross,
-    filled,
-    in_axes,
-)
+from modeler.derivation.certificate import ModularState, Residues, cross, filled, in_axes
 from modeler.derivation.closure import ALL, LOOP_JOINTS
 from modeler.derivation.columns import StandardColumn
 from modeler.derivation.field import Element, ExactField, TooLarge
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.tied import dependent_columns
 from modeler.derivation.tree import joint_constant, placement, transferred
-from modeler.robot.robot import INERTIAL
+from modeler.robot import INERTIAL
 
 _POINTS = 4
 _MOST = 800

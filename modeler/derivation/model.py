@@ -34,9 +34,8 @@ from modeler.derivation.kinematics import (
     project,
     wrench_columns,
 )
-from modeler.effects.catalogue import ENCODERS
-from modeler.effects.effect import Acts
-from modeler.robot.robot import Robot
+from modeler.effects import ENCODERS, Acts
+from modeler.robot import Robot
 
 _REFERRED = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
 """Effects whose parameters `[reference]` may state: those that depend on nothing else."""

@@ -14,7 +14,7 @@ from typing import Any
 from modeler.core.expression import FUNCTIONS
 from modeler.core.rounded import precise
 from modeler.derivation.graph import OPERATIONS, Arithmetic, Expr, Graph, Plan
-from modeler.robot.robot import Robot
+from modeler.robot import Robot
 
 Ball = Any
 """An `arb` of python-flint: a real ball."""

@@ -124,10 +124,7 @@ def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
                 "column_of": base.columns[parameter.column].name,
                 "unit": base.columns[parameter.column].unit,
                 "terms": [
-                    {
-                        "coefficient": coefficient_text(term.coefficient),
-                        "parameter": term.parameter,
-                    }
+                    {"coefficient": coefficient_text(term.coefficient), "parameter": term.parameter}
                     for term in parameter.terms
                 ],
             }

@@ -18,7 +18,7 @@ from modeler.derivation.closure import Frame, LoopEquations, loop_equations, wra
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.kinematics import base_poses
 from modeler.derivation.model import SymbolicModel
-from modeler.robot.robot import Joint, Robot
+from modeler.robot import Joint, Robot
 
 _WALKERS = 32
 _STEPS = 40

@@ -1,13 +1,5 @@
 """Which physical effect a model lacks, what it would gain, and the model with it."""
 
-from typing import TYPE_CHECKING, Any
+import lazy_loader
 
-if TYPE_CHECKING:
-    from modeler.diagnosis.entries import *  # noqa: F403
-else:
-
-    def __getattr__(name: str) -> Any:
-        """One of `entries`: a fit's page reads what is light here, without the rest."""
-        import modeler.diagnosis.entries as entries
-
-        return getattr(entries, name)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from modeler.codegen.workflow import derive, generate
+from modeler.codegen import derive, generate
 from modeler.core.errors import DataError, RobotError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent, printed
@@ -31,14 +31,10 @@ from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.state import SearchData, analysed, state_of
 from modeler.diagnosis.timing import instrumental
-from modeler.effects.catalogue import effect_named
-from modeler.effects.effect import Acts, Effect
-from modeler.estimation.identify import identify
-from modeler.estimation.model_file import Addition, IdentifiedModel, provenance
-from modeler.estimation.verdict import with_verdict
-from modeler.robot.read import robot_from_text
-from modeler.robot.robot import listed, near
-from modeler.runtime.model import CompiledModel, load
+from modeler.effects import Acts, Effect, effect_named
+from modeler.estimation import Addition, IdentifiedModel, identify, provenance, with_verdict
+from modeler.robot import listed, near, robot_from_text
+from modeler.runtime import CompiledModel, load
 
 if TYPE_CHECKING:
     from modeler.diagnosis.result import Finding

@@ -14,18 +14,21 @@ from modeler.diagnosis.score import Unseen, error_changes
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.signals import SignalReference, tilt_basis
 from modeler.diagnosis.state import SearchData, State, columns_of, state_of
-from modeler.effects.catalogue import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, effect_named
-from modeler.effects.effect import Acts, Effect
-from modeler.estimation.model_file import Addition, IdentifiedModel
-from modeler.estimation.parameter import told_spread
-from modeler.observation.log import Log
-from modeler.observation.low_speed import shafts
-from modeler.observation.observation import Observation, model_torque, observed, observed_alike
-from modeler.observation.prepare import Prepared, prepare
-from modeler.observation.settings import Processing
-from modeler.robot.edit import with_coupling, with_effect, with_gravity, with_reference
-from modeler.robot.read import robot_from_text
-from modeler.runtime.model import CompiledModel
+from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Acts, Effect, effect_named
+from modeler.estimation import Addition, IdentifiedModel, told_spread
+from modeler.observation import (
+    Log,
+    Observation,
+    Prepared,
+    Processing,
+    model_torque,
+    observed,
+    observed_alike,
+    prepare,
+    shafts,
+)
+from modeler.robot import robot_from_text, with_coupling, with_effect, with_gravity, with_reference
+from modeler.runtime import CompiledModel
 
 
 def with_shapes(

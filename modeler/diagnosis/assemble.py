@@ -32,10 +32,9 @@ from modeler.diagnosis.search import Search, Tick, extended
 from modeler.diagnosis.sentences import evidence, sentences
 from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import instrumental
-from modeler.effects.catalogue import effect_named
-from modeler.effects.effect import Acts
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.observation.channels import Fault
+from modeler.effects import Acts, effect_named
+from modeler.estimation import IdentifiedModel
+from modeler.observation import Fault
 
 LOST = 1.0
 """Held-out error from which on a model says nothing about that motion, nor what it lacks."""

@@ -9,8 +9,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.manifest import ModuleSpec
-from modeler.effects.catalogue import CATALOGUE, PASSIVE_FRICTION_IS
-from modeler.effects.effect import Acts, Effect, Form, Shape
+from modeler.effects import CATALOGUE, PASSIVE_FRICTION_IS, Acts, Effect, Form, Shape
 
 
 @dataclass(frozen=True)

@@ -19,9 +19,7 @@ from modeler.diagnosis.generate import generate_candidates, ruled_out
 from modeler.diagnosis.judge import Judged, decide, numbers, tied
 from modeler.diagnosis.search import Search, Step, Tick, about_itself, scan_candidates
 from modeler.diagnosis.state import SearchData, State, analysed, state_of
-from modeler.observation.motion import HIGHEST
-from modeler.observation.observation import Observation
-from modeler.observation.prepare import Mending
+from modeler.observation import HIGHEST, Mending, Observation
 
 FACTORS = (0.7, 1.4)
 """Cut-offs of the other looks, over those of the diagnosis."""

@@ -16,7 +16,7 @@ from modeler.diagnosis.result import Finding
 from modeler.diagnosis.score import Score
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
-from modeler.effects.effect import Acts, Effect
+from modeler.effects import Acts, Effect
 
 KNOCKS = 0.85
 """Share of a residual's energy in outbursts from which on something knocks."""

@@ -18,15 +18,12 @@ from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.search import MOST, Search, search
 from modeler.diagnosis.state import SearchData, analysed, bands_line, state_of
 from modeler.diagnosis.timing import logger_shift
-from modeler.effects.catalogue import effect_named
-from modeler.effects.effect import Acts, Effect
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.observation.log import Log
-from modeler.observation.observation import Observation
-from modeler.observation.prepare import Mending
+from modeler.effects import Acts, Effect, effect_named
+from modeler.estimation import IdentifiedModel
+from modeler.observation import Log, Mending, Observation
 
 if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+    from modeler.runtime import CompiledModel
 
 CHANGED = 1.3
 """Ratio of the residual variances with kept and with refitted parameters from which on the robot

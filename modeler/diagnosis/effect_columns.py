@@ -13,10 +13,9 @@ from modeler.core.brief import Brief
 from modeler.core.manifest import ParameterSpec
 from modeler.diagnosis.candidates import Candidate, links_of
 from modeler.diagnosis.signals import EVERY, WINDOW, SignalReference, Signals, tilt_columns
-from modeler.effects.effect import Acts
+from modeler.effects import Acts
 from modeler.numerics.filters import SPREAD, only
-from modeler.observation.observation import Observation
-from modeler.observation.stretch import Stretch
+from modeler.observation import Observation, Stretch
 
 # The columns of a candidate over the samples of a segment: the catalogue's equations in numpy.
 

@@ -8,7 +8,7 @@ import numpy as np
 from modeler.diagnosis.candidates import Candidate, candidates, links_of
 from modeler.diagnosis.orders import ripple_candidates
 from modeler.diagnosis.state import State
-from modeler.effects.effect import Acts
+from modeler.effects import Acts
 
 
 def generate_candidates(

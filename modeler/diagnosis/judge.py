@@ -10,8 +10,7 @@ from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import Columns
 from modeler.diagnosis.ranking import VISIBLE, Ranking, pool_of, total_falls
-from modeler.diagnosis.score import SURE as TIED
-from modeler.diagnosis.score import Score, Unseen, scored, standard_errors
+from modeler.diagnosis.score import SURE as TIED, Score, Unseen, scored, standard_errors
 from modeler.diagnosis.state import SearchData, State, picked_columns
 from modeler.diagnosis.timing import confirmed
 

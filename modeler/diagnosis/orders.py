@@ -10,10 +10,9 @@ from modeler.diagnosis.effect_columns import all_columns, own_columns
 from modeler.diagnosis.signals import resonance
 from modeler.diagnosis.state import State, column_key
 from modeler.numerics.noise import forgotten, outbursts, returning
-from modeler.numerics.spectra import OrderSpectrum
-from modeler.numerics.spectra import order_spectrum as spectrum_of
+from modeler.numerics.spectra import OrderSpectrum, order_spectrum as spectrum_of
 from modeler.numerics.splines import LEAST, SLIPS, Flexible, Measured, flexible, functions
-from modeler.observation.low_speed import bristle
+from modeler.observation import bristle
 
 
 def order_spectrum(state: State, j: int) -> OrderSpectrum | None:
@@ -73,9 +72,7 @@ def counted(order: float) -> float:
 
 
 def ripple_candidates(
-    state: State,
-    allowed: Callable[[str, str | None], bool],
-    joints: Set[str | None] | None = None,
+    state: State, allowed: Callable[[str, str | None], bool], joints: Set[str | None] | None = None
 ) -> list[Candidate]:
     """Waves at the orders that stand out on each joint, and at the whole numbers next to them.
 

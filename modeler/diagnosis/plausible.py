@@ -8,8 +8,8 @@ from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.drive_gains import TENFOLD
 from modeler.diagnosis.effect_columns import body_parameters, dense
 from modeler.diagnosis.state import State, columns_of
-from modeler.effects.effect import Needs
-from modeler.estimation.nearest_body import body, nearest_possible
+from modeler.effects import Needs
+from modeler.estimation import body, nearest_possible
 
 # Friction brakes: does that of a model with an effect, on the motion seen and where it has faded?
 #

@@ -29,10 +29,10 @@ from modeler.diagnosis.effect_columns import Columns, Rows, body_parameters, den
 from modeler.diagnosis.ranking import blocks_of
 from modeler.diagnosis.signals import tilt_basis
 from modeler.diagnosis.state import State
-from modeler.effects.effect import Acts, Shape
-from modeler.estimation.covariance import autocorrelation, repeated
+from modeler.effects import Acts, Shape
+from modeler.estimation import autocorrelation, repeated
 from modeler.numerics.least_squares import orthonormal
-from modeler.observation.observation import Observation
+from modeler.observation import Observation
 
 # The fit of an effect with given shapes, beside all else that a model has.
 

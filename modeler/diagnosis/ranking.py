@@ -15,7 +15,7 @@ from modeler.core.brief import Brief
 from modeler.diagnosis.effect_columns import Columns, Rows, width
 from modeler.numerics.least_squares import ReducedRows, turn_of, whitening
 from modeler.numerics.spectra import lap
-from modeler.observation.observation import Observation
+from modeler.observation import Observation
 
 RIDGE = 1e-10
 """Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""

@@ -31,8 +31,7 @@ from modeler.diagnosis.plausible import DRIVES, drives, objection
 from modeler.diagnosis.profile import values_of
 from modeler.diagnosis.ranking import fall, pool_of, total_falls
 from modeler.diagnosis.state import SearchData, State, all_columns_of, columns_of, state_of, visible
-from modeler.effects.catalogue import effect_named
-from modeler.effects.effect import Effect, Shape
+from modeler.effects import Effect, Shape, effect_named
 
 _STEPS = 8
 

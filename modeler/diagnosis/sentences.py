@@ -6,8 +6,8 @@ from modeler.core.table import percent, printed
 from modeler.diagnosis.orders import knocking
 from modeler.diagnosis.result import Diagnosis, Finding, Key
 from modeler.diagnosis.search import Step
-from modeler.effects.catalogue import effect_named
-from modeler.estimation.parameter import told_spread
+from modeler.effects import effect_named
+from modeler.estimation import told_spread
 
 TOLD = 0.15
 """Gain from which on an effect is mentioned that was refused."""

@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.effects.effect import Memory
-from modeler.observation.low_speed import bristle, signals_of
-from modeler.observation.motion import Segment
-from modeler.observation.prepare import nearest_closed
+from modeler.effects import Memory
+from modeler.observation import Segment, bristle, nearest_closed, signals_of
 
 if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+    from modeler.runtime import CompiledModel
 
 
 _STEP = 1e-5  # rad or m, of central differences

@@ -25,15 +25,12 @@ from modeler.diagnosis.ranking import (
     sigma_of,
 )
 from modeler.diagnosis.signals import SignalReference, frame_slopes, tilt_weights
-from modeler.effects.effect import Acts
+from modeler.effects import Acts
 from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
-from modeler.observation.log import Log
-from modeler.observation.observation import Observation, observe, observed
-from modeler.observation.prepare import Mending, Prepared
-from modeler.observation.settings import Processing
+from modeler.observation import Log, Mending, Observation, Prepared, Processing, observe, observed
 
 if TYPE_CHECKING:
-    from modeler.runtime.model import CompiledModel
+    from modeler.runtime import CompiledModel
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,8 +10,8 @@ from modeler.diagnosis.effect_columns import Rows, base_columns, dense, width
 from modeler.diagnosis.ranking import pieces
 from modeler.diagnosis.signals import Signals
 from modeler.diagnosis.state import State, picked_columns
-from modeler.effects.effect import Acts
-from modeler.observation.motion import low_pass
+from modeler.effects import Acts
+from modeler.observation import low_pass
 
 SURE = 4.0
 """Least ratio of the instrumental estimate to its standard error."""

@@ -1,1 +1,5 @@
 """The catalogue of physical effects, each defined once."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

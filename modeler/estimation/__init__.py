@@ -1,1 +1,5 @@
 """Estimators of the base parameters, their certainty, the verdict of a fit, and the model file."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

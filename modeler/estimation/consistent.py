@@ -63,9 +63,7 @@ class Consistent:
 
 
 def consistent(
-    machine: Machine,
-    whole: np.ndarray,
-    reference: Mapping[str, np.ndarray],
+    machine: Machine, whole: np.ndarray, reference: Mapping[str, np.ndarray]
 ) -> Consistent:
     """The machine that fits best.
 

@@ -9,7 +9,7 @@ from modeler.estimation.least_squares import Estimate, solve_by_qr
 from modeler.estimation.problem import Neighbours, residual_of
 from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import Compressed, triangle
-from modeler.observation.observation import Observation
+from modeler.observation import Observation
 
 _WORTH = 1.2  # a factor above it is said
 _LAGS = 60  # rows; with one row per 1 / (2.5 cut-off), 24 periods of the parallel filter

@@ -20,10 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.observation.low_speed import signals_of
-from modeler.observation.motion import HIGHEST, Segment, differentiated, low_pass
-from modeler.observation.observation import Observation
-from modeler.runtime.model import CompiledModel
+from modeler.observation import HIGHEST, Observation, Segment, differentiated, low_pass, signals_of
+from modeler.runtime import CompiledModel
 
 BANDWIDTHS = (2.0, 4.0, 8.0, 16.0, 32.0, 64.0)
 """Hz of the speed loops that are tried."""

@@ -12,9 +12,8 @@ from modeler.estimation.identify import CrossValidation, Equations, base_equatio
 from modeler.estimation.least_squares import least_squares
 from modeler.estimation.payload import Payload, loaded_equations
 from modeler.estimation.result import FitResult
-from modeler.observation.channels import Fault
-from modeler.observation.observation import Observation
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Fault, Observation
+from modeler.runtime import CompiledModel
 
 _FAR = 3.0  # standard deviations below zero
 

@@ -28,10 +28,8 @@ from modeler.estimation.least_squares import Estimate, least_squares, solve_by_q
 from modeler.estimation.payload import Loaded, Payload, loaded_equations
 from modeler.estimation.result import FitResult, ParameterEstimate
 from modeler.numerics.least_squares import Compressed, Rank, independent_columns, triangle
-from modeler.observation.log import Log
-from modeler.observation.observation import Observation
-from modeler.observation.report import LogReport
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Log, LogReport, Observation
+from modeler.runtime import CompiledModel
 
 MAX_ITERATIONS = 30  # a dozen is enough where the gains are told
 _SETTLED = 1e-9  # relative change of the gains

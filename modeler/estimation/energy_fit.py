@@ -28,11 +28,8 @@ from modeler.numerics.least_squares import (
     scaled_least_squares,
     triangle,
 )
-from modeler.observation.low_speed import signals_of
-from modeler.observation.motion import Segment
-from modeler.observation.observation import Observation
-from modeler.observation.segments import runs
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Observation, Segment, runs, signals_of
+from modeler.runtime import CompiledModel
 
 Rule = Literal["simpson", "trapezoid"]
 """How powers are integrated."""
@@ -459,10 +456,7 @@ def _report(
         rough.W, rough.y, rough.spread, observation.names, rough.stretch, method
     )
     figures = [_figures("torque", observation, torque.rows, torque)]
-    for name, part, fit in (
-        ("energy, Simpson", rows, found),
-        ("energy, trapezoid", rough, coarse),
-    ):
+    for name, part, fit in (("energy, Simpson", rows, found), ("energy, trapezoid", rough, coarse)):
         missed = np.linalg.norm((part.balance - part.W) @ found.beta) / np.linalg.norm(part.y)
         own = _figures(name, observation, len(part.y), fit)
         # What the energy that integration misses moves at most, in sigmas.

@@ -17,9 +17,8 @@ from modeler.estimation.parameter import ParameterEstimate
 from modeler.estimation.problem import Neighbours, Problem, kept_rows, residual_of
 from modeler.estimation.result import FitResult, JointFit
 from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
-from modeler.observation.observation import Observation
-from modeler.observation.reduce import is_streamed, triangles
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Observation, is_streamed, triangles
+from modeler.runtime import CompiledModel
 
 
 @dataclass(frozen=True, eq=False)
@@ -304,10 +303,7 @@ def _not_connected(observation: Observation, dead: Sequence[int]) -> list[str]:
 
 
 def joints_of(
-    observation: Observation,
-    data: Compressed,
-    beta: np.ndarray,
-    sigma: np.ndarray | None = None,
+    observation: Observation, data: Compressed, beta: np.ndarray, sigma: np.ndarray | None = None
 ) -> tuple[JointFit, ...]:
     """What is left of each joint; without a `sigma` (n,) of its rows, that is it."""
     residual, torque = data.residual_norms(beta), data.torque_norms()

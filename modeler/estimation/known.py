@@ -10,8 +10,8 @@ from modeler.estimation.doubts import Doubt, not_together
 from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.identify import fit_equations
 from modeler.estimation.payload import Loaded, Payload, loaded_equations
-from modeler.observation.observation import Observation
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Observation
+from modeler.runtime import CompiledModel
 
 FAR = 4.0
 """Standard deviations between what is given and what the logs say, from which on it is told."""
@@ -21,10 +21,7 @@ WORTH = 0.01
 
 
 def known_doubts(
-    model: CompiledModel,
-    observation: Observation,
-    payloads: Sequence[Payload],
-    currents: bool,
+    model: CompiledModel, observation: Observation, payloads: Sequence[Payload], currents: bool
 ) -> list[Doubt]:
     """Known quantities that the logs contradict, each with the factor.
 

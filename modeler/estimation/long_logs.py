@@ -20,25 +20,27 @@ from modeler.estimation.identify import base_equations, dead_joints, fit_equatio
 from modeler.estimation.methods import capable, method_of
 from modeler.estimation.result import FitResult
 from modeler.numerics.least_squares import Compressed, merged
-from modeler.observation.chunk import Chunk, chunks
-from modeler.observation.log import FINGER
-from modeler.observation.observation import Evaluated, Observation, no_row_left
-from modeler.observation.read import Source
-from modeler.observation.reduce import with_stretch
-from modeler.observation.settings import Processing
-from modeler.observation.survey import (
+from modeler.observation import (
+    FINGER,
     Chosen,
+    Chunk,
+    Evaluated,
+    Facts,
     KnownFacts,
+    Observation,
     Passes,
+    Processing,
+    Source,
     Survey,
     WholeNeeded,
+    chunks,
+    no_row_left,
     rows_of_chunk,
     streamed_report,
     survey,
+    with_stretch,
 )
-from modeler.observation.tally import Facts
-from modeler.runtime.fused import no_rows
-from modeler.runtime.model import CompiledModel
+from modeler.runtime import CompiledModel, no_rows
 
 PASSES = 3
 """Over the logs, at most: what a pass finds that the windows did not show may ask for another."""

@@ -23,10 +23,8 @@ from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, modul
 from modeler.core.result import Presented
 from modeler.core.table import percent
 from modeler.estimation.result import FitResult, fit_from_json
-from modeler.observation.log import LogRows, shared_rows
-from modeler.observation.report import DataReport
-from modeler.observation.settings import Processing
-from modeler.runtime.model import CompiledModel, load
+from modeler.observation import DataReport, LogRows, Processing, shared_rows
+from modeler.runtime import CompiledModel, load
 
 FORMAT = 3
 KIND = "modeler model"

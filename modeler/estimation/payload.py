@@ -10,10 +10,8 @@ from modeler.core.errors import DataError, Method
 from modeler.estimation.identify import Equations, base_equations, fit_equations
 from modeler.estimation.result import FitResult
 from modeler.numerics.least_squares import scaled_least_squares
-from modeler.observation.low_speed import signals_of
-from modeler.observation.motion import Segment
-from modeler.observation.observation import Observation
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Observation, Segment, signals_of
+from modeler.runtime import CompiledModel
 
 _ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
 """Where two load parameters cannot be told apart, the first in this order stays."""

@@ -7,9 +7,8 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.numerics.least_squares import Compressed
-from modeler.observation.observation import Evaluated, Observation
-from modeler.observation.reduce import blocks, explained, is_streamed, products
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Evaluated, Observation, blocks, explained, is_streamed, products
+from modeler.runtime import CompiledModel
 
 _PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows times a matrix
 

@@ -13,13 +13,8 @@ from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Presented
 from modeler.core.table import POOLED, errors_by_unit, percent, told_by_unit
 from modeler.estimation.essential import Reduced
-from modeler.estimation.parameter import (
-    ParameterEstimate,
-    parameter_lines,
-    read_all,
-    read_back,
-)
-from modeler.observation.settings import Processing, processing_from_json
+from modeler.estimation.parameter import ParameterEstimate, parameter_lines, read_all, read_back
+from modeler.observation import Processing, processing_from_json
 
 # The energy model beside the torque model of the same data: figures, and what they come to.
 

@@ -13,8 +13,8 @@ from modeler.core.estimators import ABOUT
 from modeler.core.result import Presented
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
-from modeler.observation.observation import Observation
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Observation
+from modeler.runtime import CompiledModel
 
 FIRST: Method = "weighted"
 """The method that the others are compared with."""

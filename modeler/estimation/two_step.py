@@ -20,9 +20,8 @@ from modeler.estimation.covariance import autocorrelation
 from modeler.estimation.least_squares import Estimate, least_squares
 from modeler.numerics.filters import LEAST_WEIGHT
 from modeler.numerics.least_squares import Compressed, compress
-from modeler.observation.observation import Observation
-from modeler.observation.segments import runs
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Observation, runs
+from modeler.runtime import CompiledModel
 
 # Where one joint moves and the others stand: the pieces of logs that a two-step fit uses.
 

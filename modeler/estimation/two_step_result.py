@@ -13,8 +13,8 @@ from modeler.estimation.essential import essential_parameters
 from modeler.estimation.identify import all_rows, base_equations, identify, joints_of, result_of
 from modeler.estimation.result import FitResult
 from modeler.estimation.two_step import Configuration, Directions, TwoStep, two_steps
-from modeler.observation.observation import Observation
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Observation
+from modeler.runtime import CompiledModel
 
 # Persistent excitation of a two-step fit: the singular values of Phi, joint by joint.
 

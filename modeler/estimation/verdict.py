@@ -25,8 +25,8 @@ from modeler.estimation.least_squares import solve_by_qr
 from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
 from modeler.estimation.result import FitResult, JointFit, Verdict, friction_by_direction
 from modeler.numerics.least_squares import Compressed, independent_columns, triangle
-from modeler.observation.observation import Observation
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Observation
+from modeler.runtime import CompiledModel
 
 # Is the time of the logs in seconds? The clock that a robot carries with it is gravity.
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
-from modeler.observation.low_speed import bristle
-from modeler.runtime.model import CompiledModel
+from modeler.observation import bristle
+from modeler.runtime import CompiledModel
 
 NEAR_REST = 1e-7
 """Of the top speed: so slow that dry friction alone is left of what speeds do."""

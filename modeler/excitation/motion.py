@@ -7,7 +7,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, LoopError
-from modeler.runtime.model import CompiledModel
+from modeler.runtime import CompiledModel
 
 # What a motion must keep to.
 

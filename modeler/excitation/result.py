@@ -15,7 +15,7 @@ from modeler.core.errors import DataError
 from modeler.core.result import Presented
 from modeler.excitation.criterion import signals
 from modeler.excitation.motion import Bounds, Series, series
-from modeler.runtime.model import CompiledModel
+from modeler.runtime import CompiledModel
 
 _DIGITS = 13  # after the point: rest is 0, not a rounding of it
 

@@ -18,7 +18,7 @@ from modeler.excitation.motion import DENSE, Bounds, Series, check_bounds, postu
 from modeler.excitation.result import Exciting, Quality, Used
 from modeler.excitation.task import Task, Walled
 from modeler.numerics.optimize import Landscape, descend
-from modeler.runtime.model import CompiledModel
+from modeler.runtime import CompiledModel
 
 RANDOM = 50
 """Random motions that the result is compared with; the best of them are improved."""

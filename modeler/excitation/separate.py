@@ -10,18 +10,23 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.table import percent
-from modeler.diagnosis.candidates import Candidate, JointScale, over_grid
-from modeler.diagnosis.effect_columns import all_columns
-from modeler.diagnosis.signals import SignalReference, Signals
-from modeler.effects.effect import Acts, Effect
+from modeler.diagnosis import (
+    Candidate,
+    JointScale,
+    SignalReference,
+    Signals,
+    all_columns,
+    over_grid,
+)
+from modeler.effects import Acts, Effect
 from modeler.excitation.criterion import condition
 from modeler.excitation.motion import Bounds
 from modeler.excitation.result import Exciting
 from modeler.excitation.search import Deadline, Wish, drawn_motions, finished, task_of
 from modeler.excitation.task import Task
 from modeler.numerics.optimize import evolve
-from modeler.observation.motion import Segment
-from modeler.runtime.model import CompiledModel
+from modeler.observation import Segment
+from modeler.runtime import CompiledModel
 
 _GENERATIONS = 150
 _FIRST = 0.15  # of the half ranges: size of the first steps

@@ -17,7 +17,7 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
-from modeler.estimation.least_squares import least_squares, solve_by_qr
+from modeler.estimation import least_squares, solve_by_qr
 from modeler.fleet.summary import LogSummary
 from modeler.numerics.least_squares import independent_columns, triangle
 

@@ -10,7 +10,7 @@ from modeler.core.brief import Brief
 from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
 from modeler.core.table import aligned, percent
-from modeler.effects.catalogue import CATALOGUE, effect_named
+from modeler.effects import CATALOGUE, effect_named
 from modeler.fleet.drift import Unit
 from modeler.fleet.joint_fit import GAIN, LOAD, Quantity
 

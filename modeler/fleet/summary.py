@@ -8,20 +8,27 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import Emitted
-from modeler.estimation.covariance import remembered, repeated_whole
-from modeler.estimation.identify import dead_joints, identify
-from modeler.estimation.least_squares import least_squares
-from modeler.estimation.verdict import contradictions
+from modeler.estimation import (
+    contradictions,
+    dead_joints,
+    identify,
+    least_squares,
+    remembered,
+    repeated_whole,
+)
 from modeler.fleet.naming import Named
-from modeler.logs.mapping import LogMap
+from modeler.logs import LogMap
 from modeler.numerics.least_squares import Compressed, compress
-from modeler.observation.chunk import window
-from modeler.observation.findings import faults_of_fit
-from modeler.observation.log import Log
-from modeler.observation.observation import Observation, observe
-from modeler.observation.read import read_log
-from modeler.observation.settings import Processing
-from modeler.runtime.model import CompiledModel, compiled_once
+from modeler.observation import (
+    Log,
+    Observation,
+    Processing,
+    faults_of_fit,
+    observe,
+    read_log,
+    window,
+)
+from modeler.runtime import CompiledModel, compiled_once
 
 TEMPERATURE = "temperature"
 """How the names of columns of temperatures begin; the rest is the joint, or nothing."""

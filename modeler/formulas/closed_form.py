@@ -29,28 +29,33 @@ from typing import TypeAlias
 import sympy
 
 from modeler.core.errors import RobotError
-from modeler.derivation.columns import ShaftColumn, in_block
-from modeler.derivation.field import with_square
-from modeler.derivation.geometry import Geometry, GeometryRow
-from modeler.derivation.graph import Expr, Graph, GraphAlgebra
-from modeler.derivation.kinematics import (
+from modeler.derivation import (
+    BaseParameters,
     Composite,
+    Expr,
+    Geometry,
+    GeometryRow,
+    Graph,
+    GraphAlgebra,
     Screw,
+    ShaftColumn,
+    SymbolicModel,
     Vector,
     cross,
     dot,
+    effect_entries,
     gravity_in_frames,
+    in_block,
     plus,
     project,
     screws,
+    with_square,
 )
-from modeler.derivation.model import SymbolicModel, effect_entries
-from modeler.derivation.result import BaseParameters
-from modeler.effects.effect import EnergyBlock
+from modeler.effects import EnergyBlock
 from modeler.formulas.energy_form import dynamics
 from modeler.formulas.function_sheet import Sheet, SheetWriter
 from modeler.formulas.ring import Poly, TrigRing
-from modeler.robot.robot import Robot
+from modeler.robot import Robot
 
 # A model on a graph of its own, prepared for formulas that people read; torques of its effects.
 

@@ -8,9 +8,13 @@ from typing import Any
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
-from modeler.derivation.field import Relations, relations, value_modulo
-from modeler.derivation.model import SymbolicModel
-from modeler.derivation.result import BaseParameters
+from modeler.derivation import (
+    BaseParameters,
+    Relations,
+    SymbolicModel,
+    linear_relations,
+    value_modulo,
+)
 from modeler.formulas.closed_form import ClosedForm, Exponents, Form, Function, closed_form
 from modeler.formulas.physical import (
     SEED,
@@ -114,7 +118,7 @@ def coefficient_table(model: SymbolicModel, base: BaseParameters) -> Coefficient
         text = monomial_text(at, motion)
         listed.append(Coefficient(name, function, at, text, form, grouped, physical.of(form)))
     coefficients = tuple(listed)
-    found = relations({c.name: vector_of(c.standard) for c in coefficients})
+    found = linear_relations({c.name: vector_of(c.standard) for c in coefficients})
     by_name = {c.name: c for c in coefficients}
     known = _known_geometry(coefficients, closed.algebra)
     seen = identifiability(physical, [by_name[name].physical for name in found.independent])

@@ -15,24 +15,26 @@ import sympy
 from sympy.polys.domains import QQ
 
 from modeler.core.errors import DerivationError
-from modeler.derivation.columns import LinkColumn, StandardColumn, in_block
-from modeler.derivation.geometry import Geometry
-from modeler.derivation.kinematics import (
+from modeler.derivation import (
     Composite,
+    Geometry,
+    LinkColumn,
     Pose,
     Screw,
+    StandardColumn,
+    SymbolicModel,
     Vector,
     cross,
     dot,
     free_screws,
     gravity_in_frames,
+    in_block,
     plus,
     poses,
     project,
     times,
 )
-from modeler.derivation.model import SymbolicModel
-from modeler.effects.effect import EnergyBlock
+from modeler.effects import EnergyBlock
 from modeler.formulas.ring import Poly, TrigRing
 
 MOST_PRODUCTS = 500_000

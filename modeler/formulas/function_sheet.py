@@ -16,7 +16,7 @@ from typing import Any
 
 from modeler.core.formula import latex_name
 from modeler.core.latex_display import DisplayedEquation, display
-from modeler.derivation.graph import Expr, Graph
+from modeler.derivation import Expr, Graph
 from modeler.formulas.text import LATEX, TEXT, TextStyle, signed_sum
 
 SHORT = 7

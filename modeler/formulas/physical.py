@@ -11,12 +11,10 @@ from sympy.polys.rings import PolyRing
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression, parse
-from modeler.derivation.columns import LinkColumn, in_block
-from modeler.derivation.field import value_modulo
-from modeler.derivation.model import SymbolicModel
-from modeler.effects.effect import EnergyBlock
+from modeler.derivation import LinkColumn, SymbolicModel, in_block, value_modulo
+from modeler.effects import EnergyBlock
 from modeler.formulas.ring import Poly, TrigRing, generators_of, independent_modulo, polynomial_of
-from modeler.robot.robot import Joint, PhysicalLink
+from modeler.robot import Joint, PhysicalLink
 
 _GENERIC = ("m", "cx", "cy", "cz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz")
 _DIAGONAL = (0, 3, 5)  # of XX XY XZ YY YZ ZZ

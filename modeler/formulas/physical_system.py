@@ -16,10 +16,7 @@ from sympy.polys.rings import PolyRing
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError, RobotError
-from modeler.derivation.certificate import row_echelon
-from modeler.derivation.field import value_modulo
-from modeler.derivation.model import SymbolicModel
-from modeler.derivation.result import BaseParameters
+from modeler.derivation import BaseParameters, SymbolicModel, row_echelon, value_modulo
 from modeler.formulas.coefficients import CoefficientTable, coefficient_table
 from modeler.formulas.physical import PhysicalParameters, physical_parameters, random_point
 from modeler.formulas.render import forward_lines

@@ -13,9 +13,7 @@ from sympy.polys.rings import PolyRing
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
-from modeler.derivation.field import as_fraction, relations
-from modeler.derivation.kinematics import poses, screws
-from modeler.derivation.model import SymbolicModel
+from modeler.derivation import SymbolicModel, as_fraction, linear_relations, poses, screws
 from modeler.formulas.closed_form import Exponents, function_name
 from modeler.formulas.coefficients import CoefficientTable, vector_of
 from modeler.formulas.ring import (
@@ -273,7 +271,7 @@ def check_independent(table: CoefficientTable) -> dict[str, str]:
     """Coefficients printed as independent that depend on the others: {name: combination}."""
     for name in table.printed.independent:
         _known(table, name, "independent")
-    found = relations(
+    found = linear_relations(
         {name: vector_of(table.by_name[name].standard) for name in table.printed.independent}
     )
     return {

@@ -6,9 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from modeler.derivation.model import SymbolicModel
-from modeler.derivation.relations import relation_text
-from modeler.derivation.result import BaseParameters
+from modeler.derivation import BaseParameters, SymbolicModel, relation_text
 from modeler.formulas.closed_form import closed_form
 from modeler.formulas.coefficients import CoefficientTable, by_function, coefficient_table
 from modeler.formulas.print_checks import (
@@ -147,7 +145,7 @@ def _function_section(table: CoefficientTable) -> str:
         lines += [f"The print counts {count} coefficients, there are **{true}**.", ""]
     lines += [
         "A mechanism keeps its power balance, qd'S = qd' (dM/dt) qd / 2. With the example of the "
-        f"robot file at {STATE},",
+        f"robot file at {STATE},"
     ]
     if table.printed.example:
         balance = power_balance(table, exact_state(table))

@@ -21,7 +21,7 @@ from typing import Any
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression, ExpressionError, parse
-from modeler.robot.robot import Robot
+from modeler.robot import Robot
 
 _KEYS = ("source", "keep_sine_squares", "missing", "monomials", "printed", "example", "twin")
 _COUPLING = ("motor_from_joint", "coulomb", "speed")

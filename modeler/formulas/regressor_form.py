@@ -5,11 +5,19 @@ from dataclasses import dataclass, replace
 
 from modeler.core.errors import DerivationError, RobotError
 from modeler.core.formula import Formulas
-from modeler.derivation.closure import ALL, LOOP_JOINTS, Closure, meeting
-from modeler.derivation.graph import Expr
-from modeler.derivation.kinematics import plus, poses, times
-from modeler.derivation.model import SymbolicModel, along
-from modeler.derivation.result import BaseParameters
+from modeler.derivation import (
+    ALL,
+    LOOP_JOINTS,
+    BaseParameters,
+    Closure,
+    Expr,
+    SymbolicModel,
+    along,
+    meeting,
+    plus,
+    poses,
+    times,
+)
 from modeler.formulas.closed_form import (
     fresh_model,
     letters_of,

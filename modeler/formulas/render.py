@@ -5,7 +5,7 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core.latex_display import DisplayedEquation, display
-from modeler.derivation.field import as_fraction
+from modeler.derivation import as_fraction
 from modeler.formulas.closed_form import ClosedForm, Function
 from modeler.formulas.coefficients import CoefficientTable
 from modeler.formulas.function_sheet import sheet_latex, sheet_lines, sheet_markdown

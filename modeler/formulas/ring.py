@@ -21,16 +21,17 @@ from sympy.polys.rings import PolyElement, PolyRing
 
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
-from modeler.derivation.certificate import row_echelon
-from modeler.derivation.field import (
+from modeler.derivation import (
+    Geometry,
+    GeometryRow,
     Relations,
-    Vector,
+    SparseVector,
     as_fraction,
+    linear_relations,
     places_of,
-    relations,
+    row_echelon,
     with_square,
 )
-from modeler.derivation.geometry import Geometry, GeometryRow
 
 # Which sines, cosines and travels the configuration of a robot is written in.
 #
@@ -377,13 +378,15 @@ MOST_MONOMIALS = 150
 three joints with general angles (1 s); minutes at 216."""
 
 
-def combination_of(vectors: Mapping[str, Vector], vector: Vector) -> Mapping[str, Fraction] | None:
+def combination_of(
+    vectors: Mapping[str, SparseVector], vector: SparseVector
+) -> Mapping[str, Fraction] | None:
     """`vector` as a combination of `vectors`, None if it is outside their span."""
-    found = relations({**vectors, "": vector})
+    found = linear_relations({**vectors, "": vector})
     return None if "" in found.independent else found.combinations[""]
 
 
-def independent_modulo(vectors: Sequence[Vector], prime: int) -> list[int]:
+def independent_modulo(vectors: Sequence[SparseVector], prime: int) -> list[int]:
     """Places of the independent vectors of residues, first come first kept; the prime < 2**31."""
     places = places_of(vectors)
     matrix = np.zeros((len(places), len(vectors)), dtype=np.int64)

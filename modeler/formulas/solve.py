@@ -13,7 +13,7 @@ from typing import Any, Literal
 from modeler.core.errors import ModelerError
 from modeler.core.formula import latex_name, latex_text
 from modeler.core.latex_display import DisplayedEquation, display
-from modeler.derivation.field import by_powers, value_modulo
+from modeler.derivation import by_powers, value_modulo
 from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
 from modeler.formulas.ring import Poly, independent_modulo, places_in

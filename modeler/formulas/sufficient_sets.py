@@ -17,7 +17,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import ModelerError
-from modeler.derivation.certificate import kernel_modulo
+from modeler.derivation import kernel_modulo
 from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
 

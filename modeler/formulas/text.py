@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core.formula import latex_name
-from modeler.derivation.field import as_fraction
+from modeler.derivation import as_fraction
 from modeler.formulas.ring import Poly
 
 

@@ -14,13 +14,13 @@ import numpy as np
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import read_text
 from modeler.core.json import parse_toml
-from modeler.derivation.field import as_fraction, by_powers, value_modulo
+from modeler.derivation import as_fraction, by_powers, value_modulo
 from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
 from modeler.formulas.printed import read_print
 from modeler.formulas.ring import Poly, poly_value
 from modeler.formulas.solve import ClosedSolution, SolvingStep
-from modeler.robot.robot import Robot, near
+from modeler.robot import Robot, near
 
 _REAL = 1e-6  # imaginary parts below this share of a root are rounding
 _SURE = 3.0  # standard deviations that a denominator, or what is below zero, must be away from it

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.observation.observation import Observation, model_torque
-from modeler.runtime.model import CompiledModel
+from modeler.runtime import CompiledModel
 
 WRONG = 0.5
 """Relative error of a joint from which on its channels are suspected."""

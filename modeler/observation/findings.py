@@ -15,7 +15,7 @@ from modeler.observation.observation import Observation
 from modeler.observation.prepare import nearest_closed
 from modeler.observation.reduce import columns_at
 from modeler.observation.stretch import Stretch
-from modeler.runtime.model import CompiledModel
+from modeler.runtime import CompiledModel
 
 _MOST = 1200  # rows: enough for any fit, and quick with every change that is tried
 _CELLS = 8000  # joints times rows, at most: many joints make many pairs to exchange

@@ -9,7 +9,7 @@ from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import ModuleSpec, SignalSpec
 from modeler.observation.motion import Segment
 from modeler.observation.settings import ChosenProcessing
-from modeler.runtime.model import CompiledModel
+from modeler.runtime import CompiledModel
 
 TOP = 0.98
 _CREEP = 1e-9  # rad/s or m/s, to both sides of standstill

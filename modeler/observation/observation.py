@@ -13,12 +13,7 @@ from modeler.core.manifest import JointSpec
 from modeler.core.result import Presented
 from modeler.observation.chunk import whole_log
 from modeler.observation.log import Log
-from modeler.observation.low_speed import (
-    floors_of,
-    shafts,
-    signals_of,
-    with_every_joint,
-)
+from modeler.observation.low_speed import floors_of, shafts, signals_of, with_every_joint
 from modeler.observation.motion import (
     BRIDGES,
     CAUSES,
@@ -34,8 +29,7 @@ from modeler.observation.report import DataReport
 from modeler.observation.settings import Processing
 from modeler.observation.stretch import Stretch, stretch
 from modeler.observation.tally import joint_reports, log_report, tally
-from modeler.runtime.fused import NonzeroPattern, Triangles
-from modeler.runtime.model import CompiledModel
+from modeler.runtime import CompiledModel, NonzeroPattern, Triangles
 
 # The rows of y = W beta, and which is which.
 
@@ -356,10 +350,7 @@ def masks_of(observation: Observation) -> np.ndarray:
 
 
 def model_torque(
-    observation: Observation,
-    model: CompiledModel,
-    beta: np.ndarray,
-    turn: np.ndarray | None = None,
+    observation: Observation, model: CompiledModel, beta: np.ndarray, turn: np.ndarray | None = None
 ) -> np.ndarray:
     """(s, n) `observation.predicted(beta)` without its columns, by the inverse dynamics.
 

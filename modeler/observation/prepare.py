@@ -26,7 +26,7 @@ from modeler.observation.motion_band import motion_bands
 from modeler.observation.outliers import Defects, Usual, defects
 from modeler.observation.segments import Piece, SplitReport, split
 from modeler.observation.settings import ChosenProcessing, Processing
-from modeler.runtime.model import CompiledModel
+from modeler.runtime import CompiledModel
 
 LARGEST = 1e12
 """Positions, velocities, accelerations and torques above are damage, not measurements."""

@@ -11,10 +11,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec, ModuleSpec
-from modeler.logs.blocks import Blocks, ParquetBlocks, blocks_of
-from modeler.logs.columns import Columns
-from modeler.logs.log_table import LogTable
-from modeler.logs.mapping import LogMap
+from modeler.logs import Blocks, Columns, LogMap, LogTable, ParquetBlocks, blocks_of
 from modeler.observation.log import MOST_WHOLE, Log, fingerprint
 
 _SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms

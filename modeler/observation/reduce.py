@@ -12,7 +12,7 @@ import numpy as np
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Evaluated, Observation, near
 from modeler.observation.stretch import Stretch
-from modeler.runtime.fused import NonzeroPattern, Triangles, no_rows, of_rows
+from modeler.runtime import NonzeroPattern, Triangles, no_rows, of_rows
 
 KEPT = 2**26
 """Bytes of the filtered regressor up to which it is kept."""

@@ -22,7 +22,7 @@ from modeler.observation.segments import Piece, split
 from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.observation.stretch import Stretch, row_centres, stretch
 from modeler.observation.tally import Facts, joint_reports, log_report, tally
-from modeler.runtime.model import CompiledModel
+from modeler.runtime import CompiledModel
 
 WINDOWS = 8
 """Windows of all logs together, at least one of each log."""

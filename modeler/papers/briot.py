@@ -10,12 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.workflow import derive, generate
+from modeler.codegen import derive, generate
 from modeler.core.builtin import builtin_text
-from modeler.estimation.drive_gains import GainFit, identify_gains
-from modeler.estimation.payload import Payload, identify_with_payloads
-from modeler.observation.log import Log
-from modeler.observation.observation import observe
+from modeler.estimation import GainFit, Payload, identify_gains, identify_with_payloads
+from modeler.observation import Log, observe
 from modeler.papers.methods import (
     MethodTable,
     Outcome,
@@ -27,10 +25,8 @@ from modeler.papers.methods import (
     recovered,
 )
 from modeler.papers.paper import Paper
-from modeler.robot.edit import with_drive_gains
-from modeler.robot.read import robot_from_text
-from modeler.robot.robot import Limits, Robot
-from modeler.runtime.model import CompiledModel, compiled_once
+from modeler.robot import Limits, Robot, robot_from_text, with_drive_gains
+from modeler.runtime import CompiledModel, compiled_once
 from modeler.simulation import SimulatedLog, SimulationSettings, hidden_from_text, simulate
 
 ROBOT = "orthoglide-2012"

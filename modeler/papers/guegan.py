@@ -11,15 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.codegen.workflow import derive, generate, load
-from modeler.estimation.identify import identify
-from modeler.estimation.result import FitResult
-from modeler.observation.observation import Observation, observe
-from modeler.observation.read import read_log
+from modeler.codegen import derive, generate, load
+from modeler.estimation import FitResult, identify
+from modeler.observation import Observation, observe, read_log
 from modeler.papers.methods import MethodTable, Outcome, Row, figures, judged, recovered
 from modeler.papers.paper import Paper
-from modeler.robot.robot import Limits, Robot
-from modeler.runtime.model import CompiledModel, compiled_once
+from modeler.robot import Limits, Robot
+from modeler.runtime import CompiledModel, compiled_once
 from modeler.simulation import SimulationSettings, simulate, write_log
 
 ROBOT = "orthoglide-2003-similar-legs"

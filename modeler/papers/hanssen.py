@@ -10,22 +10,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.workflow import Derivation, derive, generate
+from modeler.codegen import Derivation, derive, generate
 from modeler.core.builtin import builtin_text
 from modeler.core.expression import parse
 from modeler.core.table import percent
-from modeler.estimation.two_step import Directions
-from modeler.estimation.two_step_result import TwoStepFit, identify_in_two_steps
-from modeler.formulas.physical_system import physical_system
-from modeler.formulas.solve import determined
-from modeler.formulas.sufficient_sets import known_sets, smallest_number
-from modeler.observation.observation import observe
+from modeler.estimation import Directions, TwoStepFit, identify_in_two_steps
+from modeler.formulas import determined, known_sets, physical_system, smallest_number
+from modeler.observation import observe
 from modeler.papers.methods import MethodTable, Outcome, Row, judged, logged, quoted, recovered
 from modeler.papers.paper import Paper
-from modeler.robot.motors import joint_directions
-from modeler.robot.read import robot_from_text
-from modeler.robot.robot import Limits, Robot
-from modeler.runtime.model import compiled_once
+from modeler.robot import Limits, Robot, joint_directions, robot_from_text
+from modeler.runtime import compiled_once
 from modeler.simulation import SimulationSettings, simulate
 
 SECONDS, RATE, BANDWIDTH, NOISE = 240.0, 400.0, 60.0, 0.02

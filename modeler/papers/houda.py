@@ -9,18 +9,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.codegen.workflow import derive, generate
+from modeler.codegen import derive, generate
 from modeler.core.builtin import builtin_text
-from modeler.estimation.energy_fit import identify_energy
-from modeler.estimation.identify import identify
-from modeler.estimation.result import FitResult, friction_by_direction
-from modeler.observation.log import Log
-from modeler.observation.observation import observe
+from modeler.estimation import FitResult, friction_by_direction, identify, identify_energy
+from modeler.observation import Log, observe
 from modeler.papers.methods import MethodTable, Outcome, Row, judged, logged, quoted, recovered
 from modeler.papers.paper import Paper
-from modeler.robot.read import robot_from_text
-from modeler.robot.robot import Robot
-from modeler.runtime.model import CompiledModel, compiled_once
+from modeler.robot import Robot, robot_from_text
+from modeler.runtime import CompiledModel, compiled_once
 from modeler.simulation import SimulatedLog, SimulationSettings, simulate
 
 RUNS, SECONDS, RATE, NOISE = 6, 10.0, 204.0, 0.02

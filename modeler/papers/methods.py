@@ -9,7 +9,7 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.core.table import percent
-from modeler.observation.log import Log
+from modeler.observation import Log
 from modeler.papers.paper import Paper
 from modeler.papers.quotation import numbers_of
 from modeler.simulation import SimulatedLog

@@ -25,11 +25,8 @@ from modeler.core.builtin import paper_names
 from modeler.core.errors import RobotError
 from modeler.core.expression import parse
 from modeler.core.json import built
-from modeler.derivation.base_parameters import base_parameters
-from modeler.derivation.derive import derive_model
-from modeler.derivation.model import SymbolicModel
-from modeler.derivation.result import BaseParameters
-from modeler.formulas.coefficients import CoefficientTable, coefficient_table
+from modeler.derivation import BaseParameters, SymbolicModel, base_parameters, derive_model
+from modeler.formulas import CoefficientTable, coefficient_table
 from modeler.papers.quotation import (
     Amount,
     Monomial,
@@ -39,8 +36,7 @@ from modeler.papers.quotation import (
     sum_text,
     times,
 )
-from modeler.robot.read import read_robot
-from modeler.robot.robot import Robot
+from modeler.robot import Robot, read_robot
 
 _FOLDER = Path(__file__).parent / "library"
 

@@ -8,8 +8,7 @@ from typing import Any
 
 import sympy
 
-from modeler.derivation.geometry import GeometryRow
-from modeler.derivation.kinematics import base_poses, pose, poses
+from modeler.derivation import GeometryRow, base_poses, pose, poses
 from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered, renamer
 from modeler.papers.paper import (
     DerivedPaper,

@@ -11,16 +11,16 @@ from typing import Any
 import sympy
 
 from modeler.core.expression import Expression, parse
-from modeler.formulas.coefficients import CoefficientTable
-from modeler.formulas.print_checks import (
+from modeler.formulas import (
+    CoefficientTable,
+    Print,
+    check_friction,
     check_independent,
     check_solutions,
+    monomial_text,
     wrong_definitions,
     wrong_functions,
 )
-from modeler.formulas.print_report import check_friction
-from modeler.formulas.printed import Print
-from modeler.formulas.text import monomial_text
 from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered
 from modeler.papers.paper import (
     DerivedPaper,

@@ -4,37 +4,17 @@ import math
 import statistics
 from collections.abc import Sequence
 
+from modeler import validation
 from modeler.core.figure import Picture
 from modeler.core.table import percent
-from modeler.report.blocks import (
-    Figure,
-    Items,
-    JudgedLine,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Verdict,
-)
+from modeler.report.blocks import Figure, Items, JudgedLine, PageCell, PageTable, Paragraph, Verdict
 from modeler.report.page import Origin, Page, Section
-from modeler.validation.comparison import Comparison, JointComparison, by_log, method_lines, or_dash
-from modeler.validation.models import DOUBT, Contest, JointContest, contest_sentences, headline_of
-from modeler.validation.pictures import overlay_picture, overview_picture, residual_picture
-from modeler.validation.time_picture import time_picture
-from modeler.validation.verdict import (
-    best_other,
-    best_pattern,
-    headline,
-    joint_verdict,
-    kind_of_residual,
-    looks_like_noise,
-    wrong_scale,
-)
 
 # The page of several models side by side.
 
 
 def contest_page(
-    found: Contest, provenance: Sequence[str] = (), held_out: bool | None = None
+    found: validation.Contest, provenance: Sequence[str] = (), held_out: bool | None = None
 ) -> Page:
     """The page of models side by side.
 
@@ -46,7 +26,7 @@ def contest_page(
     first = found.predictions[0]
     return Page(
         title=f"{first.robot}: {len(found.names)} models side by side",
-        headline=headline_of(found),
+        headline=validation.headline_of(found),
         sections=_model_sections(found),
         origin=Origin(", ".join(found.names), first.logs, held_out),
         facts=[(name, _fact(found, k)) for k, name in enumerate(found.names)],
@@ -55,12 +35,12 @@ def contest_page(
     )
 
 
-def contest_pictures(found: Contest) -> list[Picture]:
+def contest_pictures(found: validation.Contest) -> list[Picture]:
     """Measured torque and that of every model, joint by joint."""
     return [_picture(found, item) for item in found.joints]
 
 
-def _fact(found: Contest, k: int) -> str:
+def _fact(found: validation.Contest, k: int) -> str:
     errors = ", ".join(
         f"{percent(error)} of the {unit}" if len(found.by_unit[k]) > 1 else percent(error)
         for unit, error in found.by_unit[k].items()
@@ -70,8 +50,8 @@ def _fact(found: Contest, k: int) -> str:
     return f"error {errors}; best beyond doubt on {best}"
 
 
-def _model_sections(found: Contest) -> list[Section]:
-    said = Items([("", line) for line in contest_sentences(found)])
+def _model_sections(found: validation.Contest) -> list[Section]:
+    said = Items([("", line) for line in validation.contest_sentences(found)])
     return [Section("Verdict", [said, _errors(found), _sizes(found)])] + [
         Section(f"Joint {item.joint.name}", [Figure(_picture(found, item), titled=False)],
                 f"joint-{item.joint.name}")
@@ -79,12 +59,12 @@ def _model_sections(found: Contest) -> list[Section]:
     ]  # fmt: skip
 
 
-def _picture(found: Contest, item: JointContest) -> Picture:
+def _picture(found: validation.Contest, item: validation.JointContest) -> Picture:
     joints = [info.name for info in found.predictions[0].joints]
-    return overlay_picture(found.names, found.predictions, joints.index(item.joint.name))
+    return validation.overlay_picture(found.names, found.predictions, joints.index(item.joint.name))
 
 
-def _errors(found: Contest) -> PageTable:
+def _errors(found: validation.Contest) -> PageTable:
     top = max((e for item in found.joints for e in item.errors), default=0.0) or 1.0
     rows: list[list[str | PageCell]] = [
         [
@@ -101,12 +81,13 @@ def _errors(found: Contest) -> PageTable:
         "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
         "measured, each joint by itself, on the rows that count for every model. Chance: that the "
         "best and its nearest rival are equally good, from the spread of the difference between "
-        f"blocks of time; beyond doubt is less than {percent(DOUBT)}, shared among the rivals.",
+        f"blocks of time; beyond doubt is less than {percent(validation.DOUBT)}, shared among the "
+        "rivals.",
         dict.fromkeys(found.names, "bar") | {"best beyond doubt": "text"},
     )
 
 
-def _sizes(found: Contest) -> PageTable:
+def _sizes(found: validation.Contest) -> PageTable:
     rows = [
         [item.joint.name, *(f"{rms:.3g} {item.joint.effort_unit}" for rms in item.rms)]
         for item in found.joints
@@ -117,16 +98,18 @@ def _sizes(found: Contest) -> PageTable:
 # All pictures of a comparison, and as files.
 
 
-def joint_pictures(comparison: Comparison, item: JointComparison) -> tuple[Picture, ...]:
+def joint_pictures(
+    comparison: validation.Comparison, item: validation.JointComparison
+) -> tuple[Picture, ...]:
     """The pictures of one joint: against time, then against each coordinate."""
     found = comparison.prediction
-    return time_picture(found, item), residual_picture(found, item)
+    return validation.time_picture(found, item), validation.residual_picture(found, item)
 
 
-def all_pictures(comparison: Comparison) -> tuple[Picture, ...]:
+def all_pictures(comparison: validation.Comparison) -> tuple[Picture, ...]:
     """The overview, then the pictures of each judged joint."""
     drawn = [picture for item in comparison.joints for picture in joint_pictures(comparison, item)]
-    return (overview_picture(comparison), *drawn)
+    return (validation.overview_picture(comparison), *drawn)
 
 
 _TAGS = {"pattern": "pattern left", "noise": "noise only", "other": "unclear"}
@@ -144,7 +127,7 @@ _HEAD = (
 
 
 def comparison_page(
-    comparison: Comparison, provenance: Sequence[str] = (), origin: Origin | None = None
+    comparison: validation.Comparison, provenance: Sequence[str] = (), origin: Origin | None = None
 ) -> Page:
     """The page of a comparison.
 
@@ -154,7 +137,7 @@ def comparison_page(
         origin: model, logs, and whether they were held out; robot and logs if it is left out.
     """
     prediction = comparison.prediction
-    figure, _, rest = headline(comparison).partition(" of ")
+    figure, _, rest = validation.headline(comparison).partition(" of ")
     return Page(
         title=f"{prediction.robot}: measured against predicted torque",
         headline=(figure, f"of {rest}" if rest else ""),
@@ -172,8 +155,8 @@ def comparison_page(
     )
 
 
-def _sections(comparison: Comparison) -> list[Section]:
-    method = " ".join(f"{line}." for line in method_lines(comparison))
+def _sections(comparison: validation.Comparison) -> list[Section]:
+    method = " ".join(f"{line}." for line in validation.method_lines(comparison))
     table = PageTable(
         _HEAD,
         [_table_row(item, comparison) for item in comparison.joints],
@@ -185,15 +168,17 @@ def _sections(comparison: Comparison) -> list[Section]:
     )
     found = [Section("Verdict", [Verdict(_judged(comparison)), table, *_log_table(comparison)])]
     if comparison.joints:
-        found.append(Section("All joints", [Figure(overview_picture(comparison), titled=False)]))
+        found.append(
+            Section("All joints", [Figure(validation.overview_picture(comparison), titled=False)])
+        )
     for item in comparison.joints:
         pictures = [Figure(picture) for picture in joint_pictures(comparison, item)]
-        name, said = item.joint.name, Paragraph(joint_verdict(item))
+        name, said = item.joint.name, Paragraph(validation.joint_verdict(item))
         found.append(Section(f"Joint {name}", [said, *pictures], f"joint-{name}"))
     return found
 
 
-def _facts(comparison: Comparison) -> list[tuple[str, str]]:
+def _facts(comparison: validation.Comparison) -> list[tuple[str, str]]:
     """The three answers of the first screen."""
     if not comparison.joints:
         return []
@@ -204,7 +189,7 @@ def _facts(comparison: Comparison) -> list[tuple[str, str]]:
     ]
 
 
-def _how_good(joints: tuple[JointComparison, ...]) -> str:
+def _how_good(joints: tuple[validation.JointComparison, ...]) -> str:
     below = sum(item.relative_error < 0.1 for item in joints)
     middle = percent(statistics.median(item.relative_error for item in joints))
     text = f"{below} of {len(joints)} joints are within 10 %; the middle one is at {middle}."
@@ -215,7 +200,7 @@ def _how_good(joints: tuple[JointComparison, ...]) -> str:
     return text
 
 
-def _where(joints: tuple[JointComparison, ...]) -> str:
+def _where(joints: tuple[validation.JointComparison, ...]) -> str:
     worst = max(joints, key=lambda item: item.relative_error)
     window = worst.worst
     region = max(worst.regions, key=lambda part: part.energy_share - part.time_share)
@@ -227,11 +212,11 @@ def _where(joints: tuple[JointComparison, ...]) -> str:
     )
 
 
-def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
+def _what_is_left(joints: tuple[validation.JointComparison, ...]) -> str:
     named = []
     for item in joints:
-        pattern, other = best_pattern(item), best_other(item)
-        if wrong_scale(item) is not None and item.scale is not None:
+        pattern, other = validation.best_pattern(item), validation.best_other(item)
+        if validation.wrong_scale(item) is not None and item.scale is not None:
             named.append((item.scale.mended, f"joint {item.joint.name} has a wrong sign or scale"))
         elif other is not None:
             named.append((other[1], f"joint {item.joint.name} follows the velocity of {other[0]}"))
@@ -241,15 +226,15 @@ def _what_is_left(joints: tuple[JointComparison, ...]) -> str:
         named.sort(reverse=True)
         listed = "; ".join(f"{text} ({percent(share)})" for share, text in named[:3])
         return f"Yes, on {len(named)} of {len(joints)} joints: {listed}."
-    if all(looks_like_noise(item) for item in joints):
+    if all(validation.looks_like_noise(item) for item in joints):
         return "No: the residual of every joint looks like noise."
     return "No pattern in the joints' motion, but not all of it is noise: see below."
 
 
-def _judged(comparison: Comparison) -> list[JudgedLine]:
+def _judged(comparison: validation.Comparison) -> list[JudgedLine]:
     lines = []
     for item in comparison.joints:
-        kind, text = kind_of_residual(item), joint_verdict(item)
+        kind, text = validation.kind_of_residual(item), validation.joint_verdict(item)
         first, _, rest = text.partition(": ")
         lines.append(JudgedLine(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
     lines += [
@@ -259,7 +244,9 @@ def _judged(comparison: Comparison) -> list[JudgedLine]:
     return lines
 
 
-def _table_row(item: JointComparison, comparison: Comparison) -> list[str | PageCell]:
+def _table_row(
+    item: validation.JointComparison, comparison: validation.Comparison
+) -> list[str | PageCell]:
     unit = item.joint.effort_unit
     top = max(other.relative_error for other in comparison.joints)
     share = item.relative_error / top if top else 0.0
@@ -271,7 +258,7 @@ def _table_row(item: JointComparison, comparison: Comparison) -> list[str | Page
         f"{item.measured_rms:.3g} {unit}",
         f"{item.largest.value:.3g} {unit}",
         f"{item.largest.time:.2f} s of {item.largest.log}",
-        or_dash(item.r2, ".4f"),
+        validation.or_dash(item.r2, ".4f"),
         percent(None if item.shares is None else item.shares.systematic),
         percent(None if item.shares is None else item.shares.floor),
         f"{item.bias:+.2g} {unit}",
@@ -279,10 +266,10 @@ def _table_row(item: JointComparison, comparison: Comparison) -> list[str | Page
     ]
 
 
-def _log_table(comparison: Comparison) -> list[PageTable]:
+def _log_table(comparison: validation.Comparison) -> list[PageTable]:
     """Relative error of each log and joint; nothing for a single log."""
     if len(comparison.logs) < 2:
         return []
-    head, *rows = by_log(comparison, "all")
+    head, *rows = validation.by_log(comparison, "all")
     caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
     return [PageTable(head, rows, caption)]

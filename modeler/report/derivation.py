@@ -4,18 +4,17 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
-from modeler.codegen.workflow import Derivation
+from modeler.codegen import Derivation
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import MathCell, Table
-from modeler.derivation import relations
-from modeler.derivation.derive import HomeModes, written
+from modeler.derivation import HomeModes, relations, written
 from modeler.report.blocks import Block, FormulaBlock, PageTable, Paragraph
 from modeler.report.figures import robot_figure
 from modeler.report.page import Origin, Page, Section
 from modeler.report.robot_page import table_head, table_rows
-from modeler.robot.robot import JointKind, Robot
-from modeler.runtime.model import CompiledModel
+from modeler.robot import JointKind, Robot
+from modeler.runtime import CompiledModel
 
 _COLUMNS = (("gamma", "rad"), ("b", "m"), ("alpha", "rad"), ("d", "m"), ("theta", "rad"),
             ("r", "m"))  # fmt: skip

@@ -3,10 +3,8 @@
 from collections.abc import Sequence
 
 from modeler.core.table import percent, printed
-from modeler.diagnosis.result import Diagnosis, Finding
-from modeler.diagnosis.search import Step
-from modeler.diagnosis.sentences import blind_spots, tie_names, tied, unit, where
-from modeler.effects.catalogue import effect_named
+from modeler.diagnosis import Diagnosis, Finding, Step, blind_spots, tie_names, tied, unit, where
+from modeler.effects import effect_named
 from modeler.report.blocks import Block, Figure, Items, PageCell, PageTable, Paragraph
 from modeler.report.evidence import evidence_picture, rivals_of, rivals_table
 from modeler.report.page import Origin, Page, Section

@@ -2,8 +2,7 @@
 
 from collections.abc import Sequence
 
-from modeler.estimation.result import ParameterEstimate
-from modeler.estimation.side_by_side import Tried
+from modeler.estimation import ParameterEstimate, Tried
 from modeler.report.blocks import Items, PageTable
 from modeler.report.page import Origin, Page, Section
 

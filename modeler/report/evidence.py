@@ -9,13 +9,11 @@ import numpy as np
 from modeler.core.figure import Band, Curve, Means, Panel, Picture, Points, Series
 from modeler.core.style import BLACK, BLUE, GREEN, GREY, SKY, VERMILLION, Style
 from modeler.core.table import percent
-from modeler.diagnosis.judge import Judged
-from modeler.diagnosis.orders import order_spectrum
-from modeler.diagnosis.search import Step
+from modeler.diagnosis import Judged, Step, order_spectrum
 from modeler.report.blocks import PageCell, PageTable
 from modeler.report.evidence_axes import bins_of
 from modeler.report.shown import Shown
-from modeler.validation.prediction import DEVIATIONS
+from modeler.validation import DEVIATIONS
 
 # How much of the axes a picture shows: where the effect acts and most means are.
 

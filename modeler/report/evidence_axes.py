@@ -6,11 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import stdtrit
 
-from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.signals import Signals
-from modeler.diagnosis.state import State
-from modeler.effects.effect import Acts, Shows
-from modeler.observation.motion import travel_since_reversal
+from modeler.diagnosis import Candidate, Signals, State
+from modeler.effects import Acts, Shows
+from modeler.observation import travel_since_reversal
 
 
 @dataclass(frozen=True, eq=False)

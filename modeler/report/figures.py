@@ -14,12 +14,12 @@ from modeler.core.figure import Bars, Curve, Panel, Picture
 from modeler.core.result import Figures
 from modeler.core.style import BLUE, COLORS, ORANGE, Style
 from modeler.core.thinning import LIMIT, thin_curves
-from modeler.estimation.result import FitResult
+from modeler.estimation import FitResult
 from modeler.report.robot_page import show
-from modeler.robot.robot import Robot
+from modeler.robot import Robot
 
 if TYPE_CHECKING:
-    from modeler.diagnosis.result import Diagnosis
+    from modeler.diagnosis import Diagnosis
     from modeler.report.figure_matplotlib import Drawing
 
 

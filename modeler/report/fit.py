@@ -8,9 +8,7 @@ import numpy as np
 from modeler.core.estimators import titled
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Table, percent
-from modeler.estimation.model_file import Addition, IdentifiedModel
-from modeler.estimation.result import FitResult, ParameterEstimate
-from modeler.estimation.side_by_side import SideBySide
+from modeler.estimation import Addition, FitResult, IdentifiedModel, ParameterEstimate, SideBySide
 from modeler.report.blocks import Items, JudgedLine, PageTable, Verdict
 from modeler.report.estimators import remarks_of, table_of, values_of
 from modeler.report.figures import parameters_figure, picture_figure

@@ -9,8 +9,7 @@ from modeler.core.figure import Curve, Heat, Means, Panel, Picture
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.style import BLUE, COLORS, GREY, Style
 from modeler.core.table import Table, percent
-from modeler.fleet import result
-from modeler.fleet.result import Fleet, FleetFinding, Followed, Values
+from modeler.fleet import Fleet, FleetFinding, Followed, Values, result
 from modeler.report.blocks import Figure, Items, JudgedLine, PageTable, Paragraph, Verdict
 from modeler.report.figures import picture_figures
 from modeler.report.page import Origin, Page, Section
@@ -215,5 +214,5 @@ def _figures(found: Fleet) -> Figures:
 
 
 PRESENTATIONS = {
-    Fleet: Presentation("a fleet", lambda f: "\n".join(result.fleet_lines(f)), _tables, _figures),
+    Fleet: Presentation("a fleet", lambda f: "\n".join(result.fleet_lines(f)), _tables, _figures)
 }

@@ -8,13 +8,12 @@ import numpy as np
 from modeler.core.figure import Bars, Panel, Picture
 from modeler.core.style import BLUE, GREEN, ORANGE, SKY, Style
 from modeler.core.table import DIGITS, WORDS, percent, printed
-from modeler.effects.catalogue import effect_named
-from modeler.effects.effect import Effect
-from modeler.estimation.model_file import Addition, IdentifiedModel
+from modeler.effects import Effect, effect_named
+from modeler.estimation import Addition, IdentifiedModel
 from modeler.report.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
 from modeler.report.page import Origin, Page, Section
 from modeler.report.values import added_names, joints_table, shapes_table, values_table
-from modeler.robot.read import robot_from_text
+from modeler.robot import robot_from_text
 
 HELD, FITTED = Style(BLUE), Style(ORANGE)
 SAME, CHANGED = Style(SKY), Style(GREEN)

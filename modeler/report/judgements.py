@@ -5,30 +5,22 @@ from functools import partial
 
 import numpy as np
 
+from modeler import validation
 from modeler.core.figure import Picture
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Cell, Table
-from modeler.diagnosis.result import Diagnosis, Finding
-from modeler.diagnosis.search import Step
-from modeler.diagnosis.sentences import blind_spots, lines
+from modeler.diagnosis import Diagnosis, Finding, Step, blind_spots, lines
 from modeler.report.evidence import evidence_picture
 from modeler.report.figures import errors_picture, picture_figures
 from modeler.report.shown import shown
-from modeler.validation.comparison import Comparison, method_lines
-from modeler.validation.free_run_result import FreeRun, free_run_picture
-from modeler.validation.models import Contest, contest_lines
-from modeler.validation.pictures import overview_picture, residual_picture
-from modeler.validation.prediction import Prediction, residual
-from modeler.validation.time_picture import time_picture
-from modeler.validation.verdict import headline, verdict
 
 
-def _contest_summary(found: Contest) -> str:
+def _contest_summary(found: validation.Contest) -> str:
     first = f"{found.predictions[0].robot}: {len(found.names)} models on {found.samples} samples"
-    return "\n".join([first, *contest_lines(found)])
+    return "\n".join([first, *validation.contest_lines(found)])
 
 
-def _contest_tables(found: Contest) -> Tables:
+def _contest_tables(found: validation.Contest) -> Tables:
     head = ["joint", *(f"{name} [%]" for name in found.names), "best beyond doubt", "chance"]
     rows = [
         (item.joint.name, *(100.0 * error for error in item.errors),
@@ -38,12 +30,12 @@ def _contest_tables(found: Contest) -> Tables:
     return {"errors": lambda: Table.of("relative error of each model", head, rows)}
 
 
-def _comparison_summary(comparison: Comparison) -> str:
-    first = f"{comparison.prediction.robot}: {headline(comparison)}"
-    return "\n".join([first, comparison.summary(), *verdict(comparison)])
+def _comparison_summary(comparison: validation.Comparison) -> str:
+    first = f"{comparison.prediction.robot}: {validation.headline(comparison)}"
+    return "\n".join([first, comparison.summary(), *validation.verdict(comparison)])
 
 
-def _comparison_tables(comparison: Comparison) -> Tables:
+def _comparison_tables(comparison: validation.Comparison) -> Tables:
     return {
         "errors": lambda: _errors(comparison),
         "logs": lambda: _by_log(comparison),
@@ -52,7 +44,7 @@ def _comparison_tables(comparison: Comparison) -> Tables:
     }
 
 
-def _errors(comparison: Comparison) -> Table:
+def _errors(comparison: validation.Comparison) -> Table:
     rows = [
         (item.joint.name, 100.0 * item.relative_error, item.rms, item.joint.effort_unit,
          item.largest.value, item.largest.time, item.largest.log, item.r2,
@@ -63,11 +55,11 @@ def _errors(comparison: Comparison) -> Table:
     return Table.of(
         f"{comparison.prediction.robot}: measured against predicted",
         "joint, relative error [%], rms, unit, largest, at [s], of, R2, repeatable, noise, bias",
-        rows, " ".join(f"{line}." for line in method_lines(comparison)),
+        rows, " ".join(f"{line}." for line in validation.method_lines(comparison)),
     )  # fmt: skip
 
 
-def _by_log(comparison: Comparison) -> Table:
+def _by_log(comparison: validation.Comparison) -> Table:
     joints = [f"joint {name} [%]" for name, _ in comparison.logs[0].joints]
     rows = [
             (log.log, log.samples, 100.0 * log.relative_error, *(100.0 * e for _, e in log.joints))
@@ -76,17 +68,18 @@ def _by_log(comparison: Comparison) -> Table:
     return Table.of("relative error of each log", head, rows)
 
 
-def _residuals(comparison: Comparison) -> Table:
+def _residuals(comparison: validation.Comparison) -> Table:
     """Measured minus predicted torque, one row a sample; rows that do not count are NaN."""
     found = comparison.prediction
     head = [f"{joint.name} [{joint.effort_unit}]" for joint in found.joints]
     return Table.of(
         "measured minus predicted torque of each joint", ["log", "time [s]", *head],
-        _rows(found, residual(found)), "rows that do not count for a joint have no value",
+        _rows(found, validation.residual(found)),
+        "rows that do not count for a joint have no value",
     )  # fmt: skip
 
 
-def _torques(comparison: Comparison) -> Table:
+def _torques(comparison: validation.Comparison) -> Table:
     """Measured and predicted torque side by side."""
     found = comparison.prediction
     both = np.concatenate([found.measured, found.predicted], axis=1)
@@ -95,15 +88,18 @@ def _torques(comparison: Comparison) -> Table:
     return Table.of("torques of each joint", ["log", "time [s]", *head], _rows(found, both))
 
 
-def _rows(found: Prediction, values: np.ndarray) -> list[tuple[Cell, ...]]:
+def _rows(found: validation.Prediction, values: np.ndarray) -> list[tuple[Cell, ...]]:
     triples = zip(found.run.tolist(), found.time.tolist(), values.tolist(), strict=True)
     return [(found.logs[run], time, *row) for run, time, row in triples]
 
 
-def _comparison_figures(comparison: Comparison) -> Figures:
-    drawn = {"overview": partial(overview_picture, comparison)}
+def _comparison_figures(comparison: validation.Comparison) -> Figures:
+    drawn = {"overview": partial(validation.overview_picture, comparison)}
     for item in comparison.joints:
-        for kind, picture in (("time", time_picture), ("residual", residual_picture)):
+        for kind, picture in (
+            ("time", validation.time_picture),
+            ("residual", validation.residual_picture),
+        ):
             drawn[f"{kind} {item.joint.name}"] = partial(picture, comparison.prediction, item)
     return picture_figures(drawn)
 
@@ -166,7 +162,7 @@ def _evidence(diagnosis: Diagnosis, step: Step) -> Picture:
     return evidence_picture(shown(diagnosis.search, step))
 
 
-def _free_run_tables(found: FreeRun) -> Tables:
+def _free_run_tables(found: validation.FreeRun) -> Tables:
     return {"joints": lambda: Table.of(
         f"{found.robot}: free run in windows of {found.window:g} s",
         "joint, position [%], constant speed [%], whole run [%], horizon [s], largest error, unit",
@@ -176,17 +172,18 @@ def _free_run_tables(found: FreeRun) -> Tables:
     )}  # fmt: skip
 
 
-def _free_run_figures(found: FreeRun) -> Figures:
-    drawn = [partial(free_run_picture, found, j) for j in range(len(found.joints))]
+def _free_run_figures(found: validation.FreeRun) -> Figures:
+    drawn = [partial(validation.free_run_picture, found, j) for j in range(len(found.joints))]
     names = [f"joint {joint.name}" for joint in found.joints]
     return picture_figures(dict(zip(names, drawn, strict=True)))
 
 
 PRESENTATIONS = {
-    FreeRun: Presentation("a free run", FreeRun.summary, _free_run_tables, _free_run_figures),
-    Contest: Presentation("a contest of models", _contest_summary, _contest_tables),
-    Comparison: Presentation("a comparison", _comparison_summary, _comparison_tables,
-                             _comparison_figures),
+    validation.FreeRun: Presentation("a free run", validation.FreeRun.summary, _free_run_tables,
+                                     _free_run_figures),
+    validation.Contest: Presentation("a contest of models", _contest_summary, _contest_tables),
+    validation.Comparison: Presentation("a comparison", _comparison_summary, _comparison_tables,
+                                        _comparison_figures),
     Diagnosis: Presentation("a diagnosis", lambda d: "\n".join(lines(d)), _diagnosis_tables,
                             _diagnosis_figures, ("effects", "joints")),
 }  # fmt: skip

@@ -10,16 +10,13 @@ from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.style import SLATE, Style
 from modeler.core.table import Cell, Table, percent
 from modeler.core.thinning import thin_points
-from modeler.excitation.result import Exciting
-from modeler.logs.guess import template_of
-from modeler.logs.inspect import Clock, Look
-from modeler.observation.log import Log
-from modeler.observation.observation import Observation
-from modeler.observation.report import DataReport
+from modeler.excitation import Exciting
+from modeler.logs import Clock, Look, template_of
+from modeler.observation import DataReport, Log, Observation
 from modeler.report.blocks import Code, Figure, Items, PageTable, Paragraph
 from modeler.report.figures import curves, log_figure, picture_figure
 from modeler.report.page import Origin, Page, Section
-from modeler.simulation.log import SimulatedLog
+from modeler.simulation import SimulatedLog
 
 _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remarks")
 _LIMIT = 600  # points of one curve

@@ -18,8 +18,8 @@ from modeler.report.blocks import Block
 from modeler.report.figure_page import Numbers, cells, drawn, keys, packed, plotted
 
 if TYPE_CHECKING:
-    from modeler.diagnosis.result import Diagnosis
-    from modeler.estimation.result import FitResult
+    from modeler.diagnosis import Diagnosis
+    from modeler.estimation import FitResult
 
 
 # The one module that knows jinja2 for pages: everything that a template prints is escaped.

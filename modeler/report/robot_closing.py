@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.report.robot_skeleton import BASE, Skeleton, poses, size_of
-from modeler.robot.robot import Loop
+from modeler.robot import Loop
 
 CLOSED = 1e-9
 """Largest residual of a closed loop: of the robot's size, and of direction cosines."""

@@ -18,7 +18,7 @@ from modeler.report.robot_closing import CLOSED, Gap, Posture, gaps_of, home_pos
 from modeler.report.robot_labels import good_view
 from modeler.report.robot_scene import Point, Scene, scene_of
 from modeler.report.robot_skeleton import Skeleton, SkeletonRow, kind_word, poses, skeleton_of
-from modeler.robot.robot import JointKind, Robot
+from modeler.robot import JointKind, Robot
 
 _DIGITS = 7  # of coordinates of drawn points: finer than any screen
 
@@ -367,7 +367,7 @@ def _kind(picture: Path) -> str:
 def _shown(robot: Robot) -> ShownRobot:
     note = ""
     if robot.loops:
-        from modeler.derivation.derive import with_home  # only loops need symbols
+        from modeler.derivation import with_home  # only loops need symbols
 
         try:
             home = with_home(robot)

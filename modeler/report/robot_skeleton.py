@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.robot.cells import linear_form
-from modeler.robot.robot import Joint, JointKind, Robot
+from modeler.robot import Joint, JointKind, Robot, linear_form
 
 BASE = -1
 """Number of the base among the rows."""

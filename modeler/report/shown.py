@@ -5,10 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.table import WORDS, percent
-from modeler.diagnosis.orders import rival
-from modeler.diagnosis.ranking import Base
-from modeler.diagnosis.search import Search, Step
-from modeler.diagnosis.state import State, columns_of, state_of
+from modeler.diagnosis import Base, Search, State, Step, columns_of, rival, state_of
 from modeler.report.evidence_axes import Axis, Bins, axis_of, bins_of, calm_rows
 
 

@@ -8,12 +8,10 @@ import numpy as np
 from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.style import BLACK, COLOR_NAMES, COLORS, GREEN, SHADE, VERMILLION, Style
 from modeler.core.table import WORDS
-from modeler.diagnosis.events import AFTER, MARGIN, Window, load_turns
-from modeler.diagnosis.state import State
+from modeler.diagnosis import AFTER, MARGIN, State, Window, load_turns
 from modeler.report.evidence import MEANS, ROWS, scatter
 from modeler.report.shown import Shown
-from modeler.validation.comparison import WINDOW
-from modeler.validation.time_picture import broken
+from modeler.validation import WINDOW, broken
 
 MEASURED = Style(BLACK, width=1.2)
 BEFORE = Style(VERMILLION, width=1.6, dash=True)

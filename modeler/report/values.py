@@ -4,9 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from modeler.core.manifest import BaseSpec, TermSpec
 from modeler.core.table import percent
-from modeler.estimation.model_file import Addition, IdentifiedModel
-from modeler.estimation.parameter import ParameterEstimate, told_spread
-from modeler.estimation.result import FitResult
+from modeler.estimation import Addition, FitResult, IdentifiedModel, ParameterEstimate, told_spread
 from modeler.report.blocks import PageCell, PageTable
 
 _KINDS = {"% sigma": "bar", "unit": "unit", "is the sum of": "why"}

@@ -127,10 +127,7 @@ _ROUNDED = 5e-3  # rad; nearer than this, and written with few digits: 1.57, 3.1
 
 
 def form_at(
-    expression: Expression,
-    symbols: Mapping[str, float],
-    place: Place,
-    example: str = "q5 + q6",
+    expression: Expression, symbols: Mapping[str, float], place: Place, example: str = "q5 + q6"
 ) -> Linear:
     """The expression as a linear form in the names that are not among `symbols`.
 

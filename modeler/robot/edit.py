@@ -10,8 +10,7 @@ from typing import Any
 
 from modeler.core.errors import RobotError
 from modeler.core.toml_cells import Place
-from modeler.effects.catalogue import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, effect_named
-from modeler.effects.effect import Effect
+from modeler.effects import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Effect, effect_named
 from modeler.robot.cells import pi_multiple
 from modeler.robot.effects import parameter_owners, read_own_effects
 from modeler.robot.loops import MARK, expanded, leg_names

@@ -6,9 +6,17 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.effects.catalogue import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, effect_named
-from modeler.effects.definition import EXAMPLE, check_finite, read_definition
-from modeler.effects.effect import Acts, Effect
+from modeler.effects import (
+    CATALOGUE,
+    EXAMPLE,
+    PASSIVE_FRICTION,
+    PASSIVE_FRICTION_IS,
+    Acts,
+    Effect,
+    check_finite,
+    effect_named,
+    read_definition,
+)
 from modeler.robot.robot import INERTIAL, EffectInstance, EffectUse, Joint
 from modeler.robot.sections import Coupling, joint_at
 

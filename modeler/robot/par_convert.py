@@ -20,15 +20,7 @@ from modeler.robot.par_table import (
     table_cells,
     variables,
 )
-from modeler.robot.par_text import (
-    BASE,
-    FORCES,
-    INERTIA,
-    JOINTS,
-    ParFormula,
-    Statements,
-    scan,
-)
+from modeler.robot.par_text import BASE, FORCES, INERTIA, JOINTS, ParFormula, Statements, scan
 
 # What a `.par` file says of the links: which parameters they have, values, friction, rotors.
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from modeler.core.expression import FUNCTIONS, parse
 from modeler.core.toml_cells import Place, listed
-from modeler.effects.catalogue import CATALOGUE
+from modeler.effects import CATALOGUE
 from modeler.robot.cells import C_WORDS
 from modeler.robot.effects import parameter_owners
 from modeler.robot.par_text import (

@@ -8,11 +8,8 @@ from types import MappingProxyType
 from modeler.core.brief import Brief
 from modeler.core.expression import Expression
 from modeler.core.result import Presented
-from modeler.core.toml_cells import Place as Place
-from modeler.core.toml_cells import listed as listed
-from modeler.core.toml_cells import near as near
-from modeler.effects.catalogue import CATALOGUE, effect_named
-from modeler.effects.effect import Effect, Form
+from modeler.core.toml_cells import Place as Place, listed as listed, near as near
+from modeler.effects import CATALOGUE, Effect, Form, effect_named
 
 # One row of a modified Denavit-Hartenberg table.
 

@@ -1,5 +1,5 @@
 """Emitted C made callable. Knows manifests and C text, nothing of symbols."""
 
-from modeler.runtime.model import CompiledModel as CompiledModel
-from modeler.runtime.model import load as load
-from modeler.runtime.model import load_folder as load_folder
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

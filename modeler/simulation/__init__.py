@@ -6,14 +6,6 @@ out the commanded motion exactly, or are driven by the controller too; they are 
 that the modeling stages do not share.
 """
 
-from typing import TYPE_CHECKING, Any
+import lazy_loader
 
-if TYPE_CHECKING:
-    from modeler.simulation.entries import *  # noqa: F403
-else:
-
-    def __getattr__(name: str) -> Any:
-        """One of `entries`: `modeler --help` reads what is light here, without the rest."""
-        import modeler.simulation.entries as entries
-
-        return getattr(entries, name)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

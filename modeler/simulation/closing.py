@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from modeler.core.errors import DataError, RobotError
-from modeler.robot.robot import Limits, Robot
+from modeler.robot import Limits, Robot
 from modeler.simulation.rigid import FUNCTIONS, Frame, world_frames
 from modeler.simulation.trajectory import Reference
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.robot.robot import INERTIAL
+from modeler.robot import INERTIAL
 from modeler.simulation.rigid import is_physical, pseudo_inertia, standard_from_pseudo_inertia
 
 _SUMS = {"XX": (1, 2), "YY": (0, 2), "ZZ": (0, 1)}  # XX = int y2 dm + int z2 dm, ...

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.robot.robot import Joint
+from modeler.robot import Joint
 from modeler.simulation.portable_math import exponential, sine_and_cosine
 from modeler.simulation.settings import HiddenEffect, SimulationSettings
 

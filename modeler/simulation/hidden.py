@@ -46,10 +46,7 @@ def _nonlinear_viscous(shaft: Shaft, value: Values) -> Contribution:
 
 def _draw_nonlinear_viscous(rng: np.random.Generator, site: Site) -> dict[str, float]:
     power = float(rng.choice([0.5, 2.0, 3.0]))
-    return {
-        "coefficient": rng.uniform(0.15, 0.3) * site.torque / site.speed**power,
-        "power": power,
-    }
+    return {"coefficient": rng.uniform(0.15, 0.3) * site.torque / site.speed**power, "power": power}
 
 
 def _position_friction(shaft: Shaft, value: Values) -> Contribution:

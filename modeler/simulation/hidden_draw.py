@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 
 from modeler.core.errors import RobotError
-from modeler.robot.robot import Limits, Robot
+from modeler.robot import Limits, Robot
 from modeler.simulation.closing import closed_motion, constraints_of, motor_torques, rates, sampled
 from modeler.simulation.hidden import HIDDEN
 from modeler.simulation.parameters import PlantParameters, joint_scales

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from modeler.core.errors import RobotError
-from modeler.robot.robot import INERTIAL, Limits, Robot
+from modeler.robot import INERTIAL, Limits, Robot
 from modeler.simulation.completion import completed
 from modeler.simulation.physics import PHYSICS, EffectPhysics, ShaftScale
 from modeler.simulation.portable_math import ten_digits
@@ -109,10 +109,7 @@ def effects_of(robot: Robot, joint: str) -> list[EffectPhysics]:
 
 
 def joint_scales(
-    robot: Robot,
-    bodies: Mapping[str, Body],
-    limits: tuple[Limits, ...],
-    rng: np.random.Generator,
+    robot: Robot, bodies: Mapping[str, Body], limits: tuple[Limits, ...], rng: np.random.Generator
 ) -> list[ShaftScale]:
     """What is large and small on each moving row, by the torques of the links in random states."""
     dynamics = rigid_dynamics(robot, bodies)

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from modeler.core.errors import DataError, RobotError
 from modeler.core.expression import parse
-from modeler.robot.robot import Joint, Limits, Robot
+from modeler.robot import Joint, Limits, Robot
 from modeler.simulation.closing import Constraints, tree_from_free, untied
 from modeler.simulation.hidden import HIDDEN
 from modeler.simulation.parameters import PlantParameters

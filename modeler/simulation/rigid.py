@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from modeler.robot.robot import INERTIAL, Robot
+from modeler.robot import INERTIAL, Robot
 from modeler.simulation.portable_math import sine_and_cosine
 
 # Where the links are: frames of a modified Denavit-Hartenberg table in the world frame.

@@ -7,8 +7,7 @@ from functools import partial
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.robot.motors import joint_directions
-from modeler.robot.robot import Limits, Robot
+from modeler.robot import Limits, Robot, joint_directions
 from modeler.simulation.closing import (
     ClosedMotion,
     Constraints,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from modeler.core.brief import Brief
 from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
-from modeler.robot.robot import Limits, Robot
+from modeler.robot import Limits, Robot
 
 if TYPE_CHECKING:
     from modeler.simulation.trajectory import Reference

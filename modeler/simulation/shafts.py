@@ -7,7 +7,7 @@ import casadi as ca
 import numpy as np
 
 from modeler.core.errors import RobotError
-from modeler.robot.robot import Limits, Robot
+from modeler.robot import Limits, Robot
 from modeler.simulation.hidden import HIDDEN
 from modeler.simulation.parameters import PlantParameters, effects_of
 from modeler.simulation.physics import Act, Contribution, Shaft, Values

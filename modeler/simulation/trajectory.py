@@ -14,7 +14,7 @@ from scipy.interpolate import BPoly, make_interp_spline
 
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import check_unpacked, read_file
-from modeler.robot.robot import Limits, Robot
+from modeler.robot import Limits, Robot
 from modeler.simulation.portable_math import sine_and_cosine, ten_digits
 
 _MARGIN = 0.92  # of the limits: the joints overshoot the command a little

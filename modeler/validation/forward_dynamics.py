@@ -12,9 +12,9 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.table import percent
-from modeler.estimation.direct_model import scaled_inertia
-from modeler.observation.low_speed import shafts
-from modeler.runtime.model import CompiledModel
+from modeler.estimation import scaled_inertia
+from modeler.observation import shafts
+from modeler.runtime import CompiledModel
 
 _CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
 _STILL = 1e-12  # below, a shaft stands

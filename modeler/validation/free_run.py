@@ -9,13 +9,9 @@ import numpy as np
 from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import JointSpec
 from modeler.core.table import percent
-from modeler.estimation.direct_model import ControlLoop, DirectModel
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.observation.log import Log
-from modeler.observation.low_speed import signals_of
-from modeler.observation.motion import Segment
-from modeler.observation.observation import Observation, observe
-from modeler.runtime.model import CompiledModel
+from modeler.estimation import ControlLoop, DirectModel, IdentifiedModel
+from modeler.observation import Log, Observation, Segment, observe, signals_of
+from modeler.runtime import CompiledModel
 from modeler.validation.forward_dynamics import FittedPlant, Forces
 from modeler.validation.free_run_result import Controlled, FreeRun, JointFreeRun, Path
 from modeler.validation.stability import (

@@ -14,10 +14,9 @@ from modeler.core.errors import DataError
 from modeler.core.json import nulled
 from modeler.core.result import Presented
 from modeler.core.table import aligned, percent
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.observation.log import Log
-from modeler.observation.observation import Observation
-from modeler.runtime.model import CompiledModel
+from modeler.estimation import IdentifiedModel
+from modeler.observation import Log, Observation
+from modeler.runtime import CompiledModel
 from modeler.validation.predict import predict
 from modeler.validation.prediction import JointInfo, Prediction, relative_error, unit_errors
 

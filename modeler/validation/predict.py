@@ -10,21 +10,29 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.json import entries
-from modeler.estimation.long_logs import all_rows, by_threads
-from modeler.estimation.model_file import IdentifiedModel
+from modeler.estimation import IdentifiedModel, all_rows, by_threads
 from modeler.numerics.filters import LEAST_WEIGHT, moving_means, spacing
-from modeler.observation.chunk import Chunk
-from modeler.observation.log import FINGER, Log
-from modeler.observation.low_speed import shafts, signals_of
-from modeler.observation.motion import travel_since_reversal
-from modeler.observation.observation import Observation, masks_of, observe, stacked
-from modeler.observation.read import Source
-from modeler.observation.reduce import blocks
-from modeler.observation.report import DataReport
-from modeler.observation.stretch import Stretch
-from modeler.observation.survey import Chosen, rows_of_chunk, streamed_report
-from modeler.observation.tally import Facts
-from modeler.runtime.model import CompiledModel
+from modeler.observation import (
+    FINGER,
+    Chosen,
+    Chunk,
+    DataReport,
+    Facts,
+    Log,
+    Observation,
+    Source,
+    Stretch,
+    blocks,
+    masks_of,
+    observe,
+    rows_of_chunk,
+    shafts,
+    signals_of,
+    stacked,
+    streamed_report,
+    travel_since_reversal,
+)
+from modeler.runtime import CompiledModel
 from modeler.validation.comparison import Comparison, compare
 from modeler.validation.prediction import FullRate, JointInfo, Motor, Prediction, sigma_of
 

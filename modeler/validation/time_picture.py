@@ -8,8 +8,7 @@ from modeler.core.figure import Band, Curve, Panel, Picture, Series, Span
 from modeler.core.style import BLACK, COLOR_NAMES, ORANGE, PALE, SHADE, SKY, VERMILLION, Style
 from modeler.core.table import WORDS
 from modeler.core.thinning import thin_curves
-from modeler.observation.observation import MASKS, WHY
-from modeler.observation.segments import runs
+from modeler.observation import MASKS, WHY, runs
 from modeler.validation.comparison import WINDOW, JointComparison
 from modeler.validation.prediction import DEVIATIONS, Prediction, residual
 

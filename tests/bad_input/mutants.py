@@ -6,8 +6,7 @@ import os
 from collections.abc import Sequence
 from typing import Any
 
-from hypothesis import HealthCheck, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, settings, strategies as st
 
 EXAMPLES = int(os.environ.get("MODELER_FUZZ", "0"))
 """Mutants per test from fresh seeds; 0: a fixed set of the size that the test names."""

@@ -6,8 +6,7 @@ import pytest
 
 from tests.bad_input.drawn import run_mutants
 from tests.bad_input.judge import disturbed, ending, faults
-from tests.bad_input.row import Result
-from tests.bad_input.row import row as made
+from tests.bad_input.row import Result, row as made
 from tests.bad_input.table import ROWS
 from tests.bad_input.yard import Ground, Yard
 

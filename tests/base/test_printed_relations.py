@@ -2,8 +2,7 @@
 
 import pytest
 import sympy
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from modeler.codegen.emit import emit
 from modeler.core.errors import DerivationError, LoopError, RobotError

@@ -122,10 +122,7 @@ def test_offset_of_a_slide_along_gravity():
     """Power of a constant force and of weight along the slide: Off - g (all masses)."""
     effects = '[effects]\nrotor_inertia = ["1"]\noffset = ["1"]\n'
     model = leg("[0, 0, 'g']", effects, links=NO_LINK_5["links"])
-    assert_groups_as(
-        model,
-        EQUATION_18 + "Off1 - g*(M1 + M2 + M3 + M4 + M7)",
-    )
+    assert_groups_as(model, EQUATION_18 + "Off1 - g*(M1 + M2 + M3 + M4 + M7)")
 
 
 def test_coefficients_of_a_shifted_and_tilted_link():
@@ -249,10 +246,7 @@ def test_the_certificate_of_trees_agrees_and_can_say_no():
 
 @pytest.mark.parametrize(
     ("length", "message"),
-    [
-        ("2147483647/10**9", "what depends on what"),
-        ("1/2147483647", "no value modulo a prime"),
-    ],
+    [("2147483647/10**9", "what depends on what"), ("1/2147483647", "no value modulo a prime")],
 )
 def test_multiples_of_the_primes(length, message):
     """A length that is zero, or infinite, modulo a prime must not pass for one that is."""

@@ -147,10 +147,7 @@ def test_loops_that_do_not_close_are_shown_and_told(here, capsys) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (
-            "wrist --png w.jpg",
-            "w.jpg: got .jpg; expected a name that ends in .png, .svg, .pdf",
-        ),
+        ("wrist --png w.jpg", "w.jpg: got .jpg; expected a name that ends in .png, .svg, .pdf"),
         ("wrist --png w", "w: got no ending; expected a name that ends in .png, .svg, .pdf"),
         ("wrost", '"wrost" is neither a file nor a built-in robot'),
         ("wrist --json wrist.html", "--json wrist.html: "),

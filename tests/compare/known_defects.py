@@ -13,11 +13,7 @@ NOISE = 0.5  # N m
 
 
 def prediction(
-    defect: Defect | None = None,
-    on: int = 1,
-    noise: float = NOISE,
-    seed: int = 0,
-    rows: int = 6000,
+    defect: Defect | None = None, on: int = 1, noise: float = NOISE, seed: int = 0, rows: int = 6000
 ) -> Prediction:
     """Three joints, two logs of rows/2 samples, one segment each.
 

@@ -152,9 +152,7 @@ def test_an_offset_is_named() -> None:
 
 
 def test_a_burst_is_told_with_its_moment() -> None:
-    text = joint_verdict(
-        second_joint(lambda q, qd, qdd, tau, t: 20.0 * (np.abs(t - 41.0) < 0.1)),
-    )
+    text = joint_verdict(second_joint(lambda q, qd, qdd, tau, t: 20.0 * (np.abs(t - 41.0) < 0.1)))
     assert (
         "s of two.parquet, 8" in text and "of the squared residual in 0.833 % of the time" in text
     )

@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 
 from modeler.core.json import nulled
-from modeler.diagnosis import data_checks as doubts
-from modeler.diagnosis import judge as errors
-from modeler.diagnosis import search
+from modeler.diagnosis import data_checks as doubts, judge as errors, search
 from modeler.diagnosis.assemble import _doubted, verdict
 from modeler.diagnosis.candidates import Candidate, Known, candidates, scales_of
 from modeler.diagnosis.cross_checks import CrossCheck

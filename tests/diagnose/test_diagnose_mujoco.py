@@ -13,15 +13,7 @@ from modeler import api
 
 pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco-core) is not installed")
 
-from tests.diagnose.mujoco_arm import (
-    ROWS,
-    G,
-    random_arm,
-    random_body,
-    robot_text,
-    run,
-    write,
-)
+from tests.diagnose.mujoco_arm import ROWS, G, random_arm, random_body, robot_text, run, write
 
 SEEDS = [1, pytest.param(2, marks=pytest.mark.slow)]
 TRAIN, HOLDOUT = 12.0, 6.0  # s, of moves, and as much of a Fourier series

@@ -6,8 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnosis import detected as module
-from modeler.diagnosis import diagnosis
+from modeler.diagnosis import detected as module, diagnosis
 from modeler.diagnosis.detected import detected
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.score import Change, Score

@@ -8,8 +8,7 @@ import pytest
 
 from modeler.api import compile_model, derive, generate, load
 from modeler.core.expression import parse
-from modeler.diagnosis import effect_columns as rows_module
-from modeler.diagnosis import signals as signals_module
+from modeler.diagnosis import effect_columns as rows_module, signals as signals_module
 from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.state import SearchData, all_columns_of, analysed, state_of
 from modeler.observation.prepare import Mending

@@ -86,11 +86,7 @@ def assert_not_faster(found, constraints, q, bounds):
 
 @pytest.mark.parametrize(
     ("name", "limits"),
-    [
-        ("orthoglide-2003", ()),
-        ("orthoglide-2012", ()),
-        ("five-bar", ("1=-3,3,2,8", "2=-3,3,2,8")),
-    ],
+    [("orthoglide-2003", ()), ("orthoglide-2012", ()), ("five-bar", ("1=-3,3,2,8", "2=-3,3,2,8"))],
 )
 def test_loops_close_all_along_away_from_singular_postures(name, limits):
     found, compiled = robot(name)

@@ -71,8 +71,7 @@ def test_a_good_fit_leaves_no_doubt(bench):
 
 
 @pytest.mark.parametrize(
-    ("factor", "unit", "times"),
-    [(1e3, "milliseconds", "0.001"), (1e6, "microseconds", "1e-06")],
+    ("factor", "unit", "times"), [(1e3, "milliseconds", "0.001"), (1e6, "microseconds", "1e-06")]
 )
 def test_a_time_that_is_not_in_seconds(bench, factor, unit, times):
     verdict = bench.verdict(clock(bench.log, factor))

@@ -10,8 +10,7 @@ from scipy.signal import lfilter
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
 from modeler.estimation.verdict import with_verdict
-from modeler.observation import reduce as passing
-from modeler.observation import stretch
+from modeler.observation import reduce as passing, stretch
 from modeler.observation.findings import thinned
 from modeler.observation.log import Log
 from modeler.observation.observation import Evaluated, Observation, observe

@@ -97,11 +97,7 @@ def test_step_one_finds_the_inertia_gravity_and_friction_of_the_paper(exact):
 
 def test_the_sigmas_of_both_fits_are_those_of_many_runs():
     """Monte Carlo with the truth: rms z about 1, and 95 % of |z| below 1.96."""
-    model, ways, truth = (
-        compiled(_ROBOT),
-        _directions(_ROBOT),
-        _beta(_ROBOT),
-    )
+    model, ways, truth = (compiled(_ROBOT), _directions(_ROBOT), _beta(_ROBOT))
     z = np.empty((2, _SEEDS, len(truth)))
     for seed in range(_SEEDS):
         observation = _observed(_ROBOT, _log(_ROBOT, 70.0, 0.02, seed))

@@ -12,8 +12,12 @@ from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
-from tests.diagnose.conftest import Case, motion, on_joint
-from tests.diagnose.conftest import case as case  # the fixture
+from tests.diagnose.conftest import (
+    Case,
+    case as case,  # the fixture
+    motion,
+    on_joint,
+)
 
 
 def spring(log: Log) -> np.ndarray:

@@ -16,8 +16,12 @@ from modeler.estimation.model_file import load_model, save_model
 from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import load as load_compiled
-from tests.diagnose.conftest import Case, motion, on_joint
-from tests.diagnose.conftest import case as case  # the fixture
+from tests.diagnose.conftest import (
+    Case,
+    case as case,  # the fixture
+    motion,
+    on_joint,
+)
 
 DRAG, CENTRE, WIDTH = 4.0, 0.7, 0.2  # N m s/rad, rad, rad; the grid has neither value
 OWN = """

@@ -7,8 +7,12 @@ from modeler.diagnosis.added_model import Logs, rows_of
 from modeler.observation.log import Log
 from modeler.observation.observation import model_torque
 from modeler.runtime.model import load
-from tests.diagnose.conftest import Case, motion, on_joint
-from tests.diagnose.conftest import case as case  # the fixture
+from tests.diagnose.conftest import (
+    Case,
+    case as case,  # the fixture
+    motion,
+    on_joint,
+)
 
 
 def spring(log: Log) -> np.ndarray:

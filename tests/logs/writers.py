@@ -149,11 +149,7 @@ def mcap(path: Path, table: Run) -> Path:
 
 
 def bag(
-    path: Path,
-    table: Run,
-    storage: str = "sqlite3",
-    extra_topic: str = "",
-    gripper: bool = False,
+    path: Path, table: Run, storage: str = "sqlite3", extra_topic: str = "", gripper: bool = False
 ) -> Path:
     """A ROS 2 bag as a folder.
 

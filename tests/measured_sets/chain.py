@@ -21,8 +21,7 @@ from modeler.observation.log import Log
 from modeler.observation.motion import HIGHEST
 from modeler.observation.settings import Processing
 from modeler.robot.read import robot_from_text
-from modeler.runtime.model import CompiledModel
-from modeler.runtime.model import load as load_compiled
+from modeler.runtime.model import CompiledModel, load as load_compiled
 from tests.measured_sets.answer import Answer
 from tests.measured_sets.sanity import faults
 from tests.measured_sets.sets import SETS, Case

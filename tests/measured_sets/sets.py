@@ -92,10 +92,7 @@ _EVERY = (
     ),
     MeasuredSet("dvrk_psm", _builtin("dvrk-psm"), ("one",), ("two",)),
     MeasuredSet(
-        "kinova_gen3",
-        _builtin("kinova_gen3"),
-        ("traj_1", "traj_3", "traj_5"),
-        ("traj_2", "traj_4"),
+        "kinova_gen3", _builtin("kinova_gen3"), ("traj_1", "traj_3", "traj_5"), ("traj_2", "traj_4")
     ),
     MeasuredSet("panda", panda, ("excitation@:11.55",), ("excitation@11.55:",)),
     MeasuredSet(

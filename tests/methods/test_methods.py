@@ -26,8 +26,7 @@ def test_every_paper_has_its_method():
 
 
 @pytest.mark.parametrize(
-    "name",
-    [n if n == QUICK else pytest.param(n, marks=pytest.mark.slow) for n in paper_names()],
+    "name", [n if n == QUICK else pytest.param(n, marks=pytest.mark.slow) for n in paper_names()]
 )
 def test_every_identification_is_reproduced(name, capsys, tmp_path):
     place = tmp_path / "methods.json"

@@ -17,11 +17,11 @@ from modeler.simulation import (
     SimulationSettings,
     hidden_from_text,
     motion_limits,
+    plant as native,
     plant_parameters,
     simulate,
     write_truth,
 )
-from modeler.simulation import plant as native
 from modeler.simulation.closing import constraints_of, followed, rates
 from modeler.simulation.hidden_draw import complete_effects
 from modeler.simulation.plant import build_plant, machine, steps_per_tick

@@ -19,14 +19,14 @@ from modeler.robot.robot import Limits
 from modeler.simulation import (
     SimulatedLog,
     SimulationSettings,
+    control as controlling,
     motion_limits,
+    plant as native,
     plant_parameters,
     simulate,
     write_log,
     write_truth,
 )
-from modeler.simulation import control as controlling
-from modeler.simulation import plant as native
 from modeler.simulation.plant import build_plant
 from modeler.simulation.run import quantised
 

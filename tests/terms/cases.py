@@ -76,7 +76,7 @@ TIED = {
         "D2 = 0.3\nD3 = 0.2\nD5 = 0.25\nD6 = 0.15\nal = 1.1\nth = 0.4\n",
         rest='[relations]\nq2 = "q1/2 + pi/6"\nq4 = "0.02*q1 - 0.1"\nq5 = "1.37*q3"\n'
         'q6 = "q3 - 2*q1"\n[effects]\nrotor_inertia = "all"\nviscous = "all"\n',
-    ),
+    )
 }
 """Robots whose joints follow others."""
 

@@ -33,11 +33,7 @@ class Evaluation:
         return tau
 
 
-def evaluate(
-    closed: ClosedForm,
-    q: Sequence[float],
-    parameters: Mapping[str, float],
-) -> Evaluation:
+def evaluate(closed: ClosedForm, q: Sequence[float], parameters: Mapping[str, float]) -> Evaluation:
     """The functions in floating point at the nominal geometry.
 
     Args:

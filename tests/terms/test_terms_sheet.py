@@ -3,10 +3,7 @@
 import pytest
 
 from modeler.derivation.graph import Graph
-from modeler.formulas.function_sheet import (
-    SheetWriter,
-    sheet_lines,
-)
+from modeler.formulas.function_sheet import SheetWriter, sheet_lines
 
 LETTERS = {"q[0]": "q1", "q[1]": "q2", "qd[0]": "qd1", "a": "a", "b": "b", "k1": "k1"}
 

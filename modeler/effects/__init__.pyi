@@ -1,0 +1,22 @@
+from .catalogue import (
+    CATALOGUE as CATALOGUE,
+    ENCODERS as ENCODERS,
+    PASSIVE_FRICTION as PASSIVE_FRICTION,
+    PASSIVE_FRICTION_IS as PASSIVE_FRICTION_IS,
+    effect_named as effect_named,
+)
+from .definition import (
+    EXAMPLE as EXAMPLE,
+    check_finite as check_finite,
+    read_definition as read_definition,
+)
+from .effect import (
+    Acts as Acts,
+    Effect as Effect,
+    EnergyBlock as EnergyBlock,
+    Form as Form,
+    Memory as Memory,
+    Needs as Needs,
+    Shape as Shape,
+    Shows as Shows,
+)

@@ -1,0 +1,62 @@
+from . import long_logs as long_logs, model_file as model_file, two_step_result as two_step_result
+from .covariance import (
+    autocorrelation as autocorrelation,
+    remembered as remembered,
+    repeated as repeated,
+    repeated_whole as repeated_whole,
+)
+from .direct_model import (
+    ControlLoop as ControlLoop,
+    DirectModel as DirectModel,
+    scaled_inertia as scaled_inertia,
+)
+from .doubts import (
+    Doubt as Doubt,
+    LogFinding as LogFinding,
+    not_together as not_together,
+    remounted as remounted,
+)
+from .drive_gains import (
+    GainFit as GainFit,
+    are_currents as are_currents,
+    check_currents as check_currents,
+    identify_gains as identify_gains,
+    in_drive_units as in_drive_units,
+)
+from .energy_fit import identify_energy as identify_energy
+from .identify import Equations as Equations, dead_joints as dead_joints, identify as identify
+from .known import deviations as deviations, known_doubts as known_doubts
+from .least_squares import least_squares as least_squares, solve_by_qr as solve_by_qr
+from .long_logs import (
+    OF_TRIANGLES as OF_TRIANGLES,
+    all_rows as all_rows,
+    by_threads as by_threads,
+    stream as stream,
+)
+from .model_file import (
+    Addition as Addition,
+    IdentifiedModel as IdentifiedModel,
+    load_model as load_model,
+    provenance as provenance,
+    save_model as save_model,
+    with_essential_only as with_essential_only,
+)
+from .nearest_body import body as body, nearest_possible as nearest_possible
+from .parameter import told_spread as told_spread
+from .payload import (
+    Payload as Payload,
+    identify_with_payloads as identify_with_payloads,
+    loaded_equations as loaded_equations,
+)
+from .result import (
+    FitResult as FitResult,
+    ParameterEstimate as ParameterEstimate,
+    friction_by_direction as friction_by_direction,
+)
+from .side_by_side import SideBySide as SideBySide, Tried as Tried, side_by_side as side_by_side
+from .two_step import Directions as Directions
+from .two_step_result import (
+    TwoStepFit as TwoStepFit,
+    identify_in_two_steps as identify_in_two_steps,
+)
+from .verdict import contradictions as contradictions, with_verdict as with_verdict

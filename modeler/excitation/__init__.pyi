@@ -1,0 +1,23 @@
+from .criterion import condition as condition, signals as signals
+from .motion import Bounds as Bounds, Box as Box
+from .result import (
+    Exciting as Exciting,
+    check_kind as check_kind,
+    csv_text as csv_text,
+    motion_table as motion_table,
+    picture as picture,
+)
+from .search import (
+    Wish as Wish,
+    excite as excite,
+    random_motion as random_motion,
+    task_of as task_of,
+    usual_harmonics as usual_harmonics,
+)
+from .separate import (
+    Apart as Apart,
+    Question as Question,
+    choose as choose,
+    tell_apart as tell_apart,
+)
+from .task import Task as Task

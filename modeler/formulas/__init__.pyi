@@ -1,0 +1,57 @@
+from . import (
+    coefficients as coefficients,
+    function_sheet as function_sheet,
+    render as render,
+    values as values,
+)
+from .cad import (
+    CadComparison as CadComparison,
+    KnownAgainstFit as KnownAgainstFit,
+    compare_cad as compare_cad,
+    test_known as test_known,
+)
+from .closed_form import ClosedForm as ClosedForm, closed_form as closed_form
+from .coefficients import (
+    CoefficientTable as CoefficientTable,
+    coefficient_table as coefficient_table,
+)
+from .function_sheet import sheet_lines as sheet_lines
+from .physical_system import PhysicalSystem as PhysicalSystem, physical_system as physical_system
+from .print_checks import (
+    check_independent as check_independent,
+    check_solutions as check_solutions,
+    wrong_definitions as wrong_definitions,
+    wrong_functions as wrong_functions,
+)
+from .print_report import check_friction as check_friction, terms_report as terms_report
+from .printed import Print as Print
+from .regressor_form import (
+    equation_of as equation_of,
+    nonzero_base as nonzero_base,
+    regressor_form as regressor_form,
+    short_form as short_form,
+)
+from .solve import (
+    ClosedSolution as ClosedSolution,
+    definition_lines as definition_lines,
+    determined as determined,
+    missing_lines as missing_lines,
+    solution_json as solution_json,
+    solution_lines as solution_lines,
+    solve as solve,
+)
+from .sufficient_sets import (
+    KnownSets as KnownSets,
+    easiest_set as easiest_set,
+    known_sets as known_sets,
+    smallest_number as smallest_number,
+)
+from .text import monomial_text as monomial_text
+from .values import (
+    VERIFIED as VERIFIED,
+    DerivedValue as DerivedValue,
+    Given as Given,
+    Rated as Rated,
+    given_from_text as given_from_text,
+    rated as rated,
+)

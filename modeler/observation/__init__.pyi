@@ -1,0 +1,81 @@
+from .channels import Fault as Fault, faults as faults, suspects as suspects
+from .chunk import (
+    Chunk as Chunk,
+    chunks as chunks,
+    chunks_between as chunks_between,
+    read_part as read_part,
+    window as window,
+)
+from .findings import (
+    faults_of_fit as faults_of_fit,
+    findings_of_fit as findings_of_fit,
+    findings_of_prediction as findings_of_prediction,
+)
+from .log import (
+    FINGER as FINGER,
+    LONG as LONG,
+    MOST_WHOLE as MOST_WHOLE,
+    Log as Log,
+    LogRows as LogRows,
+    check_apart as check_apart,
+    shared_rows as shared_rows,
+)
+from .low_speed import bristle as bristle, shafts as shafts, signals_of as signals_of
+from .motion import (
+    HIGHEST as HIGHEST,
+    Segment as Segment,
+    differentiated as differentiated,
+    low_pass as low_pass,
+    travel_since_reversal as travel_since_reversal,
+)
+from .observation import (
+    MASKS as MASKS,
+    WHY as WHY,
+    Evaluated as Evaluated,
+    Observation as Observation,
+    masks_of as masks_of,
+    model_torque as model_torque,
+    no_row_left as no_row_left,
+    observe as observe,
+    observed as observed,
+    observed_alike as observed_alike,
+    stacked as stacked,
+)
+from .prepare import (
+    Mending as Mending,
+    Prepared as Prepared,
+    nearest_closed as nearest_closed,
+    prepare as prepare,
+)
+from .read import (
+    FileSource as FileSource,
+    MemorySource as MemorySource,
+    Source as Source,
+    read_log as read_log,
+    source_of as source_of,
+)
+from .reduce import (
+    blocks as blocks,
+    explained as explained,
+    is_streamed as is_streamed,
+    products as products,
+    triangles as triangles,
+    with_stretch as with_stretch,
+)
+from .report import DataReport as DataReport, LogReport as LogReport
+from .segments import runs as runs
+from .settings import Processing as Processing, processing_from_json as processing_from_json
+from .stretch import Stretch as Stretch
+from .survey import (
+    WINDOW as WINDOW,
+    WINDOWS as WINDOWS,
+    Chosen as Chosen,
+    KnownFacts as KnownFacts,
+    Passes as Passes,
+    Survey as Survey,
+    WholeNeeded as WholeNeeded,
+    rows_of_chunk as rows_of_chunk,
+    streamed_report as streamed_report,
+    survey as survey,
+)
+from .tally import Facts as Facts

@@ -1,0 +1,32 @@
+from .cells import linear_form as linear_form
+from .edit import (
+    home_lines as home_lines,
+    with_coupling as with_coupling,
+    with_drive_gains as with_drive_gains,
+    with_effect as with_effect,
+    with_effects as with_effects,
+    with_gravity as with_gravity,
+    with_home_text as with_home_text,
+    with_own_effect as with_own_effect,
+    with_parameters as with_parameters,
+    with_reference as with_reference,
+)
+from .loops import read_home as read_home
+from .motors import joint_directions as joint_directions
+from .par_convert import conversion_notes as conversion_notes, converted as converted
+from .read import read_robot as read_robot, robot_from_text as robot_from_text
+from .robot import (
+    INERTIAL as INERTIAL,
+    LOOP_KINDS as LOOP_KINDS,
+    EffectUse as EffectUse,
+    Joint as Joint,
+    JointKind as JointKind,
+    Limits as Limits,
+    Loop as Loop,
+    PhysicalLink as PhysicalLink,
+    Place as Place,
+    Robot as Robot,
+    SharedParameter as SharedParameter,
+    listed as listed,
+    near as near,
+)

@@ -1,0 +1,50 @@
+from .comparison import (
+    WINDOW as WINDOW,
+    Comparison as Comparison,
+    JointComparison as JointComparison,
+    by_log as by_log,
+    compare as compare,
+    method_lines as method_lines,
+    or_dash as or_dash,
+)
+from .free_run import FreeRunSettings as FreeRunSettings, Gains as Gains, free_run as free_run
+from .free_run_result import (
+    FreeRun as FreeRun,
+    JointFreeRun as JointFreeRun,
+    free_run_picture as free_run_picture,
+    free_run_pictures as free_run_pictures,
+)
+from .models import (
+    DOUBT as DOUBT,
+    Contest as Contest,
+    JointContest as JointContest,
+    check_joints as check_joints,
+    contest as contest,
+    contest_lines as contest_lines,
+    contest_sentences as contest_sentences,
+    headline_of as headline_of,
+    predict_together as predict_together,
+)
+from .pictures import (
+    overlay_picture as overlay_picture,
+    overview_picture as overview_picture,
+    residual_picture as residual_picture,
+)
+from .predict import compare_long as compare_long, predict as predict
+from .prediction import (
+    DEVIATIONS as DEVIATIONS,
+    JointInfo as JointInfo,
+    Prediction as Prediction,
+    residual as residual,
+)
+from .time_picture import broken as broken, time_picture as time_picture
+from .verdict import (
+    best_other as best_other,
+    best_pattern as best_pattern,
+    headline as headline,
+    joint_verdict as joint_verdict,
+    kind_of_residual as kind_of_residual,
+    looks_like_noise as looks_like_noise,
+    verdict as verdict,
+    wrong_scale as wrong_scale,
+)
