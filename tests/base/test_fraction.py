@@ -21,7 +21,7 @@ def polynomial(ring, draw: random.Random, letters: list[int], terms: int):
     return total
 
 
-@pytest.mark.parametrize("seed", range(25))
+@pytest.mark.parametrize("seed", range(12))
 def test_common_divisors_are_those_of_sympy(seed: int) -> None:
     draw = random.Random(seed)
     ring = field(LETTERS, QQ)[0].ring

@@ -14,9 +14,9 @@ from modeler.derivation.field import TooLarge, geometry_field, sparse_row_reduce
 from modeler.derivation.grouping import column_relations
 from modeler.derivation.numeric_rank import random_states, regressor_values
 from modeler.derivation.tied import tied_relations
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.read import robot_from_text
 from tests.base.ranks import seen
-from tests.robots import TREES
+from tests.modules import module
 
 TIES = '[relations]\nq4 = "-q3"\nq5 = "-q2 - pi/2"\nq7 = "q3"\n'
 
@@ -134,8 +134,8 @@ def test_coefficients_of_a_shifted_and_tilted_link():
         ('"b3", "-pi/2",   0,   "q3",     0]', '"b3", "al",   0,   "q3",     "r3"]'),
         ("b3 = -0.04 ", "al = -1.2\nr3 = 0.05\nb3 = -0.04 "),
     )
-    K, relations = relations_of(leg(changes=tilted, **NO_LINK_5))
-    names = leg(changes=tilted, **NO_LINK_5).names
+    model = leg(changes=tilted, **NO_LINK_5)
+    (K, relations), names = relations_of(model), model.names
     (row,) = [r for r in relations if r.get(names.index("M4")) == K.one]
     al, r3, D4 = (sympy.Symbol(n, real=True) for n in ("al", "r3", "D4"))
     found = -K.expression(row[names.index("ZZ2")])
@@ -191,11 +191,7 @@ def test_gears_and_screws():
     ratios = {K.expression(x) for relation in relations for x in relation.values()}
     assert sympy.Rational(10186, 10000) ** 2 in {abs(x) for x in ratios}
 
-
-def test_gears_of_a_base_joint():
-    """Ia turns with the motor, ZZ1 with 1.0186 times its speed."""
-    model = derive_model(robot_from_text(GEARED, "geared"))
-    K, relations = relations_of(model)
+    # Ia turns with the motor, ZZ1 with 1.0186 times its speed.
     (row,) = [r for r in relations if model.names.index("ZZ1") in r and len(r) == 2]
     (other,) = set(row) - {model.names.index("ZZ1")}
     assert model.names[other] == "Iam1"
@@ -203,10 +199,10 @@ def test_gears_of_a_base_joint():
     assert K.expression(row[other]) == -(sympy.Rational(10186, 10000) ** 2)
 
 
-@pytest.mark.parametrize("name", TREES)
+@pytest.mark.parametrize("name", ["emps", "scara", "wrist", "sr400-tree", "tx40"])
 def test_plain_trees_give_what_link_by_link_elimination_gives(name):
     """Two methods, sharing neither equations nor arithmetic: the same relations, to the letter."""
-    model = derive_model(read_robot(name))
+    model = module(name).model
     K = geometry_field(model.geometry)
     order = list(range(len(model.columns)))
     wanted = [
@@ -261,6 +257,7 @@ def test_multiples_of_the_primes(length, message):
         relations_of(model)
 
 
+@pytest.mark.slow
 def test_coefficients_that_would_fill_pages_are_numbers():
     """Four general twists between joints that go two by two."""
     symbols = "".join(f"a{i} = {0.3 + 0.1 * i}\n" for i in range(1, 5))

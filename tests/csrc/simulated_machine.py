@@ -110,7 +110,7 @@ def observed(command: Sequence[object], rows: np.ndarray) -> np.ndarray:
 def fitted_folder(robot: Robot, folder: Path) -> None:
     """The C of a model fitted to a simulated log, written to the folder."""
     log = folder.with_suffix(".parquet")
-    write_log(log, simulate(robot, SimulationSettings(duration=12.0, rate=500.0, seed=1)))
+    write_log(log, simulate(robot, SimulationSettings(duration=8.0, rate=400.0, seed=1)))
     derivation = derive(robot)
     emitted = generate(derivation)
     model = fit(derivation, emitted, observe(compile_model(emitted), [log]))

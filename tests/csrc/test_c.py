@@ -13,6 +13,7 @@ from modeler.core.files import resource_dir
 from tests.modules import STRICT, compiler, module
 
 HERE = Path(__file__).resolve().parent
+CLEAN = {k: v for k, v in os.environ.items() if k != "MAKEFLAGS"} | {"CFLAGS": "-O0"}
 
 
 @pytest.mark.parametrize("cc", ["gcc", "clang"])
@@ -99,10 +100,9 @@ def check_controller(folder: Path, library: Path) -> None:
 def test_the_folder_builds_with_make_and_controls(tmp_path):
     write_emitted(module("wrist").emitted, tmp_path)
     compiler("make")
-    clean = {k: v for k, v in os.environ.items() if k not in ("CFLAGS", "MAKEFLAGS")}
-    subprocess.run(["make", "-C", tmp_path], check=True, capture_output=True, env=clean)
+    subprocess.run(["make", "-C", tmp_path], check=True, capture_output=True, env=CLEAN)
     again = subprocess.run(
-        ["make", "-C", tmp_path, "--question"], check=False, capture_output=True, env=clean
+        ["make", "-C", tmp_path, "--question"], check=False, capture_output=True, env=CLEAN
     )
     assert again.returncode == 0, "make would build an unchanged folder again"
     check_controller(tmp_path, tmp_path / "libwrist_model.a")
@@ -113,7 +113,7 @@ def test_the_folder_builds_with_cmake_and_controls(tmp_path):
     compiler("cmake")
     build = tmp_path / "build"
     for command in (["cmake", "-S", tmp_path, "-B", build], ["cmake", "--build", build]):
-        subprocess.run(command, check=True, capture_output=True)
+        subprocess.run(command, check=True, capture_output=True, env=CLEAN)
     check_controller(tmp_path, build / "libwrist_model.a")
 
 
@@ -124,7 +124,7 @@ def test_two_robots_link_into_one_program(tmp_path):
     for name in ("wrist", "emps"):
         emitted = module(name).emitted
         write_emitted(emitted, tmp_path / name)
-        subprocess.run(["make", "-C", tmp_path / name], check=True, capture_output=True)
+        subprocess.run(["make", "-C", tmp_path / name], check=True, capture_output=True, env=CLEAN)
         libraries.append(tmp_path / name / f"lib{name}_model.a")
         includes += ["-I", tmp_path / name]
         calls.append(f"{name}_signature()")

@@ -26,7 +26,8 @@ FROM, TO = 1.5, 2.5  # s
 
 
 def run(*command: object, where: Path, **more: str) -> str:
-    clean = {k: v for k, v in os.environ.items() if k not in ("CFLAGS", "MAKEFLAGS")} | more
+    clean = {k: v for k, v in os.environ.items() if k != "MAKEFLAGS"}
+    clean |= {"CFLAGS": "-O0", "CXXFLAGS": "-O0", **more}
     words = [str(word) for word in command]
     ran = subprocess.run(words, cwd=where, env=clean, capture_output=True, text=True, check=False)
     assert ran.returncode == 0, f"{words}\n{ran.stdout}{ran.stderr}"
@@ -49,7 +50,7 @@ def programs(tmp_path_factory) -> tuple[Path, Path]:
     lib = place / "robots" / "lib"
     flags = run("pkg-config", "--cflags", "--libs", "ur10e", where=place,
                 PKG_CONFIG_PATH=str(lib / "pkgconfig")).split()  # fmt: skip
-    strict = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+    strict = ["-std=c++17", "-O0", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
     run("g++", *strict, "closed_loop.cpp", *flags, f"-Wl,-rpath,{lib}", "-o", "by_pkg_config",
         where=place)  # fmt: skip
     return place / "b" / "by_cmake", place / "by_pkg_config"
@@ -58,7 +59,7 @@ def programs(tmp_path_factory) -> tuple[Path, Path]:
 @pytest.fixture(scope="module")
 def machine() -> Machine:
     """Along a motion that the fit has not seen."""
-    return Machine(read_robot("ur10e"), SimulationSettings(duration=4.0, rate=1000.0, seed=7))
+    return Machine(read_robot("ur10e"), SimulationSettings(duration=3.0, rate=1000.0, seed=7))
 
 
 def driven(machine: Machine, program: Path, mode: str, pushed: bool = False) -> Driven:
@@ -73,29 +74,30 @@ def driven(machine: Machine, program: Path, mode: str, pushed: bool = False) -> 
     return machine.drive([program, mode], line, push if pushed else None)
 
 
-def test_the_model_follows_a_motion_that_pd_alone_does_not(programs, machine):
+@pytest.fixture(scope="module")
+def free(programs, machine) -> Driven:
+    """With the model, and nothing that pushes."""
+    return driven(machine, programs[0], "model")
+
+
+def test_the_model_follows_a_motion_that_pd_alone_does_not(programs, machine, free):
     """At 3 Hz, with encoders of 1e6 counts and speeds filtered at 150 Hz; rms over all joints.
 
     Measured: 0.32 mrad with the model, 73 mrad with its gravity only, 145 mrad without; the motion
     is 148 mrad rms. What is left grows with the lag of the speeds (0.12 mrad without).
     """
-    by_cmake, by_pkg_config = programs
-    model = driven(machine, by_cmake, "model")
-    gravity = driven(machine, by_pkg_config, "gravity")
-    alone = driven(machine, by_pkg_config, "pd")
-    total, with_gravity, without = (float(rms(rms(d.error))) for d in (model, gravity, alone))
+    gravity, alone = (driven(machine, programs[1], mode) for mode in ("gravity", "pd"))
+    total, with_gravity, without = (float(rms(rms(d.error))) for d in (free, gravity, alone))
     assert total < 6e-4
     assert with_gravity > 100 * total
     assert without > 1.5 * with_gravity
-    assert np.all(rms(model.error) < rms(gravity.error) / 10)
-    again = driven(machine, by_pkg_config, "model")
-    np.testing.assert_allclose(model.answers, again.answers, rtol=0, atol=1e-6)
+    assert np.all(rms(free.error) < rms(gravity.error) / 10)
 
 
-def test_the_observer_sees_the_push_and_where_it_is(programs, machine):
+def test_the_observer_sees_the_push_and_where_it_is(programs, machine, free):
     """20 N m on joint 3, which it is not told. Measured: 19.87 N m, and 2.9 at most when free."""
-    free = driven(machine, programs[0], "model").answers[:, 6:]
-    pushed = driven(machine, programs[0], "model", pushed=True).answers[:, 6:]
+    both = driven(machine, programs[1], "model", pushed=True)
+    free, pushed = free.answers[:, 6:], both.answers[:, 6:]
     time = machine.reference.time
     seen = pushed[(time > FROM + 0.3) & (time < TO)].mean(axis=0)
     assert abs(seen[JOINT] - TORQUE) < 0.02 * TORQUE

@@ -13,12 +13,17 @@ from modeler.derivation.derive import HomeModes, derive_model, modes_near, with_
 from modeler.derivation.walks import linkage_of
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
-from tests.loops.test_loops_mistakes import CRANK
+from tests.loops.texts import CRANK
+from tests.robots import LOOPED
 
+SLOW = pytest.mark.slow
 BUILT_IN = (
-    "orthoglide-2003", "orthoglide-2012", "evra", "stewart", "delta", "five-bar", "3rrr", "sr400",
-)  # fmt: skip
-SHARED = ("twoloops", "twoloops_mixed", "excavator", "excavator_bucket", "3rpr_sim", "rccc")
+    "five-bar",
+    "sr400",
+    "delta",
+    *(pytest.param(n, marks=SLOW) for n in ("evra", "stewart")),
+)
+SHARED = ("twoloops", *(pytest.param(n, marks=SLOW) for n in ("excavator_bucket", "rccc")))
 CLOSED = 1e-9
 
 
@@ -82,7 +87,7 @@ def test_home_is_found_for_further_robots(loop_robots_folder, name) -> None:
     check_found(text)
 
 
-@pytest.mark.parametrize("name", BUILT_IN)
+@pytest.mark.parametrize("name", LOOPED)
 def test_a_good_home_stays(name) -> None:
     robot = of_text(builtin_text(name))
     home = with_home(robot)
@@ -167,7 +172,7 @@ rows = [["leg {i}", "3{i}", "4{i}", "revolute"]]
 """
 
 
-@pytest.mark.parametrize("lengths", [(0.7, 0.75, 0.65), (0.9, 0.6, 0.8), (0.75, 0.95, 0.85)])
+@pytest.mark.parametrize("lengths", [(0.7, 0.75, 0.65), (0.75, 0.95, 0.85)])
 def test_all_modes_of_a_planar_platform_are_found(lengths) -> None:
     found = modes_near(of_text(RPR), dict(zip(("21", "22", "23"), lengths, strict=True)))
     check(found)

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from tests.loops.closed_states import closed
-from tests.modules import compiled
+from tests.modules import plain
 from tests.robots import TIED
 
 
 @pytest.mark.parametrize("name", TIED)
 def test_power_balance(name):
     """(M qdd + c) . qd = dT/dt with T = qd' M qd / 2, along q(t) = q0 + qd t + qdd t**2 / 2."""
-    c = compiled(name)
+    c = plain(name)
     (q, qd, qdd), _, phi = closed(name, 8)
     qd, qdd = 0.3 * qd, 0.3 * qdd
     beta = c.base_parameters(np.random.default_rng(7).normal(size=phi.shape[2]))
@@ -31,7 +31,7 @@ def test_power_balance(name):
 @pytest.mark.parametrize("name", TIED)
 def test_gravity_is_the_slope_of_a_potential(name):
     """The work of g(q) around a small closed way is 0: its Jacobian is symmetric."""
-    c = compiled(name)
+    c = plain(name)
     (q, _, _), _, phi = closed(name, 4)
     beta = c.base_parameters(np.random.default_rng(8).normal(size=phi.shape[2]))
     h, n = 1e-5, q.shape[1]

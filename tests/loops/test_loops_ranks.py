@@ -9,7 +9,7 @@ import sympy
 from modeler.core.builtin import builtin_text
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.numeric_rank import Sample, numeric_rank, random_states, regressor_values
+from modeler.derivation.numeric_rank import Sample, numeric_rank, random_states
 from modeler.robot.read import read_robot, robot_from_text
 from tests.base.ranks import seen
 from tests.modules import module
@@ -63,17 +63,17 @@ ORDER = (r"^priority = .*$", 'priority = ["*6"]')
     ("changes", "rank"),
     [
         ([NO_PASSIVE], 41),
-        ([], 53),
-        ([NO_PASSIVE, OFFSETS], 43),
-        ([OFFSETS], 55),
-        ([NO_PASSIVE, LEGS, ORDER], 21),
-        ([LEGS, ORDER], 25),
         ([NO_PASSIVE, LEGS, OFFSETS, ORDER], 23),
-        ([LEGS, OFFSETS, ORDER], 27),
-        ([NO_PASSIVE, ALL, ORDER], 15),
         ([ALL, ORDER], 19),
+        *(
+            pytest.param(*variant, marks=pytest.mark.slow)
+            for variant in (
+                ([NO_PASSIVE, OFFSETS], 43), ([OFFSETS], 55), ([NO_PASSIVE, LEGS, ORDER], 21),
+                ([LEGS, ORDER], 25), ([LEGS, OFFSETS, ORDER], 27), ([NO_PASSIVE, ALL, ORDER], 15),
+            )
+        ),
     ],
-)
+)  # fmt: skip
 def test_the_orthoglide_of_2012_in_all_its_variants(changes, rank):
     base = variant("orthoglide-2012", *changes)
     assert base.rank == rank
@@ -110,6 +110,7 @@ UPRIGHT = [
 ]
 
 
+@pytest.mark.slow
 def test_evra_locked():
     """Sliders locked: 88; first axes of the universal joints vertical besides: 76."""
     assert variant("evra", *LOCKED).rank == 88
@@ -142,7 +143,7 @@ def test_coefficients_may_be_sums_and_quotients():
     assert sympy.simplify(terms["M4"] - expected) == 0
 
 
-@pytest.mark.parametrize("name", ["sr400", "orthoglide-2012", "stewart"])
+@pytest.mark.parametrize("name", ["sr400", pytest.param("orthoglide-2012", marks=pytest.mark.slow)])
 def test_loops_at_other_lengths_keep_their_rank(name):
     """The relations are symbols: true at any lengths, not only those of the file."""
     robot = read_robot(name)
@@ -191,10 +192,3 @@ def _unprojected(model, u, ud, udd, weight=True):
     for (k, column), value in zip(model.regressor, found, strict=True):
         phi[:, k, column] = value
     return phi if weight else phi - _unprojected(model, u, ud, 0 * udd)
-
-
-def test_states_used_here_are_closed():
-    model = module("stewart").model
-    u, ud, udd = random_states(model, 20, np.random.default_rng(1))
-    phi = regressor_values(model, (u, ud, udd))
-    assert phi.shape == (20, 6, len(model.columns))
