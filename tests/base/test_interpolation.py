@@ -1,19 +1,10 @@
 """Rational functions come back from their residues, or are refused."""
 
-from fractions import Fraction
-
-import numpy as np
 import pytest
 import sympy
 
 from modeler.derivation.certificate import (
     LARGE,
-    SMALL,
-    circle,
-    inverse,
-    reconstructed,
-    row_echelon,
-    turned,
 )
 from modeler.derivation.field import ExactField, TooLarge
 from modeler.derivation.tied import Probes, coefficient
@@ -66,13 +57,6 @@ def test_a_quotient_of_polynomials_is_recovered(expression):
     assert sympy.simplify(found - expression) == 0
 
 
-def test_a_field_without_letters_has_rational_numbers():
-    Q = ExactField([])
-    residue = 5 * pow(9, -1, LARGE) % LARGE
-    found = coefficient(lambda points: [residue] * len(points), Q, Probes(0, 1))
-    assert found == sympy.QQ(5, 9)
-
-
 @pytest.mark.parametrize(
     ("function", "message"),
     [
@@ -98,28 +82,3 @@ def test_a_function_that_differs_elsewhere_is_refused():
 
     with pytest.raises(TooLarge, match="no quotient"):
         coefficient(function, K, probes)
-
-
-@pytest.mark.parametrize(
-    "number", [Fraction(0), Fraction(-7), Fraction(10186, 10000) ** 2, Fraction(-1, 3**30)]
-)
-def test_small_rational_numbers_are_told_from_their_residues(number):
-    residue = number.numerator * pow(number.denominator, -1, LARGE) % LARGE
-    assert reconstructed(residue, LARGE) == number
-
-
-@pytest.mark.parametrize("prime", [SMALL, LARGE])
-def test_angles_add_modulo_a_prime(prime):
-    """tan(a/2) = 1/2, tan(b/2) = 1/3: a + b = pi/2."""
-    kind = np.int64 if prime == SMALL else object
-    half, third = (inverse(np.array([n], dtype=kind), prime) for n in (2, 3))
-    c, s = turned(circle(half, prime), circle(third, prime), prime)
-    assert (int(c[0]), int(s[0])) == (0, 1)
-
-
-@pytest.mark.parametrize("prime", [SMALL, LARGE])
-def test_row_echelon_finds_first_come_pivots_and_combinations(prime):
-    rows = np.array([[1, 2, 0, 3], [0, 0, 1, 4], [1, 2, 1, 7]], dtype=object)
-    rows = rows.astype(np.int64) if prime == SMALL else rows
-    assert row_echelon(rows, range(4), prime) == [(0, 0), (1, 2)]
-    assert rows.tolist() == [[1, 2, 0, 3], [0, 0, 1, 4], [0, 0, 0, 0]]

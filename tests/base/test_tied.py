@@ -1,6 +1,5 @@
 """Joints that follow others: all relations, exactly, against papers and other ways to them."""
 
-import dataclasses
 import re
 
 import numpy as np
@@ -8,7 +7,7 @@ import pytest
 import sympy
 
 from modeler.core.builtin import builtin_text
-from modeler.derivation.base_parameters import NotProved, base_parameters, certificate
+from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.field import TooLarge, geometry_field, sparse_row_reduce
 from modeler.derivation.grouping import column_relations
@@ -122,24 +121,7 @@ def test_offset_of_a_slide_along_gravity():
     """Power of a constant force and of weight along the slide: Off - g (all masses)."""
     effects = '[effects]\nrotor_inertia = ["1"]\noffset = ["1"]\n'
     model = leg("[0, 0, 'g']", effects, links=NO_LINK_5["links"])
-    assert_groups_as(
-        model,
-        EQUATION_18 + "Off1 - g*(M1 + M2 + M3 + M4 + M7)",
-    )
-
-
-def test_coefficients_of_a_shifted_and_tilted_link():
-    """Link 3 tilted by al and shifted by r3: a sum of squares times sin(al)**2."""
-    tilted = (
-        ('"b3", "-pi/2",   0,   "q3",     0]', '"b3", "al",   0,   "q3",     "r3"]'),
-        ("b3 = -0.04 ", "al = -1.2\nr3 = 0.05\nb3 = -0.04 "),
-    )
-    model = leg(changes=tilted, **NO_LINK_5)
-    (K, relations), names = relations_of(model), model.names
-    (row,) = [r for r in relations if r.get(names.index("M4")) == K.one]
-    al, r3, D4 = (sympy.Symbol(n, real=True) for n in ("al", "r3", "D4"))
-    found = -K.expression(row[names.index("ZZ2")])
-    assert sympy.simplify(found - sympy.sin(al) ** 2 * (r3**2 + D4**2)) == 0
+    assert_groups_as(model, EQUATION_18 + "Off1 - g*(M1 + M2 + M3 + M4 + M7)")
 
 
 # Joints 1 and 2 are turned over gears by motors that stand on the base, as on a surgical arm; the
@@ -230,25 +212,9 @@ def test_the_order_says_what_is_kept():
     assert _reduced(last, forward) == _reduced(relations_of(model)[1], forward)
 
 
-def test_the_certificate_of_trees_agrees_and_can_say_no():
-    model = leg(effects='[effects]\nviscous = "all"\ncoulomb = "all"\n')
-    K = geometry_field(model.geometry)
-    relations = column_relations(model, model.geometry, K, 2)
-    assert certificate(model.geometry, model.columns, K, relations, 5).rank == len(relations.kept)
-    index = next(i for i, row in enumerate(relations.rows) if len(row) > 1)
-    row = dict(relations.rows[index])
-    row[relations.dropped[index]] = K.one * 2
-    rows = (*relations.rows[:index], row, *relations.rows[index + 1 :])
-    with pytest.raises(NotProved, match="does not hold"):
-        certificate(model.geometry, model.columns, K, dataclasses.replace(relations, rows=rows), 5)
-
-
 @pytest.mark.parametrize(
     ("length", "message"),
-    [
-        ("2147483647/10**9", "what depends on what"),
-        ("1/2147483647", "no value modulo a prime"),
-    ],
+    [("2147483647/10**9", "what depends on what"), ("1/2147483647", "no value modulo a prime")],
 )
 def test_multiples_of_the_primes(length, message):
     """A length that is zero, or infinite, modulo a prime must not pass for one that is."""

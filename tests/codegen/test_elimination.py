@@ -32,28 +32,6 @@ def evaluated(graph, outputs, values, n):
     return np.stack([np.broadcast_to(x, n) for x in graph.evaluate(list(outputs), values)], axis=1)
 
 
-@pytest.mark.parametrize("head", ["", "platform_"])
-@pytest.mark.parametrize("name", NAMES)
-def test_it_solves_as_dense_algebra_does(name, head):
-    model = module(name).model
-    if head and model.closure.platform is None:
-        pytest.skip("no platform")
-    own, J, values, given, solved = solved_numbers(name, head)
-    inner, n = J[:, :, solved], len(J)
-    right = np.random.default_rng(3).normal(size=(n, len(solved)))
-    values |= {f"right[{i}]": right[:, i] for i in range(len(solved))}
-    x = evaluated(model.graph, own.solution, values, n)
-    np.testing.assert_allclose(np.einsum("nij,nj->ni", inner, x), right, atol=1e-11)
-    G = np.zeros((n, J.shape[2], len(given)))
-    G[:, given, range(len(given))] = 1.0
-    for (k, j, _), found in zip(
-        own.coupling, evaluated(model.graph, [x for _, _, x in own.coupling], values, n).T,
-        strict=True,
-    ):  # fmt: skip
-        G[:, k, j] = found
-    np.testing.assert_allclose(J @ G, 0.0, atol=1e-11)
-
-
 @pytest.mark.parametrize("name", NAMES)
 def test_how_far_a_jacobian_has_turned_is_bounded_and_measured(name):
     model = module(name).model
@@ -67,13 +45,6 @@ def test_how_far_a_jacobian_has_turned_is_bounded_and_measured(name):
     squares = evaluated(model.graph, [own.spread], values, len(J))[:, 0]
     np.testing.assert_allclose(squares, (change**2).sum(axis=(1, 2)), rtol=1e-8)
     assert ((bound**2).sum(axis=1) >= squares * (1.0 - 1e-9)).all()
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_fixed_pivots_are_not_small_where_the_robot_works(name):
-    own, _, values, _, solved = solved_numbers(name)
-    inverse = np.stack([values[f"lu[{k}]"] for k in range(len(solved))], axis=1)
-    assert (np.abs(inverse) <= np.array(own.limits)).all()
 
 
 def test_it_takes_a_tenth_of_dense_factors():

@@ -51,28 +51,6 @@ def test_every_file_compiles_as_c_and_as_cpp_without_a_warning(cc, name, tmp_pat
     subprocess.run([compiler(cc), *flags, "-fsyntax-only", "-I", tmp_path, *units], check=True)
 
 
-def test_a_program_in_cpp_links_with_the_c_compiled_as_either(tmp_path):
-    emitted = with_values("slow-arm")
-    write_emitted(emitted, tmp_path)
-    (tmp_path / "main.cc").write_text(
-        '#include "slow_arm_fitted.h"\n'
-        "int main() {\n"
-        "    double q[3] = {0.1, 0.2, 0.3}, tau[3], twin[3];\n"
-        "    slow_arm_fitted_gravity(q, tau);\n"
-        "    slow_arm_gravity(q, slow_arm_beta, twin);\n"
-        "    const double difference = tau[1] - twin[1];\n"
-        "    return !(difference < 1e-12 && difference > -1e-12) || tau[1] == 0.0;\n"
-        "}\n"
-    )
-    units = [tmp_path / file for file in emitted.spec.sources if file.endswith(".c")]
-    for compile_c in ([compiler("gcc"), "-std=c99"], [compiler("g++"), "-x", "c++"]):
-        subprocess.run([*compile_c, "-c", *units], check=True, cwd=tmp_path)
-        objects = [tmp_path / f"{unit.stem}.o" for unit in units]
-        program = [compiler("g++"), "main.cc", *objects, "-lm", "-o", "main"]
-        subprocess.run(program, check=True, cwd=tmp_path)
-        subprocess.run([tmp_path / "main"], check=True)
-
-
 def test_places_of_parameters_have_names_of_their_own(tmp_path):
     model = derive_model(robot_from_text(CLASHING, "arm"))
     base = base_parameters(model)

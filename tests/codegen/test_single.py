@@ -207,13 +207,14 @@ def walked(model: CompiledModel, home: np.ndarray, way: np.ndarray, steps: int =
 
 
 def test_robots_of_both_precisions_live_in_one_program(tmp_path):
-    """The runtime of one kind of number is not that of the other."""
-    wrist = module("wrist").emitted
+    """The runtime of one kind of number is not that of the other; two of one kind share theirs."""
+    wrist, emps = module("wrist").emitted, module("emps").emitted
     arm = emit(module("two-link").model, module("two-link").base, precision="single")
     main_c = """
     #include <stdio.h>
     #include "wrist.h"
     #include "two_link.h"
+    #include "emps.h"
     int main(void)
     {
         const double q[3] = {0.1, 0.2, 0.3}, qd[3] = {1.0, 1.0, 1.0}, qdd[3] = {2.0, 2.0, 2.0};
@@ -222,21 +223,22 @@ def test_robots_of_both_precisions_live_in_one_program(tmp_path):
         float V[2 * TWO_LINK_BASE_PARAMETERS];
         wrist_observation(1, q, qd, qdd, W);
         two_link_observation(1, p, pd, pdd, V);
-        printf("%.3f %.3f\\n", W[0], (double)V[0]);
+        emps_observation(1, q, qd, qdd, W + 1);
+        printf("%.3f %.3f %.3f\\n", W[0], (double)V[0], W[1]);
         return 0;
     }
     """
     libraries = []
-    for made in (wrist, arm):
+    for made in (wrist, arm, emps):
         folder = tmp_path / made.spec.prefix
         write_emitted(made, folder)
-        subprocess.run(["make", "-s", "-C", folder, f"CC={compiler('gcc')}"], check=True)
+        subprocess.run(["make", "-s", "-C", folder, "CFLAGS=-O0"], check=True)
         libraries += [folder / f"lib{made.spec.prefix}_model.a", f"-I{folder}"]
     (tmp_path / "main.c").write_text(main_c)
     program = tmp_path / "main"
     subprocess.run(["gcc", "-o", program, tmp_path / "main.c", *libraries, "-lm"], check=True)
     said = subprocess.run([program], capture_output=True, text=True, check=True).stdout.split()
-    assert said == ["2.000", "2.000"]
+    assert said == ["2.000", "2.000", "2.000"]
 
 
 def test_the_command(capsys, tmp_path):

@@ -132,12 +132,7 @@ def test_what_is_no_number_does_not_compile(cc, define, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "symbols",
-    [
-        "L = 0.5\nL1 = 0.2",
-        'L1 = 0.2\nL = "2*L1 + 0.1"',
-        'a = 0.5\nL = "sqrt(1 + a**2)"',
-    ],
+    "symbols", ["L = 0.5\nL1 = 0.2", 'L1 = 0.2\nL = "2*L1 + 0.1"', 'a = 0.5\nL = "sqrt(1 + a**2)"']
 )
 def test_symbols_in_plain_cells_are_free(symbols):
     assert deciding_symbols(arm(symbols).geometry) == set()

@@ -40,11 +40,7 @@ OWN: dict[str, tuple[dict, dict[str, float], Columns]] = {
         {"tau": 20.0, "t0": 0.5},
         lambda q, v, a, s: [v * np.exp(-(s - 0.5) / 20.0)],
     ),
-    "warm": (
-        {"columns": {"Kw": "T*v**3"}},
-        {"T0": 0.25},
-        lambda q, v, a, s: [(s - 0.25) * v**3],
-    ),
+    "warm": ({"columns": {"Kw": "T*v**3"}}, {"T0": 0.25}, lambda q, v, a, s: [(s - 0.25) * v**3]),
 }
 
 

@@ -38,6 +38,10 @@ def test_inverse_dynamics_is_the_sum_of_its_parts(name):
     close(M, np.swapaxes(M, 1, 2), 1e-12)
     parts = c.coriolis(q, qd, beta) + c.gravity(q, beta) + c.friction(qd, beta, q)
     close(np.einsum("nij,nj->ni", M, qdd) + parts, tau)
+    still = 0 * qd
+    rest = c.gravity(q, beta) + c.friction(still, beta, q)
+    close(rest, c.inverse_dynamics(q, still, still, beta))
+    close(c.coriolis(q, -2 * qd, beta), 4 * c.coriolis(q, qd, beta))
 
 
 @pytest.mark.parametrize("name", CLOSED)

@@ -274,16 +274,6 @@ def test_a_change_of_branch_on_the_way_is_seen():
     assert along(right.table, right.home, q, u).other == 1
 
 
-def test_an_open_posture_and_a_refused_one_are_seen():
-    right = closed_robot("five-bar")
-    q = right.home[right.table.given] + np.array([[0.1, 0.0], [0.0, 0.1], [0.1, 0.1]])
-    u = right.from_home(q)
-    u[0, right.table.solved] += 1e-7
-    u[1] = np.nan
-    found = judged(right.table, right.home, q, u)
-    assert (found.open, found.refused, found.done) == (1, 1, 2)
-
-
 def test_a_way_through_a_bifurcation_ends_there():
     """Four equal bars folded flat can go on as a parallelogram or crossed: neither is chosen."""
     robot = robot_from_text(RHOMBUS, "rhombus")

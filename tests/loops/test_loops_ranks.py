@@ -9,7 +9,6 @@ import sympy
 from modeler.core.builtin import builtin_text
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.numeric_rank import Sample, numeric_rank, random_states
 from modeler.robot.read import read_robot, robot_from_text
 from tests.base.ranks import seen
 from tests.modules import module
@@ -162,33 +161,3 @@ def test_loops_at_other_lengths_keep_their_rank(name):
     assert before == {
         p.name: [(t.parameter, str(t.coefficient)) for t in p.terms] for p in base.parameters
     }
-
-
-def test_the_energy_rows_have_the_same_rank():
-    """Second opinion on closed postures: rows of 2T and of the power of gravity."""
-    for name in ("five-bar", "orthoglide-2003", "evra"):
-        model, base, _ = module(name)
-        no_friction = [i for i, c in enumerate(model.columns) if c.kind != "friction"]
-        u, ud, _ = random_states(model, 150, np.random.default_rng(9))
-        kinetic = np.einsum("nic,ni->nc", _unprojected(model, u, 0 * ud, ud, weight=False), ud)
-        power = np.einsum("nic,ni->nc", _unprojected(model, u, 0 * ud, 0 * ud), ud)
-        rows = np.stack([kinetic, power], axis=1)[:, :, no_friction]
-        friction = base.counts()["friction"]
-        assert numeric_rank(
-            Sample(rows.reshape(-1, len(no_friction))), range(len(no_friction))
-        ).rank == (base.rank - friction)
-
-
-def _unprojected(model, u, ud, udd, weight=True):
-    """phi of the opened tree; without weight its part in the accelerations: M ud as columns."""
-    values = dict(model.geometry.values)
-    inputs = {
-        f"{kind}[{k}]": array[:, k]
-        for kind, array in (("q", u), ("qd", ud), ("qdd", udd))
-        for k in range(u.shape[1])
-    }
-    phi = np.zeros((*u.shape, len(model.columns)))
-    found = model.graph.evaluate(list(model.regressor.values()), {**values, **inputs})
-    for (k, column), value in zip(model.regressor, found, strict=True):
-        phi[:, k, column] = value
-    return phi if weight else phi - _unprojected(model, u, ud, 0 * udd)

@@ -191,11 +191,7 @@ def test_orthoglide_parallelogram_closes():
     d4, b3, b7 = (read_robot("orthoglide-leg-tree").symbol_values()[s] for s in ("D4", "b3", "b7"))
     near(
         poses["4"][:3, 3],
-        [
-            d4 * np.cos(q2) * np.cos(q3),
-            b3 - d4 * np.sin(q3),
-            q1 - d4 * np.sin(q2) * np.cos(q3),
-        ],
+        [d4 * np.cos(q2) * np.cos(q3), b3 - d4 * np.sin(q3), q1 - d4 * np.sin(q2) * np.cos(q3)],
     )
     # The platform translates: x5 = z1, y5 = x1, z5 = y1 at every posture.
     near(poses["5"][:3, :3], np.eye(3)[:, [2, 0, 1]])

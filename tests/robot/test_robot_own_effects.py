@@ -129,8 +129,7 @@ def test_the_good_file_is_read():
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "pieces"),
-    [pytest.param(*mistake[1:], id=mistake[0]) for mistake in MISTAKES],
+    ("old", "new", "pieces"), [pytest.param(*mistake[1:], id=mistake[0]) for mistake in MISTAKES]
 )
 def test_a_mistake_is_told(old, new, pieces):
     assert GOOD.count(old) >= 1

@@ -14,6 +14,7 @@ from modeler.derivation.relations import as_json
 from modeler.robot.par_convert import par_to_toml
 from modeler.robot.par_text import exact_angle
 from modeler.robot.read import read_robot, robot_from_text
+from tests.elementary_motions import frames
 from tests.robot.par_files import INERTIA, par_of, par_text
 
 
@@ -21,35 +22,6 @@ def convert(text: str, where: str = "arm.par"):
     data = text if isinstance(text, bytes) else text.encode()
     found = par_to_toml(data, where)
     return robot_from_text(found.text, where), found
-
-
-def poses(robot, positions):
-    """Frames of the rows in frame 0, from the definition of the table."""
-    values = {}
-    for name, value in robot.symbols.items():
-        values[name] = value.number(values)
-    frames = {"0": np.eye(4)}
-    for joint in robot.joints:
-        here = values | {joint.variable: positions.get(joint.name, 0.0)}
-        step = {c: getattr(joint, c).number(here)
-                for c in ("gamma", "b", "alpha", "d", "theta", "r")}  # fmt: skip
-        frames[joint.name] = (
-            frames[joint.antecedent]
-            @ moved(2, step["gamma"], step["b"])
-            @ moved(0, step["alpha"], step["d"])
-            @ moved(2, step["theta"], step["r"])
-        )
-    return frames
-
-
-def moved(axis, angle, length):
-    i, j = (axis + 1) % 3, (axis + 2) % 3
-    step = np.eye(4)
-    step[[i, i, j, j], [i, j, i, j]] = [
-        math.cos(angle), -math.sin(angle), math.sin(angle), math.cos(angle),
-    ]  # fmt: skip
-    step[axis, 3] = length
-    return step
 
 
 TWINS = ("rx90", "puma560", "scara", "sr400-tree", "sr400", "tx40")
@@ -69,7 +41,7 @@ def test_the_frames_of_a_twin_are_the_same(name, letters):
     rng = np.random.default_rng(4)
     for _ in range(5):
         positions = {joint.name: rng.uniform(-3, 3) for joint in robot.moving}
-        ours, theirs = poses(robot, positions), poses(twin, positions)
+        ours, theirs = frames(robot, positions), frames(twin, positions)
         assert ours.keys() == theirs.keys()
         for frame, pose in ours.items():
             assert np.allclose(theirs[frame], pose, atol=1e-9), frame
@@ -347,7 +319,7 @@ def test_cut_joints_are_loops():
     z = values["c"] * math.sin(q1 + values["gam5"])
     home = {"1": q1, "2": math.atan2(z, x) - math.pi / 2, "3": math.hypot(x, z)}
     home["4"] = q1 + values["gam5"] - home["2"]
-    ends = poses(robot, home)
+    ends = frames(robot, home)
     assert np.allclose(ends["4"], ends["5"])
     lines = "\n".join(f"q{row} = {value!r}" for row, value in home.items())
     base = derive(robot_from_text(f"{found.text}\n[home]\n{lines}\n", "boom")).base

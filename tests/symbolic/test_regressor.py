@@ -78,29 +78,3 @@ def test_recursion_agrees_with_the_regressor(name):
         + evaluated(model.torque(effects, links=False))
     )
     np.testing.assert_allclose(parts, tau, rtol=0, atol=1e-12 * scale)
-
-
-@pytest.mark.parametrize("name", ["puma560", "sr400-tree"])
-def test_power_balance(name):
-    """tau . qd = d/dt (T + U), the right side by finite differences along a smooth motion."""
-    model = module(name).model
-    n = model.geometry.joints
-    rng = np.random.default_rng(7)
-    phase, frequency = rng.uniform(0, 6, n), rng.uniform(0.5, 1.5, n)
-    step = 1e-4
-    t = 0.3 + step * np.arange(-2, 3)[:, None]
-    q, qd = np.sin(frequency * t + phase), frequency * np.cos(frequency * t + phase)
-    qdd = -(frequency**2) * q
-    chi = rng.normal(size=len(model.columns))
-    power = np.sum((regressor_values(model, (q, qd, qdd)) @ chi) * qd, axis=1)[2]
-    M = np.zeros((len(t), n, n))
-    zero = np.zeros_like(q)
-    gravity = regressor_values(model, (q, zero, zero)) @ chi
-    for j in range(n):
-        unit = zero.copy()
-        unit[:, j] = 1.0
-        M[:, :, j] = regressor_values(model, (q, zero, unit)) @ chi - gravity
-    T = 0.5 * np.einsum("si,sij,sj->s", qd, M, qd)
-    weights = np.array([1, -8, 0, 8, -1]) / (12 * step)
-    dT = weights @ T
-    assert power == pytest.approx(dT + gravity[2] @ qd[2], rel=1e-6)
