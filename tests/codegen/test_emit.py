@@ -105,32 +105,6 @@ def test_inertia_gravity_coriolis_and_friction_are_parts_of_the_torque(name):
     relative(library.coriolis(q, -2 * qd, beta), 4 * coriolis)
 
 
-@pytest.mark.parametrize("name", TREES)
-def test_friction_is_what_the_robot_file_says(name):
-    robot, library = module(name).model.robot, plain(name)
-    chi, beta = beta_of(name)
-    known = dict(zip(module(name).model.names, chi, strict=True))
-    _, qd, _ = states(len(robot.moving), SAMPLES)
-    for i, joint in enumerate(robot.moving):
-        coupled = any(use.effect.startswith("coupled") for use in robot.effects)
-        v, j = qd[:, i], joint.name
-        expected = (
-            known.get(f"Fv{j}", 0) * v
-            + known.get(f"Fs{j}", 0) * np.sign(v)
-            + known.get(f"Off{j}", 0)
-        )
-        if not coupled and not _groups_offset(name, j):
-            relative(library.friction(qd, beta)[:, i], expected)
-
-
-def _groups_offset(name: str, joint: str) -> bool:
-    """Gravity on a vertical slide is an offset: then the sum stands in one of them."""
-    return any(
-        len(base.terms) > 1 and any(term.parameter == f"Off{joint}" for term in base.terms)
-        for base in module(name).emitted.spec.base
-    )
-
-
 @pytest.mark.parametrize("name", ["emps", "puma560", "sr400-tree"])
 def test_compact_regressor_and_its_tables_are_the_dense_one(name, tmp_path):
     """Called from C, as a controller would."""

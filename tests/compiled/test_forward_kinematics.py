@@ -39,7 +39,7 @@ rows = [
 [links]
 1 = []
 2 = []
-3 = ["M"]
+3 = []
 4 = ["M"]
 """
 
@@ -54,7 +54,7 @@ def expected(robot, q):
 @pytest.mark.parametrize("name", TREES)
 def test_poses_are_the_product_of_elementary_motions(name):
     robot = read_robot(name)
-    q = states(len(robot.moving), 25)[0]
+    q = states(len(robot.moving), 8)[0]
     np.testing.assert_allclose(
         plain(name).forward_kinematics(q), expected(robot, q), rtol=0, atol=1e-13
     )
@@ -67,21 +67,6 @@ def test_a_row_may_hold_anything():
     q = states(4, 25)[0]
     T = loaded(emitted).forward_kinematics(q)
     np.testing.assert_allclose(T, expected(robot, q), rtol=0, atol=1e-13)
-
-
-def test_poses_move_as_the_torques_of_a_weight_say():
-    """Virtual work: gravity of a mass at the last origin is the slope of its height."""
-    robot, model = read_robot("puma560"), plain("puma560")
-    names = [parameter.name for parameter in model.spec.standard]
-    chi = np.zeros(len(names))
-    chi[names.index("M6")] = 2.0
-    q, step = states(6, 10)[0], 1e-6
-    torque = model.gravity(q, model.base_parameters(chi))
-    g = np.array([entry.number(robot.symbol_values()) for entry in robot.gravity])
-    for joint, unit in enumerate(np.eye(6)):
-        ahead, behind = (model.forward_kinematics(q + s * unit)[:, -1, :, 3] for s in (step, -step))
-        work = -2.0 * (ahead - behind) @ g / (2 * step)
-        np.testing.assert_allclose(torque[:, joint], work, rtol=0, atol=1e-7)
 
 
 def test_shapes():

@@ -19,7 +19,7 @@ from modeler.core.manifest import Emitted
 from modeler.runtime.gpu import GpuModel, load_gpu
 from tests.codegen.fitted_library import robot_module
 from tests.compiled.cupy_on_cpu import cupy
-from tests.modules import compiler, module, plain, states
+from tests.modules import compiler, loaded, module, plain, states
 
 NAMES = ("wrist", "puma560")
 
@@ -80,9 +80,7 @@ def test_effects_that_read_signals(gpu):
     motion = states(3, 20)
     s = np.random.default_rng(2).uniform(0, 1, (20, len(model.spec.signals)))
     host = robot_module("slow-arm").emitted
-    from modeler.runtime.model import load as load_compiled
-
-    phi = load_compiled(host.spec, host.files).base_regressor(*motion, s=s)
+    phi = loaded(host).base_regressor(*motion, s=s)
     expected = np.array([phi[:, joint, column] for joint, column in model.spec.nonzeros])
     np.testing.assert_allclose(model.nonzeros(*motion, s=s), expected, rtol=1e-12, atol=1e-12)
     with pytest.raises(ShapeError, match="its effects read signals; give s"):

@@ -44,15 +44,6 @@ def test_no_samples_give_no_rows(wrist):
     assert wrist.inertia_matrix(none, np.ones(len(wrist.spec.base))).shape == (0, 3, 3)
 
 
-def test_one_joint_is_not_special():
-    emps = plain("emps")
-    q, qd, qdd = states(1, 5)
-    beta = np.arange(1.0, len(emps.spec.base) + 1)
-    W = emps.observation(q, qd, qdd)
-    assert W.shape == (5, len(beta))
-    np.testing.assert_allclose(emps.inverse_dynamics(q, qd, qdd, beta)[:, 0], W @ beta)
-
-
 def test_out_is_filled_and_returned_whatever_it_held(wrist):
     q, qd, qdd = states(3, 6)
     out = np.full((18, len(wrist.spec.base)), np.nan)

@@ -9,7 +9,7 @@ import pytest
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.files import resource_dir
-from tests.codegen.fitted_library import Functions, motion, robot_module, with_values
+from tests.codegen.fitted_library import Functions, motion, with_values
 from tests.modules import compiler, module
 
 FAST = {"gcc": ["-ffast-math", "-ffinite-math-only"], "clang": ["-ffast-math"]}
@@ -25,18 +25,10 @@ int main(void)
 }}
 """
 KINDS = {
-    "serial": lambda: module("wrist").emitted,
-    "loops": lambda: module("orthoglide-2003").emitted,
     "fitted": lambda: with_values("slow-arm"),
     "loops with values": lambda: with_values("five-bar"),
-    "single": lambda: single("wrist"),
     "robot called as a program": lambda: renamed("self_check"),
 }
-
-
-def single(name):
-    made = robot_module(name)
-    return emit(made.model, made.base, precision="single")
 
 
 def renamed(name):

@@ -200,6 +200,7 @@ def test_a_program_never_gets_the_library_of_another_signature(folder, tmp_path)
     assert f"libemps_model.so.{signature()}" in told
 
 
+@pytest.mark.slow
 def test_a_kind_that_was_left_by_another_signature_is_not_taken(folder, tmp_path):
     """CMake installs one kind; the other, older one stays beside it."""
     compiler("cmake")

@@ -271,14 +271,6 @@ def test_a_found_home_is_the_same_as_a_written_one() -> None:
     assert found.robot.relations.keys() == stated.robot.relations.keys()
 
 
-def test_a_parallelogram_is_not_crossed() -> None:
-    """Equal lengths keep directions; crossed, the same lengths close too."""
-    found = modes_near(of_text(without_home(builtin_text("sr400"))), {})
-    assert len(found.modes) == 2
-    bare = of_text(without_home(builtin_text("sr400")))
-    assert set(derive_model(bare).robot.relations) >= {"3", "8", "9"}
-
-
 def test_a_home_is_far_from_where_a_parallelogram_could_cross() -> None:
     """In the middle of the limits it is flat; so it stands elsewhere within them, uncrossed."""
     found = modes_near(of_text(PARALLELOGRAM + "[limits]\n1 = [-0.6, 0.6, 1, 1]\n"), {})

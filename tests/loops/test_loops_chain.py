@@ -22,19 +22,14 @@ def check(story: Chain) -> None:
 SLOW = pytest.mark.slow
 
 
-@pytest.mark.parametrize(
-    "robot", ["five-bar", *(pytest.param(n, marks=SLOW) for n in ("orthoglide-2003", "evra"))]
-)
+@pytest.mark.parametrize("robot", ["five-bar", pytest.param("orthoglide-2003", marks=SLOW)])
 def test_a_hidden_friction_is_named_and_added(robot: str, tmp_path: Path) -> None:
     check(chain(robot, tmp_path))
 
 
 @pytest.mark.parametrize(
     "file",
-    [
-        "3rpr_passive",
-        *(pytest.param(n, marks=SLOW) for n in ("excavator_sim", "rccc", "twoloops_mixed")),
-    ],
+    [pytest.param(name, marks=SLOW) for name in ("3rpr_passive", "excavator_sim", "rccc")],
 )
 def test_on_robots_from_elsewhere(
     file: str, loop_robots_folder: FurtherRobots, tmp_path: Path
@@ -59,15 +54,15 @@ def test_what_is_found_and_cannot_be_added_is_left_out(
 ) -> None:
     """A spring reads the position, which the C of a robot with loops does not give to effects."""
     hidden = ("--hide", "spring@12")
-    train = logged("orthoglide-2003", tmp_path, "a.csv", 1, *hidden)
-    held_out = logged("orthoglide-2003", tmp_path, "b.csv", 2, *hidden)
+    train = logged("five-bar", tmp_path, "a.csv", 1, *hidden)
+    held_out = logged("five-bar", tmp_path, "b.csv", 2, *hidden)
     models = [str(tmp_path / f"m{k}.json") for k in (1, 2)]
-    assert main(["fit", "orthoglide-2003", train, "--out", models[0]]) == 0
+    assert main(["fit", "five-bar", train, "--out", models[0]]) == 0
     capsys.readouterr()
     words = ["add", models[0], "auto", train, "--holdout", held_out, "--out", models[1]]
     assert main([*words, "--report", str(tmp_path / "page.html")]) == 0
     out, err = capsys.readouterr()
-    assert "left out: spring, joint 12 (spring: cannot be added (orthoglide-2003 has loops" in out
+    assert "left out: spring, joint 12 (spring: cannot be added (five-bar has loops" in out
     assert "nothing is added: the model stays as it was fitted" in out and err == ""
     assert not (tmp_path / "page.html").exists()
     assert main(["compare", models[1], held_out]) == 0
@@ -89,7 +84,7 @@ def test_a_load_on_the_platform_is_called_a_load(
     assert "payload" not in said.partition("cannot show:")[2]
 
 
-@pytest.mark.parametrize("robot", ["five-bar", "delta"])
+@pytest.mark.parametrize("robot", ["five-bar", pytest.param("delta", marks=SLOW)])
 def test_friction_that_is_drawn_for_a_passive_joint_is_felt(robot: str) -> None:
     """By some motor as a share of its torque that a diagnosis can see, by none as most of it."""
     source = read_robot(robot)

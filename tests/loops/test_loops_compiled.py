@@ -88,33 +88,6 @@ def test_outputs_are_nan_where_loops_do_not_close():
     assert status[0] == 1 and np.all(np.isnan(out))
 
 
-def test_a_number_that_is_none_is_refused():
-    with pytest.raises(ShapeError, match="finite"):
-        plain("five-bar").close([[np.nan, 0.9]])
-
-
-def test_the_assembly_mode_never_jumps():
-    """Around the workspace and back: the elbows stay on their side, and the tip moves smoothly."""
-    c = plain("five-bar")
-    home = np.array([2.2, 0.9])
-    way = home + 0.6 * np.column_stack(
-        [np.sin(np.linspace(0, 2 * np.pi, 400)), 1 - np.cos(np.linspace(0, 2 * np.pi, 400))]
-    )
-    u = c.close(way[c.closing_status(way) == 0])
-    sign = np.sign(np.sin(u[:, 1] + u[:, 0] - u[:, 2] - u[:, 3]))
-    assert np.all(sign == sign[0])
-    np.testing.assert_allclose(c.close(way[-1:]), c.close(home[None]), atol=1e-9)
-
-
-def test_cold_and_warm_starts_agree():
-    c = plain("stewart")
-    (q, qd, qdd), _, _ = closed("stewart", 40)
-    order = np.random.default_rng(1).permutation(len(q))
-    W = c.observation(q, qd, qdd).reshape(len(q), -1)
-    shuffled = c.observation(q[order], qd[order], qdd[order]).reshape(len(q), -1)
-    np.testing.assert_allclose(shuffled, W[order], rtol=0, atol=1e-9 * np.abs(W).max())
-
-
 def test_forward_kinematics_shows_every_row_and_the_loops_closed():
     robot, c = read_robot("orthoglide-2003"), plain("orthoglide-2003")
     (q, _, _), _, _ = closed("orthoglide-2003", 5)

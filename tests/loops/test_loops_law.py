@@ -264,16 +264,6 @@ def test_postures_of_another_branch_are_seen():
     assert found.open == 0 and found.other == found.done > 0.5 * POSTURES
 
 
-def test_a_change_of_branch_on_the_way_is_seen():
-    right, wrong = closed_robot("five-bar"), mirrored()
-    q = next(paths(right, 5, 1))
-    one, other = right.follow(q), wrong.follow(q)
-    half, length = 20, min(len(one), len(other))
-    u = np.concatenate([one[:half], other[half:length]])
-    assert along(right.table, right.home, q, one).other == 0
-    assert along(right.table, right.home, q, u).other == 1
-
-
 def test_a_way_through_a_bifurcation_ends_there():
     """Four equal bars folded flat can go on as a parallelogram or crossed: neither is chosen."""
     robot = robot_from_text(RHOMBUS, "rhombus")
