@@ -12,6 +12,7 @@ import pytest
 import sympy
 
 import modeler
+from modeler.codegen.closed import solving_of
 from modeler.codegen.emit import emit
 from modeler.codegen.functions import module_prefix, symbol_macros
 from modeler.codegen.package import FOLDER, PROGRAMS, write_emitted
@@ -195,6 +196,15 @@ def test_operation_counts_are_those_that_were_measured_as_reachable():
     counts = {f.name: (f.additions, f.multiplications) for f in spec.functions}
     additions, multiplications = counts["panda_base_regressor"]
     assert additions <= 498 and multiplications <= 685
+
+
+def test_elimination_of_loop_equations_takes_a_tenth_of_dense_factors():
+    made = module("stewart")
+    own, graph = solving_of(made.model, made.base).eliminations[""], made.model.graph
+    m = len(made.model.closure.solved)
+    _, multiplications = graph.operations(own.factors)
+    assert multiplications < 0.1 * m**3 / 3 + 18
+    assert max(graph.operations(own.solution)) < 0.4 * m**2
 
 
 def test_a_folder_that_cannot_be_written_is_said(tmp_path):

@@ -67,7 +67,7 @@ def test_every_call_ends_within_the_stated_number_of_evaluations(name, tmp_path)
 
 
 @pytest.mark.measured
-@pytest.mark.parametrize("name", ["rccc_wide", "twoloops"])
+@pytest.mark.parametrize("name", ["rccc_wide", "3rpr_sim"])
 def test_so_do_those_of_further_robots(name, loop_robots_folder, tmp_path):
     check_bound(generate(of_file(loop_robots_folder / f"{name}.toml")), tmp_path)
 

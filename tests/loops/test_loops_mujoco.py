@@ -13,7 +13,7 @@ from modeler.robot.robot import INERTIAL
 from modeler.simulation import motion_limits, plant_parameters
 from modeler.simulation.closing import constraints_of, followed
 from modeler.simulation.rigid import body_from_standard
-from tests.loops.table_kinematics import turned as turn
+from tests.elementary_motions import placed
 from tests.modules import module, plain
 
 mujoco = pytest.importorskip("mujoco", reason="MuJoCo (PyPI: mujoco-core) is not installed")
@@ -25,17 +25,6 @@ ROBOTS = [
     "five-bar", "sr400", "orthoglide-2003",
     *(pytest.param(name, marks=pytest.mark.slow) for name in ("3rrr", "delta", "stewart", "evra")),
 ]  # fmt: skip
-
-
-def placed(row, values):
-    """Rotation (3, 3) and origin of a row in its antecedent, its variable at 0, and its sign."""
-    at_zero = values | {row.variable: 0.0}
-    e = {n: getattr(row, n).number(at_zero) for n in ("gamma", "b", "alpha", "d", "theta", "r")}
-    swing, tilt = turn(2, e["gamma"]), turn(2, e["gamma"]) @ turn(0, e["alpha"])
-    origin = swing[:, 2] * e["b"] + tilt @ [e["d"], 0, e["r"]]
-    moving = row.theta if row.angular else row.r
-    sign = moving.number(values | {row.variable: 1.0}) - moving.number(at_zero) if row.moves else 0
-    return tilt @ turn(2, e["theta"]), origin, sign
 
 
 def numbers(values):
