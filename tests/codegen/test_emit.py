@@ -23,7 +23,7 @@ from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import grouping_matrix
 from modeler.robot.read import read_robot
 from tests.codegen.fitted_library import fitted_of
-from tests.modules import STRICT, compiler, module, plain, states
+from tests.modules import STRICT, compiled, compiler, module, plain, states
 from tests.repository import ROOT
 from tests.robots import TREES
 
@@ -104,6 +104,30 @@ def test_inertia_gravity_coriolis_and_friction_are_parts_of_the_torque(name):
     relative(coriolis + gravity + friction, torque(qd, still))
     # Velocity products: even in the speeds, quadratic in their size.
     relative(library.coriolis(q, -2 * qd, beta), 4 * coriolis)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("puma560", "five-bar"),
+        *(pytest.param(n, marks=pytest.mark.slow) for n in ("sr400", "orthoglide-2003", "evra")),
+    ],
+)
+def test_an_optimising_compiler_changes_roundings_only(name):
+    """As users compile it; all other tests here take the C unoptimised."""
+    model = module(name).model
+    q, qd, qdd = states(len(model.robot.coordinates), SAMPLES)
+    if model.closure is not None:
+        q = 0.02 * q + np.array(model.closure.home)[list(model.closure.given)]
+    beta = np.random.default_rng(9).normal(size=module(name).base.rank)
+    for call in (
+        lambda c: c.base_regressor(q, qd, qdd),
+        lambda c: c.inverse_dynamics(q, qd, qdd, beta),
+        lambda c: c.inertia_matrix(q, beta),
+    ):
+        fast, slow = call(compiled(name)), call(plain(name))
+        scale = np.abs(slow).max()
+        np.testing.assert_allclose(fast / scale, slow / scale, rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize("name", ["emps", "puma560", "sr400-tree"])

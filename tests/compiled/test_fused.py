@@ -240,7 +240,8 @@ def test_weights_in_use_are_finite_and_not_negative(value):
     weight[4, 1] = value
     for name, n in (("wrist", 3), ("five-bar", 2)):
         with pytest.raises(ShapeError, match=f"weight: got {value} in row 4, column 1"):
-            plain(name).triangles(*(x[:, :n] for x in (q, qd, qdd, q, weight)))
+            motion = [x[:, :n] for x in (q, qd, qdd, q)]
+            plain(name).triangles(*motion, weight=weight[:, :n])
     use[4, 1] = False
     assert plain("wrist").triangles(q, qd, qdd, q, use=use, weight=weight).rows[1] == 4
 

@@ -38,7 +38,7 @@ def fitted(request, tmp_path_factory) -> tuple[Path, Machine]:
     folder = tmp_path_factory.mktemp("fitted") / "c"
     fitted_folder(robot, folder)
     make(folder, "examples")
-    settings = SimulationSettings(duration=2.4, rate=1000.0, seed=5, controller=bool(robot.loops))
+    settings = SimulationSettings(duration=3.0, rate=1000.0, seed=5, controller=bool(robot.loops))
     return folder, Machine(robot, settings)
 
 
@@ -99,7 +99,7 @@ def test_the_controller_carries_what_friction_remembers(tmp_path):
     And the observer, which carries it too, takes it for no push any more: 0.06 N m for 3.7.
     """
     compiler("gcc")
-    settings = SimulationSettings(duration=2.4, rate=1000.0, seed=5, hidden=(BRISTLE,))
+    settings = SimulationSettings(duration=3.0, rate=1000.0, seed=5, hidden=(BRISTLE,))
     plant = Machine(read_robot("demo-arm"), settings)
     (bristle,) = plant.hidden
     level, distance = bristle.values["level"], bristle.values["distance"]

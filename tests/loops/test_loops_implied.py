@@ -25,7 +25,6 @@ from tests.loops.own_dynamics import closed_home, reached
 from tests.loops.table_kinematics import Table
 from tests.loops.texts import FOUR_BAR, OFFSET, PANTOGRAPH
 from tests.modules import module
-from tests.robots import LOOPED
 
 # file -> inertial base parameters and all, by an independent program; kind of proof
 FILES = {
@@ -77,7 +76,13 @@ def spectrum(model, u, seed=4):
     return np.linalg.svd(W / np.linalg.norm(W, axis=0), compute_uv=False)
 
 
-@pytest.mark.parametrize("name", LOOPED)
+@pytest.mark.parametrize(
+    "name",
+    [
+        "five-bar", "sr400", "delta", "orthoglide-2012",
+        *(pytest.param(n, marks=pytest.mark.slow) for n in ("3rrr", "evra", "stewart")),
+    ],
+)  # fmt: skip
 def test_relations_and_rank_hold_over_wide_postures(name):
     check_laws(read_robot(name), module(name).model, module(name).base)
 
