@@ -54,15 +54,15 @@ def test_what_is_found_and_cannot_be_added_is_left_out(
 ) -> None:
     """A spring reads the position, which the C of a robot with loops does not give to effects."""
     hidden = ("--hide", "spring@12")
-    train = logged("five-bar", tmp_path, "a.csv", 1, *hidden)
-    held_out = logged("five-bar", tmp_path, "b.csv", 2, *hidden)
+    train = logged("orthoglide-2003", tmp_path, "a.csv", 1, *hidden)
+    held_out = logged("orthoglide-2003", tmp_path, "b.csv", 2, *hidden)
     models = [str(tmp_path / f"m{k}.json") for k in (1, 2)]
-    assert main(["fit", "five-bar", train, "--out", models[0]]) == 0
+    assert main(["fit", "orthoglide-2003", train, "--out", models[0]]) == 0
     capsys.readouterr()
     words = ["add", models[0], "auto", train, "--holdout", held_out, "--out", models[1]]
     assert main([*words, "--report", str(tmp_path / "page.html")]) == 0
     out, err = capsys.readouterr()
-    assert "left out: spring, joint 12 (spring: cannot be added (five-bar has loops" in out
+    assert "left out: spring, joint 12 (spring: cannot be added (orthoglide-2003 has loops" in out
     assert "nothing is added: the model stays as it was fitted" in out and err == ""
     assert not (tmp_path / "page.html").exists()
     assert main(["compare", models[1], held_out]) == 0
