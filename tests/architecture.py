@@ -33,10 +33,7 @@ STAGES: dict[str, set[str]] = {
 }
 
 # An effect goes round: from the diagnosis into the robot description, and from there all the way.
-ROUND = {
-    "diagnosis/add.py": {"robot", "codegen"},
-    "diagnosis/added_model.py": {"robot"},
-}
+ROUND = {"diagnosis/add.py": {"robot", "codegen"}, "diagnosis/added_model.py": {"robot"}}
 
 # Which packages of others a room may import, besides the standard library.
 PACKAGES: dict[str, set[str]] = {
@@ -149,7 +146,10 @@ def _imports(relative: str, tree: ast.AST) -> Iterator[tuple[int, str]]:
             if other not in {stage, "__version__"} | STAGES[stage] | ROUND.get(relative, set()):
                 yield line, f"imports {name}; {stage} may import {_listed(STAGES[stage])}"
             elif "." in rest and other not in {stage, *COLLECTIONS} and (stage, other) != SKIN:
-                yield line, f"imports {name}; what others may use is in modeler/{other}/__init__.pyi"
+                yield (
+                    line,
+                    f"imports {name}; what others may use is in modeler/{other}/__init__.pyi",
+                )
         elif top == "lazy_loader":
             if Path(relative).name != "__init__.py":
                 yield line, "imports lazy_loader; only a room's __init__.py may"

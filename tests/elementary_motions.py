@@ -30,6 +30,16 @@ def row_pose(gamma=0.0, b=0.0, alpha=0.0, d=0.0, theta=0.0, r=0.0):
     return np.linalg.multi_dot(motions)
 
 
+def placed(row, values):
+    """Rotation and origin of a row in its antecedent, its variable at 0, and its sign."""
+    at_zero = values | {row.variable: 0.0}
+    columns = ("gamma", "b", "alpha", "d", "theta", "r")
+    pose = row_pose(**{column: getattr(row, column).number(at_zero) for column in columns})
+    moving = row.theta if row.angular else row.r
+    sign = moving.number(values | {row.variable: 1.0}) - moving.number(at_zero) if row.moves else 0
+    return pose[:3, :3], pose[:3, 3], sign
+
+
 def frames(robot, q):
     """Poses of all frames in frame 0, by row; robot or its name, q by joint or in table order."""
     robot = read_robot(robot) if isinstance(robot, str) else robot

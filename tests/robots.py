@@ -1,23 +1,45 @@
-"""The robots that every test of every stage runs over: a new built-in is tested by being there."""
+"""The robots that every test of every stage runs over: a new built-in is tested by being there.
 
+Told by the text of their files: nothing is derived or read when a test module is imported.
+"""
+
+import re
 from collections.abc import Iterable
 from typing import Any
 
 import pytest
 
-from modeler.core.builtin import builtin_names
-from modeler.robot.read import read_robot
+from modeler.core.builtin import builtin_names, builtin_text
 
 ROBOTS = builtin_names()
 
-TREES = tuple(name for name in ROBOTS if not (read_robot(name).loops or read_robot(name).relations))
-"""Robots whose rows all move on their own."""
 
-TIED = tuple(name for name in ROBOTS if name not in TREES)
+def _with(*tables: str) -> tuple[str, ...]:
+    head = re.compile(rf"^\[(?:{'|'.join(tables)})\]", re.M)
+    return tuple(name for name in ROBOTS if head.search(builtin_text(name)))
+
+
+def _follows(text: str) -> bool:
+    """Whether a cell of the table holds the variable of another row."""
+    rows = re.findall(r'^\s*\["([\w{}]+)",([^#\n]*)', text, re.M)
+    return any(set(re.findall(r"\bq([\w{}]+)", cells)) - {name} for name, cells in rows)
+
+
+_TOLD = _with("loops", "relations", "motors")
+
+TIED = tuple(name for name in ROBOTS if name in _TOLD or _follows(builtin_text(name)))
 """Robots with relations or loops."""
 
-KINDS = ("demo-arm", "emps", "dvrk-psm", "sr400", "five-bar", "orthoglide-2003", "wrist-coupled")
-"""One of each kind: serial, prismatic, tree, parallelogram, closed, spatial loops, coupled."""
+TREES = tuple(name for name in ROBOTS if name not in TIED)
+"""Robots whose rows all move on their own."""
+
+LOOPED = _with("loops")
+
+CLOSED = tuple(name for name in LOOPED if name != "sr400")
+"""Those that C closes by iteration: for the others relations say all that their loops do."""
+
+KINDS = ("emps", "puma560", "sr400-tree", "wrist-coupled", "sr400", "five-bar", "orthoglide-2003")
+"""One of each structure: slide, chain, tree, motors of several joints, parallelogram, loops."""
 
 
 def kinds_first(names: Iterable[str]) -> list[Any]:

@@ -4,18 +4,12 @@ import pytest
 import sympy
 from hypothesis import given, settings, strategies as st
 
-from modeler.codegen.emit import emit
-from modeler.core.errors import DerivationError, LoopError, RobotError
 from modeler.core.formula import latex_name
 from modeler.core.manifest import Emitted
-from modeler.derivation.base_parameters import base_parameters
-from modeler.derivation.derive import derive_model
 from modeler.derivation.relations import relation_latex, relation_text
 from modeler.derivation.result import BaseParameter, BaseParameters, Term
-from modeler.robot.read import read_robot
 from tests.base.formulas import UnreadableError, latex_value, name_of_latex, text_value
 from tests.base.printed_relations import Exact, printed_forms
-from tests.further_robots import FurtherRobots
 from tests.modules import module
 from tests.robots import ROBOTS
 
@@ -43,20 +37,6 @@ def wrong(robot: str, base: BaseParameters, emitted: Emitted, seed: int) -> list
 def test_all_printed_forms_are_the_exact_relations(name):
     _, base, emitted = module(name)
     assert wrong(name, base, emitted, seed=14) == []
-
-
-def test_all_printed_forms_of_robots_with_loops(loop_robots_folder: FurtherRobots):
-    found, read = [], 0
-    for path in loop_robots_folder.all():
-        try:
-            model = derive_model(read_robot(path))
-            base = base_parameters(model)
-        except (RobotError, DerivationError, LoopError):  # files that are there to be refused
-            continue
-        found += wrong(path.stem, base, emit(model, base), seed=15)
-        read += 1
-    assert read >= 8
-    assert found == []
 
 
 def numbers() -> st.SearchStrategy[sympy.Expr]:
@@ -97,7 +77,7 @@ def _at_letters(value: sympy.Expr) -> sympy.Expr:
     )
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=120, deadline=None, derandomize=True)
 @given(st.lists(coefficients(), min_size=1, max_size=3))
 def test_any_coefficient_is_printed_as_it_is(found):
     terms = (Term(sympy.Integer(1), "ZZ2"), *(Term(c, f"M{i}") for i, c in enumerate(found)))

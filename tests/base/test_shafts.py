@@ -31,14 +31,6 @@ def test_coulomb_columns_of_proportional_speeds_group():
     ]
 
 
-def test_coulomb_relations_hold_for_torques():
-    """|lambda| is the weight of the torque columns E^T sign(E qd), checked at random speeds."""
-    E = np.array([[1.0, 1.0], [-2.5, -2.5]])
-    for qd in np.random.default_rng(0).normal(size=(20, 2)):
-        torque = E.T * np.sign(E @ qd)
-        np.testing.assert_allclose(torque[:, 1], 2.5 * torque[:, 0])
-
-
 def test_viscous_columns_group_by_their_squares():
     """(q1 + q2)**2 + (q1 - q2)**2 = 2 q1**2 + 2 q2**2: the fourth column is dependent."""
     given = columns("viscous", {0: 1}, {1: 1}, {0: 1, 1: 1}, {0: 1, 1: -1})

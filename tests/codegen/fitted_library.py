@@ -1,9 +1,7 @@
 """Fitted modules of robots with any values, and their C functions made callable by ctypes."""
 
 import ctypes
-import os
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from functools import cache
 
 import numpy as np
@@ -16,7 +14,7 @@ from modeler.derivation.derive import derive_model
 from modeler.robot.edit import with_effects
 from modeler.robot.read import robot_from_text
 from modeler.runtime.build import build_library
-from tests.modules import Module, module
+from tests.modules import Module, module, unoptimised
 
 SLOW = """
 name = "slow-arm"
@@ -82,7 +80,7 @@ class Functions:
         self.spec = emitted.spec
         macro = self.spec.prefix.upper()
         defined = [f"-D{macro}_{name}={value}" for name, value in widths.items()]
-        with _flags(defined):
+        with unoptimised(*defined):
             path = build_library({name: emitted.files[name] for name in self.spec.sources})
         self._library = ctypes.CDLL(str(path))
         fitted = self.spec.fitted.functions if self.spec.fitted is not None else ()
@@ -126,19 +124,6 @@ class Functions:
             status = call(*(a.ctypes.data_as(ctypes.c_void_p) for a in (*rows, out)))
             assert not function.status or status == 0
         return found
-
-
-@contextmanager
-def _flags(defined: list[str]) -> Iterator[None]:
-    """Compile fast: what is tested does not hang on the last digits of an optimiser."""
-    before = os.environ.get("CFLAGS")
-    os.environ["CFLAGS"] = " ".join(["-O0", *defined])
-    try:
-        yield
-    finally:
-        os.environ.pop("CFLAGS")
-        if before is not None:
-            os.environ["CFLAGS"] = before
 
 
 def motion(name: str, samples: int = 12, seed: int = 6) -> dict[str, np.ndarray]:

@@ -9,42 +9,6 @@ from tests.modules import module
 PLACES = {"q0": "q[0]", "q1": "q[1]", "D4": "ARM_GEO_D4", "g": "ARM_GEO_g"}
 
 
-def test_a_value_used_once_is_written_where_it_is_used():
-    graph = Graph()
-    a, b = graph.symbol("q0"), graph.symbol("q1")
-    block = make_block([("phi[0]", a * b + a)], PLACES)
-    assert block.body == ("phi[0] = q[0] + q[0]*q[1];",)
-
-
-def test_a_value_used_twice_has_a_name():
-    graph = Graph()
-    a, b = graph.symbol("q0"), graph.symbol("q1")
-    block = make_block([("phi[0]", a * b), ("phi[1]", -(a * b))], PLACES)
-    assert block.body == ("const double t1 = q[0]*q[1];", "phi[0] = t1;", "phi[1] = -t1;")
-
-
-def test_constants_of_the_geometry_stand_first_and_are_not_counted():
-    graph = Graph()
-    D4, q = graph.symbol("D4", static=True), graph.symbol("q0")
-    block = make_block([("phi[0]", D4 * D4 * q), ("phi[1]", D4 * D4 + q)], PLACES)
-    assert block.constants == ("const double k1 = ARM_GEO_D4*ARM_GEO_D4;",)
-    assert (block.additions, block.multiplications) == (1, 1)
-
-
-def test_sines_and_cosines_come_before_arithmetic_and_follow_the_joint():
-    graph = Graph()
-    q0, q1 = graph.symbol("q0"), graph.symbol("q1")
-    value = q0 * q1 + graph.call("cos", q1) * graph.call("sin", q0)
-    block = make_block([("tau[0]", value)], PLACES)
-    assert block.calls == (
-        "double s1, c1;",
-        "modeler_sincos(q[1], &s1, &c1);",
-        "double s0, c0;",
-        "modeler_sincos(q[0], &s0, &c0);",
-    )
-    assert block.body == ("tau[0] = q[0]*q[1] + c1*s0;",)
-
-
 def test_two_angles_of_one_joint_get_two_names():
     graph = Graph()
     q0, g = graph.symbol("q0"), graph.symbol("g", static=True)

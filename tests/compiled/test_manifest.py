@@ -62,7 +62,7 @@ def test_an_entry_of_another_type_is_named(entry):
             module_from_json(json.dumps(raw), "x.json")
 
 
-@pytest.mark.parametrize("value", ["3", True, None, [0], {"x": 1}, 10**400])
+@pytest.mark.parametrize("value", ["3", True, None, 10**400])
 def test_every_entry_of_a_manifest_is_checked(value):
     """Whatever stands in the place of any entry, at any depth: read as it was, or refused."""
     text = module("five-bar").emitted.spec.to_json()

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import ShapeError
-from tests.modules import compiled, states
+from tests.modules import plain, states
 
 
 @pytest.fixture(scope="module")
 def wrist():
-    return compiled("wrist")
+    return plain("wrist")
 
 
 def test_results_have_the_shapes_that_are_promised(wrist):
@@ -42,15 +42,6 @@ def test_no_samples_give_no_rows(wrist):
     none = np.empty((0, 3))
     assert wrist.observation(none, none, none).shape == (0, len(wrist.spec.base))
     assert wrist.inertia_matrix(none, np.ones(len(wrist.spec.base))).shape == (0, 3, 3)
-
-
-def test_one_joint_is_not_special():
-    emps = compiled("emps")
-    q, qd, qdd = states(1, 5)
-    beta = np.arange(1.0, len(emps.spec.base) + 1)
-    W = emps.observation(q, qd, qdd)
-    assert W.shape == (5, len(beta))
-    np.testing.assert_allclose(emps.inverse_dynamics(q, qd, qdd, beta)[:, 0], W @ beta)
 
 
 def test_out_is_filled_and_returned_whatever_it_held(wrist):
@@ -107,7 +98,7 @@ def test_a_wrong_array_is_refused_by_name(wrist, change, says):
 
 def test_one_joint_as_a_vector_is_told_how_to_write_it():
     with pytest.raises(ShapeError, match=re.escape("write qd[:, None]")):
-        compiled("emps").friction(np.zeros(9), np.ones(len(compiled("emps").spec.base)))
+        plain("emps").friction(np.zeros(9), np.ones(len(plain("emps").spec.base)))
 
 
 def test_wrong_parameters_are_refused(wrist):
@@ -160,7 +151,7 @@ def test_threads_may_share_a_model(wrist):
 @pytest.mark.parametrize("name", ["wrist", "five-bar"])
 def test_signals_that_no_effect_reads_are_refused(name):
     """They would change nothing; whoever gives them thinks of another robot."""
-    model = compiled(name)
+    model = plain(name)
     q, qd, qdd = (np.zeros((4, len(model.spec.joints))) for _ in range(3))
     if model.spec.closure is not None:
         q += [model.spec.closure.home[i] for i in model.spec.closure.given]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from modeler.robot.read import read_robot
-from tests.modules import compiled
+from tests.modules import plain
 
 ROBOTS = ("wrist", "puma560", "rx90", "panda", "scara", "sr400-tree")
 
@@ -13,7 +13,7 @@ ROBOTS = ("wrist", "puma560", "rx90", "panda", "scara", "sr400-tree")
 def test_standard_regressor_and_base_torque(name):
     from tests.symbolic.oracles import pinocchio_regressor
 
-    robot, model = read_robot(name), compiled(name)
+    robot, model = read_robot(name), plain(name)
     rng = np.random.default_rng(21)
     q, qd, qdd = rng.uniform(-1.5, 1.5, (3, 20, len(robot.moving)))
     theirs = pinocchio_regressor(robot, q, qd, qdd)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from modeler.api import compile_model, derive, fit, generate, observe
+from modeler.api import derive, fit, generate, observe
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.manifest import FittedParameter, FittedSpec
@@ -19,6 +19,7 @@ from modeler.simulation.parameters import plant_parameters
 from modeler.simulation.plant import FastFunction, steps_per_tick, tick_function
 from modeler.simulation.run import needed_torques, postures_of, task_of
 from modeler.simulation.trajectory import motion_limits
+from tests.modules import loaded
 
 
 class Driven(NamedTuple):
@@ -110,10 +111,10 @@ def observed(command: Sequence[object], rows: np.ndarray) -> np.ndarray:
 def fitted_folder(robot: Robot, folder: Path) -> None:
     """The C of a model fitted to a simulated log, written to the folder."""
     log = folder.with_suffix(".parquet")
-    write_log(log, simulate(robot, SimulationSettings(duration=12.0, rate=500.0, seed=1)))
+    write_log(log, simulate(robot, SimulationSettings(duration=8.0, rate=400.0, seed=1)))
     derivation = derive(robot)
     emitted = generate(derivation)
-    model = fit(derivation, emitted, observe(compile_model(emitted), [log]))
+    model = fit(derivation, emitted, observe(loaded(emitted), [log]))
     generate(model, folder)
 
 
@@ -122,7 +123,7 @@ def true_folder(robot: Robot, standard: Mapping[str, float], folder: Path) -> No
     derivation = derive(robot)
     spec = generate(derivation).spec
     chi = np.array([standard[parameter.name] for parameter in spec.standard])
-    beta = compile_model(generate(derivation)).base_parameters(chi)
+    beta = loaded(generate(derivation)).base_parameters(chi)
     known = tuple(
         FittedParameter(base.name, base.unit, float(value), 0.0)
         for base, value in zip(spec.base, beta, strict=True)

@@ -5,12 +5,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, generate, load, own_effect
+from modeler.api import derive, generate, load, own_effect
 from modeler.core.errors import EmitError
 from modeler.robot.edit import with_effect, with_reference
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel
+from tests.modules import loaded
 
 SAMPLES = 50
 JOINT = 1  # joint "2"
@@ -62,7 +63,7 @@ def test_c_computes_the_equation_of_the_robot_file(name: str) -> None:
     robot = arm_with(name, definition, shapes)
     derivation = derive(robot)
     assert derivation.base.proof.kind == "exact"
-    compiled = compile_model(generate(derivation))
+    compiled = loaded(generate(derivation))
     generator = np.random.default_rng(3)
     q, v, a = generator.uniform(-2.0, 2.0, (3, SAMPLES, 3))
     s = generator.uniform(0.1, 0.9, (SAMPLES, len(compiled.spec.signals)))
@@ -88,7 +89,7 @@ def test_a_load_is_that_of_the_reference() -> None:
     text = own_effect(load("demo-arm"), "gear", **definition).text
     text = with_reference(with_effect(text, "gear", "2", {}), REFERENCE)
     robot = robot_from_text(text, "gear")
-    compiled = compile_model(generate(derive(robot)))
+    compiled = loaded(generate(derive(robot)))
     q, v, a = np.random.default_rng(4).uniform(-2.0, 2.0, (3, SAMPLES, 3))
     names = [p.name for p in compiled.spec.standard]
     chi = np.array([REFERENCE.get(name, 0.0) for name in names])
@@ -105,7 +106,7 @@ def test_what_moves_the_position_moves_the_links() -> None:
     text = own_effect(load("demo-arm"), "runout", **definition).text
     text = with_reference(with_effect(text, "runout", "2", {}), REFERENCE)
     robot = robot_from_text(text, "runout")
-    compiled = compile_model(generate(derive(robot)))
+    compiled = loaded(generate(derive(robot)))
     chi = np.array([REFERENCE.get(p.name, 0.0) for p in compiled.spec.standard])
     q, v, a = np.random.default_rng(5).uniform(-1.0, 1.0, (3, SAMPLES, 3))
     got = columns_of(robot, "runout", compiled, compiled.regressor(q, v, a))[:, :, 0]
@@ -128,7 +129,7 @@ def test_columns_that_others_have_are_grouped_in_numbers(equation: str) -> None:
     robot = arm_with("twice", {"columns": columns}, {})
     derivation = derive(robot)
     assert derivation.base.proof.kind == "numeric"
-    compiled = compile_model(generate(derivation))
+    compiled = loaded(generate(derivation))
     q, v, a = np.random.default_rng(6).uniform(-2.0, 2.0, (3, 200, 3))
     phi = compiled.regressor(q, v, a)
     base = compiled.base_regressor(q, v, a)
@@ -145,7 +146,7 @@ def test_robots_with_loops_take_effects_of_speed_only() -> None:
     with pytest.raises(EmitError, match="has loops"):
         own = own_effect(load("five-bar"), "place", columns={"Kq": "q*v"})
         generate(derive(robot_from_text(with_effect(own.text, "place", joint, {}), "five-bar")))
-    compiled = compile_model(
+    compiled = loaded(
         generate(derive(robot_from_text(with_effect(slow.text, "slow", joint, {}), "five-bar")))
     )
     names = [p.name for p in compiled.spec.standard]

@@ -1,23 +1,15 @@
-"""Every robot with loops through the whole story: simulate, fit, compare, diagnose, add, diagnose.
-
-`python -m tests.loops.chain [ROBOT ...]` prints the table, without names that of all built-in
-robots and of the further ones in the folder beside the checkout.
-"""
+"""A robot with loops through the whole story: simulate, fit, compare, diagnose, add, diagnose."""
 
 import contextlib
 import dataclasses
 import io
 import json
-import sys
-import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 from modeler.cli import main
 from modeler.robot.read import read_robot
 from modeler.robot.robot import Robot
-from tests.further_robots import FurtherRobots
-from tests.robots import TIED
 
 RATE = "200"
 EFFECT = "asymmetric_viscous"
@@ -107,27 +99,3 @@ def _fill(story: Chain, told: Mapping[str, Mapping]) -> None:
 
 def _findings(diagnosis: Mapping) -> tuple[tuple[str, str | None], ...]:
     return tuple((f["effect"], f["joint"]) for f in diagnosis["effects"])
-
-
-def told(story: Chain) -> str:
-    """A line of the table."""
-    errors = " -> ".join(f"{error:.2%}" for error in story.errors) or "-"
-    statuses = " ".join(f"{status}" for status in story.statuses.values())
-    found = ", ".join(f"{effect}@{joint}" for effect, joint in story.found) or "-"
-    left = ", ".join(f"{effect}@{joint}" for effect, joint in story.left) or "-"
-    named = "yes" if story.named else "no"
-    return (
-        f"{story.robot:<29} {story.hidden[1]:<4} {named:<4} {errors:<24} {statuses:<14} "
-        f"found {found}; left {left}  {story.message}"
-    )
-
-
-def _all() -> Sequence[str]:
-    return [*TIED, *(str(path) for path in FurtherRobots().all())]
-
-
-if __name__ == "__main__":
-    print(f"{'robot':<29} {'at':<4} {'named':<4} {'held-out error':<24} statuses")
-    for source_ in sys.argv[1:] or _all():
-        with tempfile.TemporaryDirectory() as name_:
-            print(told(chain(source_, Path(name_))), flush=True)

@@ -155,7 +155,9 @@ class Dynamics:
         return [*found, (a, none)]
 
 
-def reached(table: Table, home: np.ndarray, count: int, seed: int, reach: float) -> np.ndarray:
+def reached(
+    table: Table, home: np.ndarray, count: int, seed: int, reach: float, steps: int = STEPS
+) -> np.ndarray:
     """(m, len(u)) closed postures that random ways arrive at, far from singularities.
 
     Args:
@@ -164,6 +166,7 @@ def reached(table: Table, home: np.ndarray, count: int, seed: int, reach: float)
         count: of the ways.
         seed: of their ends.
         reach: of the longest, rad; of a travel 0.3 sizes of the robot for each.
+        steps: of a way.
     """
     rng = np.random.default_rng(seed)
     joints = table.robot.coordinates
@@ -171,8 +174,15 @@ def reached(table: Table, home: np.ndarray, count: int, seed: int, reach: float)
     home = _corrected(table, home[None])[0]
     share = rng.uniform(0.02, 1.0, (count, 1)) ** 2
     targets = home[table.given] + share * rng.uniform(-1, 1, (count, len(wide))) * wide
-    u, distance = table.followed(home, targets, STEPS)
+    u, distance = table.followed(home, targets, steps)
     return _corrected(table, u[np.isfinite(u[:, 0]) & (distance > REGULAR)])
+
+
+def closed_home(table: Table, home: np.ndarray) -> np.ndarray:
+    """The closed posture near a poor home, its given variables as they are."""
+    for _ in range(3):
+        home = _corrected(table, home[None])[0]
+    return home
 
 
 def _corrected(table: Table, u: np.ndarray) -> np.ndarray:

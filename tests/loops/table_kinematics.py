@@ -51,9 +51,8 @@ class Table:
             for name, cell in cells.items()
         }
 
-    def frames(self, u: np.ndarray) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """{row: (R, p)} of n postures (n, len(u))."""
-        n = len(u)
+    def variables(self, u: np.ndarray) -> dict:
+        """{name: value} of symbols and of all moving rows, by the relations as written."""
         values = dict(self.symbols) | {
             f"q{joint.name}": u[:, k] for k, joint in enumerate(self.robot.free)
         }
@@ -61,6 +60,11 @@ class Table:
         while waiting:
             for name in [k for k, r in waiting.items() if r.names <= values.keys()]:
                 values[f"q{name}"] = self._value(waiting.pop(name), values)
+        return values
+
+    def frames(self, u: np.ndarray) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """{row: (R, p)} of n postures (n, len(u))."""
+        n, values = len(u), self.variables(u)
         found = {"0": (np.tile(np.eye(3), (n, 1, 1)), np.zeros((n, 3)))}
         for row in self.robot.joints:
             R, p = found[row.antecedent]

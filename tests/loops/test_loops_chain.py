@@ -10,15 +10,6 @@ from modeler.robot.read import read_robot
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
 from tests.further_robots import FurtherRobots
 from tests.loops.chain import Chain, chain
-from tests.robots import TIED
-
-QUICK = ("five-bar", "orthoglide-2003")
-
-# 3rpr_singular is refused: it has no home from which its motors could move it.
-ELSEWHERE = (
-    "3rpr_sim", "excavator_bucket", "offset_parallelogram", "rccc", "twoloops_mixed",
-    "twoloops_poorhome",
-)  # fmt: skip
 
 
 def check(story: Chain) -> None:
@@ -28,29 +19,18 @@ def check(story: Chain) -> None:
     assert story.hidden not in story.left
 
 
-@pytest.mark.parametrize("robot", QUICK)
+SLOW = pytest.mark.slow
+
+
+@pytest.mark.parametrize("robot", ["five-bar", pytest.param("orthoglide-2003", marks=SLOW)])
 def test_a_hidden_friction_is_named_and_added(robot: str, tmp_path: Path) -> None:
     check(chain(robot, tmp_path))
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
-    "robot", [name for name in TIED if name not in QUICK and read_robot(name).loops][::2]
+    "file", [pytest.param(name, marks=SLOW) for name in ("3rpr_passive", "excavator_sim", "rccc")]
 )
-def test_on_every_robot_with_loops(robot: str, tmp_path: Path) -> None:
-    check(chain(robot, tmp_path))
-
-
-@pytest.mark.parametrize("file", ["excavator_sim", "3rpr_passive"])
 def test_on_robots_from_elsewhere(
-    file: str, loop_robots_folder: FurtherRobots, tmp_path: Path
-) -> None:
-    check(chain(str(loop_robots_folder / f"{file}.toml"), tmp_path))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("file", ELSEWHERE)
-def test_on_all_from_elsewhere(
     file: str, loop_robots_folder: FurtherRobots, tmp_path: Path
 ) -> None:
     check(chain(str(loop_robots_folder / f"{file}.toml"), tmp_path))
@@ -103,7 +83,7 @@ def test_a_load_on_the_platform_is_called_a_load(
     assert "payload" not in said.partition("cannot show:")[2]
 
 
-@pytest.mark.parametrize("robot", ["five-bar", "orthoglide-2003", "delta"])
+@pytest.mark.parametrize("robot", ["five-bar", pytest.param("delta", marks=SLOW)])
 def test_friction_that_is_drawn_for_a_passive_joint_is_felt(robot: str) -> None:
     """By some motor as a share of its torque that a diagnosis can see, by none as most of it."""
     source = read_robot(robot)

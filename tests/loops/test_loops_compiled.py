@@ -6,10 +6,10 @@ import pytest
 from modeler.core.errors import LoopError, ShapeError
 from modeler.robot.read import read_robot
 from tests.loops.closed_states import closed
-from tests.modules import compiled, module
-from tests.robots import TIED
+from tests.modules import module, plain
+from tests.robots import CLOSED, TIED
 
-LOOPS = [name for name in TIED if module(name).model.closure is not None]
+PLATFORMS = [name for name in CLOSED if name not in ("five-bar",)]
 
 
 def close(a, b, tolerance=1e-11):
@@ -18,7 +18,7 @@ def close(a, b, tolerance=1e-11):
 
 @pytest.mark.parametrize("name", TIED)
 def test_regressors_and_observation_are_those_of_the_graph(name):
-    c, base = compiled(name), module(name).base
+    c, base = plain(name), module(name).base
     (q, qd, qdd), _, phi = closed(name, 25)
     kept = [parameter.column for parameter in base.parameters]
     close(c.regressor(q, qd, qdd), phi)
@@ -28,7 +28,7 @@ def test_regressors_and_observation_are_those_of_the_graph(name):
 
 @pytest.mark.parametrize("name", TIED)
 def test_inverse_dynamics_is_the_sum_of_its_parts(name):
-    c = compiled(name)
+    c = plain(name)
     (q, qd, qdd), _, phi = closed(name, 10)
     chi = np.random.default_rng(3).normal(size=phi.shape[2])
     beta = c.base_parameters(chi)
@@ -38,21 +38,26 @@ def test_inverse_dynamics_is_the_sum_of_its_parts(name):
     close(M, np.swapaxes(M, 1, 2), 1e-12)
     parts = c.coriolis(q, qd, beta) + c.gravity(q, beta) + c.friction(qd, beta, q)
     close(np.einsum("nij,nj->ni", M, qdd) + parts, tau)
+    still = 0 * qd
+    rest = c.gravity(q, beta) + c.friction(still, beta, q)
+    close(rest, c.inverse_dynamics(q, still, still, beta))
+    close(c.coriolis(q, -2 * qd, beta), 4 * c.coriolis(q, qd, beta))
 
 
-@pytest.mark.parametrize("name", LOOPS)
+@pytest.mark.parametrize("name", CLOSED)
 def test_loops_close_where_they_should(name):
-    c = compiled(name)
+    c = plain(name)
     (q, qd, _), (u, ud, _), _ = closed(name, 25)
     np.testing.assert_allclose(c.close(q), u, atol=1e-9)
     np.testing.assert_allclose(np.einsum("nij,nj->ni", c.coupling(q), qd), ud, atol=1e-8)
     assert not np.any(c.closing_status(q))
+    assert (name in PLATFORMS) == bool(module(name).model.closure.platform)
 
 
-@pytest.mark.parametrize("name", [n for n in LOOPS if module(n).model.closure.platform])
+@pytest.mark.parametrize("name", PLATFORMS)
 def test_platform_coordinates_give_the_same_torques(name):
     """tau = G_x^T f, where dx = G_x dq."""
-    c, closure = compiled(name), module(name).model.closure
+    c, closure = plain(name), module(name).model.closure
     (q, qd, qdd), (u, ud, udd), _ = closed(name, 10)
     places = list(closure.platform)
     x, xd, xdd = (array[:, places] for array in (u, ud, udd))
@@ -65,7 +70,7 @@ def test_platform_coordinates_give_the_same_torques(name):
 
 
 def test_what_is_out_of_reach_is_told_by_sample():
-    c = compiled("orthoglide-2003")
+    c = plain("orthoglide-2003")
     q = np.array([[0.19, 0.19, 0.19], [0.19, 0.19, 1.4], [0.2, 0.2, 0.2]])
     assert list(c.closing_status(q)) == [0, 1, 0]
     with pytest.raises(LoopError, match=r"orthoglide-2003: sample 2: the loops cannot be closed; "):
@@ -75,7 +80,7 @@ def test_what_is_out_of_reach_is_told_by_sample():
 
 
 def test_outputs_are_nan_where_loops_do_not_close():
-    c = compiled("orthoglide-2003")
+    c = plain("orthoglide-2003")
     q = np.array([[0.19, 0.19, 1.4]])
     function = next(f for f in c.spec.functions if f.name.endswith("_close"))
     out, status = np.empty((1, *function.outputs[0].shape)), np.zeros(1, dtype=np.intc)
@@ -83,35 +88,8 @@ def test_outputs_are_nan_where_loops_do_not_close():
     assert status[0] == 1 and np.all(np.isnan(out))
 
 
-def test_a_number_that_is_none_is_refused():
-    with pytest.raises(ShapeError, match="finite"):
-        compiled("five-bar").close([[np.nan, 0.9]])
-
-
-def test_the_assembly_mode_never_jumps():
-    """Around the workspace and back: the elbows stay on their side, and the tip moves smoothly."""
-    c = compiled("five-bar")
-    home = np.array([2.2, 0.9])
-    way = home + 0.6 * np.column_stack(
-        [np.sin(np.linspace(0, 2 * np.pi, 400)), 1 - np.cos(np.linspace(0, 2 * np.pi, 400))]
-    )
-    u = c.close(way[c.closing_status(way) == 0])
-    sign = np.sign(np.sin(u[:, 1] + u[:, 0] - u[:, 2] - u[:, 3]))
-    assert np.all(sign == sign[0])
-    np.testing.assert_allclose(c.close(way[-1:]), c.close(home[None]), atol=1e-9)
-
-
-def test_cold_and_warm_starts_agree():
-    c = compiled("stewart")
-    (q, qd, qdd), _, _ = closed("stewart", 40)
-    order = np.random.default_rng(1).permutation(len(q))
-    W = c.observation(q, qd, qdd).reshape(len(q), -1)
-    shuffled = c.observation(q[order], qd[order], qdd[order]).reshape(len(q), -1)
-    np.testing.assert_allclose(shuffled, W[order], rtol=0, atol=1e-9 * np.abs(W).max())
-
-
 def test_forward_kinematics_shows_every_row_and_the_loops_closed():
-    robot, c = read_robot("orthoglide-2003"), compiled("orthoglide-2003")
+    robot, c = read_robot("orthoglide-2003"), plain("orthoglide-2003")
     (q, _, _), _, _ = closed("orthoglide-2003", 5)
     T = c.forward_kinematics(q)
     names = [joint.name for joint in robot.moving]
@@ -130,6 +108,6 @@ def test_forward_kinematics_shows_every_row_and_the_loops_closed():
 
 
 def test_friction_of_passive_joints_needs_positions():
-    c = compiled("orthoglide-2012")
+    c = plain("orthoglide-2012")
     with pytest.raises(ShapeError, match="depends on the positions; give q"):
         c.friction(np.zeros((1, 3)), np.zeros(53))

@@ -13,6 +13,8 @@ from modeler.core.builtin import builtin_text
 from modeler.robot.read import robot_from_text
 from modeler.simulation import SimulationSettings, simulate, write_log
 
+pytestmark = pytest.mark.slow
+
 NAME = "orthoglide-2003-similar-legs"
 RUNS, SECONDS, RATE = 10, 4.0, 400.0
 TRUTH = {"MP": 1.5, "Ia1": 6.9, "M1": 1.8, "Fv1": 84.0, "Fs1": 55.0, "Off1": -2.5}

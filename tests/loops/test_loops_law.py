@@ -14,29 +14,36 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.api import compile_model
 from modeler.codegen.emit import emit
-from modeler.codegen.workflow import derive, generate
-from modeler.core.builtin import builtin_names, builtin_text
+from modeler.codegen.workflow import Derivation, derive
+from modeler.core.builtin import builtin_text
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.columns import standard_columns
 from modeler.derivation.geometry import exact_geometry
 from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
 from modeler.robot.read import read_robot, robot_from_text
-from tests.loops.drawn_robots import DRAWN, drawn
+from tests.loops.derived import WEIGHED, compiled_plainly, of_drawing, of_file
 from tests.loops.table_kinematics import Table
+from tests.loops.texts import RHOMBUS
+from tests.modules import loaded, module, plain
+from tests.robots import LOOPED
 
 SAME = ("orthoglide-2003-similar-legs",)  # the same loops as another's
-BUILT_IN = [name for name in builtin_names() if read_robot(name).loops and name not in SAME]
-OUTSIDE = ["3rpr_sim", "excavator", "excavator_bucket", "offset_parallelogram",
-           "rccc", "rccc_wide", "twoloops", "twoloops_mixed", "twoloops_poorhome"]  # fmt: skip
+QUICK = ("five-bar", "3rrr", "delta", "sr400", "offset_parallelogram", "rccc_wide", "twoloops")
+BUILT_IN, OUTSIDE = (
+    [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in names]
+    for names in (
+        [name for name in LOOPED if name not in SAME],
+        ["3rpr_sim", "excavator_bucket", "offset_parallelogram", "rccc_wide", "twoloops"],
+    )
+)
 
 POSTURES, PATHS, LENGTH = 40, 1, 60
 OPEN = 1e-9  # sizes of the robot, or 1
 STEPS = 60  # of the continuation
 SHORT = 6  # of it from one sample of a path to the next
-FINE = (600, 3000)  # where the way comes near a singularity
+FINE = (600, 2000)  # where the way comes near a singularity
 CLEAR = 0.02  # smallest singular value on the way above which nobody may be refused
 ALIKE = 1e-5  # sizes of the robot, or rad: postures that are the same
 ROUNDING = 1e-7  # of the continuation, amplified near a singularity
@@ -46,13 +53,12 @@ NEAR = 1e-3  # and by no more than this
 class Closed:
     """A robot with loops, compiled, beside its table."""
 
-    def __init__(self, robot) -> None:
-        derivation = derive(robot)
+    def __init__(self, derivation, compiled=None) -> None:
         self.closure = derivation.model.closure
         self.table = Table(derivation.robot)
         self.stated = [joint.name for joint in derivation.model.robot.free]
         if self.closure is not None:
-            self.compiled = compile_model(generate(derivation))
+            self.compiled = compiled or compiled_plainly(derivation)
             self.home = self.whole(np.array(self.closure.home)[None], derivation.model.robot)[0]
         self.model_robot = derivation.model.robot
 
@@ -194,7 +200,10 @@ def walk(closed: Closed, seed: int, count: int = PATHS) -> Verdict:
 
 @cache
 def closed_robot(name: str, folder: Path | None = None) -> Closed:
-    return Closed(read_robot(name if folder is None else folder / f"{name}.toml"))
+    if folder is not None:
+        return Closed(of_file(folder / f"{name}.toml"))
+    made = module(name)
+    return Closed(Derivation(read_robot(name), made.model, made.base), plain(name))
 
 
 def check(closed: Closed, name: str) -> None:
@@ -224,9 +233,9 @@ def test_status_0_is_closed_on_the_branch_of_home_elsewhere(name, loop_robots_fo
     check(closed_robot(name, loop_robots_folder), name)
 
 
-@pytest.mark.parametrize("kind", DRAWN)
+@pytest.mark.parametrize("kind", WEIGHED)
 def test_status_0_is_closed_on_the_branch_of_home_on_drawn_robots(kind):
-    check(Closed(robot_from_text(drawn(kind, 1), kind)), kind)
+    check(Closed(of_drawing(kind)), kind)
 
 
 @cache
@@ -243,7 +252,7 @@ def mirrored() -> Closed:
         place = [j.name for j in right.table.robot.free].index(f"1{name}")
         angle = np.arctan2(y, x) - right.home[place]
         text = re.sub(rf"^q2{name} = .*$", f"q2{name} = {angle:.9f}", text, flags=re.M)
-    return Closed(robot_from_text(text, base))
+    return Closed(derive(robot_from_text(text, base)))
 
 
 def test_postures_of_another_branch_are_seen():
@@ -255,58 +264,14 @@ def test_postures_of_another_branch_are_seen():
     assert found.open == 0 and found.other == found.done > 0.5 * POSTURES
 
 
-def test_a_change_of_branch_on_the_way_is_seen():
-    right, wrong = closed_robot("five-bar"), mirrored()
-    q = next(paths(right, 5, 1))
-    one, other = right.follow(q), wrong.follow(q)
-    half, length = 20, min(len(one), len(other))
-    u = np.concatenate([one[:half], other[half:length]])
-    assert along(right.table, right.home, q, one).other == 0
-    assert along(right.table, right.home, q, u).other == 1
-
-
-def test_an_open_posture_and_a_refused_one_are_seen():
-    right = closed_robot("five-bar")
-    q = right.home[right.table.given] + np.array([[0.1, 0.0], [0.0, 0.1], [0.1, 0.1]])
-    u = right.from_home(q)
-    u[0, right.table.solved] += 1e-7
-    u[1] = np.nan
-    found = judged(right.table, right.home, q, u)
-    assert (found.open, found.refused, found.done) == (1, 1, 2)
-
-
 def test_a_way_through_a_bifurcation_ends_there():
     """Four equal bars folded flat can go on as a parallelogram or crossed: neither is chosen."""
     robot = robot_from_text(RHOMBUS, "rhombus")
     model = _without_relations(robot)
-    closed = compile_model(emit(model, base_parameters(model)))
+    closed = loaded(emit(model, base_parameters(model)))
     q = np.linspace(1.0, -1.0, 41)[:, None]
     status = closed.closing_status(q)
     assert np.all(status[q[:, 0] > 0.01] == 0) and np.all(status[q[:, 0] < -0.01] != 0)
-
-
-RHOMBUS = """
-name = "rhombus"
-gravity = [0, 0, 0]
-[symbols]
-L = 0.5
-[mdh]
-columns = ["j", "a", "mu", "sigma", "d", "theta"]
-rows = [
-  ["1", "0", 1, 0, 0, "q1"],
-  ["2", "1", 0, 0, "L", "q2"],
-  ["3", "2", 0, 0, "L", "q3"],
-  ["4", "3", 0, 2, "L", 0],
-  ["5", "0", 0, 2, "L", 0],
-]
-[loops]
-columns = ["loop", "frame", "meets", "joint"]
-rows = [["A", "4", "5", "position"]]
-[home]
-q1 = 1.0
-q2 = -1.0
-q3 = -2.1415926535897931
-"""
 
 
 def _without_relations(robot) -> SymbolicModel:

@@ -11,32 +11,7 @@ from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
 from modeler.robot.read import robot_from_text
 from modeler.simulation import SimulationSettings, simulate
-
-CRANK = """\
-name = "crank"
-gravity = [0, -9.81, 0]
-
-[symbols]
-R = 0.10
-L = 0.35
-
-[mdh]
-columns = ["j", "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
-rows = [
-  ["1", "0", 1, 0, 0, 0, 0, "q1", 0],
-  ["2", "1", 0, 0, 0, 0, "R", "q2", 0],
-  ["tip", "2", 0, 2, 0, 0, "L", 0, 0],
-  ["3", "0", 0, 1, "pi/2", "pi/2", 0, 0, "q3"],
-]
-
-[loops]
-rows = [["pin", "tip", "3", "position"]]
-
-[home]
-q1 = "pi/2"
-q2 = -1.86
-q3 = 0.33
-"""
+from tests.loops.texts import CRANK, PARALLELOGRAM
 
 MISTAKES = [
     ("two motors", '"3", "0", 0, 1', '"3", "0", 1, 1', "1 degree of freedom, 2 joints are actuated "
@@ -119,30 +94,6 @@ def test_coefficients_of_robots_with_loops_are_refused(capsys, asked):
 
 def test_loop_errors_are_the_users():
     assert issubclass(LoopError, ModelerError)
-
-
-PARALLELOGRAM = """\
-name = "parallelogram"
-gravity = [0, -9.81, 0]
-
-[symbols]
-L = 0.4
-B = 0.7
-
-[mdh]
-columns = ["j", "a", "mu", "sigma", "d", "theta"]
-rows = [
-  ["1", "0", 1, 0, 0, "q1"],
-  ["2", "1", 0, 0, "L", "q2"],
-  ["3", "2", 0, 2, "B", 0],
-  ["4", "0", 0, 0, "B", "q4"],
-  ["5", "4", 0, 2, "L", 0],
-]
-
-[loops]
-rows = [["pin", "3", "5", "position"]]
-
-"""
 
 
 @pytest.mark.parametrize("lean", [0.0, 1e-7])

@@ -13,7 +13,8 @@ from modeler.robot.robot import INERTIAL
 from modeler.simulation import motion_limits, plant_parameters
 from modeler.simulation.closing import constraints_of, followed
 from modeler.simulation.rigid import body_from_standard
-from tests.modules import compiled, module
+from tests.elementary_motions import placed
+from tests.modules import module, plain
 
 mujoco = pytest.importorskip("mujoco", reason="MuJoCo (PyPI: mujoco-core) is not installed")
 
@@ -21,33 +22,9 @@ STEP, STEPS = 2e-4, 1500
 STIFF = f'solref="{2 * STEP:g} 1" solimp="0.99999 0.99999 0.001 0.5 2"'
 LIGHT = 1e-6  # kg and kg m2 of rows without a body: MuJoCo wants some
 ROBOTS = [
-    "five-bar",
-    "3rrr",
-    "delta",
-    "orthoglide-2003",
-    "orthoglide-2012",
-    "stewart",
-    "evra",
-    "sr400",
-]
-
-
-def placed(row, values):
-    """Rotation (3, 3) and origin of a row in its antecedent, its variable at 0, and its sign."""
-    at_zero = values | {row.variable: 0.0}
-    e = {n: getattr(row, n).number(at_zero) for n in ("gamma", "b", "alpha", "d", "theta", "r")}
-    swing, tilt = turn(2, e["gamma"]), turn(2, e["gamma"]) @ turn(0, e["alpha"])
-    origin = swing[:, 2] * e["b"] + tilt @ [e["d"], 0, e["r"]]
-    moving = row.theta if row.angular else row.r
-    sign = moving.number(values | {row.variable: 1.0}) - moving.number(at_zero) if row.moves else 0
-    return tilt @ turn(2, e["theta"]), origin, sign
-
-
-def turn(axis, angle):
-    c, s = np.cos(angle), np.sin(angle)
-    if axis == 0:
-        return np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
-    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    "five-bar", "sr400", "orthoglide-2003",
+    *(pytest.param(name, marks=pytest.mark.slow) for name in ("3rrr", "delta", "stewart", "evra")),
+]  # fmt: skip
 
 
 def numbers(values):
@@ -137,7 +114,7 @@ def replayed(robot, standard, tau, start):
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_our_torques_carry_out_our_motion(name):
-    robot, c = read_robot(name), compiled(name)
+    robot, c = read_robot(name), plain(name)
     standard = plant_parameters(robot, motion_limits(robot)).standard
     columns = module(name).model.names
     chi = np.array([standard[n] if n.startswith(INERTIAL) else 0.0 for n in columns])
@@ -153,6 +130,6 @@ def test_our_torques_carry_out_our_motion(name):
     assert np.all(moved > 0.02)
     error = np.abs(right - q).max(axis=0) / moved
     assert np.all(error < 2e-4)  # falls with the square of the step: 1e-6 to 1e-4 here
-    # What is compared is sharp: a hundredth of the torque shows.
-    wrong = replayed(robot, standard, 1.01 * tau, start)[:, given]
-    assert np.max(np.abs(wrong - q).max(axis=0) / moved) > 2e-3
+    if name == "five-bar":  # what is compared is sharp: a hundredth of the torque shows
+        wrong = replayed(robot, standard, 1.01 * tau, start)[:, given]
+        assert np.max(np.abs(wrong - q).max(axis=0) / moved) > 2e-3

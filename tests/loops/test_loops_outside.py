@@ -12,9 +12,9 @@ from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL
 from modeler.simulation import SimulationSettings, simulate
 from modeler.simulation.rigid import Body, standard_from_body
+from tests.elementary_motions import placed
 from tests.loops.closed_states import closed
-from tests.modules import compiled, module
-from tests.robots import TIED
+from tests.modules import module, plain
 
 
 class Outside:
@@ -44,7 +44,8 @@ class Outside:
             placement = pin.SE3.Identity()
             at = row
             while not at.moves and at.name != "0":
-                placement = self._fixed(at, values) * placement
+                rotation, origin, _ = placed(at, values)
+                placement = pin.SE3(rotation, origin) * placement
                 if at.antecedent == "0":
                     break
                 at = self.robot.joint(at.antecedent)
@@ -53,14 +54,6 @@ class Outside:
                 pin.Frame(row.name, parent, 0, placement, pin.FrameType.OP_FRAME)
             )
         self.data = self.model.createData()
-
-    def _fixed(self, row, values):
-        from tests.symbolic.oracles import _turn
-
-        e = {n: getattr(row, n).number(values) for n in ("gamma", "b", "alpha", "d", "theta", "r")}
-        R = _turn(2, e["gamma"]) @ _turn(0, e["alpha"])
-        p = _turn(2, e["gamma"]) @ [0, 0, e["b"]] + R @ [e["d"], 0, e["r"]]
-        return self.pin.SE3(R @ _turn(2, e["theta"]), p)
 
     def tree(self, u: np.ndarray) -> np.ndarray:
         """Variables of all moving rows from the free ones, by the relations as written."""
@@ -139,12 +132,16 @@ def physical(name: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize(
-    "name", ["five-bar", "3rrr", "delta", "stewart", "orthoglide-2012", "evra"]
-)
+    "name",
+    [
+        "five-bar", "orthoglide-2012", "stewart",
+        *(pytest.param(name, marks=pytest.mark.slow) for name in ("3rrr", "delta", "evra")),
+    ],
+)  # fmt: skip
 def test_pinocchio_accelerates_as_the_inverse_dynamics_says(name):
     pytest.importorskip("pinocchio", reason="Pinocchio (PyPI: pin) is not installed")
     chi = physical(name)
-    outside, c = Outside(name, chi), compiled(name)
+    outside, c = Outside(name, chi), plain(name)
     beta = c.base_parameters(chi)
     (q, qd, _), (u, _, _), _ = closed(name, 6, seed=8)
     names = [joint.name for joint in outside.robot.coordinates]
@@ -165,10 +162,16 @@ def test_pinocchio_accelerates_as_the_inverse_dynamics_says(name):
         np.testing.assert_allclose(ours, tau, atol=1e-7 * scale)
 
 
-@pytest.mark.parametrize("name", [n for n in TIED if read_robot(n).loops])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "five-bar", "sr400", "orthoglide-2003",
+        *(pytest.param(name, marks=pytest.mark.slow) for name in ("3rrr", "stewart", "evra")),
+    ],
+)  # fmt: skip
 def test_simulated_torques_are_those_of_the_model(name):
     """The simulator closes whole frames by least squares and solves for multipliers."""
-    robot, c = read_robot(name), compiled(name)
+    robot, c = read_robot(name), plain(name)
     settings = SimulationSettings(duration=0.6, rate=1000, torque_noise=0.0)
     truth = simulate(robot, settings).truth
     chi = np.array([truth.parameters[column.name] for column in module(name).base.columns])

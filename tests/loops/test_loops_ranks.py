@@ -9,7 +9,6 @@ import sympy
 from modeler.core.builtin import builtin_text
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.numeric_rank import Sample, numeric_rank, random_states, regressor_values
 from modeler.robot.read import read_robot, robot_from_text
 from tests.base.ranks import seen
 from tests.modules import module
@@ -63,17 +62,17 @@ ORDER = (r"^priority = .*$", 'priority = ["*6"]')
     ("changes", "rank"),
     [
         ([NO_PASSIVE], 41),
-        ([], 53),
-        ([NO_PASSIVE, OFFSETS], 43),
-        ([OFFSETS], 55),
-        ([NO_PASSIVE, LEGS, ORDER], 21),
-        ([LEGS, ORDER], 25),
         ([NO_PASSIVE, LEGS, OFFSETS, ORDER], 23),
-        ([LEGS, OFFSETS, ORDER], 27),
-        ([NO_PASSIVE, ALL, ORDER], 15),
         ([ALL, ORDER], 19),
+        *(
+            pytest.param(*variant, marks=pytest.mark.slow)
+            for variant in (
+                ([NO_PASSIVE, OFFSETS], 43), ([OFFSETS], 55), ([NO_PASSIVE, LEGS, ORDER], 21),
+                ([LEGS, ORDER], 25), ([LEGS, OFFSETS, ORDER], 27), ([NO_PASSIVE, ALL, ORDER], 15),
+            )
+        ),
     ],
-)
+)  # fmt: skip
 def test_the_orthoglide_of_2012_in_all_its_variants(changes, rank):
     base = variant("orthoglide-2012", *changes)
     assert base.rank == rank
@@ -110,6 +109,7 @@ UPRIGHT = [
 ]
 
 
+@pytest.mark.slow
 def test_evra_locked():
     """Sliders locked: 88; first axes of the universal joints vertical besides: 76."""
     assert variant("evra", *LOCKED).rank == 88
@@ -142,7 +142,7 @@ def test_coefficients_may_be_sums_and_quotients():
     assert sympy.simplify(terms["M4"] - expected) == 0
 
 
-@pytest.mark.parametrize("name", ["sr400", "orthoglide-2012", "stewart"])
+@pytest.mark.parametrize("name", ["sr400", pytest.param("orthoglide-2012", marks=pytest.mark.slow)])
 def test_loops_at_other_lengths_keep_their_rank(name):
     """The relations are symbols: true at any lengths, not only those of the file."""
     robot = read_robot(name)
@@ -161,40 +161,3 @@ def test_loops_at_other_lengths_keep_their_rank(name):
     assert before == {
         p.name: [(t.parameter, str(t.coefficient)) for t in p.terms] for p in base.parameters
     }
-
-
-def test_the_energy_rows_have_the_same_rank():
-    """Second opinion on closed postures: rows of 2T and of the power of gravity."""
-    for name in ("five-bar", "orthoglide-2003", "evra"):
-        model, base, _ = module(name)
-        no_friction = [i for i, c in enumerate(model.columns) if c.kind != "friction"]
-        u, ud, _ = random_states(model, 150, np.random.default_rng(9))
-        kinetic = np.einsum("nic,ni->nc", _unprojected(model, u, 0 * ud, ud, weight=False), ud)
-        power = np.einsum("nic,ni->nc", _unprojected(model, u, 0 * ud, 0 * ud), ud)
-        rows = np.stack([kinetic, power], axis=1)[:, :, no_friction]
-        friction = base.counts()["friction"]
-        assert numeric_rank(
-            Sample(rows.reshape(-1, len(no_friction))), range(len(no_friction))
-        ).rank == (base.rank - friction)
-
-
-def _unprojected(model, u, ud, udd, weight=True):
-    """phi of the opened tree; without weight its part in the accelerations: M ud as columns."""
-    values = dict(model.geometry.values)
-    inputs = {
-        f"{kind}[{k}]": array[:, k]
-        for kind, array in (("q", u), ("qd", ud), ("qdd", udd))
-        for k in range(u.shape[1])
-    }
-    phi = np.zeros((*u.shape, len(model.columns)))
-    found = model.graph.evaluate(list(model.regressor.values()), {**values, **inputs})
-    for (k, column), value in zip(model.regressor, found, strict=True):
-        phi[:, k, column] = value
-    return phi if weight else phi - _unprojected(model, u, ud, 0 * udd)
-
-
-def test_states_used_here_are_closed():
-    model = module("stewart").model
-    u, ud, udd = random_states(model, 20, np.random.default_rng(1))
-    phi = regressor_values(model, (u, ud, udd))
-    assert phi.shape == (20, 6, len(model.columns))

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.api import compile_model
-from modeler.codegen.workflow import derive, generate
+from modeler.codegen.workflow import derive
 from modeler.robot.read import robot_from_text
+from tests.loops.derived import compiled_plainly
 
 PAGE = Path(__file__).resolve().parents[2] / "docs/parallel-examples.md"
 G, H, R, L, C, HR = 9.81, 0.30, 0.10, 0.60, 0.20, 0.65
@@ -23,7 +23,7 @@ def shaper():
     text = PAGE.read_text(encoding="utf-8")
     text = text[text.index("# shaper.toml") :]
     derivation = derive(robot_from_text(text[: text.index("```")], "shaper.toml"))
-    return derivation, compile_model(generate(derivation))
+    return derivation, compiled_plainly(derivation)
 
 
 def on_paper(q):

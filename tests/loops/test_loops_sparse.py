@@ -1,13 +1,13 @@
 """The emitted elimination with a fixed order: dense pivoting says the same, everywhere."""
 
+import dataclasses
 import re
 
 import numpy as np
 import pytest
 
 from modeler.codegen.closed import solving_of
-from modeler.runtime.model import load
-from tests.modules import compiled, module
+from tests.modules import loaded, module, plain
 
 NAME = "orthoglide-2003"
 
@@ -25,12 +25,12 @@ def with_limits(share):
     pattern = r"(limits\[\d+\] = \{)([^}]*)(\})"
     files[unit], count = re.subn(pattern, scaled, files[unit])
     assert count == 2
-    return load(emitted.spec, files)
+    return loaded(dataclasses.replace(emitted, files=files))
 
 
 def around_home(samples, reach, seed=4):
     """(samples, 3) positions, speeds and accelerations."""
-    closure = compiled(NAME).spec.closure
+    closure = plain(NAME).spec.closure
     home = np.asarray(closure.home)[list(closure.given)]
     q, qd, qdd = np.random.default_rng(seed).uniform(-1.0, 1.0, (3, samples, 3))
     return home + reach * q, qd, qdd
@@ -43,7 +43,7 @@ def dense():
 
 @pytest.mark.parametrize("reach", [0.05, 0.3, 1.0])
 def test_dense_pivoting_closes_the_same_postures(dense, reach):
-    sparse = compiled(NAME)
+    sparse = plain(NAME)
     q, qd, qdd = around_home(400, reach)
     found = sparse.closing_status(q)
     np.testing.assert_array_equal(dense.closing_status(q) == 0, found == 0)
@@ -62,7 +62,7 @@ def largest_shares(q):
     """(n,) of the pivots at q: the largest of |1/pivot| in its limit."""
     model = module(NAME).model
     solving = solving_of(model, module(NAME).base)
-    own, u = solving.eliminations[""], compiled(NAME).close(q)
+    own, u = solving.eliminations[""], plain(NAME).close(q)
     J = model.closure.jacobians(u)
     values = {f"J[{k}]": J[:, i, j] for k, (i, j) in enumerate(solving.pattern.places)}
     found = model.graph.evaluate(list(own.factors), model.geometry.values | values)
@@ -82,13 +82,13 @@ def test_either_may_follow_the_other_along_a_motion(dense):
     middle = float(np.median(shares))
     assert np.count_nonzero(np.diff(shares > middle)) > 4
     exact = dense.observation(q, qd, qdd)
-    for model in (compiled(NAME), with_limits(middle)):
+    for model in (plain(NAME), with_limits(middle)):
         W = model.observation(q, qd, qdd)
         np.testing.assert_allclose(W, exact, rtol=0, atol=1e-12 * np.abs(exact).max())
 
 
 def test_from_the_last_is_as_from_home_and_a_hole_does_not_matter():
-    model = compiled(NAME)
+    model = plain(NAME)
     t = np.linspace(0.0, 6.0, 1500)[:, None]
     home, _, _ = around_home(1, 0.0)
     q = home + 0.12 * np.sin(t * np.array([1.0, 1.7, 2.3]))

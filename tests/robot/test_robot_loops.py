@@ -68,24 +68,12 @@ MISTAKES = [
     ("relation not linear", "-q21 + pi/2", "q21*q12", ["[relations]", "not linear"]),
     ("relation of itself", "-q21 + pi/2", "q7 + q12", ["holds q7 itself"]),
     ("constant relation", "-q21 + pi/2", "pi/2", ["a constant", "sigma 2"]),
-    (
-        "actuated follows",
-        '["7", "21", 0,',
-        '["7", "21", 1,',
-        ['row "7"', "column mu", "follows other joints", "write 0"],
-    ),
-    (
-        "circle",
-        'q7 = "-q21 + pi/2"',
-        'q7 = "-q21"\nq21 = "q7"',
-        ["[relations]", "follow each other in a circle"],
-    ),
-    (
-        "twice",
-        '0, 0, 0, "q7"]',
-        '0, 0, 0, "q12"]',
-        ["[relations]", "stands as a relation in the table too"],
-    ),
+    ("actuated follows", '["7", "21", 0,', '["7", "21", 1,',
+     ['row "7"', "column mu", "follows other joints", "write 0"]),
+    ("circle", 'q7 = "-q21 + pi/2"', 'q7 = "-q21"\nq21 = "q7"',
+     ["[relations]", "follow each other in a circle"]),
+    ("twice", '0, 0, 0, "q7"]', '0, 0, 0, "q12"]',
+     ["[relations]", "stands as a relation in the table too"]),
     ("platform key", 'motion = "tr', 'moves = "tr', ["[platform]", 'unknown key "moves"']),
     ("no motion", 'motion = "translation"\n', "", ["[platform]", "motion is missing"]),
     ("motion", '"translation"', '"spatial"', ["[platform]", "motion", '"spatial"', "planar"]),
@@ -104,7 +92,7 @@ MISTAKES = [
     ("links parameter", '["M", "MX"]', '["M", "X"]', ["[links]", '"P"', '"X"', "expected some of"]),
     ("shared without mark", '"*2{i}"', '"*2"', ["shared", '"*2"', "{i}"]),
     ("shared nothing", '"*2{i}"', '"*9{i}"', ["shared", "matches no parameter of leg 1"]),
-]
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(

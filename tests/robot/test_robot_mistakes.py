@@ -88,12 +88,8 @@ MISTAKES = [
     # names and antecedents
     ("row twice", '["2", "1"', '["1", "1"', ['row "1"', "rows 1 and 2", "its own name"]),
     ("row 0", '["1", "0"', '["0", "0"', ["row 1, column j", 'got "0"', "is the base"]),
-    (
-        "row name",
-        '["1", "0"',
-        '["1-a", "0"',
-        ["row 1, column j", 'got "1-a"', "letters and digits"],
-    ),
+    ("row name", '["1", "0"', '["1-a", "0"',
+     ["row 1, column j", 'got "1-a"', "letters and digits"]),
     ("row name type", '["1", "0"', '[1.5, "0"', ["row 1, column j: got 1.5", "expected a name"]),
     ("row name true", '["1", "0"', '[true, "0"', ["column j: got true", "expected a name"]),
     ("q of another", '["E", "4"', '["d1", "4"', ['row "d1"', "qd1 mean two things", 'row "1"']),
@@ -116,38 +112,22 @@ MISTAKES = [
     ("truth", '0, "D3"', "0, true", ["column d", "got True", "expected a number"]),
     ("infinite", '0, "D3"', "0, inf", ["column d", "got inf", "finite"]),
     ("huge", '0, "D3"', '0, "1e400"', ["column d", "1e400", "too large"]),
-    (
-        "division by 0",
-        '0, "D3"',
-        '0, "1/(D3-D3)"',
-        ["column d", "no finite real value", "divisors"],
-    ),
+    ("division by 0", '0, "D3"', '0, "1/(D3-D3)"',
+     ["column d", "no finite real value", "divisors"]),
     ("root of -1", '0, "D3"', '0, "sqrt(-D3)"', ["column d", "no finite real value", "roots"]),
     ("no real power", '0, "D3"', '0, "(-D3)**0.5"', ["column d", "no finite real value"]),
     ("deep", '0, "D3"', f'0, "{"1+" * 5000}1"', ["column d", "expected"]),
     # joint variables
     ("no q in theta", '0, 0, "q1", 0]', "0, 0, 0, 0]", ['row "1", column theta', 'got "0"', "q1"]),
     ("no q in r", '"q3 + R4"', '"R4"', ['row "3", column r', 'got "R4"', "expected q3"]),
-    (
-        "q in d",
-        '0, 0, "q1", 0]',
-        '0, "q1", "q1", 0]',
-        ['row "1", column d', "column theta", "move"],
-    ),
+    ("q in d", '0, 0, "q1", 0]', '0, "q1", "q1", 0]',
+     ['row "1", column d', "column theta", "move"]),
     ("q in theta", '0, "q3 + R4"', '"q3", 0', ['row "3", column theta', "prismatic", "column r"]),
     ("q of another row", '"q1", 0]', '"q1 + q2", 0]', ['row "1"', "another row", "follows"]),
-    (
-        "q of fixed",
-        '0.1, "pi", 0',
-        '0.1, "qE", 0',
-        ['row "E", column theta', "sigma 2", "remove qE"],
-    ),
-    (
-        "sin q",
-        '0, "q1", 0]',
-        '0, "sin(q1)", 0]',
-        ["column theta", "sin(q1)", "not linear", "q1 + pi/2"],
-    ),
+    ("q of fixed", '0.1, "pi", 0', '0.1, "qE", 0',
+     ['row "E", column theta', "sigma 2", "remove qE"]),
+    ("sin q", '0, "q1", 0]', '0, "sin(q1)", 0]',
+     ["column theta", "sin(q1)", "not linear", "q1 + pi/2"]),
     ("q squared", '0, "q1", 0]', '0, "q1**2", 0]', ["column theta", "q1**2", "not linear"]),
     ("q times q", '0, "q1", 0]', '0, "q1*q1", 0]', ["column theta", "q1*q1", "not linear"]),
     ("1 over q", '0, "q1", 0]', '0, "1/q1", 0]', ["column theta", "1/q1", "not linear"]),
@@ -168,19 +148,11 @@ MISTAKES = [
     ("symbol Fv1", "D3 = 0.45", "D3 = 0.45\nFv1 = 3", ["[symbols]", '"Fv1"', "choose another"]),
     ("symbol double", "D3 = 0.45", "D3 = 0.45\ndouble = 3", ['"double"', "C language"]),
     ("symbol lambda", "D3 = 0.45", "D3 = 0.45\nlambda = 3", ['"lambda"', "choose another"]),
-    (
-        "symbol name",
-        "D3 = 0.45",
-        'D3 = 0.45\n"a b" = 3',
-        ["[symbols]", '"a b"', "expected a letter"],
-    ),
+    ("symbol name", "D3 = 0.45", 'D3 = 0.45\n"a b" = 3',
+     ["[symbols]", '"a b"', "expected a letter"]),
     ("symbol value", "D3 = 0.45", "D3 = [1]", ["[symbols], D3", "got [1]", "expected a number"]),
-    (
-        "symbol unknown",
-        '"D3 / 2"',
-        '"D4 / 2"',
-        ["[symbols], R4", "D4 is not declared", "among g, D3, R4"],
-    ),
+    ("symbol unknown", '"D3 / 2"', '"D4 / 2"',
+     ["[symbols], R4", "D4 is not declared", "among g, D3, R4"]),
     ("symbol joint", '"D3 / 2"', '"q1 / 2"', ["[symbols], R4", "q1 is not declared", "among"]),
     ("symbols circle", "D3 = 0.45", 'D3 = "R4"', ["[symbols]", "D3, R4", "circle", "a number"]),
     ("symbol 1/0", "D3 = 0.45", 'D3 = "1/0"', ["[symbols], D3", "no finite real value"]),
@@ -192,33 +164,17 @@ MISTAKES = [
     # effects and coupling
     ("effect", "viscous =", "viscus =", ["[effects]", '"viscus"', 'did you mean "viscous"']),
     ("effects list", "[effects]", "[[effects]]", ["[effects]: got [{", "expected a table"]),
-    (
-        "alias twice",
-        'viscous = "all"',
-        'viscous = "all"\nback_emf = "all"',
-        ["is viscous", "keep one"],
-    ),
+    ("alias twice", 'viscous = "all"', 'viscous = "all"\nback_emf = "all"',
+     ["is viscous", "keep one"]),
     ("effect joint", '["1", "2"]', '["1", "5"]', ["rotor_inertia", 'joint "5"', "1, 2, 3, 4"]),
-    (
-        "effect on frame",
-        '["1", "2"]',
-        '["1", "E"]',
-        ["rotor_inertia", 'moving joint "E"', "one of"],
-    ),
+    ("effect on frame", '["1", "2"]', '["1", "E"]',
+     ["rotor_inertia", 'moving joint "E"', "one of"]),
     ("joint twice", '["1", "2"]', '["1", "1"]', ["rotor_inertia", '"1" stands there twice']),
     ("joints word", '["1", "2"]', '"1"', ["rotor_inertia", 'got "1"', '"all" or ["1", "2"]']),
-    (
-        "no coupling",
-        '[coupling]\n2 = "q1 + 2*q2"',
-        "",
-        ["coupled_friction", "add a table [coupling]"],
-    ),
-    (
-        "uncoupled motor",
-        'coupled_friction = "all"',
-        'coupled_friction = ["3"]',
-        ["coupled_friction", 'joint "3" has no line in [coupling]', "has 2"],
-    ),
+    ("no coupling", '[coupling]\n2 = "q1 + 2*q2"', "",
+     ["coupled_friction", "add a table [coupling]"]),
+    ("uncoupled motor", 'coupled_friction = "all"', 'coupled_friction = ["3"]',
+     ["coupled_friction", 'joint "3" has no line in [coupling]', "has 2"]),
     ("coupling joint", '2 = "q1 +', '5 = "q1 +', ['[coupling], "5"', "no moving joint", "1, 2, 3"]),
     ("coupling product", '"q1 + 2*q2"', '"q1*q2"', ['[coupling], "2"', "not linear", "q5 + q6"]),
     ("coupling constant", '"q1 + 2*q2"', '"q2 + 1"', ['[coupling], "2"', "constant 1", "only"]),
@@ -248,7 +204,7 @@ MISTAKES = [
     ("physical q", 'mass = "m1"', 'mass = "q1"', ["[physical]", "joint variable q1", "rigid"]),
     ("physical text", 'mass = "m1"', 'mass = "m1 *"', ["mass", 'got "m1 *"', "cannot be read"]),
     ("physical value", "[physical.1]", "[physical]\n1 = 3\n[terms.x]", ['"1": got 3', "a table"]),
-]
+]  # fmt: skip
 
 
 def test_the_good_file_is_read():
@@ -325,7 +281,7 @@ SHARDS = [
 ]
 
 
-@pytest.mark.parametrize("seed", range(300))
+@pytest.mark.parametrize("seed", range(80))
 def test_damaged_files_raise_nothing_but_robot_errors(seed):
     rng = random.Random(seed)
     text = rng.choice([GOOD, *map(builtin_text, builtin_names())])

@@ -10,7 +10,7 @@ from modeler.derivation.derive import derive_model
 from modeler.robot.edit import with_effect
 from modeler.robot.motors import joint_directions
 from modeler.robot.read import read_robot, robot_from_text
-from tests.modules import compiled, module
+from tests.modules import module, plain
 
 _G = np.array([[1.0, 0.0, 0.0], [-0.4, 1.0, 0.0], [0.2, -0.5, 1.0]])
 _JM, _FV, _FS = np.array([0.5, 0.3, 0.15]), np.array([4.0, 2.5, 1.2]), np.array([3.0, 2.0, 1.2])
@@ -40,7 +40,7 @@ def test_motor_torques_are_those_of_the_joints_by_virtual_work():
     rng = np.random.default_rng(3)
     qm, qmd, qmdd = rng.uniform(-2, 2, (3, 50, 3))
     back = np.linalg.inv(_G)
-    wrist, coupled = compiled("wrist"), compiled("wrist-coupled")
+    wrist, coupled = plain("wrist"), plain("wrist-coupled")
     beta = [
         model.base_parameters(np.array([*_inertial(model.spec.robot).values()]))
         for model in (wrist, coupled)

@@ -11,23 +11,7 @@ from modeler.derivation.relations import as_json
 from modeler.robot.loops import OTHER_JOINTS
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import LOOP_KINDS
-
-CRANK = """
-name = "crank"
-gravity = [0, "-g", 0]
-symbols = {g = 9.81, R = 0.1, L = 0.35}
-[mdh]
-columns = ["j", "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
-rows = [
-  ["1", "0", 1, 0, 0, 0, 0, "q1", 0],
-  ["2", "1", 0, 0, 0, 0, "R", "q2", 0],
-  ["tip", "2", 0, 2, 0, 0, "L", 0, 0],
-  ["3", "0", 0, 1, "pi/2", "pi/2", 0, 0, "q3"],
-]
-[loops]
-columns = ["loop", "frame", "meets", "joint"]
-rows = [["pin", "tip", "3", "position"]]
-"""
+from tests.loops.texts import CRANK
 
 
 def refused(kind: str) -> str:

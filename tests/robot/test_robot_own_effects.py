@@ -211,7 +211,7 @@ def test_from_python_without_a_file():
         own_effect(robot, "a b", columns={"Kg": "v"})
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", range(25))
 def test_damaged_definitions_raise_nothing_but_robot_errors(seed):
     rng = random.Random(seed)
     start, end = GOOD.index(FIRST), GOOD.index("[effects]")

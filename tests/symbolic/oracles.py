@@ -4,15 +4,9 @@ import numpy as np
 import pytest
 
 from modeler.robot.robot import Robot
+from tests.elementary_motions import placed
 
 pin = pytest.importorskip("pinocchio", reason="Pinocchio (PyPI: pin) is not installed")
-
-
-def _turn(axis: int, angle: float) -> np.ndarray:
-    c, s = np.cos(angle), np.sin(angle)
-    if axis == 0:
-        return np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
-    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
 
 def pinocchio_model(robot: Robot):
@@ -24,21 +18,11 @@ def pinocchio_model(robot: Robot):
     ids = []
     for joint in robot.joints:
         parent, before = places[joint.antecedent]
-        at_zero = values | {joint.variable: 0.0}
-        at_one = values | {joint.variable: 1.0}
-        e = {
-            n: getattr(joint, n).number(at_zero) for n in ("gamma", "b", "alpha", "d", "theta", "r")
-        }
-        R = _turn(2, e["gamma"]) @ _turn(0, e["alpha"])
-        p = _turn(2, e["gamma"]) @ (
-            np.array([0, 0, e["b"]]) + _turn(0, e["alpha"]) @ [e["d"], 0, e["r"]]
-        )
-        placement = before * pin.SE3(R @ _turn(2, e["theta"]), p)
+        rotation, origin, sign = placed(joint, values)
+        placement = before * pin.SE3(rotation, origin)
         if not joint.moves:
             places[joint.name] = (parent, placement)
             continue
-        moving = joint.theta if joint.angular else joint.r
-        sign = np.sign(moving.number(at_one) - moving.number(at_zero))
         axis = np.array([0.0, 0.0, sign])
         kind = (
             pin.JointModelRevoluteUnaligned if joint.angular else pin.JointModelPrismaticUnaligned

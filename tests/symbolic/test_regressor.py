@@ -4,22 +4,12 @@ import numpy as np
 import pytest
 
 from modeler.derivation.columns import LinkColumn
-from modeler.derivation.derive import derive_model
 from modeler.derivation.lagrange import lagrange_torque
 from modeler.derivation.numeric_rank import random_states, regressor_values
-from modeler.robot.read import read_robot
+from tests.modules import module
 from tests.robots import ROBOTS, TREES
 
-TEXTBOOK = (
-    "wrist",
-    "rx90",
-    "puma560",
-    "panda",
-    "lwr",
-    "orthoglide-leg-tree",
-    "sr400-tree",
-    "scara",
-)
+TEXTBOOK = ("wrist", "rx90", "panda", "orthoglide-leg-tree", "sr400-tree", "scara")
 
 
 def inertial(model) -> list[int]:
@@ -28,8 +18,8 @@ def inertial(model) -> list[int]:
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_newton_euler_agrees_with_lagrange(name):
-    model = derive_model(read_robot(name))
-    states = random_states(model, 30, np.random.default_rng(1))
+    model = module(name).model
+    states = random_states(model, 12, np.random.default_rng(1))
     chi = np.zeros(len(model.columns))
     chi[inertial(model)] = np.random.default_rng(2).normal(size=len(inertial(model)))
     tau = regressor_values(model, states) @ chi
@@ -41,31 +31,28 @@ def test_newton_euler_agrees_with_lagrange(name):
 def test_regressor_agrees_with_pinocchio(name):
     from tests.symbolic.oracles import pinocchio_regressor
 
-    robot = read_robot(name)
-    model = derive_model(robot)
+    model = module(name).model
     states = random_states(model, 15, np.random.default_rng(3))
     ours = regressor_values(model, states)[:, :, inertial(model)]
-    theirs = pinocchio_regressor(robot, *states)
+    theirs = pinocchio_regressor(model.robot, *states)
     np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-10 * np.abs(theirs).max())
 
 
 @pytest.mark.parametrize("name", TEXTBOOK)
 def test_rank_agrees_with_pinocchio(name):
-    from modeler.derivation.base_parameters import base_parameters
     from tests.symbolic.oracles import pinocchio_regressor
 
-    robot = read_robot(name)
-    model = derive_model(robot)
+    model = module(name).model
     states = random_states(model, 60, np.random.default_rng(4))
-    W = pinocchio_regressor(robot, *states).reshape(-1, len(inertial(model)))
+    W = pinocchio_regressor(model.robot, *states).reshape(-1, len(inertial(model)))
     singular = np.linalg.svd(W, compute_uv=False)
-    assert np.sum(singular > 1e-9 * singular[0]) == base_parameters(model).rank
+    assert np.sum(singular > 1e-9 * singular[0]) == module(name).base.rank
 
 
 @pytest.mark.parametrize("name", TREES)
 def test_recursion_agrees_with_the_regressor(name):
     """tau by the backward recursion = phi chi, and tau = M qdd + c + g + f with M symmetric."""
-    model = derive_model(read_robot(name))
+    model = module(name).model
     q, qd, qdd = random_states(model, 12, np.random.default_rng(5))
     chi = np.random.default_rng(6).normal(size=len(model.columns))
     symbols = {i: model.graph.symbol(f"chi[{i}]") for i in range(len(chi))}
@@ -91,29 +78,3 @@ def test_recursion_agrees_with_the_regressor(name):
         + evaluated(model.torque(effects, links=False))
     )
     np.testing.assert_allclose(parts, tau, rtol=0, atol=1e-12 * scale)
-
-
-@pytest.mark.parametrize("name", ("wrist", "puma560", "scara", "sr400-tree"))
-def test_power_balance(name):
-    """tau . qd = d/dt (T + U), the right side by finite differences along a smooth motion."""
-    model = derive_model(read_robot(name))
-    n = model.geometry.joints
-    rng = np.random.default_rng(7)
-    phase, frequency = rng.uniform(0, 6, n), rng.uniform(0.5, 1.5, n)
-    step = 1e-4
-    t = 0.3 + step * np.arange(-2, 3)[:, None]
-    q, qd = np.sin(frequency * t + phase), frequency * np.cos(frequency * t + phase)
-    qdd = -(frequency**2) * q
-    chi = rng.normal(size=len(model.columns))
-    power = np.sum((regressor_values(model, (q, qd, qdd)) @ chi) * qd, axis=1)[2]
-    M = np.zeros((len(t), n, n))
-    zero = np.zeros_like(q)
-    gravity = regressor_values(model, (q, zero, zero)) @ chi
-    for j in range(n):
-        unit = zero.copy()
-        unit[:, j] = 1.0
-        M[:, :, j] = regressor_values(model, (q, zero, unit)) @ chi - gravity
-    T = 0.5 * np.einsum("si,sij,sj->s", qd, M, qd)
-    weights = np.array([1, -8, 0, 8, -1]) / (12 * step)
-    dT = weights @ T
-    assert power == pytest.approx(dT + gravity[2] @ qd[2], rel=1e-6)

@@ -1,0 +1,30 @@
+"""Derivations and compiled models of robots with loops, each once per worker."""
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from modeler.codegen.workflow import Derivation, derive, generate
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.runtime.model import CompiledModel
+from tests.loops.drawn_robots import DRAWN, drawn
+from tests.modules import loaded
+
+LONG = ("swinging_four_bar", "watt", "stephenson", "rssr_universal", "rccc")
+WEIGHED = [pytest.param(kind, marks=pytest.mark.slow) if kind in LONG else kind for kind in DRAWN]
+"""All kinds that are drawn, some of them slow."""
+
+
+@cache
+def of_file(path: Path) -> Derivation:
+    return derive(read_robot(path))
+
+
+@cache
+def of_drawing(kind: str) -> Derivation:
+    return derive(robot_from_text(drawn(kind, 1), kind))
+
+
+def compiled_plainly(derivation: Derivation) -> CompiledModel:
+    return loaded(generate(derivation))
