@@ -71,7 +71,7 @@ def _found(case: Case, torque: Torque, without: tuple[str, ...]) -> Diagnosis:
 
 
 @cache
-def demonstration() -> Case:
+def demonstration(rate: float = RATE) -> Case:
     """The demonstration arm, once for all tests of a process."""
     derivation = derive(load("demo-arm"))
     compiled, logs = compile_model(generate(derivation)), []
@@ -79,7 +79,7 @@ def demonstration() -> Case:
         for name, (seed, duration) in SEEDS.items():
             place = Path(folder) / f"{name}.parquet"
             settings = SimulationSettings(
-                duration=duration, rate=RATE, seed=seed, torque_noise=0.01
+                duration=duration, rate=rate, seed=seed, torque_noise=0.01
             )
             write_log(place, simulate(derivation.robot, settings))
             logs.append(read_log(place, compiled.spec))

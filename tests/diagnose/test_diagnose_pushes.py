@@ -108,9 +108,8 @@ def test_a_helical_spring_and_a_constant_pull_are_told_apart(case: Case, helical
     assert f"or {other} on joint 2 (these data do not tell which)" in diagnosis.sentences[0]
 
 
-@pytest.mark.parametrize("ruled_out", ["counterbalance", "balancer@2"])
-def test_what_is_ruled_out_on_a_joint_is_neither_named_nor_tied(case: Case, ruled_out: str) -> None:
-    first = case.found(levers[False], without=(ruled_out,)).effects[0]
+def test_what_is_ruled_out_on_a_joint_is_neither_named_nor_tied(case: Case) -> None:
+    first = case.found(levers[False], without=("balancer@2",)).effects[0]
     assert (first.effect, first.joint) == ("constant_force_spring", "2")
     assert ("counterbalance", "2") not in first.ties
 
