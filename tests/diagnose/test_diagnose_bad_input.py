@@ -36,24 +36,17 @@ def with_gap(values: np.ndarray, what: float) -> np.ndarray:
 
 
 REFUSED: dict[str, tuple[Callable[[Table], Table], str]] = {
-    "empty": (lambda t: {n: v[:0] for n, v in t.items()}, "0 rows; expected at least 10"),
     "no time": (
         lambda t: t | {"time": with_gap(t["time"], np.nan)},
         "column time, row 801: no value; every row needs its time",
     ),
-    "time inf": (lambda t: t | {"time": with_gap(t["time"], np.inf)}, "row 801: no value"),
     "time back": (
         lambda t: t | {"time": with_gap(t["time"], 1.0)},
         "column time, row 801: 1 s after 3.196 s; expected increasing time",
     ),
-    "no q2": (lambda t: {n: v for n, v in t.items() if n != "q2"}, "no column q2"),
     "no tau3": (
         lambda t: {n: v for n, v in t.items() if n != "tau3"},
         "no column tau3 or current3: joint 3 of demo-arm is actuated",
-    ),
-    "two joints": (
-        lambda t: {n: v for n, v in t.items() if not n.endswith("3")},
-        "no column q3",
     ),
     "tau2 empty": (
         lambda t: t | {"tau2": np.full(len(t["time"]), np.nan)},
@@ -77,7 +70,7 @@ def test_logs_that_cannot_be_used_are_refused_in_one_line(
         ("diagnose", arm / "m.json", arm / "train.parquet", "--holdout", bad),
         ("add", arm / "m.json", "spring", "--joint", "3", bad, "--out", tmp_path / "m2.json"),
     ]
-    for line in lines if mistake == "no q2" else lines[:1]:
+    for line in lines if mistake == "no tau3" else lines[:1]:
         status, _, err = run(*line)
         assert status == 1
         assert err.startswith("modeler: ") and err.count("\n") == 1
@@ -154,13 +147,10 @@ def test_channels_that_contradict_the_model_are_named_and_no_physics_is(
     content = json.loads((tmp_path / "d.json").read_text())
     assert content["verdict"] == "cannot tell" and content["effects"] == []
     assert content["contradicted"] is True
-
-
-def test_held_out_logs_are_checked_too(arm: Path, run: Run, tmp_path: Path) -> None:
-    bad = written(tmp_path / "bad.parquet", degrees(1, 2, 3)(table(arm / "other.parquet")))
-    _, out, _ = run("diagnose", arm / "m.json", arm / "train.parquet", "--holdout", bad)
-    assert out.startswith("cannot tell: channels of the logs contradict the model")
-    assert "\ndata: held out: the positions look like degrees" in out
+    if mistake == "degrees":  # held-out logs are checked too
+        _, out, _ = run("diagnose", arm / "m.json", arm / "train.parquet", "--holdout", bad)
+        assert out.startswith("cannot tell: channels of the logs contradict the model")
+        assert "\ndata: held out: the positions look like degrees" in out
 
 
 def test_a_late_position_is_found_with_its_delay(arm: Path, run: Run, tmp_path: Path) -> None:
@@ -281,7 +271,6 @@ def test_a_held_out_log_that_was_fitted_is_told(arm: Path, run: Run) -> None:
         ("--report", "m.json", "--report m.json: this is the model that is read"),
         ("--report", "train.parquet", "--report train.parquet: this is a log; expected a name"),
         ("--json", "new.csv", "--json new.csv: this is a log"),
-        ("--report", "/proc/nowhere/p.html", "cannot be written"),
         ("--report", ".", "is a folder; expected the name of a file"),
     ],
 )
@@ -293,12 +282,6 @@ def test_no_output_takes_the_place_of_an_input(
     status, out, err = run("diagnose", "m.json", "train.parquet", option, place)
     assert (status, out) == (1, "") and err.count("\n") == 1 and message in err
     assert {path.name: path.read_bytes() for path in arm.iterdir()} == before
-
-
-def test_two_outputs_have_two_names(arm: Path, run: Run, tmp_path: Path) -> None:
-    both = ("--report", tmp_path / "x", "--json", tmp_path / "x")
-    status, _, err = run("diagnose", arm / "m.json", arm / "train.parquet", *both)
-    assert status == 1 and "--report writes this file too; expected a name of its own" in err
 
 
 @pytest.mark.parametrize(
@@ -313,29 +296,9 @@ def test_what_is_ruled_out_must_exist(arm: Path, run: Run, text: str, message: s
     assert status == 1 and err.count("\n") == 1 and message in err
 
 
-DAMAGE: dict[str, tuple[Callable[[str], str], str]] = {
-    "cut off": (lambda text: text[:5000], "not a model file: it is not JSON, or cut off"),
-    "empty": (lambda text: "", "not a model file: it is empty"),
-    "a list": (lambda text: "[]", "JSON, but not a model file"),
-    "no fit": (
-        lambda text: text.replace('"fit": {', '"fitted": {'), "does not fit: 'fitted', fit (the"),
-    "a step": (
-        lambda text: text.replace('"history": []', '"history": [{"effect": "spring"}]'),
-        "changed since it was saved, the checksum does not fit: history (the effects added)",
-    ),
-    "no history": (
-        lambda text: text.replace('"history": []', '"history": 5'), "fit: history (the effects"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("damage", DAMAGE)
-def test_a_damaged_model_file_is_named_once(
-    arm: Path, run: Run, tmp_path: Path, damage: str
-) -> None:
-    change, words = DAMAGE[damage]
+def test_a_damaged_model_file_is_named_once(arm: Path, run: Run, tmp_path: Path) -> None:
     bad = tmp_path / "bad.json"
-    bad.write_text(change((arm / "m.json").read_text()))
+    bad.write_text((arm / "m.json").read_text()[:5000])
     status, _, err = run("diagnose", bad, arm / "train.parquet")
     assert status == 1 and err.count("\n") == 1
-    assert err.count("bad.json") == 1 and words in err
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["bad.json"]
+    assert err.count("bad.json") == 1 and "not a model file: it is not JSON, or cut off" in err
