@@ -59,3 +59,10 @@ def first_joint(whole: Prediction) -> Prediction:
     names = ("q", "qd", "qdd", "measured", "predicted", "used")
     columns = {name: getattr(whole, name)[:, :1] for name in names}
     return dataclasses.replace(whole, joints=whole.joints[:1], **columns)
+
+
+def judged_alone(whole: Prediction, joint: int = 1) -> Prediction:
+    """The same, and only one joint is looked at."""
+    used = np.zeros_like(whole.used)
+    used[:, joint] = whole.used[:, joint]
+    return dataclasses.replace(whole, used=used)

@@ -180,7 +180,7 @@ def test_axes_carry_units(found: Comparison) -> None:
 
 
 def test_no_curve_has_too_many_points() -> None:
-    drawn = all_pictures(compare(prediction(rows=20000)))
+    drawn = all_pictures(compare(first_joint(prediction(rows=20000))))
     for panel in (panel for picture in drawn for row in picture.panels for panel in row):
         for series in panel.series:
             if isinstance(series, Curve):

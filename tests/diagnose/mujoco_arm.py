@@ -13,16 +13,18 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
+from tests.hidden_effects.motion import Bounds, motion
+
 G = 9.81  # m/s2
 TICK, STEPS = 1e-3, 2  # s; MuJoCo steps in a control tick
 COUNT = 2 * np.pi / 2**20  # rad, of the encoder
 NOISE = 0.005  # of a joint's rms torque
-LOWER = np.array([-2.6, -0.6, -2.4])  # rad
-UPPER = np.array([2.6, 2.4, 2.4])
-SPEED = np.array([2.5, 2.0, 3.0])  # rad/s
-LIFT = np.array([10.0, 8.0, 12.0])  # rad/s2
-LEVELS = (1.0, 0.5, 0.2, 0.8, 0.35, 0.1)  # of the top speed
-LONGEST = 2.0  # s, of one move
+MIDDLE = np.array([0.0, 0.9, 0.0])  # rad
+BOUNDS = Bounds(
+    angle=np.array([2.6, 1.5, 2.4]),
+    speed=np.array([2.5, 2.0, 3.0]),
+    acceleration=np.array([10.0, 8.0, 12.0]),
+)
 ROWS = [1, 2, 3]
 DRY = 'solreffriction="0.002 1" solimpfriction="0.99 0.999 0.001 0.5 2"'
 """MuJoCo's dry friction is a constraint that gives way; at its usual settings it is viscous below
@@ -129,67 +131,13 @@ def robot_text(arm: Arm, effects: Mapping[str, Sequence[int]]) -> str:
     )
 
 
-def reference(rng: np.random.Generator, half: float) -> np.ndarray:
-    """(n, 3) moves at several speeds for half the time, then a Fourier series; s."""
-    count = round(half / TICK)
-    middle = (LOWER + UPPER) / 2
-    path = np.tile(middle, (2 * count, 1))
-    _moves(path[:count], rng)
-    time = TICK * np.arange(count)
-    series = np.zeros((count, 3))
-    for harmonic in range(1, 7):
-        omega = 2 * np.pi * 0.13 * harmonic * rng.uniform(0.9, 1.1, 3)
-        series += rng.uniform(0.5, 1, 3) / harmonic * np.sin(
-            np.outer(time, omega) + rng.uniform(0, 2 * np.pi, 3)
-        )  # fmt: skip
-    series *= (_rise(time) * _rise(time[-1] - time))[:, None]
-    speed = np.gradient(series, TICK, axis=0)
-    lift = np.gradient(speed, TICK, axis=0)
-    peaks = [np.abs(x).max(axis=0) for x in (series, speed, lift)]
-    bounds = ((UPPER - LOWER) / 2, SPEED, LIFT)
-    path[count:] += series * np.min([b / p for b, p in zip(bounds, peaks, strict=True)], axis=0)
-    return path
-
-
-def _moves(path: np.ndarray, rng: np.random.Generator) -> None:
-    """Quintic moves from the middle, of all joints or of some, and back to it."""
-    middle = path[0].copy()
-    now, here, turn = 0.1, middle, 0
-    until = TICK * len(path)
-    time = TICK * np.arange(len(path))
-    while True:
-        level = LEVELS[turn % len(LEVELS)]
-        moves = rng.random(3) < (0.5 if turn % 3 == 2 else 1.1)
-        way = np.where(moves, rng.uniform(LOWER, UPPER) - here, 0.0)
-        way *= min(1.0, LONGEST / max(_needed(way, level), 1e-9))
-        lasts = _needed(way, level)
-        home = _needed(middle - here - way, 1.0)
-        if now + lasts + home + 0.2 > until:
-            break
-        path += _rise((time - now) / max(lasts, 1e-9))[:, None] * way
-        now, here, turn = now + lasts + 0.1, here + way, turn + 1
-    back = middle - here
-    path += _rise((time - now) / max(_needed(back, 1.0), 1e-9))[:, None] * back
-
-
-def _needed(way: np.ndarray, level: float) -> float:
-    """Duration of a quintic move, s."""
-    slow = 15 / 8 * np.abs(way) / (level * SPEED)
-    return float(max(slow.max(), np.sqrt(10 / np.sqrt(3) * np.abs(way) / LIFT).max()))
-
-
-def _rise(s: np.ndarray) -> np.ndarray:
-    x = np.clip(s, 0.0, 1.0)
-    return x**3 * (10 - 15 * x + 6 * x**2)
-
-
 def run(arm: Arm, seed: int, half: float) -> dict[str, np.ndarray]:
-    """Columns of a log: the arm under a controller that follows a reference.
+    """Columns of a log: the arm under a controller that follows moves and a Fourier series.
 
     The torque of a row is that from its time to the next row, as a drive holds it.
     """
     rng = np.random.default_rng([seed, 2])
-    wanted = reference(rng, half)
+    wanted = MIDDLE + motion(rng, half, BOUNDS)
     speed = np.gradient(wanted, TICK, axis=0)
     ahead = _feedforward(wanted, speed)
     model = mujoco.MjModel.from_xml_string(mjcf(arm))

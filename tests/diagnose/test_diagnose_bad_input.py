@@ -11,39 +11,12 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler.api import recompile
-from modeler.cli import main
 from modeler.estimation.model_file import load_model
+from tests.diagnose.conftest import Run
 
 Table = dict[str, np.ndarray]
-Run = Callable[..., tuple[int, str, str]]
 
 RATE = 250.0
-
-
-@pytest.fixture(scope="module")
-def arm(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with two simulated logs of the arm, and a model fitted to the first."""
-    folder = tmp_path_factory.mktemp("arm")
-    for name, seed in (("train", 4), ("other", 5)):
-        words = ["simulate", "demo-arm", "--duration", "15", "--rate", f"{RATE:g}"]
-        words += ["--seed", str(seed), "--out", str(folder / f"{name}.parquet")]
-        assert main(words) == 0
-    words = ["fit", "demo-arm", str(folder / "train.parquet"), "--out", str(folder / "m.json")]
-    assert main(words) == 0
-    return folder
-
-
-@pytest.fixture
-def run(capsys: pytest.CaptureFixture[str]) -> Run:
-    """Status, stdout, stderr of a command."""
-
-    def call(*words: object) -> tuple[int, str, str]:
-        capsys.readouterr()
-        status = main([str(word) for word in words])
-        out, err = capsys.readouterr()
-        return status, out, err
-
-    return call
 
 
 def table(place: Path) -> Table:
@@ -63,24 +36,17 @@ def with_gap(values: np.ndarray, what: float) -> np.ndarray:
 
 
 REFUSED: dict[str, tuple[Callable[[Table], Table], str]] = {
-    "empty": (lambda t: {n: v[:0] for n, v in t.items()}, "0 rows; expected at least 10"),
     "no time": (
         lambda t: t | {"time": with_gap(t["time"], np.nan)},
         "column time, row 801: no value; every row needs its time",
     ),
-    "time inf": (lambda t: t | {"time": with_gap(t["time"], np.inf)}, "row 801: no value"),
     "time back": (
         lambda t: t | {"time": with_gap(t["time"], 1.0)},
         "column time, row 801: 1 s after 3.196 s; expected increasing time",
     ),
-    "no q2": (lambda t: {n: v for n, v in t.items() if n != "q2"}, "no column q2"),
     "no tau3": (
         lambda t: {n: v for n, v in t.items() if n != "tau3"},
         "no column tau3 or current3: joint 3 of demo-arm is actuated",
-    ),
-    "two joints": (
-        lambda t: {n: v for n, v in t.items() if not n.endswith("3")},
-        "no column q3",
     ),
     "tau2 empty": (
         lambda t: t | {"tau2": np.full(len(t["time"]), np.nan)},
@@ -99,11 +65,12 @@ def test_logs_that_cannot_be_used_are_refused_in_one_line(
 ) -> None:
     change, words = REFUSED[mistake]
     bad = written(tmp_path / "bad.parquet", change(table(arm / "other.parquet")))
-    for line in (
+    lines = [
         ("diagnose", arm / "m.json", bad),
         ("diagnose", arm / "m.json", arm / "train.parquet", "--holdout", bad),
         ("add", arm / "m.json", "spring", "--joint", "3", bad, "--out", tmp_path / "m2.json"),
-    ):
+    ]
+    for line in lines if mistake == "no tau3" else lines[:1]:
         status, _, err = run(*line)
         assert status == 1
         assert err.startswith("modeler: ") and err.count("\n") == 1
@@ -111,11 +78,8 @@ def test_logs_that_cannot_be_used_are_refused_in_one_line(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["bad.parquet"]
 
 
-@pytest.mark.parametrize("seconds", [0.2, 2.0])
-def test_a_log_too_short_is_no_evidence_of_anything(
-    arm: Path, run: Run, tmp_path: Path, seconds: float
-) -> None:
-    short = {n: v[: int(seconds * RATE)] for n, v in table(arm / "other.parquet").items()}
+def test_a_log_too_short_is_no_evidence_of_anything(arm: Path, run: Run, tmp_path: Path) -> None:
+    short = {n: v[: int(2.0 * RATE)] for n, v in table(arm / "other.parquet").items()}
     place = written(tmp_path / "short.parquet", short)
     status, out, _ = run("diagnose", arm / "m.json", place, "--report", tmp_path / "p.html")
     assert status == 0
@@ -183,13 +147,10 @@ def test_channels_that_contradict_the_model_are_named_and_no_physics_is(
     content = json.loads((tmp_path / "d.json").read_text())
     assert content["verdict"] == "cannot tell" and content["effects"] == []
     assert content["contradicted"] is True
-
-
-def test_held_out_logs_are_checked_too(arm: Path, run: Run, tmp_path: Path) -> None:
-    bad = written(tmp_path / "bad.parquet", degrees(1, 2, 3)(table(arm / "other.parquet")))
-    _, out, _ = run("diagnose", arm / "m.json", arm / "train.parquet", "--holdout", bad)
-    assert out.startswith("cannot tell: channels of the logs contradict the model")
-    assert "\ndata: held out: the positions look like degrees" in out
+    if mistake == "degrees":  # held-out logs are checked too
+        _, out, _ = run("diagnose", arm / "m.json", arm / "train.parquet", "--holdout", bad)
+        assert out.startswith("cannot tell: channels of the logs contradict the model")
+        assert "\ndata: held out: the positions look like degrees" in out
 
 
 def test_a_late_position_is_found_with_its_delay(arm: Path, run: Run, tmp_path: Path) -> None:
@@ -310,7 +271,6 @@ def test_a_held_out_log_that_was_fitted_is_told(arm: Path, run: Run) -> None:
         ("--report", "m.json", "--report m.json: this is the model that is read"),
         ("--report", "train.parquet", "--report train.parquet: this is a log; expected a name"),
         ("--json", "new.csv", "--json new.csv: this is a log"),
-        ("--report", "/proc/nowhere/p.html", "cannot be written"),
         ("--report", ".", "is a folder; expected the name of a file"),
     ],
 )
@@ -322,12 +282,6 @@ def test_no_output_takes_the_place_of_an_input(
     status, out, err = run("diagnose", "m.json", "train.parquet", option, place)
     assert (status, out) == (1, "") and err.count("\n") == 1 and message in err
     assert {path.name: path.read_bytes() for path in arm.iterdir()} == before
-
-
-def test_two_outputs_have_two_names(arm: Path, run: Run, tmp_path: Path) -> None:
-    both = ("--report", tmp_path / "x", "--json", tmp_path / "x")
-    status, _, err = run("diagnose", arm / "m.json", arm / "train.parquet", *both)
-    assert status == 1 and "--report writes this file too; expected a name of its own" in err
 
 
 @pytest.mark.parametrize(
@@ -342,33 +296,9 @@ def test_what_is_ruled_out_must_exist(arm: Path, run: Run, text: str, message: s
     assert status == 1 and err.count("\n") == 1 and message in err
 
 
-DAMAGE: dict[str, tuple[Callable[[str], str], str]] = {
-    "cut off": (lambda text: text[:5000], "not a model file: it is not JSON, or cut off"),
-    "empty": (lambda text: "", "not a model file: it is empty"),
-    "a list": (lambda text: "[]", "JSON, but not a model file"),
-    "no fit": (
-        lambda text: text.replace('"fit": {', '"fitted": {'), "does not fit: 'fitted', fit (the"),
-    "a step": (
-        lambda text: text.replace('"history": []', '"history": [{"effect": "spring"}]'),
-        "changed since it was saved, the checksum does not fit: history (the effects added)",
-    ),
-    "no history": (
-        lambda text: text.replace('"history": []', '"history": 5'), "fit: history (the effects"),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("damage", DAMAGE)
-def test_a_damaged_model_file_is_named_once(
-    arm: Path, run: Run, tmp_path: Path, damage: str
-) -> None:
-    change, words = DAMAGE[damage]
+def test_a_damaged_model_file_is_named_once(arm: Path, run: Run, tmp_path: Path) -> None:
     bad = tmp_path / "bad.json"
-    bad.write_text(change((arm / "m.json").read_text()))
-    for command in (
-        ("diagnose", bad, arm / "train.parquet"),
-        ("add", bad, "spring", "--joint", "3", arm / "train.parquet", "--out", tmp_path / "x"),
-    ):
-        status, _, err = run(*command)
-        assert status == 1 and err.count("\n") == 1
-        assert err.count("bad.json") == 1 and words in err
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["bad.json"]
+    bad.write_text((arm / "m.json").read_text()[:5000])
+    status, _, err = run("diagnose", bad, arm / "train.parquet")
+    assert status == 1 and err.count("\n") == 1
+    assert err.count("bad.json") == 1 and "not a model file: it is not JSON, or cut off" in err

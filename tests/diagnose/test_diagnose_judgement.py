@@ -22,6 +22,32 @@ from modeler.effects.catalogue import effect_named
 from modeler.observation.channels import Fault
 from tests.diagnose.conftest import Case
 
+
+def candidate(name: str) -> Candidate:
+    """An effect on joint 1, with shapes that are in no grid."""
+    effect = effect_named(name)
+    assert effect is not None
+    shapes = {shape.name: 0.123 for shape in effect.forms[0].shapes}
+    return Candidate(effect, effect.forms[0], "1", 0, shapes)
+
+
+def at_its_best(name: str, share: float, value: float = 1.0, drop: object = None) -> Judged:
+    """An effect that explains so much, by these values."""
+    one = candidate(name)
+    values, drop = np.full(len(one.effect.columns), value), np.ones(40) if drop is None else drop
+    return Judged(one, share, share, drop, values, 0.1 * values, 20.0, 0.1, 0.5, possible=True)
+
+
+def joint_left(error: float, unexplained: bool = False) -> dict[str, SimpleNamespace]:
+    """What is left on the only joint."""
+    return {"1": SimpleNamespace(error_after=error, unexplained=unexplained)}
+
+
+def finding(name: str, joint: str | None, after: float = 0.1, **others: object) -> Finding:
+    """An effect that lowers an error of 20 %."""
+    return Finding(name, joint, 0.2, after, {}, {}, {}, (), "", 1.0, False, **others)  # type: ignore[arg-type]
+
+
 TURNING = ("counterbalance", "constant_force_spring", "encoder_eccentricity")
 
 
@@ -54,10 +80,7 @@ def test_a_joint_that_slides_has_no_lever_and_no_disc(case: Case) -> None:
     ],
 )
 def test_signs_and_sizes_that_physics_forbids(effect: str, value: float, may_be: bool) -> None:
-    found = effect_named(effect)
-    assert found is not None
-    candidate = Candidate(found, found.forms[0], "1", 0)
-    assert possible(candidate, np.array([value])) is may_be
+    assert possible(candidate(effect), np.array([value])) is may_be
 
 
 @pytest.mark.parametrize(("error", "said"), [(1.4, "cannot tell"), (0.9, "nothing significant")])
@@ -67,24 +90,17 @@ def test_of_motion_that_is_not_explained_at_all_nothing_can_be_told(
     time = np.linspace(0.0, 30.0, 3000)
     observation = SimpleNamespace(time=time, run=np.zeros(3000), logs=("a",))
     start = SimpleNamespace(y=[np.zeros(3000)], data=SimpleNamespace(observation=observation))
-    joints = {"1": SimpleNamespace(error_after=error, unexplained=False)}
-    assert verdict((), joints, SimpleNamespace(start=start)) == said  # type: ignore[arg-type]
+    found = SimpleNamespace(start=start)
+    assert verdict((), joint_left(error), found) == said  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("stiffness", "named"), [(2.0, "spring"), (-2.0, "counterbalance")])
 def test_of_two_that_explain_the_same_a_rare_sign_loses(stiffness: float, named: str) -> None:
     """A spring has fewer numbers than a lever, but pushes away from its rest in cables only."""
     drop = np.random.default_rng(2).uniform(0.5, 1.5, 40)
-
-    def at(effect_id: str, value: float) -> Judged:
-        effect = effect_named(effect_id)
-        assert effect is not None
-        shapes = {shape.name: 0.123 for shape in effect.forms[0].shapes}
-        candidate = Candidate(effect, effect.forms[0], "1", 0, shapes)
-        values, part = np.full(len(effect.columns), value), np.full(len(effect.columns), 0.01)
-        return Judged(candidate, 0.9, 0.9, drop, values, part, 20.0, 0.05, 0.5, possible=True)
-
-    both = [at("spring", stiffness), at("counterbalance", 1.0)]
+    both = [
+        at_its_best("spring", 0.9, stiffness, drop), at_its_best("counterbalance", 0.9, 1.0, drop)
+    ]  # fmt: skip
     best = decide(None, both).best  # type: ignore[arg-type]
     assert best is not None and best.candidate.effect.id == named
 
@@ -100,16 +116,15 @@ def test_of_two_that_explain_the_same_a_rare_sign_loses(stiffness: float, named:
 def test_a_push_is_no_fact_while_something_acts_all_the_time(
     effect: str, left: bool, said: str
 ) -> None:
-    event = effect == "external_force"
-    finding = Finding(effect, None, 0.2, 0.1, {}, {}, {}, (), "", None, False, event=event)
-    joints = {"1": SimpleNamespace(error_after=0.1, unexplained=left)}
-    first = _doubted(finding, joints)  # type: ignore[arg-type]
+    joints = joint_left(0.1, left)
+    event = finding(effect, None, event=effect == "external_force")
+    first = _doubted(event, joints)  # type: ignore[arg-type]
     assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
     assert first.status == ("fact" if said == "missing" else "named")
 
 
 def test_what_does_not_lower_the_error_is_no_fact() -> None:
-    play = Finding("backlash", "1", 0.2, math.nan, {}, {}, {}, (), "", None, False)
+    play = finding("backlash", "1", math.nan)
     assert verdict((play,), {}, None) == "closest description"  # type: ignore[arg-type]
     raw = nulled(play.to_json())
     assert (raw["error_before"], raw["error_after"], raw["gain"]) == (0.2, None, None)
@@ -122,9 +137,8 @@ def test_a_name_that_another_look_does_not_give_is_no_fact(agrees: bool, said: s
         CrossCheck("held out", ("spring", "2"), True),
         CrossCheck("low", ("stribeck", "1"), agrees),
     )
-    first = Finding("spring", "2", 0.2, 0.1, {}, {}, {}, (), "", 1.0, False, looks=looks)
-    joints = {"1": SimpleNamespace(error_after=0.1, unexplained=False)}
-    assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
+    first = finding("spring", "2", looks=looks)
+    assert verdict((first,), joint_left(0.1), None) == said  # type: ignore[arg-type]
     assert (other_names(first) == "") is agrees
     if not agrees:
         assert "1 of 2 other looks only, not before stribeck on joint 1 (low)" in other_names(first)
@@ -151,14 +165,6 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
     assert len(found.vetoed) == len(asked) == search.ASKED
 
 
-def at_its_best(effect_id: str, share: float) -> Judged:
-    effect = effect_named(effect_id)
-    assert effect is not None
-    one = np.ones(1)
-    candidate = Candidate(effect, effect.forms[0], "1", 0, {})
-    return Judged(candidate, share, share, np.ones(40), one, one, 11.0, 0.1, 0.5, possible=True)
-
-
 @pytest.mark.parametrize(
     ("gain", "share", "taken"), [(0.5, 0.49, True), (0.5, 0.3, False), (0.1, 0.05, True)]
 )
@@ -168,35 +174,24 @@ def test_what_is_doubted_gives_way_to_a_rival_that_explains_as_much(
     doubted = dataclasses.replace(at_its_best("elasticity", gain), why="too heavy")
     rival = search.Judgement((), at_its_best("spring", share))
     survey = SimpleNamespace(judged=lambda vetoed, tick: rival)
-    instead = lambda judged: search._instead(  # noqa: E731
-        survey,
-        [],
-        judged,
-        SimpleNamespace(),
-        print,  # type: ignore[arg-type]
-    )
-    assert (instead(doubted) is rival) is taken
-    assert instead(dataclasses.replace(doubted, why="")) is None
+    for judged, gives_way in ((doubted, taken), (dataclasses.replace(doubted, why=""), False)):
+        instead = search._instead(survey, [], judged, SimpleNamespace(), print)  # type: ignore[arg-type]
+        assert instead is (rival if gives_way else None)
 
 
 def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     def at(effect_id: str, joint: str, gain: float, confirmed: bool = True) -> SimpleNamespace:
-        candidate = SimpleNamespace(key=(effect_id, joint), effect=effect_named(effect_id))
-        return SimpleNamespace(
-            candidate=candidate,
-            gain=gain,
-            confirmed=confirmed,
-            why=DRIVES if effect_id == "drift" else "",
-        )
+        one = SimpleNamespace(key=(effect_id, joint), effect=effect_named(effect_id))
+        why = DRIVES if effect_id == "drift" else ""
+        return SimpleNamespace(candidate=one, gain=gain, confirmed=confirmed, why=why)
 
     vetoed = [at("spring", "1", 0.3), at("spring", "1", 0.5), at("drift", "2", 0.4)]
     ranked = [at("elasticity", "2", 0.6, confirmed=False), at("stribeck", "3", 0.9)]
     steps = [SimpleNamespace(pick=SimpleNamespace(key=("offset", "1")))]
     vetoed.append(at("offset", "1", 0.8))  # named later
-    last = SimpleNamespace(ranked=ranked)
-    search = SimpleNamespace(vetoed=vetoed, steps=steps, last=last)
+    whole = SimpleNamespace(vetoed=vetoed, steps=steps, last=SimpleNamespace(ranked=ranked))
     named = (SimpleNamespace(effect="offset", joint="1"),)
-    found = SimpleNamespace(search=search, effects=named, refinements=())
+    found = SimpleNamespace(search=whole, effects=named, refinements=())
     first, second, third = refused_lines(found)  # type: ignore[arg-type]
     assert "(elasticity), joint 2, explains 60 %" in first and "errors of timing" in first
     assert "(spring), joint 1, explains 50 %" in second and "motion left out" in second

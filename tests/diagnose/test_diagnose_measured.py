@@ -38,6 +38,11 @@ def logs(folder: str, *names: str) -> list[Path]:
     return [DATA / folder / f"{name}.parquet" for name in names]
 
 
+def pieces(seconds: str, *logs: Path) -> list[Path]:
+    """A part of every log."""
+    return [Path(f"{log}@{seconds}") for log in logs]
+
+
 def fitted(robot: str, training: list[Path]) -> IdentifiedModel:
     derivation = derive(load(robot))
     emitted = generate(derivation)
@@ -50,6 +55,7 @@ def ur10e(*names: str) -> list[Path]:
 
 TRAINING = ur10e("02_19_14harm50sec", "02_12-50sec_12harm", "02_05-20sec_8harm")
 HELD_OUT = ur10e("02_19_15harm50sec", "01_17-ptp_10_points")
+PARTS = [*pieces(":865", TRAINING[0]), *pieces(":825", TRAINING[1]), TRAINING[2]]
 
 
 @pytest.fixture(scope="module")
@@ -66,12 +72,14 @@ def test_emps_has_friction_that_differs_between_the_directions() -> None:
     assert found.joints["1"].error_after < 0.031
 
 
-def test_ur10e_rubs_with_its_load_on_joints_2_and_3(ur10e_model: IdentifiedModel) -> None:
-    found = diagnose(ur10e_model, TRAINING, HELD_OUT)
+@pytest.mark.slow
+def test_ur10e_rubs_with_its_load_on_joints_2_and_3() -> None:
+    found = diagnose(fitted("ur10e", PARTS), PARTS, [*pieces(":1105", HELD_OUT[0]), HELD_OUT[1]])
     first = {(f.effect, f.joint) for f in found.effects[:2]}
     assert first == {("load_friction", "2"), ("load_friction", "3")}
 
 
+@pytest.mark.slow
 def test_ur10e_the_errors_fall_as_effects_are_added(ur10e_model: IdentifiedModel) -> None:
     model = ur10e_model
     compiled = load_compiled(model.spec, model.sources)
@@ -83,12 +91,14 @@ def test_ur10e_the_errors_fall_as_effects_are_added(ur10e_model: IdentifiedModel
     assert errors["1"] < 0.07 and errors["2"] < 0.018 and errors["3"] < 0.016
 
 
+@pytest.mark.slow
 def test_ur10e_a_load_is_found_first_with_its_mass(ur10e_model: IdentifiedModel) -> None:
-    found = diagnose(ur10e_model, ur10e("02_19_14harm50secLoad"))
+    found = diagnose(ur10e_model, pieces(":1912", *ur10e("02_19_14harm50secLoad")))
     assert found.effects[0].effect == "payload"
     assert found.effects[0].parameters["mass"] == pytest.approx(2.805, rel=0.1)
 
 
+@pytest.mark.slow
 def test_tx40_the_motor_of_joint_6_turns_joint_5_too(tmp_path: Path) -> None:
     """From a robot file that couples nothing; errors below those of the published model."""
     text = builtin_text("tx40")
@@ -96,7 +106,7 @@ def test_tx40_the_motor_of_joint_6_turns_joint_5_too(tmp_path: Path) -> None:
     alone = tmp_path / "tx40.toml"
     alone.write_text(text.partition("[coupling]")[0], encoding="utf-8")
     log = logs("tx40", "log_joint")[0]
-    training, held_out = [Path(f"{log}@0:4.6")], [Path(f"{log}@4.6:7.45")]
+    training, held_out = pieces("0:4.6", log), pieces("4.6:7.45", log)
     model = fitted(str(alone), training)
     found = diagnose(model, training, held_out)
     assert (found.effects[0].effect, found.effects[0].joint) == ("coupled_friction", "6")
@@ -105,6 +115,7 @@ def test_tx40_the_motor_of_joint_6_turns_joint_5_too(tmp_path: Path) -> None:
     assert after["2"] < 0.066 and after["3"] < 0.091 and after["4"] < 0.09 and after["5"] < 0.22
 
 
+@pytest.mark.slow
 def test_odrive_the_orders_of_its_ripple() -> None:
     runs = logs("odrive_cogging", *(f"slow2__nocomp_{k}" for k in range(3)))
     model = fitted("odrive", runs[:2])
@@ -117,6 +128,7 @@ def test_odrive_the_orders_of_its_ripple() -> None:
     assert found.joints["1"].error_after < 0.2
 
 
+@pytest.mark.slow
 def test_dvrk_the_spring_of_joint_4_and_friction_that_turns_gradually() -> None:
     """An instrument on cables behind two parallelograms; the torque in a wide band is noisy."""
     training, held_out = logs("dvrk_psm", "one"), logs("dvrk_psm", "two")

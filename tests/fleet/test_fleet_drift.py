@@ -21,18 +21,18 @@ def told(found: Fleet) -> list[tuple[str, str, str]]:
     return [(one.machine, one.quantity.parameter, one.shape) for one in found.findings]
 
 
-def test_fifty_fleets_without_drift_are_quiet() -> None:
-    """5 % of them may show anything at all: 6 and more of 50 have a chance of 4 %."""
+def test_fleets_without_drift_are_quiet() -> None:
+    """5 % of them may show anything at all: 4 and more of 16 have a chance of 1 %."""
     scene = Scene(machines=2, periods=3, noise=0.05)
-    assert sum(bool(fleet(scene, seed).findings) for seed in range(300, 350)) <= 5
+    assert sum(bool(fleet(scene, seed).findings) for seed in range(300, 316)) <= 3
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("machines", "periods", "daily"), [(1, 8, 0.03), (8, 3, 0.0)])
+@pytest.mark.parametrize(("machines", "periods", "daily"), [(1, 8, 0.03), (5, 3, 0.0)])
 def test_many_fleets_without_drift_are_quiet(machines: int, periods: int, daily: float) -> None:
-    """Of all sizes, with friction that scatters from day to day: 5 % and two sigma of 40."""
+    """Of other sizes, with friction that scatters from day to day: 5 and more of 20: 0.3 %."""
     scene = Scene(machines=machines, periods=periods, daily=daily, apart=0.2)
-    assert sum(bool(fleet(scene, seed).findings) for seed in range(600, 640)) <= 2 + 3
+    assert sum(bool(fleet(scene, seed).findings) for seed in range(600, 620)) <= 4
 
 
 DAYS = 10
@@ -46,10 +46,9 @@ PLANTED = {
 
 
 @pytest.mark.parametrize("case", PLANTED)
-@pytest.mark.parametrize("seed", [901, 902])
-def test_what_is_planted_is_found_and_nothing_else(case: str, seed: int) -> None:
+def test_what_is_planted_is_found_and_nothing_else(case: str) -> None:
     name, plan, shape, percent = PLANTED[case]
-    found = fleet(Scene(machines=2, periods=DAYS, planted=(Planted(1, name, plan),)), seed)
+    found = fleet(Scene(machines=2, periods=DAYS, planted=(Planted(1, name, plan),)), 901)
     parameter = name.replace("gain", "gain ")
     assert told(found) == [("r2", parameter, shape)]
     [one] = found.findings
@@ -81,9 +80,9 @@ def test_a_load_is_no_gain(robot: str) -> None:
 @pytest.mark.slow
 def test_a_gain_is_no_load_and_both_may_be_in_one_fleet() -> None:
     """Six joints: the load of r3 makes the scatter known, and r5's gain pretends to 0.04 kg."""
-    plans = (Planted(4, "gain2", (0.0,) * 5 + (0.05,) * 5),
-             Planted(2, "load", (0.0,) * 4 + (2.0,) * 6))  # fmt: skip
-    scene = Scene(machines=6, periods=DAYS, daily=0.02, duration=20.0, planted=plans)
+    plans = (Planted(4, "gain2", (0.0,) * 3 + (0.05,) * 3),
+             Planted(2, "load", (0.0,) * 2 + (2.0,) * 4))  # fmt: skip
+    scene = Scene(machines=5, periods=6, daily=0.02, duration=15.0, planted=plans)
     found = fleet(scene, 5, "ur10e")
     assert set(told(found)) == {("r3", "load", "jump"), ("r5", "gain 2", "jump")}
 

@@ -1,11 +1,12 @@
 """Machines whose motion is known, their models with the true values, and logs of them."""
 
 import dataclasses
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 
-from modeler.api import compile_model, derive, fit, generate, observe
+from modeler.api import compile_model, derive, fit, generate, load, observe
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.settings import Processing
@@ -27,13 +28,14 @@ viscous = "all"
 INERTIA, MOMENT, RUBS, G = 0.5, 0.6, 0.2, 9.81  # kg m^2, kg m, N m s/rad, m/s^2
 
 
+@cache
 def pendulum(stands: bool) -> tuple[IdentifiedModel, Log]:
     """The pendulum about the upright posture, or hanging, swung by 0.1 rad; nothing is noisy.
 
     I qdd + b qd -+ m l g sin q = tau, written down by hand.
     """
     robot = robot_from_text(PENDULUM.format(up=-G if stands else G), "pendulum")
-    time = np.arange(0.0, 10.0, 0.002)
+    time = np.arange(0.0, 2.0 * np.pi, 0.002)  # whole periods of both sines
     q, qd, qdd = swing(time)
     pull = MOMENT * G * np.sin(q) * (-1.0 if stands else 1.0)
     tau = INERTIA * qdd + RUBS * qd + pull
@@ -84,8 +86,6 @@ def simulated(robot: Robot, duration: float, seed: int, **settings) -> tuple[Log
 
 def true_model(name: Path | str | Robot, duration: float = 8.0, seed: int = 1, **settings):
     """Model with the true values, compiled robot, log."""
-    from modeler.api import load
-
     robot = name if isinstance(name, Robot) else load(str(name))
     log, truth = simulated(robot, duration, seed, **settings)
     model, compiled = fitted(robot, [log])

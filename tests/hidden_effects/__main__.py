@@ -24,6 +24,12 @@ from tests.hidden_effects.table import line, page
 
 SEEDS = 3  # of every effect at every noise
 PAIRS = 20
+MORE = {
+    "two": f"N (default {PAIRS}) pairs of effects at every noise",
+    "clean": "N arms without any, at every noise",
+    "withheld": "N effects at every noise that the diagnosis may not name",
+    "strangers": "every cause outside the catalogue at every noise, with the first N seeds",
+}
 
 
 def parser() -> argparse.ArgumentParser:
@@ -39,25 +45,9 @@ def parser() -> argparse.ArgumentParser:
         help=f"the first N (default {SEEDS}) of the seeds {ACCEPTANCE[0]} to {ACCEPTANCE[-1]}",
     )  # fmt: skip
     add("--first", type=int, default=0, metavar="SEED", help="leave out seeds below this one")
-    add(
-        "--two", nargs="?", type=int, const=PAIRS, default=0, metavar="N",
-        help=f"and N (default {PAIRS}) pairs of effects at every noise",
-    )  # fmt: skip
-    add("--clean", type=int, default=0, metavar="N", help="and N arms without any, at every noise")
-    add(
-        "--withheld",
-        type=int,
-        default=0,
-        metavar="N",
-        help="and N effects at every noise that the diagnosis may not name",
-    )
-    add(
-        "--strangers",
-        type=int,
-        default=0,
-        metavar="N",
-        help="and every cause outside the catalogue at every noise, with the first N seeds",
-    )
+    for name, told in MORE.items():
+        usual = {"nargs": "?", "const": PAIRS} if name == "two" else {}
+        add(f"--{name}", type=int, default=0, metavar="N", help=f"and {told}", **usual)
     add("--out", type=Path, help="folder that keeps cases and results: run again, and it goes on")
     add("--table", type=Path, help="page to write, in Markdown")
     add("--jobs", type=int, default=1, help="processes; default: 1")

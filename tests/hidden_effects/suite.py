@@ -1,15 +1,14 @@
 """Which cases there are, and running them: made once, diagnosed once, remembered in a folder."""
 
 import json
-import multiprocessing
-import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from tests.hidden_effects.asked import asked_once
 from tests.hidden_effects.case import Case, NoArm, make_case
 from tests.hidden_effects.effects import EFFECTS
 from tests.hidden_effects.score import Score, failed, score_from_json, scored
@@ -101,32 +100,5 @@ def run(
         jobs: processes.
         tell: called with every score as it comes.
     """
-    folder.mkdir(parents=True, exist_ok=True)
-    results = folder / "results.jsonl"
-    known = _remembered(results)
-    left = [case for case in cases if case.name not in known]
-    for score in _scores(left, folder / "cases", jobs):
-        known[score.case] = score
-        with results.open("a", encoding="utf-8") as lines:
-            lines.write(json.dumps(score.to_json()) + "\n")
-        tell(score)
-    return [known[case.name] for case in cases]
-
-
-def _remembered(results: Path) -> dict[str, Score]:
-    if not results.exists():
-        return {}
-    lines = results.read_text(encoding="utf-8").splitlines()
-    scores = [score_from_json(json.loads(line)) for line in lines]
-    return {score.case: score for score in scores}
-
-
-def _scores(cases: Sequence[Case], folder: Path, jobs: int) -> Iterator[Score]:
-    if jobs == 1:
-        yield from (ran(case, folder) for case in cases)
-        return
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # one core a process
-    fresh = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(jobs, mp_context=fresh) as pool:
-        for future in as_completed([pool.submit(ran, case, folder) for case in cases]):
-            yield future.result()
+    ask = partial(ran, cases=folder / "cases")
+    return asked_once(cases, ask, folder / "results.jsonl", score_from_json, jobs, tell)

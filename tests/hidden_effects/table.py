@@ -44,7 +44,8 @@ def page(scores: Sequence[Score]) -> str:
     return "\n".join(parts)
 
 
-def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table; all but the first column are numbers."""
     lines = [header, ["---"] + ["---:"] * (len(header) - 1), *rows]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 
@@ -61,7 +62,7 @@ def _singles(scores: Sequence[Score]) -> str:
     rows = [_row(name, [s for s in scores if s.effects == name], levels) for name in names]
     rows.append(_row("**all**", scores, levels))
     rows.append(["**share**", *(_share(cell) for cell in rows[-1][1:-1]), rows[-1][-1]])
-    return _table([*header, "Fall"], rows)
+    return markdown([*header, "Fall"], rows)
 
 
 def _row(name: str, scores: Sequence[Score], levels: Sequence[str]) -> list[str]:
@@ -83,7 +84,7 @@ def _clean(scores: Sequence[Score]) -> str:
     levels = [level for level in NOISE if any(s.noise == level for s in scores)]
     rows = [["False alarms", *(_alarms([s for s in scores if s.noise == k]) for k in levels)]]
     rows[0].append(_alarms(scores))
-    return _table(["", *levels, "all"], rows)
+    return markdown(["", *levels, "all"], rows)
 
 
 def _alarms(scores: Sequence[Score]) -> str:
@@ -97,7 +98,7 @@ def _pairs(scores: Sequence[Score]) -> str:
         spurious = sum(s.spurious for s in some) / len(some)
         counts = [count(some, lambda s: s.first), count(some, lambda s: s.found == 2)]
         rows.append([name, *counts, count(some, lambda s: s.exact), f"{spurious:.2f}"])
-    return _table(["Noise", "First is one", "Both", "Exact", "Spurious a case"], rows)
+    return markdown(["Noise", "First is one", "Both", "Exact", "Spurious a case"], rows)
 
 
 def _withheld(scores: Sequence[Score]) -> str:
@@ -110,7 +111,7 @@ def _withheld(scores: Sequence[Score]) -> str:
         ],
         ["Nothing significant", count(scores, lambda s: s.verdict == "nothing significant")],
     ]
-    return _table(["The diagnosis says", "cases"], rows)
+    return markdown(["The diagnosis says", "cases"], rows)
 
 
 def _strangers(scores: Sequence[Score]) -> str:
@@ -125,7 +126,7 @@ def _strangers(scores: Sequence[Score]) -> str:
         some = [score for score in scores if name in (score.effects, "**all**")]
         rows.append([name, *(count(some, verdict) for verdict in verdicts)])
     header = ["Cause", "Another effect stated", "Closest description", "Unexplained"]
-    return _table([*header, "Nothing significant"], rows)
+    return markdown([*header, "Nothing significant"], rows)
 
 
 def _closest(score: Score) -> bool:

@@ -1,6 +1,7 @@
 """The simulated arms against other people's mechanics, and the laws that they must keep."""
 
 import dataclasses
+from functools import cache
 
 import numpy as np
 import pytest
@@ -18,13 +19,19 @@ from tests.hidden_effects.visibility import Trial, visibility
 pytestmark = pytest.mark.usefixtures("plant_compiler")
 
 
-def arm(kind="3R", seed=3, seconds=6.0):
-    """An equipped arm, its path and its scales."""
+@cache
+def drawn(kind, seed, seconds):
     rng = np.random.default_rng(seed)
     plant, _ = draw_arm(rng, kind)
     bounds = draw_bounds(rng, plant.joints)
     path = motion(rng, seconds, bounds)
     return plant, path, equip(plant, bounds, path, "med", rng)
+
+
+def arm(kind="3R", seed=3, seconds=6.0):
+    """An equipped arm of one's own, its path and its scales."""
+    plant, path, scales = drawn(kind, seed, seconds)
+    return plant.copy(), path, scales
 
 
 def pinocchio_model(pin, plant):

@@ -10,18 +10,18 @@ import pytest
 from tests.hidden_effects.case import Case
 from tests.hidden_effects.suite import DEVELOPMENT, run
 
-CASES = {
-    "stribeck": Case(("stribeck",), "med", 3, "2R"),
-    "load_friction": Case(("load_friction",), "med", 1, "2R"),
-    "spring": Case(("spring",), "med", 1, "2R"),
-    "payload": Case(("payload",), "med", 1, "2R"),
-    "none": Case((), "med", 1, "2R"),
-}
+SLOW = pytest.mark.slow
+CASES = [
+    pytest.param(Case(("stribeck",), "med", 3, "2R"), marks=SLOW),
+    pytest.param(Case(("load_friction",), "med", 1, "2R"), marks=SLOW),
+    pytest.param(Case(("payload",), "med", 1, "2R"), marks=SLOW),
+    Case(("spring",), "med", 1, "2R"),
+    Case((), "med", 1, "2R"),
+]
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_what_is_hidden_is_found(name, tmp_path, plant_compiler):
-    case = CASES[name]
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_what_is_hidden_is_found(case, tmp_path, plant_compiler):
     assert case.seed in DEVELOPMENT
     told = []
     (score,) = run([case], tmp_path, tell=told.append)
@@ -35,8 +35,8 @@ def test_what_is_hidden_is_found(name, tmp_path, plant_compiler):
     assert told == [score]
 
 
-@pytest.mark.parametrize("stranger", ["lifting_seal"])
-def test_what_is_in_no_catalogue_is_not_stated(stranger, tmp_path, plant_compiler):
-    (score,) = run([Case((stranger,), "low", 1, "2R")], tmp_path, tell=lambda score: None)
+@SLOW
+def test_what_is_in_no_catalogue_is_not_stated(tmp_path, plant_compiler):
+    (score,) = run([Case(("lifting_seal",), "low", 1, "2R")], tmp_path, tell=lambda score: None)
     assert not score.error
     assert score.verdict in ("closest description", "unexplained"), score

@@ -1,51 +1,22 @@
 """`modeler add` asked for what cannot be: one clear line, nothing written; or told what it cost."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from modeler.cli import main
 from modeler.core.errors import ModelerError
 from modeler.core.files import check_writable
-
-Run = Callable[..., tuple[int, str, str]]
-
-
-@pytest.fixture(scope="module")
-def arm(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with two simulated logs of the arm, and a model fitted to the first."""
-    folder = tmp_path_factory.mktemp("arm")
-    for name, seed in (("train", 4), ("other", 5)):
-        words = ["simulate", "demo-arm", "--duration", "15", "--rate", "250"]
-        assert main([*words, "--seed", str(seed), "--out", str(folder / f"{name}.parquet")]) == 0
-    words = ["fit", "demo-arm", str(folder / "train.parquet"), "--out", str(folder / "m.json")]
-    assert main(words) == 0
-    return folder
+from tests.diagnose.conftest import Run, made
 
 
 @pytest.fixture(scope="module")
 def loops(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The same of a robot with a loop."""
+    """A log of a robot with a loop, and its model."""
     folder = tmp_path_factory.mktemp("loops")
-    words = ["simulate", "five-bar", "--duration", "8", "--rate", "250", "--seed", "1"]
-    assert main([*words, "--out", str(folder / "train.parquet")]) == 0
-    words = ["fit", "five-bar", str(folder / "train.parquet"), "--out", str(folder / "m.json")]
-    assert main(words) == 0
+    words = ("--duration", 6, "--rate", 100, "--seed", 1, "--out", folder / "train.parquet")
+    made("simulate", "five-bar", *words)
+    made("fit", "five-bar", folder / "train.parquet", "--out", folder / "m.json")
     return folder
-
-
-@pytest.fixture
-def run(capsys: pytest.CaptureFixture[str]) -> Run:
-    """Status, stdout, stderr of a command."""
-
-    def call(*words: object) -> tuple[int, str, str]:
-        capsys.readouterr()
-        status = main([str(word) for word in words])
-        out, err = capsys.readouterr()
-        return status, out, err
-
-    return call
 
 
 REFUSED: dict[str, tuple[str, str]] = {
@@ -111,9 +82,7 @@ def test_robots_with_loops_say_what_they_cannot_have(
         ("--out", "train.parquet", "--out train.parquet: this is a log; expected a name of its"),
         ("--robot", "other.parquet", "--robot other.parquet: this is a log"),
         ("--report", "m2.json", "--report m2.json: --out writes this file too"),
-        ("--out", "/proc/nowhere/m2.json", "/proc/nowhere/m2.json: cannot be written"),
         ("--report", "/proc/nowhere/a.html", "/proc/nowhere/a.html: cannot be written"),
-        ("--robot", "/proc/nowhere/r.toml", "/proc/nowhere/r.toml: cannot be written"),
     ],
 )
 def test_nothing_is_half_written_and_no_input_is_replaced(

@@ -16,12 +16,7 @@ from modeler.estimation.model_file import load_model, save_model
 from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import load as load_compiled
-from tests.diagnose.conftest import (
-    Case,
-    case as case,  # the fixture
-    motion,
-    on_joint,
-)
+from tests.diagnose.conftest import Case, motion, on_joint
 
 DRAG, CENTRE, WIDTH = 4.0, 0.7, 0.2  # N m s/rad, rad, rad; the grid has neither value
 OWN = """
@@ -146,7 +141,9 @@ def test_commands(own: Case, tmp_path: Path, capsys: pytest.CaptureFixture[str])
     capsys.readouterr()
     assert main(["diagnose", *words, "--report", str(tmp_path / "d.html")]) == 0
     assert "missing: drag of a magnet (eddy_brake), joint 2" in capsys.readouterr().out
-    assert "drag of a magnet" in (tmp_path / "d.html").read_text(encoding="utf-8")
+    page = (tmp_path / "d.html").read_text(encoding="utf-8")
+    assert "drag of a magnet" in page and "Why not another effect" in page
+    assert "http://" not in page.split("<script>")[0]
     assert main(["diagnose", *words, "--without", "eddy_brak"]) == 1
     assert re.search(r'no such effect \(did you mean "eddy_brake"\?\)', capsys.readouterr().err)
 

@@ -1,14 +1,11 @@
 """Friction of joints without motor: robot files may have it, and so may `modeler add --joint`."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from modeler.cli import main
 from modeler.estimation.model_file import load_model
-
-Run = Callable[..., tuple[int, str, str]]
+from tests.diagnose.conftest import Run, made
 
 HIDDEN = ("five-bar", "--hide", "passive_friction@21", "--duration", "8", "--rate", "250")
 
@@ -18,24 +15,9 @@ def loops(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with logs of a robot that rubs in a joint without motor, and a model without."""
     folder = tmp_path_factory.mktemp("loops")
     for name, seed in (("train", "1"), ("other", "2")):
-        out = str(folder / f"{name}.parquet")
-        assert main(["simulate", *HIDDEN, "--seed", seed, "--out", out]) == 0
-    words = ["fit", "five-bar", str(folder / "train.parquet"), "--out", str(folder / "m.json")]
-    assert main(words) == 0
+        made("simulate", *HIDDEN, "--seed", seed, "--out", folder / f"{name}.parquet")
+    made("fit", "five-bar", folder / "train.parquet", "--out", folder / "m.json")
     return folder
-
-
-@pytest.fixture
-def run(capsys: pytest.CaptureFixture[str]) -> Run:
-    """Status, stdout, stderr of a command."""
-
-    def call(*words: object) -> tuple[int, str, str]:
-        capsys.readouterr()
-        status = main([str(word) for word in words])
-        out, err = capsys.readouterr()
-        return status, out, err
-
-    return call
 
 
 def test_viscous_and_coulomb_one_after_the_other(loops: Path, run: Run, tmp_path: Path) -> None:

@@ -4,19 +4,9 @@ import numpy as np
 
 from modeler.diagnosis.add import add_effect
 from modeler.diagnosis.added_model import Logs, rows_of
-from modeler.observation.log import Log
 from modeler.observation.observation import model_torque
 from modeler.runtime.model import load
-from tests.diagnose.conftest import (
-    Case,
-    case as case,  # the fixture
-    motion,
-    on_joint,
-)
-
-
-def spring(log: Log) -> np.ndarray:
-    return on_joint(log, 2, 1.5 * motion(log)[0][:, 2])
+from tests.diagnose.conftest import Case, spring
 
 
 def test_rows_are_those_that_the_new_robot_would_make_itself(case: Case) -> None:

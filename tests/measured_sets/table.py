@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from modeler.diagnosis.sentences import percent
+from tests.hidden_effects.table import markdown
 from tests.measured_sets.answer import Answer, Key, key, named
 
 
@@ -12,7 +13,7 @@ def stability(answers: Sequence[Answer]) -> str:
     header = ["set", "direction", "factor", "verdict", "effects", "ties", "refinements", "seconds"]
     rows = [[*_case(answer), answer.verdict, *_diagnosis(answer)] for answer in answers]
     doubted = "A `?` stands behind what is named with a doubt.\n\n"
-    return doubted + _table(header, rows) + "\n" + _by_set(answers, stays)
+    return doubted + markdown(header, rows) + "\n" + _by_set(answers, stays)
 
 
 def stays(answers: Sequence[Answer]) -> str:
@@ -41,13 +42,13 @@ def improvement(answers: Sequence[Answer]) -> str:
         "with the effects; *scatter*: its fall in standard errors.\n\n"
     )
     steps = "\n".join(_steps(answer) for answer in answers)
-    return said + _table(header, rows) + "\n" + steps
+    return said + markdown(header, rows) + "\n" + steps
 
 
 def sanity(answers: Sequence[Answer]) -> str:
     """Values that cannot be."""
     rows = [[*_case(answer), fault] for answer in answers for fault in _wrong(answer)]
-    table = _table(["set", "direction", "factor", "what cannot be"], rows) if rows else ""
+    table = markdown(["set", "direction", "factor", "what cannot be"], rows) if rows else ""
     return table + "\n" + _by_set(answers, _counted)
 
 
@@ -130,8 +131,3 @@ def _by_set(answers: Sequence[Answer], judge: Callable[[Sequence[Answer]], str])
     names = dict.fromkeys(answer.case.set for answer in answers)
     return "\n".join(f"- {name}: {judge([a for a in answers if a.case.set == name])}"
                      for name in names)  # fmt: skip
-
-
-def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines) + "\n"

@@ -1,3 +1,11 @@
-"""The demonstration arm with its two runs, as the diagnosis has it."""
+"""The demonstration arm of the diagnoses, for the pages about them."""
 
-from tests.diagnose.conftest import case as case
+import pytest
+
+from tests.diagnose.conftest import Case, demonstration
+
+
+@pytest.fixture(scope="session")
+def case() -> Case:
+    """Sampled at 1 kHz."""
+    return demonstration(1000.0)

@@ -13,7 +13,7 @@ from modeler.papers.paper import read_paper
 from modeler.papers.wrist import coefficient_quotations
 from tests.papers.derived_papers import robots_of
 
-EVERY = 3
+EVERY = 9
 """Of how many alterations one is tried; which, changes from line to line."""
 
 NUMBERS_ONLY = ("numbers", "arithmetic")

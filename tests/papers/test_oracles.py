@@ -1,6 +1,7 @@
 """No print is called wrong, and none equal, on the word of one derivation."""
 
 from dataclasses import replace
+from itertools import islice
 
 import pytest
 
@@ -44,7 +45,8 @@ def test_the_oracles_notice_what_is_altered(name):
     survivors = []
     for line in read_paper(name).lines:
         if line.check in FORMULAS and holds(name, line):
-            for text in altered(line.quote, line.check):
+            every = islice(altered(line.quote, line.check), len(line.quote) % 3, None, 3)
+            for text in every:
                 try:
                     found = holds(name, replace(line, quote=text))
                 except (ArithmeticError, LookupError, TypeError, ValueError):

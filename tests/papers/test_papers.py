@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import re
+from functools import cache
 
 import pytest
 
@@ -19,6 +20,7 @@ CLOSED = "orthoglide-2012"
 DIFFERENT = {"guegan-2003": 9, "briot-2012": 6, "houda": 11, "hanssen-2000": 19}
 
 
+@cache
 def lines_of(name):
     return check_paper(read_paper(name), robots_of(name))
 
@@ -74,7 +76,13 @@ def test_leg_3_has_fifteen_with_the_pair_that_the_paper_prints():
     assert places["M1R3 = M13 + M23 + M33 + M43 + M73"].verdict is LineVerdict.EQUAL
 
 
-@pytest.mark.parametrize("name", paper_names())
+COMMANDS = [
+    name if name in ("briot-2012", "hanssen-2000") else pytest.param(name, marks=pytest.mark.slow)
+    for name in paper_names()
+]
+
+
+@pytest.mark.parametrize("name", COMMANDS)
 def test_the_command_ends_well(name, capsys, tmp_path):
     place = tmp_path / "lines.json"
     assert main(["reproduce", name, "--section", "print", "--json", str(place)]) == 0

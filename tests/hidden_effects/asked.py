@@ -1,0 +1,60 @@
+"""Asking about cases in one process or several; what is answered is remembered in a file."""
+
+import json
+import multiprocessing
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+from typing import Any
+
+
+def asked_once(
+    cases: Sequence[Any],
+    ask: Callable[[Any], Any],
+    memory: Path | None,
+    read: Callable[[Mapping[str, Any]], Any],
+    jobs: int = 1,
+    tell: Callable[[Any], None] = print,
+    good: Callable[[Any], bool] = bool,
+) -> list[Any]:
+    """The answers to cases, in their order; those that `memory` holds are not asked again.
+
+    Args:
+        cases: each with a `name`.
+        ask: gives the answer to one, which has a `to_json`; another process must find it.
+        memory: file, one answer a line; remove it to ask a new program again.
+        read: what `to_json` gave, as an answer.
+        jobs: processes.
+        tell: called with every answer as it comes.
+        good: whether an answer that is remembered counts.
+    """
+    known = {}
+    if memory and memory.exists():
+        for line in memory.read_text(encoding="utf-8").splitlines():
+            held = json.loads(line)
+            name, answer = held.pop("asked"), read(held)
+            if good(answer):
+                known[name] = answer
+    for name, answer in _answers([case for case in cases if case.name not in known], ask, jobs):
+        known[name] = answer
+        if memory:
+            memory.parent.mkdir(parents=True, exist_ok=True)
+            with memory.open("a", encoding="utf-8") as lines:
+                lines.write(json.dumps({"asked": name} | answer.to_json()) + "\n")
+        tell(answer)
+    return [known[case.name] for case in cases]
+
+
+def _answers(
+    cases: Sequence[Any], ask: Callable[[Any], Any], jobs: int
+) -> Iterator[tuple[str, Any]]:
+    if jobs == 1:
+        yield from ((case.name, ask(case)) for case in cases)
+        return
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # one core a process
+    fresh = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(jobs, mp_context=fresh) as pool:
+        names = {pool.submit(ask, case): case.name for case in cases}
+        for future in as_completed(names):
+            yield names[future], future.result()
