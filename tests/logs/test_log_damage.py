@@ -28,7 +28,7 @@ WRITTEN = {
     "bag, mcap": (lambda path, table: writers.bag(path, table, "mcap"), "run", "run.mcap"),
     "bag 1": (writers.bag1, "run.bag", ""),
 }
-MUTANTS = 60
+MUTANTS = 20
 
 
 @pytest.fixture(scope="module")

@@ -4,6 +4,7 @@ import dataclasses
 import html
 import re
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -28,6 +29,7 @@ from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.test_diagnose_effects import drift, motor_ripple, spring, stribeck
 
 
+@cache
 def load_friction(case: Case) -> Callable[[Log], np.ndarray]:
     """0.08 of the load, by the links that a fit finds."""
     model = case.fitted(case.train)
@@ -56,7 +58,9 @@ HIDDEN: dict[str, tuple[Callable[..., np.ndarray], str]] = {
 }
 
 
+@cache
 def found(case: Case, torque: Callable[[Log], np.ndarray]) -> Diagnosis:
+    """What is found of a hidden torque; several tests look at the same."""
     model, train, _ = case.hidden(torque)
     return diagnose(model, case.compiled, [train])
 
