@@ -4,6 +4,8 @@ What the interpreter itself reads when it starts (PYTHON..., the locale, closed 
 process that is really new.
 """
 
+import contextlib
+import gc
 import importlib
 import json
 import os
@@ -85,6 +87,10 @@ def serve() -> None:
         parsed(command.split())[0].load()
     for name in PACKAGES:
         importlib.import_module(name)
+    with contextlib.redirect_stdout(None):  # what sympy remembers of a first derivation
+        main(["derive", "two-link", "--no-terms"])
+    gc.collect()
+    gc.freeze()  # pages that no child looks at stay shared
     answers: Any = sys.stdout
     for line in sys.stdin:
         asked = json.loads(line)

@@ -73,7 +73,10 @@ def series(panel: Panel, kind: type, label: str):
     return next(s for s in panel.series if isinstance(s, kind) and s.label.startswith(label))
 
 
-@pytest.mark.parametrize("effect", HIDDEN)
+@pytest.mark.parametrize(
+    "effect",
+    [pytest.param(e, marks=[pytest.mark.slow] * (e in ("drift", "presliding"))) for e in HIDDEN],
+)
 def test_the_picture_convinces(case: Case, effect: str) -> None:
     torque, label = HIDDEN[effect]
     search = found(case, load_friction(case) if effect == "load_friction" else torque).search
