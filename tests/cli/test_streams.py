@@ -73,7 +73,7 @@ def test_what_is_only_told_at_the_end_is_told(monkeypatch, capsys) -> None:
 
 
 @pytest.mark.parametrize("closed", ["stdout", "stderr"])
-@pytest.mark.parametrize(("words", "status"), [("robots", 0), ("derive no-such-robot", 1)])
+@pytest.mark.parametrize(("words", "status"), [("robots", 0), ("robots --show no-such-robot", 1)])
 def test_closed_streams_are_no_error(closed: str, words: str, status: int) -> None:
     sign = {"stdout": ">&-", "stderr": "2>&-"}[closed]
     command = f'"{sys.executable}" -m modeler.cli {words} {sign}'
