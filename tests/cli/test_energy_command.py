@@ -19,7 +19,7 @@ def run(capsys, *argv):
     ("options", "rank", "friction", "offset"),
     [
         ([], 90, 0, 0),
-        (["--effects", "viscous,coulomb"], 106, 16, 0),
+        pytest.param(["--effects", "viscous,coulomb"], 106, 16, 0, marks=pytest.mark.slow),
         (["--effects", "viscous,coulomb,asymmetric_viscous,offset"], 122, 24, 8),
         (["--open"], 96, 0, 0),
     ],
