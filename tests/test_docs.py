@@ -211,7 +211,13 @@ def run(command: str) -> tuple[int, str]:
     return status, out.getvalue()
 
 
-@pytest.mark.parametrize("page", RUN)
+# Pages that take ten seconds and more: of their subjects, the README and the tutorial run some.
+LONG = ("docs/drive-gains.md", "docs/diagnosis.md", "docs/excitation.md", "docs/motor-side.md")
+
+
+@pytest.mark.parametrize(
+    "page", [pytest.param(page, marks=[pytest.mark.slow] * (page in LONG)) for page in RUN]
+)
 def test_a_reader_gets_what_the_page_shows(page, tmp_path, monkeypatch, regenerate):
     monkeypatch.chdir(tmp_path)
     reader = Reader(page, regenerate)

@@ -21,6 +21,7 @@ from modeler.core.builtin import builtin_names, builtin_text
 from modeler.robot.read import read_robot
 from tests.bad_input.judge import clear, run_here, standing_in, within
 from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes, edited_structure, toml_text
+from tests.bad_input.robot_texts import CRANK, LEGS, MAGNET, SERIAL
 from tests.bad_input.yard import Ground, Yard, csv_text
 from tests.logs import writers
 from tests.robot.par_files import par_of
@@ -29,6 +30,12 @@ SAMPLES = 400
 LOG = "fit two-link bad{} --out f.json"
 MAP = {"time": "t [ms]", "q<j>": "pos[{n}] [deg]", "tau<j>": "load[{n}] [mN m]"}
 PAR = par_of(read_robot("two-link"), False).encode()
+ROBOTS = (*([SERIAL, CRANK, LEGS, MAGNET] * 4), *map(builtin_text, builtin_names()))
+KINDS = (
+    pa.float32(), pa.int64(), pa.int8(), pa.string(), pa.bool_(), pa.binary(), pa.null(),
+    pa.timestamp("ns"), pa.list_(pa.float64()), pa.dictionary(pa.int32(), pa.string()),
+    pa.decimal128(20, 6), pa.duration("ms"), pa.float16(),
+)  # fmt: skip
 COMMANDS = (
     "derive wrist --no-terms", "simulate two-link --duration 2 --rate 100 --seed 1 --out s.csv",
     "fit two-link a.csv --cutoff 20 --out f.json", "compare m.json b.csv@1:6 --json c.json",
@@ -79,7 +86,7 @@ class Drawer:
         return " ".join(f"{kind} {str(value)[:20]!r}" for _, kind, value in made)
 
     def _toml(self) -> tuple[str, str, dict[str, bytes], str]:
-        text = builtin_text(self.random.choice(builtin_names()))
+        text = self.random.choice(ROBOTS)
         command = "derive bad.toml --no-terms --json d.json"
         if self.random.random() < 0.5:
             content, told = self._bytes(text.encode())
@@ -136,7 +143,12 @@ class Drawer:
         return "log CSV", told, {"bad.csv": content}, LOG.format(".csv")
 
     def _parquet(self) -> tuple[str, str, dict[str, bytes], str]:
-        table, told = self._columns()
+        columns, told = self._columns()
+        table = {name: pa.array(values) for name, values in columns.items()}
+        if self.random.random() < 0.4:
+            name, kind = self.random.choice(list(table)), self.random.choice(KINDS)
+            table[name] = _cast(table[name], kind)
+            told += f", {name} as {kind}"
         file = io.BytesIO()
         pq.write_table(pa.table(table), file)
         content = file.getvalue()
@@ -228,6 +240,14 @@ class Drawer:
                 words[at], words[other] = words[other], words[at]
         files = {"x.par": PAR}
         return "command line", "words", files, " ".join(words)
+
+
+def _cast(values: pa.Array, kind: pa.DataType) -> pa.Array:
+    """The values as another kind; missing ones where that cannot be."""
+    try:
+        return values.cast(kind, safe=False)
+    except pa.ArrowException:
+        return pa.array([None] * len(values), kind)
 
 
 def run_mutants(count: int, seed: int, out: Path | None, ground: Ground) -> list[str]:

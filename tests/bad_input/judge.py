@@ -6,7 +6,6 @@ import itertools
 import json
 import os
 import re
-import resource
 import shlex
 import signal
 import subprocess
@@ -23,6 +22,7 @@ from modeler.cli import main
 from modeler.core.errors import ModelerError
 from tests.bad_input.row import Process, Result, Row, missing_words
 from tests.bad_input.yard import Yard
+from tests.repository import ROOT
 
 SECONDS = 20.0
 """In which every command must answer."""
@@ -155,26 +155,23 @@ def within(seconds: float) -> Iterator[None]:
 def _in_a_process(words: tuple[str, ...], how: Process, yard: Yard) -> Result:
     env = {**os.environ, "HOME": str(yard.home), "TMPDIR": str(yard.temporary)}
     env["MPLCONFIGDIR"] = str(yard.ground.folder / "matplotlib")  # its list of fonts takes seconds
-    env["PYTHONPATH"] = os.pathsep.join([str(Path(__file__).parents[2]), env.get("PYTHONPATH", "")])
     for name, value in how.env.items():
         if value is None:
             env.pop(name, None)
         elif value != AS_IT_IS:
             env[name] = value.replace("YARD", str(yard.work))
-
-    def limited() -> None:
-        if how.file_limit is not None:
-            resource.setrlimit(resource.RLIMIT_FSIZE, (how.file_limit, how.file_limit))
-
-    command = f"{shlex.join([sys.executable, '-m', 'modeler.cli', *words])} {how.redirect}"
-    try:
+    if how.anew:
+        env["PYTHONPATH"] = str(ROOT)
+        command = shlex.join([sys.executable, "-m", "modeler.cli", *words])
         done = subprocess.run(
-            ["/bin/sh", "-c", command], cwd=yard.work, env=env, capture_output=True, text=True,
-            errors="replace", timeout=how.seconds, preexec_fn=limited, check=False,
+            ["/bin/sh", "-c", f"{command} {how.redirect}"], cwd=yard.work, env=env, check=False,
+            capture_output=True, text=True, errors="replace", timeout=how.seconds,
         )  # fmt: skip
-    except subprocess.TimeoutExpired:
-        return Result(-1, "", "", f"hang: no answer within {how.seconds:g} s", yard)
+    else:
+        done = yard.ground.forks.run(words, yard.work, env, how.seconds, how.file_limit)
     broke = ""
+    if done.returncode == -signal.SIGALRM:
+        broke = f"hang: no answer within {how.seconds:g} s"
     if "Traceback" in done.stderr or "Exception ignored" in done.stderr:
         broke = f"traceback: {done.stderr.strip().splitlines()[-1][:200]}"
     return Result(done.returncode, done.stdout, done.stderr, broke, yard)

@@ -2,37 +2,12 @@
 
 import copy
 import json
-import os
 from collections.abc import Sequence
 from typing import Any
-
-from hypothesis import HealthCheck, settings, strategies as st
-
-EXAMPLES = int(os.environ.get("MODELER_FUZZ", "0"))
-"""Mutants per test from fresh seeds; 0: a fixed set of the size that the test names."""
-
-
-def mutants(count: int) -> settings:
-    """Settings of a fuzzer: the same mutants every time, unless MODELER_FUZZ asks for others."""
-    return settings(
-        max_examples=EXAMPLES or count, derandomize=not EXAMPLES, deadline=None, database=None,
-        suppress_health_check=list(HealthCheck),
-    )  # fmt: skip
-
 
 NUMBERS = ("0", "-1", "1e308", "-1e-308", "nan", "inf", "-inf", "1e400", "9" * 30, "0.1", "2",
 "1_0",
            "0x7f", "1e17", "3.5")  # fmt: skip
-PLACE = st.integers(0, 10**6)
-_EDITS = ("cut", "repeat", "replace", "insert", "flip", "end", "exchange")
-
-
-def edits(most: int = 4) -> st.SearchStrategy[list[tuple[str, int, int, int]]]:
-    """A few edits: kind, place, extent, and which token."""
-    return st.lists(
-        st.tuples(st.sampled_from(_EDITS), PLACE, st.integers(1, 40), PLACE),
-        min_size=1, max_size=most,
-    )  # fmt: skip
 
 
 def edited_bytes(
@@ -61,21 +36,6 @@ VALUES_DRAWN = (
     [1, [2, [3]]], {"a": {"b": 1}},
 )  # fmt: skip
 """Some of what may stand anywhere in a structure."""
-
-VALUES = st.one_of(
-    st.none(), st.booleans(), st.integers(-(10**20), 10**20), st.floats(), st.text(max_size=8),
-    st.sampled_from([[], {}, [[]], [1, [2, [3]]], {"a": {"b": 1}}, "q1", "pi/2", "1/0", "sin(",
-    "all",
-                     "L1", "q1 + q2", "x" * 500, 1e308, -0.0, "\x00", "../../x", "𝛑"]),
-)  # fmt: skip
-"""What may stand anywhere in a structure."""
-
-
-def structure_edits(most: int = 3) -> st.SearchStrategy[list[tuple[list[int], str, Any]]]:
-    """A few edits of a structure: the way down, what is done there, a value."""
-    ways = st.lists(PLACE, min_size=1, max_size=6)
-    kinds = st.sampled_from(("put", "put", "take out", "double", "rename", "copy"))
-    return st.lists(st.tuples(ways, kinds, VALUES), min_size=1, max_size=most)
 
 
 def edited_structure(raw: Any, made: list[tuple[list[int], str, Any]]) -> Any:

@@ -45,13 +45,9 @@ LEG = refusals(
         ("twice the same", 'legs = ["1", "2"]', 'legs = ["1", "1"]', "legs", "twice"),
         ("with a space", 'legs = ["1", "2"]', 'legs = ["1", "leg 2"]', "leg 2"),
         ("none said", 'legs = ["1", "2"]\n', "", "{i}|legs"),
-        ("another letter", '"2{i}", "1{i}"', '"2{j}", "1{j}"', "{j}|2"),
-        ("brace unclosed", '"2{i}", "1{i}"', '"2{i", "1{i}"', "2{i"),
-        ("name that does not vary", '["1{i}", "0"', '["1", "0"', "{i}|1"),
         ("shared a text", 'shared = ["*1{i}"]', 'shared = "*1{i}"', "shared", "list"),
         ("shared matches none", '"*1{i}"', '"*7{i}"', "shared", "*7{i}"),
         ("shared without the leg", '"*1{i}"', '"ZZ11"', "shared"),
-        ("shared a number", '"*1{i}"', "3", "shared"),
     ],
 )  # fmt: skip
 
@@ -61,7 +57,6 @@ RELATIONS = refusals(
         ("of an unknown", 'q22 = "-q21"', 'q99 = "-q21"', "[relations]", "q99"),
         ("to an unknown", 'q22 = "-q21"', 'q22 = "-q99"', "[relations]", "q99"),
         ("not linear", 'q22 = "-q21"', 'q22 = "q21**2"', "[relations]", "linear"),
-        ("sine", 'q22 = "-q21"', 'q22 = "sin(q21)"', "[relations]", "linear"),
         ("to itself", 'q22 = "-q21"', 'q22 = "q22"', "q22"),
         ("in a circle", 'q22 = "-q21"', 'q22 = "-q21"\nq21 = "-q22"', "circle|follow"),
         ("a number", 'q22 = "-q21"', "q22 = [3]", "[relations]"),

@@ -1,9 +1,13 @@
 """Good robot files, and rows made from them by one edit each."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import partial
 
+from modeler.api import derive
+from modeler.robot.read import robot_from_text
 from tests.bad_input.row import Make, Row, row
+from tests.bad_input.yard import Yard
 
 SERIAL = """\
 name = "arm"
@@ -165,14 +169,24 @@ def edited(text: str, old: str, new: str) -> str:
 
 
 def refusals(theme: str, text: str, edits: Iterable[Edit]) -> list[Row]:
-    """A row for every edit of a good robot file that must be refused."""
-    return [_refusal(theme, edited(text, edit[1], edit[2]), edit) for edit in edits]
+    """A row for every edit of a good robot file that must be refused.
+
+    The first goes through a command, the others are only read; what tests/robot/
+    test_robot_mistakes.py has is not here again.
+    """
+    rows = []
+    for what, old, new, *words in edits:
+        content = edited(text, old, new)
+        name = _file(content)
+        run: str | Callable[[Yard], object] = f"derive {name} --no-terms --json d.json"
+        if rows:
+            run = partial(_read, name, content)
+        rows.append(row(f"{theme}: {what}", "refused", run, *words, make=writes(name, content)))
+    return rows
 
 
-def _refusal(theme: str, content: str, edit: Edit) -> Row:
-    name = _file(content)
-    command = f"derive {name} --no-terms --json d.json"
-    return row(f"{theme}: {edit[0]}", "refused", command, *edit[3:], make=writes(name, content))
+def _read(name: str, content: str, yard: Yard) -> object:
+    return derive(robot_from_text(content, name))
 
 
 def writes(name: str, content: str | bytes) -> Make:

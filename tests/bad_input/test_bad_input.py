@@ -1,34 +1,44 @@
 """Every row of the table, and what it is in all."""
 
 from collections import Counter
+from collections.abc import Iterator
 
 import pytest
 
 from tests.bad_input.drawn import run_mutants
 from tests.bad_input.judge import disturbed, ending, faults
-from tests.bad_input.row import Result, row as made
+from tests.bad_input.row import Result, Row, row as made
 from tests.bad_input.table import ROWS
 from tests.bad_input.yard import Ground, Yard
 
 
 @pytest.fixture(scope="module")
-def ground(tmp_path_factory: pytest.TempPathFactory) -> Ground:
-    return Ground(tmp_path_factory.mktemp("ground"))
+def ground(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ground]:
+    ground = Ground(tmp_path_factory.mktemp("ground"))
+    yield ground
+    ground.close()
 
 
-@pytest.mark.parametrize("row", [pytest.param(row, id=row.id) for row in ROWS])
+def _marks(row: Row) -> list[pytest.MarkDecorator]:
+    return [pytest.mark.slow] * (row.process is not None and row.process.slow)
+
+
+@pytest.mark.parametrize("row", [pytest.param(row, id=row.id, marks=_marks(row)) for row in ROWS])
 def test_a_bad_input_ends_as_it_must(row, ground, tmp_path):
     found = faults(row, Yard(tmp_path, ground))
     assert not found, f"{row.command[:200]}\n" + "\n".join(found)
 
 
-def test_mutants_of_every_format_end_in_one_line(ground):
-    """A few, always the same; `python -m tests.bad_input --mutants 500 --seed N` draws others."""
-    assert run_mutants(40, 90210, None, ground) == []
+@pytest.mark.parametrize(
+    ("count", "seed"), [(25, 90210), pytest.param(160, 7, marks=pytest.mark.slow)]
+)
+def test_mutants_of_every_format_end_in_one_line(count, seed, ground):
+    """Always the same; `python -m tests.bad_input --mutants 500 --seed N` draws others."""
+    assert run_mutants(count, seed, None, ground) == []
 
 
 def test_the_table_is_large_and_no_row_stands_twice():
-    assert len(ROWS) >= 400
+    assert len(ROWS) >= 600
     assert [name for name, count in Counter(row.id for row in ROWS).items() if count > 1] == []
     outcomes = Counter(row.outcome for row in ROWS)
     assert outcomes["refused"] > len(ROWS) / 2 and min(outcomes.values()) > 20

@@ -15,6 +15,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from modeler.cli import main
+from tests.forked import Forks
 
 Table = dict[str, Any]
 """Columns of a log by name: arrays or lists."""
@@ -47,6 +48,18 @@ class Ground:
         finally:
             os.chdir(here)
         self._logs: dict[str, Table] = {}
+        self._forks: Forks | None = None
+
+    @property
+    def forks(self) -> Forks:
+        """Processes for commands; the first one loads the program."""
+        self._forks = self._forks or Forks()
+        return self._forks
+
+    def close(self) -> None:
+        """End what was started."""
+        if self._forks is not None:
+            self._forks.close()
 
     def log(self, name: str) -> Table:
         """The columns of a log that was simulated; a copy."""

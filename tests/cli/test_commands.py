@@ -8,13 +8,8 @@ import sys
 
 import pytest
 
-from modeler.cli import main, parser
+from modeler.cli import main
 from modeler.estimation.model_file import checksums
-
-COMMANDS = (
-    "derive", "generate", "convert", "fit", "compare", "physical", "simulate", "excite", "robots",
-    "effects", "demo", "estimators",
-)  # fmt: skip
 
 
 def run(capsys, *argv: str) -> tuple[int, str, str]:
@@ -33,14 +28,6 @@ def arm(tmp_path_factory):
     logs = [str(folder / "a.parquet"), str(folder / "b.parquet")]
     assert main(["fit", "demo-arm", *logs, "--out", str(folder / "m.json")]) == 0
     return folder
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_help_has_an_example(capsys, command):
-    with pytest.raises(SystemExit) as stop:
-        main([command, "--help"])
-    assert stop.value.code == 0
-    assert f"example: modeler {command}" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -234,27 +221,6 @@ def test_robots_and_effects(capsys):
     assert status == 1 and "got stricktion (did you mean" in err
 
 
-MISTAKES = [
-    (("derive", "wirst"), "wirst"),
-    (("derive", "missing.toml"), "missing.toml"),
-    (("fit", "emps", "missing.parquet", "--out", "m.json"), "missing.parquet"),
-    (("compare", "missing.json", "x.parquet"), "missing.json"),
-    (("simulate", "demo-arm", "--out", "log.xlsx"), "expected .parquet or .csv"),
-    (("simulate", "demo-arm", "--duration", "-1", "--out", "log.csv"), "duration"),
-    (("generate", "scara", "--out", "/proc/nowhere/c"), "cannot be written"),
-    (("demo", "--out", "/proc/nowhere"), "cannot be written"),
-]
-
-
-@pytest.mark.parametrize(("argv", "piece"), MISTAKES, ids=lambda x: " ".join(x)[:40])
-def test_mistakes_are_one_line_and_status_1(capsys, tmp_path, monkeypatch, argv, piece):
-    monkeypatch.chdir(tmp_path)
-    status, _, err = run(capsys, *argv)
-    assert status == 1
-    assert err.startswith("modeler: ") and err.count("\n") == 1 and piece in err
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_wrong_logs_are_told(capsys, arm, tmp_path):
     status, _, err = run(capsys, "compare", arm / "m.json", f"{arm / 'a.parquet'}@900:901")
     assert status == 1 and "no rows from 900 to 901 s; its times go from 0 to 7.998 s" in err
@@ -403,15 +369,6 @@ def test_a_reader_that_stops_is_no_error():
     assert done.stdout.startswith("wrist: ") and done.stderr == ""
 
 
-def test_a_measurement_is_never_overwritten(capsys, arm, tmp_path):
-    log = arm / "a.parquet"
-    before = log.read_bytes()
-    for out in (log, tmp_path / "model.csv"):
-        status, _, err = run(capsys, "fit", "demo-arm", log, "--out", out)
-        assert status == 1 and "this is a log; expected a name of its own" in err
-    assert log.read_bytes() == before and not (tmp_path / "model.csv").exists()
-
-
 @pytest.mark.parametrize(
     ("window", "piece"),
     [
@@ -423,16 +380,3 @@ def test_a_measurement_is_never_overwritten(capsys, arm, tmp_path):
 def test_windows_that_are_none(capsys, arm, window, piece):
     status, _, err = run(capsys, "compare", arm / "m.json", f"{arm / 'a.parquet'}{window}")
     assert status == 1 and piece in err
-
-
-def test_misspelt_effects_are_guessed(capsys):
-    status, _, err = run(capsys, "derive", "scara", "--effects", "viscus")
-    assert status == 1 and 'did you mean "viscous"?' in err
-    status, _, err = run(capsys, "effects", "coulom")
-    assert status == 1 and 'did you mean "coulomb"?' in err
-
-
-def test_every_command_is_listed():
-    text = parser().format_help()
-    first = {line.split()[0] for line in text.splitlines() if line.strip()}
-    assert first >= set(COMMANDS)

@@ -47,7 +47,7 @@ def cell(tmp_path_factory):
     folder = tmp_path_factory.mktemp("orthoglide")
     (folder / "unknown.toml").write_text(paper_text())
     (folder / "maker.toml").write_text(paper_text() + MAKER)
-    motion = ("--duration", 16, "--rate", 500, "--noise", 0.02)
+    motion = ("--duration", 10, "--rate", 250, "--noise", 0.02)
     for seed, (name, hidden) in enumerate(
         {"bare": (), "loaded": ("--hide", "payload:mass=1.983"),
          "second": ("--hide", "payload:mass=1.136")}.items(), start=1,
@@ -114,7 +114,7 @@ def arm(tmp_path_factory):
         "bare": drives, "loaded": [*drives, "--hide", "payload:mass=2"], "torque": [],
     }.items():  # fmt: skip
         out = folder / f"{name}.parquet"
-        motion = ("--duration", 10, "--rate", 250, "--seed", len(name))
+        motion = ("--duration", 8, "--rate", 200, "--seed", len(name))
         assert modeler("simulate", "demo-arm", *motion, *words, "--out", out) == 0
     changed(folder, "nan", current2=lambda v: np.full_like(v, np.nan))
     changed(folder, "dead", current2=np.zeros_like)

@@ -19,14 +19,16 @@ def run(capsys, *argv):
     ("options", "rank", "friction", "offset"),
     [
         ([], 90, 0, 0),
-        (["--effects", "viscous,coulomb"], 106, 16, 0),
+        pytest.param(["--effects", "viscous,coulomb"], 106, 16, 0, marks=pytest.mark.slow),
         (["--effects", "viscous,coulomb,asymmetric_viscous,offset"], 122, 24, 8),
         (["--open"], 96, 0, 0),
     ],
 )
 def test_the_counts_of_evra(capsys, tmp_path, options, rank, friction, offset):
     """90; 16 more with friction, 32 by direction; 96 where the legs are not closed."""
-    status, out, err = run(capsys, "derive", "evra", *options, "--json", tmp_path / "d.json")
+    status, out, err = run(
+        capsys, "derive", "evra", *options, "--no-terms", "--json", tmp_path / "d.json"
+    )
     raw = json.loads((tmp_path / "d.json").read_text())
     assert (status, err) == (0, "") and raw["rank"] == rank and raw["proof"] == "exact"
     assert raw["counts"]["friction"] == friction and raw["counts"]["offset"] == offset
@@ -45,7 +47,8 @@ def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("energy")
     for name, seed in (("a", 1), ("b", 2)):
         argv = ["simulate", "five-bar", "--effects", "viscous,coulomb", "--duration", "8",
-                "--noise", "0.02", "--seed", seed, "--out", folder / f"{name}.parquet"]  # fmt: skip
+                "--rate", "250", "--noise", "0.02", "--seed", seed,
+                "--out", folder / f"{name}.parquet"]  # fmt: skip
         assert main([*map(str, argv)]) == 0
     return folder
 

@@ -13,7 +13,7 @@ def slide(tmp_path_factory) -> Path:
     """A simulated log of one axis, and a model fitted to it."""
     folder = tmp_path_factory.mktemp("slide")
     log, model = str(folder / "a.parquet"), str(folder / "m.json")
-    words = ["simulate", "emps", "--duration", "4", "--rate", "500", "--out", log]
+    words = ["simulate", "emps", "--duration", "4", "--rate", "250", "--out", log]
     assert main(words) == 0
     assert main(["fit", "emps", log, "--out", model]) == 0
     return folder

