@@ -16,51 +16,24 @@ figure (`plot(name)`), and HTML for a notebook; docs/python.md lists them. The f
 that a stage has too are that stage's, with the usual choices; use the stages for others.
 """
 
-from importlib import import_module
-from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from types import FunctionType
+from typing import Any
+
+import lazy_loader
 
 from modeler.report import notebook
 
-_FIRST = {
-    **dict.fromkeys(("load", "own_effect", "derive", "generate", "compile_model"), "workflow"),
-    **dict.fromkeys(("read_logs", "observe", "recompile"), "workflow"),
-    "fit": "fitting",
-}
-"""What a script begins with; the rest takes longer to load. By module."""
+_load, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
-if TYPE_CHECKING:
-    from modeler.api.entries import *  # noqa: F403
-else:
 
-    def __getattr__(name: str) -> Any:
-        """One of `entries`, kept once it was asked for."""
-        if name in _FIRST:
-            import modeler.api.arguments as door
+def __getattr__(name: str) -> Any:
+    """What the face names; a function with the check of its arguments before it."""
+    found = _load(name)
+    if isinstance(found, FunctionType):
+        from modeler.api.arguments import checked
 
-            found = door.checked(getattr(import_module(f"modeler.api.{_FIRST[name]}"), name))
-        elif name == "__all__":
-            found = _offered()
-        elif name.startswith("__"):
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        else:
-            import modeler.api.entries as entries
-
-            found = getattr(entries, name)
-        globals()[name] = found
-        return found
-
-    def _offered() -> list[str]:
-        """What `from modeler.api import *` brings: all that `entries` offers."""
-        import modeler.api.entries as entries
-
-        names = vars(entries).items()
-        return sorted(n for n, it in names if n[0] != "_" and not isinstance(it, ModuleType))
-
-    def __dir__() -> list[str]:
-        import modeler.api.entries as entries
-
-        return sorted({*globals(), *vars(entries)})
+        found = globals()[name] = checked(found)
+    return found
 
 
 notebook.register()

@@ -44,13 +44,6 @@ class _WrongKind(Exception):
     """A value is of none of the kinds that are expected."""
 
 
-def guard(names: dict[str, Any]) -> None:
-    """Puts the check before every function among the names of a module."""
-    for name, value in list(names.items()):
-        if inspect.isfunction(value):
-            names[name] = checked(value)
-
-
 @functools.cache
 def checked(function: Callable[P, R]) -> Callable[P, R]:
     """The function, which refuses arguments of a kind that it does not declare.
@@ -64,7 +57,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
     signature = inspect.signature(function)
 
     @functools.wraps(function)
-    def at_door(*args: P.args, **kwargs: P.kwargs) -> R:
+    def checked_call(*args: P.args, **kwargs: P.kwargs) -> R:
         given = signature.bind(*args, **kwargs)  # a wrong number of arguments is Python's to tell
         hints = _hints(function)
         for name, value in given.arguments.items():
@@ -72,7 +65,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
                 given.arguments[name] = fitting(function.__name__, name, hints[name], value)
         return function(*given.args, **given.kwargs)
 
-    return at_door
+    return checked_call
 
 
 @functools.cache

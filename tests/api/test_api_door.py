@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 import modeler.api as api
-import modeler.api.entries as entries
 from modeler.api.arguments import fitting
 from modeler.core.errors import DataError
 
-FUNCTIONS = {name: f for name, f in vars(entries).items() if inspect.isfunction(f)}
+FUNCTIONS = {name: f for name in api.__all__ if inspect.isfunction(f := getattr(api, name))}
 SOME: Any = inspect.Parameter.empty
 
 

@@ -7,12 +7,15 @@ import inspect
 import pytest
 
 import modeler.api as api
-import modeler.api.entries as entries
 
 MODULES = sorted(
     {
         "modeler.core.table",
-        *(thing.__module__ for thing in vars(entries).values() if inspect.isfunction(thing)),
+        *(
+            thing.__module__
+            for name in api.__all__
+            if inspect.isfunction(thing := getattr(api, name))
+        ),
     }
 )
 

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-import modeler.api.entries as entries
+import modeler.api as api
 from modeler.core.result import presented
 from tests.notebook.session import session
 
@@ -21,8 +21,8 @@ def test_every_function_stands_there() -> None:
     told = set(re.findall(r"`(\w+)\(", " ".join(row[0] for row in rows("Functions"))))
     offered = {
         name
-        for name, thing in vars(entries).items()
-        if callable(thing) and not isinstance(thing, type) and name[0] != "_"
+        for name in api.__all__
+        if callable(thing := getattr(api, name)) and not isinstance(thing, type)
     }
     assert told == offered - {"Mapped", "AnyLog"}
 

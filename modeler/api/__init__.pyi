@@ -1,0 +1,55 @@
+from .checks import compare as compare, contest as contest, free_run as free_run, look_at as look_at
+from .fitting import (
+    Load as Load,
+    fit as fit,
+    fit_gains as fit_gains,
+    identified as identified,
+    side_by_side as side_by_side,
+)
+from .fleets import fleet as fleet
+from .improve import add as add, auto as auto, diagnose as diagnose, undo as undo
+from .motion import excite as excite, simulate as simulate, tell_apart as tell_apart
+from .pages import write_report as write_report
+from .physical_parameters import physical as physical
+from .postures import at_home as at_home, home as home
+from .reexports import (
+    Asked as Asked,
+    Comparison as Comparison,
+    CompiledModel as CompiledModel,
+    Derivation as Derivation,
+    Diagnosis as Diagnosis,
+    Emitted as Emitted,
+    FitResult as FitResult,
+    Fleet as Fleet,
+    FreeRunSettings as FreeRunSettings,
+    GpuModel as GpuModel,
+    IdentifiedModel as IdentifiedModel,
+    Log as Log,
+    Observation as Observation,
+    Payload as Payload,
+    Processing as Processing,
+    Robot as Robot,
+    show as show,
+)
+from .workflow import (
+    AnyLog as AnyLog,
+    Mapped as Mapped,
+    compile_model as compile_model,
+    derive as derive,
+    effects as effects,
+    estimators as estimators,
+    file_and_span as file_and_span,
+    generate as generate,
+    load as load,
+    log_map as log_map,
+    observe as observe,
+    on_gpu as on_gpu,
+    open_model as open_model,
+    own_effect as own_effect,
+    read_currents as read_currents,
+    read_logs as read_logs,
+    recompile as recompile,
+    reduced as reduced,
+    robots as robots,
+    save as save,
+)

@@ -1,0 +1,19 @@
+"""What other rooms define and `modeler.api` hands on: the things its functions take and give."""
+
+from modeler.codegen import Derivation as Derivation
+from modeler.core.manifest import Emitted as Emitted
+from modeler.diagnosis import Diagnosis as Diagnosis
+from modeler.estimation import (
+    FitResult as FitResult,
+    IdentifiedModel as IdentifiedModel,
+    Payload as Payload,
+)
+from modeler.fleet import Fleet as Fleet
+from modeler.observation import Log as Log, Observation as Observation, Processing as Processing
+from modeler.report import show as show
+from modeler.robot import Robot as Robot
+from modeler.runtime import CompiledModel as CompiledModel, GpuModel as GpuModel
+from modeler.validation import Comparison as Comparison, FreeRunSettings as FreeRunSettings
+
+Asked = FreeRunSettings
+"""As scripts and docs/free-run.md call it."""
