@@ -20,10 +20,10 @@ from modeler.excitation import (
     Task,
     Wish,
     condition,
+    default_harmonics,
     excite,
     random_motion,
     task_of,
-    usual_harmonics,
 )
 from modeler.robot import Robot, read_robot, robot_from_text, with_effects
 
@@ -113,7 +113,7 @@ def main(names: list[str]) -> None:
         robot = with_losses(read_robot(name))
         compiled = compile_model(generate(derive(robot)))
         bounds = bounds_of(robot, compiled, (), ())
-        wish = Wish(10.0, usual_harmonics(bounds, 10.0), "condition")
+        wish = Wish(10.0, default_harmonics(bounds, 10.0), "condition")
         begun = time.process_time()
         ours = excite(compiled, bounds, wish)
         seconds = time.process_time() - begun

@@ -10,7 +10,7 @@ from modeler.api.long_logs import are_long, sources_of, too_long
 from modeler.api.workflow import AnyLog, Mapped
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
-from modeler.logs import LogTable, Look, blocks_of, look, windows_of
+from modeler.logs import LogInspection, LogTable, blocks_of, inspect_log, windows_of
 from modeler.observation import (
     FINGER,
     LONG,
@@ -18,7 +18,7 @@ from modeler.observation import (
     WINDOWS,
     Log,
     Observation,
-    WholeNeeded,
+    WholeLogNeeded,
     check_apart,
 )
 from modeler.runtime import CompiledModel
@@ -55,7 +55,7 @@ def compared(
             comparison, observation = validation.compare_long(model, sources, compiled, progress)
             check_apart(observation.report.logs)
             return comparison, observation
-        except WholeNeeded as error:
+        except WholeLogNeeded as error:
             if too_long(logs):
                 raise
             tell(f"{error}; read as a whole instead")
@@ -148,7 +148,9 @@ def free_run(
 # What is in a log, before anything is fitted to it.
 
 
-def look_at(place: str | Path, compiled: CompiledModel | None = None, mapping: Mapped = ()) -> Look:
+def look_at(
+    place: str | Path, compiled: CompiledModel | None = None, mapping: Mapped = ()
+) -> LogInspection:
     """Channels, clock, gaps and doubts of a log.
 
     Args:
@@ -165,7 +167,7 @@ def look_at(place: str | Path, compiled: CompiledModel | None = None, mapping: M
     blocks, span = blocks_of(Path(path)), span or (None, None)
     if blocks is None or blocks.rows <= LONG:
         table = LogTable(Path(path), names, joints, any_topic=True)
-        return look(table, names, joints, span)
+        return inspect_log(table, names, joints, span)
     seen = windows_of(blocks, WINDOWS, WINDOW)
     every = (LogTable(Path(path), names, joints, part=own) for own in blocks.blocks(FINGER))
-    return look(LogTable(Path(path), names, joints, part=seen), names, joints, span, every)
+    return inspect_log(LogTable(Path(path), names, joints, part=seen), names, joints, span, every)

@@ -46,7 +46,7 @@ class FitRequest:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Way:
+class FitOutcome:
     """What a way to fit ends in.
 
     Attributes:
@@ -68,7 +68,7 @@ class Way:
 
 def estimated(
     asked: FitRequest, robot: Robot, compiled: CompiledModel, observation: Observation
-) -> Way:
+) -> FitOutcome:
     """The fit that is asked for.
 
     Raises:
@@ -80,14 +80,14 @@ def estimated(
         energy = estimation.identify_energy(
             compiled, observation, asked.window, method, asked.below
         )
-        return Way(energy.result, refit=energy.without)
+        return FitOutcome(energy.result, refit=energy.without)
     if asked.method == TWO_STEPS:
         ways = estimation.Directions(joint_directions(robot))
         steps = estimation.two_step_result.identify_in_two_steps(
             compiled, observation, ways, asked.below
         )
         further = {"two_step": steps.to_json()}
-        return Way(steps.result, steps.doubts(), lines=steps.lines(), further=further)
+        return FitOutcome(steps.result, steps.doubts(), lines=steps.lines(), further=further)
     if asked.payloads:
         result = estimation.identify_with_payloads(
             compiled, observation, asked.payloads, method, asked.below
@@ -95,12 +95,15 @@ def estimated(
         current = estimation.are_currents(observation.report.logs)
         told = estimation.known_doubts(compiled, observation, asked.payloads, current)
         equations = estimation.loaded_equations(compiled, observation, asked.payloads).equations
-        return Way(result, told, equations=equations)
-    return Way(estimation.identify(observation, method, compiled, asked.below))
+        return FitOutcome(result, told, equations=equations)
+    return FitOutcome(estimation.identify(observation, method, compiled, asked.below))
 
 
 def judged(
-    compiled: CompiledModel, observation: Observation, way: Way, data: Compressed | None = None
+    compiled: CompiledModel,
+    observation: Observation,
+    way: FitOutcome,
+    data: Compressed | None = None,
 ) -> estimation.FitResult:
     """Its result with the verdict, to which all that is found in the logs counts.
 
@@ -192,7 +195,7 @@ def fitted(
     compiled: CompiledModel,
     observation: Observation,
     working: Steps = silent,
-) -> tuple[estimation.IdentifiedModel, Way]:
+) -> tuple[estimation.IdentifiedModel, FitOutcome]:
     """The same, and the way that was taken."""
     with working("estimating"):
         way = estimated(asked, derivation.robot, compiled, observation)
@@ -306,7 +309,7 @@ def found_with_gains(
         apart = estimation.not_together(again, observation, payloads)
         told = [estimation.Doubt(line, values=True) for line in apart]
         equations = estimation.loaded_equations(again, observation, payloads).equations
-        result = judged(again, observation, Way(result, told, equations=equations))
+        result = judged(again, observation, FitOutcome(result, told, equations=equations))
     if lines := estimation.deviations(compiled.spec, found):
         against = f"against the robot file: {'; '.join(lines)}"
         result = dataclasses.replace(result, sentences=(*result.sentences, against))
@@ -343,12 +346,12 @@ def side_by_side(
         if isinstance(robot, Robot)
         else robot
     )
-    observation, held = observed_apart(compiled, logs, holdout)
+    observation, held = observe_held_out(compiled, logs, holdout)
     tried = estimation.side_by_side(observation, compiled, held, chosen, progress)
     return estimation.SideBySide(compiled.spec.robot, tried, tuple(observation.report.lines()))
 
 
-def observed_apart(
+def observe_held_out(
     compiled: CompiledModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog], mapping: Mapped = ()
 ) -> tuple[Observation, Observation | None]:
     """Logs to fit, and held-out ones processed alike; None without any."""

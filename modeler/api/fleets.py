@@ -11,10 +11,10 @@ from modeler.core.jobs import Workers, open_workers
 from modeler.core.manifest import Emitted
 from modeler.fleet import (
     Fleet,
-    Left,
     LogJob,
     LogSummary,
     Named,
+    SkippedLog,
     fleet_of,
     in_order,
     named_logs,
@@ -84,14 +84,14 @@ def reduce_logs(
     processing: Processing | None = None,
     mapping: Mapped = (),
     progress: Progress | None = None,
-) -> list[LogSummary | Left]:
+) -> list[LogSummary | SkippedLog]:
     """The summaries of all logs; all filtered as is chosen from the first that can be used."""
     names = log_map(compiled, mapping)
     jobs = []
     for each in named:
         path, span = file_and_span(each.place)
         jobs.append(LogJob(each, str(Path(path).absolute()), span, processing, names))
-    found: list[LogSummary | Left] = []
+    found: list[LogSummary | SkippedLog] = []
     while len(found) < len(jobs) and not (found and isinstance(found[-1], LogSummary)):
         found.append(reduce_log(emitted, jobs[len(found)]))
     if found and isinstance(found[-1], LogSummary):
@@ -113,9 +113,9 @@ def _reduced(
     processing: Processing | None,
     mapping: Mapped,
     progress: Progress | None,
-) -> list[LogSummary | Left]:
+) -> list[LogSummary | SkippedLog]:
     """The same of logs at hand, in this process."""
-    found: list[LogSummary | Left] = []
+    found: list[LogSummary | SkippedLog] = []
     for named in in_order(logs):
         try:
             [log] = read_logs(compiled, [logs[named]], mapping)
@@ -123,7 +123,7 @@ def _reduced(
             found.append(own)
             processing = own.processing
         except (DataError, LoopError) as error:
-            found.append(Left(named, str(error)))
+            found.append(SkippedLog(named, str(error)))
         if progress is not None:
             progress(len(found) / len(logs))
     return found

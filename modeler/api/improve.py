@@ -109,7 +109,7 @@ def missing(
 ) -> diagnosis.Diagnosis:
     """What a diagnosis finds, which tries the effects that the robot file defines too."""
     robot = robot_from_text(model.robot_text, f"model of {model.spec.robot}, robot")
-    known = diagnosis.Known(robot.catalogue, robot.coupling)
+    known = diagnosis.StatedEffects(robot.catalogue, robot.coupling)
     return diagnosis.diagnose(
         model, compiled, logs.fitted, logs.held_out, without, progress=progress, known=known
     )

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TypeGuard
 
 from modeler import observation
-from modeler.api.fitting import Way, identified, judged
+from modeler.api.fitting import FitOutcome, identified, judged
 from modeler.api.workflow import AnyLog, Mapped, file_and_span, log_map, read_logs
 from modeler.codegen import Derivation
 from modeler.core.errors import DataError, Method
@@ -44,7 +44,7 @@ def too_long(places: Sequence[AnyLog]) -> bool:
     return rows_of(places) > observation.MOST_WHOLE
 
 
-def check_whole(places: Sequence[AnyLog], what: str) -> None:
+def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
     """Refuse logs that are too long to be read at once.
 
     Raises:
@@ -109,7 +109,7 @@ def fit_long(
 
 def judged_long(compiled: CompiledModel, streamed: chunked.Streamed, method: Method) -> FitResult:
     """The fit of long logs with its verdict."""
-    way = Way(chunked.identify_long(streamed, method, compiled))
+    way = FitOutcome(chunked.identify_long(streamed, method, compiled))
     return judged(compiled, streamed.observation, way, streamed.data)
 
 
@@ -127,7 +127,7 @@ class Shared:
     emitted: Emitted
     path: Path
     mapping: LogMap | None
-    chosen: observation.Chosen
+    chosen: observation.LogChoices
     rows: int
 
 
@@ -144,7 +144,7 @@ def by_workers(workers: Workers, emitted: Emitted) -> chunked.Reducer:
     """
 
     def reducer(
-        model: CompiledModel, source: observation.Source, chosen: observation.Chosen
+        model: CompiledModel, source: observation.Source, chosen: observation.LogChoices
     ) -> Iterator[chunked.Partial]:
         if not from_anywhere(source):
             return chunked.by_threads(model, source, chosen)

@@ -21,7 +21,7 @@ from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
 Progress = Callable[[float], None]
 
 
-def _untold(share: float) -> None:
+def _no_progress(share: float) -> None:
     """Nobody looks."""
 
 
@@ -43,7 +43,7 @@ class Subject:
     beta: np.ndarray | None = None
 
     def search(
-        self, bounds: excitation.Bounds, wish: excitation.Wish, progress: Progress = _untold
+        self, bounds: excitation.Bounds, wish: excitation.Wish, progress: Progress = _no_progress
     ) -> excitation.Exciting:
         """The motion that tells its parameters apart."""
         return excitation.excite(
@@ -70,7 +70,7 @@ def excite(
     *,
     limits: Mapping[str, Sequence[float]] | None = None,
     boxes: Mapping[str, Sequence[float]] | None = None,
-    progress: Progress = _untold,
+    progress: Progress = _no_progress,
     **wish: Any,
 ) -> excitation.Exciting:
     """A motion within limits along which the parameters are well told apart (docs/excitation.md).
@@ -99,9 +99,9 @@ def tell_apart(
     *,
     limits: Mapping[str, Sequence[float]] | None = None,
     boxes: Mapping[str, Sequence[float]] | None = None,
-    progress: Progress = _untold,
+    progress: Progress = _no_progress,
     **wish: Any,
-) -> tuple[excitation.Exciting, excitation.Apart]:
+) -> tuple[excitation.Exciting, excitation.Separation]:
     """The motion along which two effects that the model lacks are least alike.
 
     Args:
@@ -128,7 +128,7 @@ def _wish(bounds: excitation.Bounds, given: Mapping[str, Any]) -> excitation.Wis
         if name not in known:
             raise DataError(f"excite: got {name}; expected some of {', '.join(known)}")
     duration = given.get("duration", excitation.Wish().duration)
-    return excitation.Wish(**{"harmonics": excitation.usual_harmonics(bounds, duration), **given})
+    return excitation.Wish(**{"harmonics": excitation.default_harmonics(bounds, duration), **given})
 
 
 def question_of(subject: Subject, texts: str, where: str = "--between") -> excitation.Question:

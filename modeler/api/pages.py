@@ -9,11 +9,13 @@ from modeler.core.errors import DataError
 from modeler.diagnosis import Diagnosis
 from modeler.estimation import IdentifiedModel, SideBySide
 from modeler.fleet import Fleet
-from modeler.logs import Look
+from modeler.logs import LogInspection
 from modeler.robot import Robot
 from modeler.validation import Comparison, Contest
 
-Reported = Robot | Look | IdentifiedModel | Comparison | Contest | Diagnosis | SideBySide | Fleet
+Reported = (
+    Robot | LogInspection | IdentifiedModel | Comparison | Contest | Diagnosis | SideBySide | Fleet
+)
 """What has a page."""
 
 
@@ -44,7 +46,7 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
 
 
 _PAGES: Mapping[type, Callable[[Any, Sequence[str]], report.Page]] = {
-    Look: lambda look, notes: report.log_page(look, look.doubts, notes),
+    LogInspection: lambda look, notes: report.log_page(look, look.doubts, notes),
     SideBySide: lambda s, notes: report.estimators_page(s.robot, s.tried, [*s.data, *notes]),
     IdentifiedModel: lambda m, notes: (report.additions_page if m.history else report.fit_page)(
         m, notes

@@ -17,20 +17,20 @@ from modeler.formulas import (
     CadComparison,
     ClosedSolution,
     DerivedValue,
-    Given,
     KnownAgainstFit,
     KnownSets,
+    KnownValues,
     PhysicalSystem,
     Rated,
+    check_known,
     compare_cad,
     easiest_set,
-    given_from_text,
+    known_from_text,
     known_sets,
     physical_system,
     rated,
     smallest_number,
     solve,
-    test_known,
     values as rules,
 )
 from modeler.robot import Robot, robot_from_text
@@ -103,7 +103,7 @@ class Physical(Presented):
     derivation: Derivation
     fitted: FittedSource | None
 
-    def formulas(self, known: str | Given) -> ClosedSolution:
+    def formulas(self, known: str | KnownValues) -> ClosedSolution:
         """The other parameters in closed form, checked exactly on random robots.
 
         Args:
@@ -112,7 +112,7 @@ class Physical(Presented):
         Raises:
             RobotError: a name that is none.
         """
-        given = given_from_text(known, self.system, "known") if isinstance(known, str) else known
+        given = known_from_text(known, self.system, "known") if isinstance(known, str) else known
         solution = solve(self.system, given.names)
         good = rules.verify(solution)
         if good != VERIFIED:
@@ -133,15 +133,15 @@ class Physical(Presented):
             DataError: of a robot, or a known parameter without a value.
             RobotError: a name that is none.
         """
-        given = given_from_text(known, self.system, "known")
+        given = known_from_text(known, self.system, "known")
         for name in given.names:
             if name not in given.values:
                 raise DataError(f"known: no value of {name}; expected {name}=VALUE, SI units")
-        hints = given_from_text(near, self.system, "near")
+        hints = known_from_text(near, self.system, "near")
         return self.solved(self.formulas(given), given, hints.values)
 
     def solved(
-        self, solution: ClosedSolution, given: Given, near: Mapping[str, float]
+        self, solution: ClosedSolution, given: KnownValues, near: Mapping[str, float]
     ) -> PhysicalValues:
         """The values of formulas."""
         fitted = self._with_values()
@@ -155,7 +155,7 @@ class Physical(Presented):
                 if derived.slopes[k, derived.inputs.index(name)] != 0.0:
                     doubts[letter] = f"{letter} needs {name}, and {why}"
         doubts |= rules.impossible(derived, self.system)
-        tested = test_known(solution, data, fitted.covariance, given.values, given.sigmas)
+        tested = check_known(solution, data, fitted.covariance, given.values, given.sigmas)
         return PhysicalValues(self.system, derived, doubts, tuple(tested))
 
     def sets(
@@ -164,7 +164,7 @@ class Physical(Presented):
         """All sets of `size` parameters from which the others follow; None: the smallest."""
         return known_sets(self.system, size, progress or (lambda share: None))
 
-    def rated(self, found: KnownSets, cad: Given) -> tuple[Rated, ...]:
+    def rated(self, found: KnownSets, cad: KnownValues) -> tuple[Rated, ...]:
         """The easiest of these sets, the least error first.
 
         Raises:
@@ -175,20 +175,20 @@ class Physical(Presented):
             raise DataError(f"--cad: no value of {', '.join(missing)}; expected all parameters")
         return rated(self.system, found.easiest, cad.values)
 
-    def cad(self, file: str | Path = NOMINAL) -> Given:
+    def cad(self, file: str | Path = NOMINAL) -> KnownValues:
         """CAD values from a file, or, without one, those that the robot file states."""
         if str(file) != NOMINAL:
             return rules.cad_from_file(Path(file), self.system)
         robot = self.derivation.robot
         return rules.cad_from_robot(robot, self.system, f"--cad, robot {self.system.robot}")
 
-    def against(self, cad: Given | str | Path = NOMINAL) -> CadComparison:
+    def against(self, cad: KnownValues | str | Path = NOMINAL) -> CadComparison:
         """The identified quantities against CAD.
 
         Raises:
             DataError: of a robot.
         """
-        given = cad if isinstance(cad, Given) else self.cad(cad)
+        given = cad if isinstance(cad, KnownValues) else self.cad(cad)
         fitted = self._with_values()
         return compare_cad(
             self.system, fitted.data.tolist(), fitted.covariance, given.values, given.sigmas,
@@ -272,7 +272,7 @@ def _physical_summary(found: Physical) -> str:
     ])  # fmt: skip
 
 
-def _letters_table(found: Physical) -> Table:
+def _symbols_table(found: Physical) -> Table:
     system = found.system
     rows = [(x, system.kinds[x], UNITS[system.kinds[x]]) for x in system.letters]
     return Table.of(f"{system.robot}: physical parameters", "parameter, kind, unit", rows)
@@ -282,5 +282,5 @@ present({
     PhysicalValues: Presentation("a set of physical parameters", _values_summary,
                                  lambda v: {"values": lambda: values_table(v)}),
     Physical: Presentation("a system of physical parameters", _physical_summary,
-                           lambda p: {"parameters": lambda: _letters_table(p)}),
+                           lambda p: {"parameters": lambda: _symbols_table(p)}),
 })  # fmt: skip

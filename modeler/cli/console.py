@@ -73,13 +73,13 @@ def step(title: str) -> Iterator[None]:
         yield
         return
     begun = time.perf_counter()
-    complain(f"{title} ...")
+    print_error(f"{title} ...")
     how = "stopped"
     try:
         yield
         how = "done"
     finally:
-        complain(f"{title}: {how} after {time.perf_counter() - begun:.2f} s")
+        print_error(f"{title}: {how} after {time.perf_counter() - begun:.2f} s")
 
 
 @contextmanager
@@ -108,7 +108,7 @@ def clock(title: str) -> Iterator[None]:
         ticking.join()
 
 
-def tell_start(words: Sequence[str]) -> None:
+def show_start(words: Sequence[str]) -> None:
     """The command as it was read, and the versions of what it runs with."""
     if loudness() is not Loudness.VERBOSE:
         return
@@ -118,11 +118,11 @@ def tell_start(words: Sequence[str]) -> None:
     for name in _PACKAGES:
         with contextlib.suppress(PackageNotFoundError):
             found.append(f"{name} {version(name)}")
-    complain(f"words: {' '.join(words)}")
-    complain(", ".join(found))
+    print_error(f"words: {' '.join(words)}")
+    print_error(", ".join(found))
 
 
-def tell_error() -> None:
+def show_traceback() -> None:
     """Where the error that is being handled came from."""
     if loudness() is Loudness.VERBOSE:
         import traceback
@@ -155,7 +155,7 @@ def say_lines(lines: Iterable[str], before: str = "") -> None:
         say(before + line)
 
 
-def say_next(commands: Sequence[str]) -> None:
+def show_next_command(commands: Sequence[str]) -> None:
     """The command to go on with, as the last line."""
     say_lines(commands[:1], "next: ")
 
@@ -211,7 +211,7 @@ def flush_stdout() -> None:
         raise
 
 
-def complain(text: str) -> None:
+def print_error(text: str) -> None:
     """One line on stderr; if that cannot be written, the exit status has to do."""
     _raw(f"modeler: {text}\n")
 
@@ -219,10 +219,10 @@ def complain(text: str) -> None:
 def note(text: str) -> None:
     """One line on stderr that is no error; none with --quiet."""
     if loudness() is not Loudness.QUIET:
-        complain(text)
+        print_error(text)
 
 
-def show_any_letter() -> None:
+def escape_unprintable() -> None:
     """What a terminal has no letter for is shown as its code, instead of being an error."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):

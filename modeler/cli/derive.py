@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler import formulas
-from modeler.cli.console import Json, complain, say, say_lines, working
+from modeler.cli.console import Json, print_error, say, say_lines, working
 from modeler.cli.lists import robot_of, robot_with_effects
 from modeler.cli.options import FEW_JOINTS, Form
 from modeler.codegen import Derivation, derive, generate
@@ -190,7 +190,7 @@ def run_derive(args: argparse.Namespace) -> Json:
     words.say()
     words.say(relations.proof_text(base.proof))
     words.say(agreement)
-    result |= say_closed_forms(args, derivation, words)
+    result |= print_closed_forms(args, derivation, words)
     if args.page is not None:
         from modeler.report import (
             derivation_page,  # pages take long to load
@@ -242,7 +242,7 @@ def second_opinion(derivation: Derivation, samples: int = 50) -> float:
     return float(np.max(np.abs(tau - other))) / largest if largest else 0.0
 
 
-def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Words) -> Json:
+def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Words) -> Json:
     """Prints what was asked for; for few joints the coefficients unasked.
 
     Returns:
@@ -275,14 +275,14 @@ def say_closed_forms(args: argparse.Namespace, derivation: Derivation, words: Wo
     unasked = few and args.format == "text" and not (args.closed_form or args.regressor)
     wanted = unasked if args.terms is None else args.terms
     if wanted:
-        _say_coefficients(args, derivation, words)
+        _print_coefficients(args, derivation, words)
     if args.report is not None:
         write_atomically(Path(args.report), formulas.terms_report(model, derivation.base))
         words.say(f"written: {args.report}")
     return added
 
 
-def _say_coefficients(args: argparse.Namespace, derivation: Derivation, words: Words) -> None:
+def _print_coefficients(args: argparse.Namespace, derivation: Derivation, words: Words) -> None:
     # What was not asked for must not take away what was.
     unasked = args.terms is None and args.report is None
     try:
@@ -344,7 +344,7 @@ def run_generate(args: argparse.Namespace) -> Json:
         with working(f"deriving {model.spec.robot}"):
             emitted = generate_of_model(model, args.out, args.force, **kinds)
         for line in model.warning:
-            complain(line)
+            print_error(line)
     else:
         robot = robot_of(args)
         with working(f"deriving {robot.name}"):
@@ -356,7 +356,7 @@ def run_generate(args: argparse.Namespace) -> Json:
     from modeler.codegen import leftovers  # jinja2, which `derive` has no use for
 
     for name in leftovers(emitted, args.out):
-        complain(
+        print_error(
             f"{args.out}: {name} is of an earlier generate and belongs to this code no more; it "
             "was edited since, so it stays: remove it, or keep it elsewhere"
         )

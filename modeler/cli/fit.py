@@ -8,7 +8,16 @@ from pathlib import Path
 import modeler.api.fitting as fitting
 import modeler.api.long_logs as long_logs
 from modeler.api.workflow import compile_model, derive, generate, read_logs
-from modeler.cli.console import Json, draw_page, note, progress, say, say_lines, say_next, working
+from modeler.cli.console import (
+    Json,
+    draw_page,
+    note,
+    progress,
+    say,
+    say_lines,
+    show_next_command,
+    working,
+)
 from modeler.cli.lists import robot_of
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError
@@ -19,7 +28,7 @@ from modeler.core.json import entries
 from modeler.core.manifest import Emitted
 from modeler.core.table import aligned
 from modeler.estimation import OF_TRIANGLES, IdentifiedModel, save_model, side_by_side
-from modeler.observation import Log, Observation, Processing, WholeNeeded, check_apart, observe
+from modeler.observation import Log, Observation, Processing, WholeLogNeeded, check_apart, observe
 from modeler.report import after_fit, estimators_page, remarks_of, table_of, values_of, write_page
 from modeler.robot import INERTIAL, robot_from_text, with_parameters
 from modeler.runtime import CompiledModel
@@ -133,7 +142,7 @@ def _fit_if_long(
                 f"which needs all rows in one memory; expected --method "
                 f"{' or '.join(OF_TRIANGLES)} of the torque model; leave --dask out"
             )
-        long_logs.check_whole(places, whole or f"method {args.method}")
+        long_logs.check_fits_memory(places, whole or f"method {args.method}")
         return None
     cluster = nullcontext() if args.dask is None else open_workers(args.dask)
     try:
@@ -149,7 +158,7 @@ def _fit_if_long(
             model, streamed = long_logs.fit_long(
                 derivation, emitted, compiled, sources, args.method, processing, bar, reducer
             )
-    except WholeNeeded as error:
+    except WholeLogNeeded as error:
         if long_logs.too_long(places):
             raise
         note(f"{error}; read as a whole instead")
@@ -187,7 +196,7 @@ def _written(
         write_atomically(Path(args.robot_out), text)
         say(f"written: {args.robot_out}")
     say(verdict)
-    say_next(after_fit(args.out, [*args.logs, *args.payload_log], args.robot, model.fit))
+    show_next_command(after_fit(args.out, [*args.logs, *args.payload_log], args.robot, model.fit))
     return model.fit.to_json()
 
 
@@ -214,7 +223,7 @@ def run_estimators(args: argparse.Namespace) -> Json:
     with working(f"deriving {robot.name}"):
         compiled = compile_model(generate(derive(robot)))
     with working("building the observation matrix"):
-        observation, held = fitting.observed_apart(compiled, args.logs, args.holdout, args.map)
+        observation, held = fitting.observe_held_out(compiled, args.logs, args.holdout, args.map)
     with progress("fitting") as bar:
         tried = side_by_side(observation, compiled, held, methods, bar)
     lines = tuple(observation.report.lines())

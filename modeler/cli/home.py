@@ -7,7 +7,7 @@ import numpy as np
 
 from modeler.api.postures import chosen_mode, home as home_modes
 from modeler.cli.console import Json, say, say_lines, working
-from modeler.cli.lists import read_told
+from modeler.cli.lists import read_robot_with_notes
 from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
 from modeler.core.errors import DataError
 from modeler.core.files import check_writable, write_atomically
@@ -30,7 +30,7 @@ def run_home(args: argparse.Namespace) -> Json:
         )
     if args.write:
         _check_ours(args.robot)
-    robot = read_told(args.robot)
+    robot = read_robot_with_notes(args.robot)
     near = _near(args, robot)
     with working(f"closing the loops of {robot.name}"):
         found = home_modes(robot, near, args.anew)

@@ -101,7 +101,7 @@ def robot_of(args: argparse.Namespace) -> Robot:
 
 def robot_with_effects(args: argparse.Namespace) -> Robot:
     """The robot that the arguments name, with the effects that they give it."""
-    robot = read_told(args.robot)
+    robot = read_robot_with_notes(args.robot)
     if args.effects is None:
         return robot
     wanted = [name.strip() for name in args.effects.split(",") if name.strip()]
@@ -116,7 +116,7 @@ def robot_with_effects(args: argparse.Namespace) -> Robot:
     return robot_from_text(text, f"{args.robot} with --effects")
 
 
-def read_told(name: str) -> Robot:
+def read_robot_with_notes(name: str) -> Robot:
     """The robot of that name or file; what a conversion decided or left out, on stderr."""
     robot = read_robot(name)
     for line in conversion_notes(name):
@@ -127,7 +127,7 @@ def read_told(name: str) -> Robot:
 def run_robots(args: argparse.Namespace) -> Json:
     """Prints the table of built-in robots, or one robot's file."""
     if args.show is not None:
-        text = read_told(args.show).text
+        text = read_robot_with_notes(args.show).text
         say(text.rstrip())
         return {"name": args.show, "text": text}
     robots = [read_robot(name) for name in builtin_names()]

@@ -9,15 +9,15 @@ from pathlib import Path
 
 import modeler.api.workflow as workflow
 from modeler.api.checks import look_at
-from modeler.api.fitting import Way, judged
+from modeler.api.fitting import FitOutcome, judged
 from modeler.api.long_logs import are_long, judged_long, too_long
 from modeler.cli.console import Json, progress, say, say_lines, working
-from modeler.cli.lists import read_told
+from modeler.cli.lists import read_robot_with_notes
 from modeler.core.errors import ModelerError
 from modeler.core.table import aligned, percent
 from modeler.estimation import FitResult, identify, stream
-from modeler.logs import LogMap, Look, map_from_table, map_from_words
-from modeler.observation import Observation, WholeNeeded, findings_of_fit, source_of
+from modeler.logs import LogInspection, LogMap, map_from_table, map_from_words
+from modeler.observation import Observation, WholeLogNeeded, findings_of_fit, source_of
 from modeler.report import channel_rows, clock_line, log_page, log_pictures, write_files, write_page
 from modeler.runtime import CompiledModel
 
@@ -31,7 +31,7 @@ def run_log(args: argparse.Namespace) -> Json:
     """Prints what the log holds, its doubts, and a [log] to start from."""
     compiled = None
     if args.robot is not None:
-        robot = read_told(args.robot)
+        robot = read_robot_with_notes(args.robot)
         with working(f"deriving {robot.name}"):
             compiled = workflow.compile_model(workflow.generate(workflow.derive(robot)))
     mapping = map_from_words(args.map) if compiled is None else workflow.log_map(compiled, args.map)
@@ -57,7 +57,7 @@ def run_log(args: argparse.Namespace) -> Json:
     return seen.to_json() | {"doubts": doubts}
 
 
-def _lines(seen: Look, doubts: Sequence[str]) -> list[str]:
+def _lines(seen: LogInspection, doubts: Sequence[str]) -> list[str]:
     lines = [f"{seen.name}: {seen.rows} rows"]
     lines += [
         f"  {stream.name}  {stream.kind}, {stream.rows} messages{', the clock' * stream.clock}"
@@ -87,7 +87,7 @@ class Heard:
 
 
 def doubts_of_fit(
-    compiled: CompiledModel, place: str, mapping: LogMap, seen: Look
+    compiled: CompiledModel, place: str, mapping: LogMap, seen: LogInspection
 ) -> tuple[tuple[str, ...], bool]:
     """What contradicts the robot; and whether the log fits without what ranges say of positions.
 
@@ -109,7 +109,7 @@ def _mapped(text: str, mapping: LogMap) -> LogMap:
     return map_from_table(table, "guessed [log]").overriding(mapping) if table else mapping
 
 
-def _heard(compiled: CompiledModel, place: str, mapping: LogMap, seen: Look) -> Heard:
+def _heard(compiled: CompiledModel, place: str, mapping: LogMap, seen: LogInspection) -> Heard:
     try:
         with working("fitting"):
             observation, result = _fitted(compiled, place, mapping)
@@ -137,9 +137,9 @@ def _fitted(compiled: CompiledModel, place: str, mapping: LogMap) -> tuple[Obser
             assert source is not None  # others are not known to be long
             streamed = stream(compiled, [source])
             return streamed.observation, judged_long(compiled, streamed, "weighted")
-        except WholeNeeded:
+        except WholeLogNeeded:
             if too_long([place]):
                 raise
     observation = workflow.observe(compiled, [workflow.read_mapped(place, compiled.spec, mapping)])
-    way = Way(identify(observation, "weighted", compiled))
+    way = FitOutcome(identify(observation, "weighted", compiled))
     return observation, judged(compiled, observation, way)

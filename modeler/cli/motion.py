@@ -28,7 +28,7 @@ def run_excite(args: argparse.Namespace) -> Json:
         return _choose(args, subject)
     harmonics = args.harmonics
     if harmonics is None:
-        harmonics = excitation.usual_harmonics(bounds, args.duration)
+        harmonics = excitation.default_harmonics(bounds, args.duration)
     wish = excitation.Wish(
         args.duration, harmonics,
         args.objective, args.starts, args.seed, args.time_limit, args.laps,
@@ -215,6 +215,6 @@ def run_simulate(args: argparse.Namespace) -> Json:
         "joints": list(log.joints),
         "parameters": dict(log.truth.parameters),
         "drawn": list(log.truth.drawn),
-        "hidden": simulation.told_hidden(log),
+        "hidden": simulation.hidden_json(log),
         "range_share": log.range_share,
     }

@@ -6,7 +6,7 @@ from pathlib import Path
 from modeler import formulas
 from modeler.api.physical_parameters import UNITS, Physical, PhysicalValues, physical
 from modeler.cli.console import Json, note, progress, say, say_lines, working
-from modeler.cli.lists import read_told
+from modeler.cli.lists import read_robot_with_notes
 from modeler.codegen import derive
 from modeler.core.errors import DataError
 from modeler.core.json import entries
@@ -27,7 +27,7 @@ def run_physical(args: argparse.Namespace) -> Json:
             f"--sets: got {args.sets}; expected 1 or more, or --sets alone for the smallest"
         )
     model = load_model(args.source) if Path(args.source).suffix.lower() == ".json" else None
-    thing = derive(read_told(args.source)) if model is None else model
+    thing = derive(read_robot_with_notes(args.source)) if model is None else model
     with working(f"physical parameters of {args.source}"):
         subject = physical(thing, args.of)
     system = subject.system
@@ -86,7 +86,7 @@ def _overview(system: formulas.PhysicalSystem, source: str, fitted: bool) -> dic
 def _known(args: argparse.Namespace, subject: Physical) -> dict[str, Json]:
     """Formulas; values if there is a model."""
     system, fitted = subject.system, subject.fitted
-    given = formulas.given_from_text(args.known, system)
+    given = formulas.known_from_text(args.known, system)
     _check_given(args, given, fitted is not None)
     with working("solving"):
         solution = subject.formulas(given)
@@ -105,12 +105,12 @@ def _known(args: argparse.Namespace, subject: Physical) -> dict[str, Json]:
         solution, {"robots": formulas.VERIFIED, "right": formulas.VERIFIED}
     )
     if fitted is not None:
-        near = formulas.given_from_text(args.near or "", system, "--near")
+        near = formulas.known_from_text(args.near or "", system, "--near")
         told["values"] = _values(subject.solved(solution, given, near.values))
     return dict(told)
 
 
-def _check_given(args: argparse.Namespace, given: formulas.Given, fitted: bool) -> None:
+def _check_given(args: argparse.Namespace, given: formulas.KnownValues, fitted: bool) -> None:
     """A model needs values of all that is known, a robot has no use for any."""
     if not fitted and (given.values or args.near is not None):
         raise DataError(
@@ -156,11 +156,11 @@ def _values(found: PhysicalValues) -> Json:
             }
         )
     say_lines(doubts.values(), "not told: ")
-    _tell_tested(found.tested)
+    _print_tested(found.tested)
     return {"parameters": rows, "known_against_fit": [vars(row) for row in found.tested]}
 
 
-def _tell_tested(tested: tuple[formulas.KnownAgainstFit, ...]) -> None:
+def _print_tested(tested: tuple[formulas.KnownAgainstFit, ...]) -> None:
     """The known parameters against the fit.
 
     Raises:
@@ -186,7 +186,7 @@ def _tell_tested(tested: tuple[formulas.KnownAgainstFit, ...]) -> None:
         )
 
 
-def _sets(subject: Physical, size: int | None, cad: formulas.Given | None) -> Json:
+def _sets(subject: Physical, size: int | None, cad: formulas.KnownValues | None) -> Json:
     system = subject.system
     with progress("counting") as tell:
         found = subject.sets(size, tell)
@@ -219,7 +219,7 @@ def _sets(subject: Physical, size: int | None, cad: formulas.Given | None) -> Js
     }
 
 
-def _against_cad(subject: Physical, cad: formulas.Given) -> Json:
+def _against_cad(subject: Physical, cad: formulas.KnownValues) -> Json:
     found = subject.against(cad)
     say(f"{'quantity':<8} {'identified':>12} {'sigma':>9} {'CAD':>12} {'z':>8}  depends on")
     for row in found.rows:
@@ -227,7 +227,7 @@ def _against_cad(subject: Physical, cad: formulas.Given) -> Json:
         say(f"{row.name:<8} {row.identified:>12.5g} {row.sigma:>9.2g} {row.cad:>12.5g} "
             f"{row.z:>8.1f}  {' '.join(row.letters)}  {mark}".rstrip())  # fmt: skip
     say_lines(f"{name:<8} not compared: {why}" for name, why in found.left_out.items())
-    _tell_explained(found)
+    _print_explained(found)
     return {
         "rows": [vars(row) | {"letters": list(row.letters)} for row in found.rows],
         **entries(found, "limit chi_squared"),
@@ -240,7 +240,7 @@ def _against_cad(subject: Physical, cad: formulas.Given) -> Json:
     }
 
 
-def _tell_explained(found: formulas.CadComparison) -> None:
+def _print_explained(found: formulas.CadComparison) -> None:
     say()
     if not found.suspicious:
         say(f"all {len(found.rows)} agree with CAD (|z| below {found.limit:.2f})")

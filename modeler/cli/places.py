@@ -209,12 +209,12 @@ def check_places(args: argparse.Namespace) -> None:
             file, is named twice, or cannot be written; or it lies where a folder of this command
             has a file of its own.
     """
-    given = list(_given(args))
+    given = list(_typed_arguments(args))
     for _, place in given:
         if isinstance(place, Input) and not place:
             raise DataError(f'got "" for {place.what}; expected the name of a file')
     read = [(place.what, found) for _, place in given if isinstance(place, Input)
-            if (found := _found(place.file)) is not None]  # fmt: skip
+            if (found := _existing_input(place.file)) is not None]  # fmt: skip
     folders = [(option, place) for option, place in given if isinstance(place, OutputFolder)]
     for option, folder in folders:
         files.check_folder_writable(Path(folder))
@@ -229,14 +229,14 @@ def check_places(args: argparse.Namespace) -> None:
             taken.append((option, found))
 
 
-def _given(args: argparse.Namespace) -> Iterator[tuple[str, object]]:
+def _typed_arguments(args: argparse.Namespace) -> Iterator[tuple[str, object]]:
     """Every argument, with its name as it is typed."""
     for name, value in vars(args).items():
         for each in value if isinstance(value, list) else [value]:
             yield "--" + name.replace("_", "-"), each
 
 
-def _found(path: Path) -> files.Destination | None:
+def _existing_input(path: Path) -> files.Destination | None:
     """An input; None if it is not there, or no file: nothing of it can be lost."""
     try:
         found = files.destination(path)
@@ -256,7 +256,7 @@ def _checked(
     if place == "-":
         raise DataError(f"{given}: only --json takes - for stdout; expected the name of a file")
     for path in {Path(place), place.file}:
-        there = _found(path)
+        there = _existing_input(path)
         what = next((what for what, other in read if there and _same(there, other)), None)
         if what is None and path.suffix.lower() in LOG_ENDINGS and not isinstance(place, NewLog):
             what = LogFile.what

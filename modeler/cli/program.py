@@ -27,8 +27,8 @@ Phase = Callable[[], AbstractContextManager[None]]
 def started(words: Sequence[str]) -> int:
     """As a program: letters, interrupts and the end of the process are ours."""
     with loading():
-        from modeler.cli.console import show_any_letter
-    show_any_letter()
+        from modeler.cli.console import escape_unprintable
+    escape_unprintable()
     # Symbols are many small objects: looking for rings among them every 700 took a tenth of a run.
     gc.set_threshold(20_000)
     try:
@@ -45,7 +45,7 @@ def called(words: Sequence[str]) -> int:
 
 def _run(words: Sequence[str], phase: Phase) -> int:
     with phase():
-        from modeler.cli.console import complain, flush_stdout
+        from modeler.cli.console import flush_stdout, print_error
         from modeler.core.errors import ModelerError, on_one_line, short_of_memory
 
     try:
@@ -54,19 +54,19 @@ def _run(words: Sequence[str], phase: Phase) -> int:
         finally:
             flush_stdout()
     except ModelerError as error:
-        complain(on_one_line(str(error)))
+        print_error(on_one_line(str(error)))
         return 1
     except BrokenPipeError:
         return 0  # the reader of our output has gone (`modeler ... | head`): nothing is wrong
     except OSError as error:  # what the system refuses of a path, wherever it is first looked at
         if error.filename is None or short_of_memory(error):
             raise
-        complain(
+        print_error(
             on_one_line(f"{error.filename}: cannot be used ({error.strerror}); check the path")
         )
         return 1
     except KeyboardInterrupt:
-        complain("interrupted")
+        print_error("interrupted")
         return INTERRUPTED
     return 0
 
@@ -74,16 +74,16 @@ def _run(words: Sequence[str], phase: Phase) -> int:
 def _answer(words: Sequence[str], phase: Phase) -> None:
     with phase():
         from modeler.cli.commands import parsed
-        from modeler.cli.console import Loudness, tell_error, tell_start, using_loudness
+        from modeler.cli.console import Loudness, show_start, show_traceback, using_loudness
         from modeler.core.errors import ModelerError
 
         args, wanted = parsed(words)
     with using_loudness(wanted):
         try:
-            tell_start(words)
+            show_start(words)
             _carried_out(args, phase, wanted is Loudness.VERBOSE)
         except ModelerError:
-            tell_error()
+            show_traceback()
             raise
 
 

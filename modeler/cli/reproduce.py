@@ -59,7 +59,7 @@ def _lines(paper: papers.Paper) -> list[papers.Line]:
             found[name] = papers.derived_robot(name, paper.variants.get(name))
     lines = papers.check_paper(paper, found)
     for name in paper.robots:
-        _say_robot(name, found[name], [line for line in lines if line.robot == name])
+        _print_robot(name, found[name], [line for line in lines if line.robot == name])
     say()
     for line in lines:
         if line.verdict is papers.LineVerdict.UNCHECKED:
@@ -69,7 +69,7 @@ def _lines(paper: papers.Paper) -> list[papers.Line]:
     return lines
 
 
-def _say_robot(name: str, derived: papers.DerivedPaper, lines: Sequence[papers.Line]) -> None:
+def _print_robot(name: str, derived: papers.DerivedPaper, lines: Sequence[papers.Line]) -> None:
     say()
     say(f"{name}: {derived.robot.title}")
     for line in lines:

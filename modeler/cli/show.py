@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from modeler.cli.console import Json, say, say_lines, working
-from modeler.cli.lists import read_told
+from modeler.cli.lists import read_robot_with_notes
 from modeler.cli.places import Output, check_places
 from modeler.core.errors import ModelerError
 from modeler.core.files import Kind, destination, write_atomically
@@ -42,7 +42,7 @@ def run_convert(args: argparse.Namespace) -> Json:
 
 def run_show(args: argparse.Namespace) -> Json:
     """Writes the page and the picture; prints the frames at home and whether the loops close."""
-    robot = read_told(args.robot)
+    robot = read_robot_with_notes(args.robot)
     if args.out is None and args.png is None:
         args.out = Output(f"{robot.name}.html")
         check_places(args)

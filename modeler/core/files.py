@@ -199,7 +199,7 @@ def write_together(files: Iterable[tuple[Path, bytes | str]], gone: Iterable[Pat
                 if found.kind in (Kind.NEW, Kind.FILE):
                     folders = (found.place.parent, *found.place.parent.parents)
                     made += [folder for folder in folders if not folder.exists()]
-                    staged.append((_beside(found.place.parent), found.place))
+                    staged.append((_unused_name(found.place.parent), found.place))
                     _stage(found, staged[-1][0], content)
                 else:
                     _pour(_opened(found), content)
@@ -309,7 +309,7 @@ def _stage(found: Destination, beside: Path, data: bytes) -> None:
         _make_like(beside, found.status)
 
 
-def _beside(folder: Path) -> Path:
+def _unused_name(folder: Path) -> Path:
     """A name that nobody has, short enough beside any other."""
     return folder / f".modeler-{os.urandom(8).hex()}"
 
@@ -362,7 +362,7 @@ def _check_folder(folder: Path) -> None:
             unknown = (errno.EOPNOTSUPP, errno.EISDIR, errno.ENOENT, errno.EINVAL)
             if error.errno not in unknown:
                 raise
-    beside = _beside(there)
+    beside = _unused_name(there)
     try:
         os.close(os.open(beside, _CREATE, 0o600))
     finally:

@@ -138,7 +138,7 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 T = TypeVar("T")
 
 
-class PlainError(ValueError):
+class UndeclaredEntry(ValueError):
     """The entry that is not as declared: its place, what was got, what was expected."""
 
 
@@ -160,11 +160,11 @@ def built(cls: type[T], raw: Any, place: str = "") -> T:
     for field in dataclasses.fields(cls):  # type: ignore[arg-type]
         required = field.default is field.default_factory is dataclasses.MISSING
         if required and field.name not in raw:
-            raise PlainError(f"{head}{field.name} is missing")
+            raise UndeclaredEntry(f"{head}{field.name} is missing")
     values = {}
     for name, value in raw.items():
         if name not in hints:
-            raise PlainError(f"{head}{shown(name)} is unknown")
+            raise UndeclaredEntry(f"{head}{shown(name)} is unknown")
         values[name] = plain(hints[name], value, head + name)
     return cls(**values)
 
@@ -245,13 +245,13 @@ def _either(options: tuple[Any, ...], value: Any, place: str) -> Any:
     for option in others:
         try:
             return plain(option, value, place)
-        except PlainError:
+        except UndeclaredEntry:
             continue
     raise _unlike(place, value, " or ".join(str(option) for option in others))
 
 
-def _unlike(place: str, value: Any, expected: str) -> PlainError:
-    return PlainError(f"{place} is {shown(value)}, expected {expected}")
+def _unlike(place: str, value: Any, expected: str) -> UndeclaredEntry:
+    return UndeclaredEntry(f"{place} is {shown(value)}, expected {expected}")
 
 
 @cache

@@ -15,7 +15,7 @@ from typing import Any
 
 from modeler.core.brief import Brief
 from modeler.core.errors import ManifestError, Precision
-from modeler.core.json import JsonError, PlainError, built, parse_json, shown
+from modeler.core.json import JsonError, UndeclaredEntry, built, parse_json, shown
 from modeler.core.result import Presented
 
 FORMAT = 2
@@ -313,5 +313,5 @@ def module_from_plain(raw: Any, where: str) -> ModuleSpec:
         )
     try:
         return built(ModuleSpec, raw)
-    except PlainError as error:
+    except UndeclaredEntry as error:
         raise ManifestError(f"{where}: damaged manifest ({error}); generate it again") from None

@@ -205,7 +205,7 @@ def errors_by_unit(parts: Iterable[Part]) -> dict[str, float]:
     }
 
 
-def told_by_unit(errors: Mapping[str, float]) -> str:
+def text_by_unit(errors: Mapping[str, float]) -> str:
     """Errors as text: "2.1 % of the torques (N m), 3 % of the forces (N)"; of one unit: "2.1 %"."""
     if len(errors) == 1:
         return percent(next(iter(errors.values())))

@@ -17,7 +17,7 @@ import numpy as np
 import sympy
 
 from modeler.derivation.columns import LinkColumn, ShaftColumn, StandardColumn, in_block
-from modeler.derivation.field import ExactField, cosine_letter
+from modeler.derivation.field import ExactField, cosine_symbol
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
 from modeler.effects import EnergyBlock
 
@@ -250,7 +250,7 @@ class ModularState:
             number = rational(Fraction(int(e.p), int(e.q)), self.prime)
             return filled(number, self.points, self.prime)
         if e.func in (sympy.cos, sympy.sin):
-            c, s = circle(self.letters[cosine_letter(e)], self.prime)
+            c, s = circle(self.letters[cosine_symbol(e)], self.prime)
             return c if e.func is sympy.cos else s
         if e in self.letters:
             return self.letters[e]

@@ -248,7 +248,7 @@ class ExactField:
             base, n = self.element(value.base), int(value.exp)
             return base**n if n >= 0 else self._one / base**-n
         assert value.func in (sympy.cos, sympy.sin)
-        t = self._generator[cosine_letter(value)]
+        t = self._generator[cosine_symbol(value)]
         return (1 - t**2 if value.func is sympy.cos else 2 * t) / (1 + t**2)
 
     def _written(self, element: Element) -> sympy.Expr:
@@ -291,12 +291,12 @@ def _collect(value: sympy.Expr, letters: dict[sympy.Expr, str]) -> None:
         for arg in value.args:
             _collect(arg, letters)
     elif value.func in (sympy.cos, sympy.sin):
-        letters[cosine_letter(value)] = "angle"
+        letters[cosine_symbol(value)] = "angle"
     else:
         letters[value] = "opaque"
 
 
-def cosine_letter(value: sympy.Expr) -> sympy.Expr:
+def cosine_symbol(value: sympy.Expr) -> sympy.Expr:
     """cos(a) of a cos(a) or sin(a): the key of an angle among the letters."""
     return sympy.cos(value.args[0], evaluate=False)
 

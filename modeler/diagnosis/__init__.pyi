@@ -3,7 +3,7 @@ from .added_model import Logs as Logs, added as added, notes as notes
 from .candidates import (
     Candidate as Candidate,
     JointScale as JointScale,
-    Known as Known,
+    StatedEffects as StatedEffects,
     over_grid as over_grid,
 )
 from .diagnosis import diagnose as diagnose

@@ -21,12 +21,12 @@ from modeler.diagnosis.added_model import (
     rows_of,
     with_shapes,
 )
-from modeler.diagnosis.candidates import Candidate, Known, links_of, passive_joints
+from modeler.diagnosis.candidates import Candidate, StatedEffects, links_of, passive_joints
 from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.effect_columns import body_parameters
 from modeler.diagnosis.result import Pick
-from modeler.diagnosis.score import Score, Unseen, error_changes, errors_of, rms_error, scored
+from modeler.diagnosis.score import CountedRows, Score, error_changes, errors_of, rms_error, scored
 from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.state import SearchData, analysed, state_of
@@ -140,7 +140,7 @@ class _Fitted:
     rows: HoldoutRows
     free: np.ndarray | None = None
 
-    def unseen(self, refitted: bool) -> Unseen:
+    def unseen(self, refitted: bool) -> CountedRows:
         """What it leaves of held-out logs; where there are none, of its own logs in turn."""
         if not self.rows.held_out and (refitted or self.free is not None):
             return left_out(self.model, self.rows.fitted, self.free)
@@ -266,7 +266,9 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
     kept = kept_parameters(model, rows.compiled, rows.logs.fitted, observation)
     if effect.acts is Acts.LINK and kept is None:
         kept = model.beta
-    data = SearchData(rows.compiled, observation, kept, Known(robot.catalogue, robot.coupling))
+    data = SearchData(
+        rows.compiled, observation, kept, StatedEffects(robot.catalogue, robot.coupling)
+    )
     state = state_of(data, (), model.beta)
     place = passive_joints(state.spec).get(joint or "")
     if place is not None and reads_speed_only(effect):

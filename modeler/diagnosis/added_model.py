@@ -10,12 +10,12 @@ from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.profile import Profile, ProfileProblem, profile
 from modeler.diagnosis.ranking import base_of, blocks_of
-from modeler.diagnosis.score import Unseen, error_changes
+from modeler.diagnosis.score import CountedRows, error_changes
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.signals import SignalReference, tilt_basis
 from modeler.diagnosis.state import SearchData, State, columns_of, state_of
 from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Acts, Effect, effect_named
-from modeler.estimation import Addition, IdentifiedModel, told_spread
+from modeler.estimation import Addition, IdentifiedModel, spread_text
 from modeler.observation import (
     Log,
     Observation,
@@ -236,7 +236,7 @@ def added(model: IdentifiedModel) -> list[str]:
     own = {p.name for p in model.spec.standard if (p.effect, p.joint) == (last.effect, last.joint)}
     base = {b.name for b in model.spec.base if b.column_of in own}
     lines = [
-        f"{p.name} = {p.value:.5g}{told_spread(p.value, p.sigma or 0.0, p.interval)} {p.unit}"
+        f"{p.name} = {p.value:.5g}{spread_text(p.value, p.sigma or 0.0, p.interval)} {p.unit}"
         for p in model.fit.parameters if p.name in base
     ]  # fmt: skip
     if lines and last.shapes:
@@ -250,7 +250,7 @@ def added(model: IdentifiedModel) -> list[str]:
 
 def _spread(step: Addition, name: str) -> str:
     sigma, interval = step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name)
-    return told_spread(step.shapes[name], sigma, interval)
+    return spread_text(step.shapes[name], sigma, interval)
 
 
 def _units(model: IdentifiedModel, step: Addition) -> dict[str, str]:
@@ -368,7 +368,9 @@ def _rows(compiled: CompiledModel, logs: Logs, prepared: tuple[Prepared, ...]) -
     return HoldoutRows(logs, compiled, prepared, tuple(observed(compiled, *pair) for pair in pairs))
 
 
-def left_of(model: IdentifiedModel, compiled: CompiledModel, observation: Observation) -> Unseen:
+def left_of(
+    model: IdentifiedModel, compiled: CompiledModel, observation: Observation
+) -> CountedRows:
     """What it leaves of logs."""
     left = observation.torque - model_torque(observation, compiled, model.beta)
     return _unseen_of(observation, [left[own, j] for j, own in enumerate(observation.used.T)])
@@ -376,7 +378,7 @@ def left_of(model: IdentifiedModel, compiled: CompiledModel, observation: Observ
 
 def left_out(
     model: IdentifiedModel, observation: Observation, free: np.ndarray | None = None
-) -> Unseen:
+) -> CountedRows:
     """What it leaves of its own logs, each eighth predicted from a fit to the others.
 
     Args:
@@ -397,9 +399,9 @@ def left_out(
     return _unseen_of(observation, [s * e for s, e in zip(sigma, base.left_out, strict=True)])
 
 
-def _unseen_of(observation: Observation, left: list[np.ndarray]) -> Unseen:
+def _unseen_of(observation: Observation, left: list[np.ndarray]) -> CountedRows:
     used = observation.used.T
-    return Unseen(
+    return CountedRows(
         tuple(joint.name for joint in observation.joints),
         tuple(left),
         tuple(observation.torque[own, j] for j, own in enumerate(used)),

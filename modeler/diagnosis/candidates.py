@@ -13,7 +13,7 @@ from modeler.effects import CATALOGUE, PASSIVE_FRICTION_IS, Acts, Effect, Form, 
 
 
 @dataclass(frozen=True)
-class Known(Brief):
+class StatedEffects(Brief):
     """What a robot file says of effects.
 
     Attributes:
@@ -154,7 +154,7 @@ def candidates(
     scales: Sequence[JointScale],
     has_temperature: Mapping[str, bool],
     present: Set[tuple[str, str]],
-    known: Known,
+    known: StatedEffects,
     allowed: Callable[[str, str | None], bool] = lambda effect, joint: True,
 ) -> list[Candidate]:
     """All that can be written as columns from the catalogue alone.
@@ -192,7 +192,7 @@ def candidates(
 
 
 def _named_first(
-    effect: Effect, joint: str, known: Known,
+    effect: Effect, joint: str, known: StatedEffects,
     allowed: Callable[[str, str | None], bool],
 ) -> bool:  # fmt: skip
     """True if it stands for those that no data tell from it: the first that is not ruled out."""
@@ -215,7 +215,7 @@ def over_grid(
 
 
 def _motors(
-    spec: ModuleSpec, effect: Effect, present: Set[tuple[str, str]], known: Known
+    spec: ModuleSpec, effect: Effect, present: Set[tuple[str, str]], known: StatedEffects
 ) -> Iterator[Candidate]:
     """Motors that turn with several joints: those declared, else pairs, as wrists have them."""
     place = {joint.name: j for j, joint in enumerate(spec.joints)}

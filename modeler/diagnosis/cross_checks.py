@@ -19,7 +19,7 @@ from modeler.diagnosis.generate import generate_candidates, ruled_out
 from modeler.diagnosis.judge import Judged, decide, numbers, tied
 from modeler.diagnosis.search import Search, Step, Tick, about_itself, scan_candidates
 from modeler.diagnosis.state import SearchData, State, analysed, state_of
-from modeler.observation import HIGHEST, Mending, Observation
+from modeler.observation import HIGHEST, LogRepair, Observation
 
 FACTORS = (0.7, 1.4)
 """Cut-offs of the other looks, over those of the diagnosis."""
@@ -55,8 +55,8 @@ class CrossCheck:
         return {"what": self.what, "leads": leads, "agrees": self.agrees}
 
 
-def other_looks(
-    data: SearchData, mending: Mending, other: SearchData | None
+def other_observations(
+    data: SearchData, mending: LogRepair, other: SearchData | None
 ) -> Iterator[tuple[str, SearchData]]:
     """The same robot's data, looked at otherwise.
 
@@ -72,7 +72,7 @@ def other_looks(
         del seen  # or it would live beside the next
 
 
-def cut_off_otherwise(data: SearchData, mending: Mending) -> Iterator[tuple[float, Observation]]:
+def cut_off_otherwise(data: SearchData, mending: LogRepair) -> Iterator[tuple[float, Observation]]:
     """The training logs with the filters elsewhere, by `FACTORS`."""
     processing, logs = data.observation.report.processing, mending.logs
     highest = HIGHEST / max(log.step for log in logs)
@@ -86,7 +86,7 @@ def cut_off_otherwise(data: SearchData, mending: Mending) -> Iterator[tuple[floa
         yield factor, analysed(data.compiled, logs, changed, chosen=True, mending=mending)
 
 
-def looked_again(
+def recheck_effects(
     found: Search, looks: Iterable[tuple[str, SearchData]], tick: Tick = lambda: None
 ) -> list[tuple[CrossCheck, ...]]:
     """What the other looks say of every effect that was put in, in order.
@@ -99,7 +99,7 @@ def looked_again(
     said: list[list[CrossCheck]] = [[] for _ in found.steps]
     for what, data in looks if found.steps else ():
         for place, own in enumerate(said):
-            own.append(_look(what, data, found, place))
+            own.append(_observe_otherwise(what, data, found, place))
             tick()
         del data
     return [(*own, *_ruled_out(found, s)) for own, s in zip(said, found.steps, strict=True)]
@@ -127,14 +127,14 @@ def _ruled_out(found: Search, step: Step) -> list[CrossCheck]:
     return [CrossCheck("ruled out", best.key, False)]
 
 
-def _look(what: str, data: SearchData, found: Search, place: int) -> CrossCheck:
+def _observe_otherwise(what: str, data: SearchData, found: Search, place: int) -> CrossCheck:
     step = found.steps[place]
     picks = [s.pick for s in found.steps[: place + 1]]
     if not all(_logged(data, pick) for pick in picks):
         return CrossCheck(what, None, True)
     # the state in which the effect was chosen, from other data
     state = about_itself(state_of(data, picks[:-1], step.before.beta))
-    judged = _asked_again(state, step, found)
+    judged = _recheck(state, step, found)
     best = decide(state, judged).best
     if best is None:
         return CrossCheck(what, None, True)
@@ -148,7 +148,7 @@ def _logged(data: SearchData, candidate: Candidate) -> bool:
     return "T" not in candidate.form.names or candidate.joint in temperature
 
 
-def _asked_again(state: State, step: Step, found: Search) -> list[Judged]:
+def _recheck(state: State, step: Step, found: Search) -> list[Judged]:
     """The effect and its nearest rivals, each at the best of its shapes."""
     refused = {j.key for j in found.vetoed}
     rivals = [j.candidate for j in step.rivals if j.key not in refused][:RIVALS]

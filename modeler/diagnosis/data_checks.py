@@ -16,7 +16,7 @@ from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import CONVENTION
 from modeler.estimation import IdentifiedModel
-from modeler.observation import Fault, Mending, faults, suspects
+from modeler.observation import Fault, LogRepair, faults, suspects
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""
@@ -302,7 +302,7 @@ def sensor_delay_lines(found: Search) -> list[str]:
 
 
 def channel_faults(
-    model: IdentifiedModel, data: SearchData, other: SearchData | None, mending: Mending
+    model: IdentifiedModel, data: SearchData, other: SearchData | None, mending: LogRepair
 ) -> tuple[Fault, ...]:
     """Of the logs, then of the held-out ones.
 
@@ -341,7 +341,7 @@ def _allowed(
 
 
 def _stable(
-    data: SearchData, mending: Mending, beta: np.ndarray, gains: np.ndarray | None
+    data: SearchData, mending: LogRepair, beta: np.ndarray, gains: np.ndarray | None
 ) -> set[int]:
     """Joints whose torque has another scale with other cut-offs too."""
     joints = [

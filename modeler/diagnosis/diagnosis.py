@@ -9,8 +9,8 @@ from threadpoolctl import threadpool_limits
 
 from modeler.core.errors import DataError
 from modeler.diagnosis.assemble import assembled
-from modeler.diagnosis.candidates import Known
-from modeler.diagnosis.cross_checks import looked_again, other_looks
+from modeler.diagnosis.candidates import StatedEffects
+from modeler.diagnosis.cross_checks import other_observations, recheck_effects
 from modeler.diagnosis.data_checks import channel_faults
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
 from modeler.diagnosis.judge import vetoing
@@ -20,7 +20,7 @@ from modeler.diagnosis.state import SearchData, analysed, bands_line, state_of
 from modeler.diagnosis.timing import logger_shift
 from modeler.effects import Acts, Effect, effect_named
 from modeler.estimation import IdentifiedModel
-from modeler.observation import Log, Mending, Observation
+from modeler.observation import Log, LogRepair, Observation
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -64,7 +64,7 @@ class Meter:
 def diagnose(
     model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log],
     holdout: Sequence[Log] = (), without: Sequence[str] = (), most: int = MOST,
-    progress: Callable[[float], None] | None = None, known: Known | None = None,
+    progress: Callable[[float], None] | None = None, known: StatedEffects | None = None,
 ) -> Diagnosis:  # fmt: skip
     """The effects that the model lacks on these logs, with what they would gain.
 
@@ -82,10 +82,10 @@ def diagnose(
         DataError: no usable row.
     """
     meter = Meter(progress, _READ)
-    mending = Mending(logs, compiled.spec)
+    mending = LogRepair(logs, compiled.spec)
     seen = analysed(compiled, logs, model.processing, mending=mending)
     data = SearchData(
-        compiled, seen, kept_parameters(model, compiled, logs, seen), known or Known()
+        compiled, seen, kept_parameters(model, compiled, logs, seen), known or StatedEffects()
     )
     without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
     doubted = channel_faults(model, data, other, mending)
@@ -105,7 +105,7 @@ def diagnose(
     if window is not None:
         found = searched(_masked(data, window), other)
     meter.stage(_LOOKED)
-    looks = looked_again(found, _looks(data, mending, other, window), meter.tick)
+    looks = recheck_effects(found, _other_observations(data, mending, other, window), meter.tick)
     meter.stage(1.0)
     diagnosis = assembled(model, found, other, window, looks, doubted, meter.tick)
     if progress is not None:
@@ -115,17 +115,17 @@ def diagnose(
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
 
-def _looks(
-    data: SearchData, mending: Mending, other: SearchData | None, window: Window | None
+def _other_observations(
+    data: SearchData, mending: LogRepair, other: SearchData | None, window: Window | None
 ) -> Iterator[tuple[str, SearchData]]:
     """Other looks, those at the training logs without the rows of a push."""
-    for what, look in other_looks(data, mending, other):
+    for what, look in other_observations(data, mending, other):
         yield what, look if window is None or look is other else _masked(look, window)
         del look  # or it would live beside the next
 
 
 def _aligned(
-    data: SearchData, found: Search, model: IdentifiedModel, mending: Mending
+    data: SearchData, found: Search, model: IdentifiedModel, mending: LogRepair
 ) -> SearchData | None:
     """The data without a delay that is a convention of the logger; None if there is none."""
     delays = [j for j in found.ranked if j.candidate.effect.acts is Acts.TORQUE and not j.confirmed]

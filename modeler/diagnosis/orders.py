@@ -11,7 +11,7 @@ from modeler.diagnosis.signals import resonance
 from modeler.diagnosis.state import State, column_key
 from modeler.numerics.noise import forgotten, outbursts, returning
 from modeler.numerics.spectra import OrderSpectrum, order_spectrum as spectrum_of
-from modeler.numerics.splines import LEAST, SLIPS, Flexible, Measured, flexible, functions
+from modeler.numerics.splines import LEAST, SLIPS, Flexible, Measurements, flexible, functions
 from modeler.observation import bristle
 
 
@@ -131,7 +131,7 @@ def rival(state: State, j: int) -> Flexible:
     return flexible(sets, state.residual[j], fold)
 
 
-def _measured(state: State, j: int) -> Measured:
+def _measured(state: State, j: int) -> Measurements:
     rows, observation = state.rows, state.data.observation
     used = observation.used[:, j]
     loads = rows.filtered(j, [np.hstack([s.load, s.torque]) for s in rows.signals])
@@ -140,7 +140,7 @@ def _measured(state: State, j: int) -> Measured:
         np.column_stack([bristle(s.q[:, j], d * state.scales[j].range) for d in SLIPS])
         for s in rows.signals
     ]
-    return Measured(
+    return Measurements(
         joint=j,
         q=observation.q[used],
         v=observation.qd[used],

@@ -7,7 +7,7 @@ from modeler.diagnosis.orders import knocking
 from modeler.diagnosis.result import Diagnosis, Finding, Key
 from modeler.diagnosis.search import Step
 from modeler.effects import effect_named
-from modeler.estimation import told_spread
+from modeler.estimation import spread_text
 
 TOLD = 0.15
 """Gain from which on an effect is mentioned that was refused."""
@@ -205,7 +205,7 @@ def _effect_line(finding: Finding) -> str:
 def _spread(finding: Finding, name: str) -> str:
     """The standard deviation or the interval behind a value, where there is one."""
     sigma, interval = finding.sigmas.get(name, 0.0), finding.intervals.get(name)
-    return told_spread(finding.parameters[name], sigma, interval)
+    return spread_text(finding.parameters[name], sigma, interval)
 
 
 def unit(finding: Finding, name: str) -> str:

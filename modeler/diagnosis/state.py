@@ -11,7 +11,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.manifest import ModuleSpec
-from modeler.diagnosis.candidates import Candidate, JointScale, Known, scales_of
+from modeler.diagnosis.candidates import Candidate, JointScale, StatedEffects, scales_of
 from modeler.diagnosis.effect_columns import Columns, Rows, dense, rows_of, width
 from modeler.diagnosis.ranking import (
     Base,
@@ -27,7 +27,7 @@ from modeler.diagnosis.ranking import (
 from modeler.diagnosis.signals import SignalReference, frame_slopes, tilt_weights
 from modeler.effects import Acts
 from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
-from modeler.observation import Log, Mending, Observation, Prepared, Processing, observe, observed
+from modeler.observation import Log, LogRepair, Observation, Prepared, Processing, observe, observed
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -48,7 +48,7 @@ class SearchData(Brief):
     compiled: "CompiledModel"
     observation: Observation
     kept: np.ndarray | None = None
-    known: Known = field(default_factory=Known)
+    known: StatedEffects = field(default_factory=StatedEffects)
 
     @property
     def spec(self) -> ModuleSpec:
@@ -375,7 +375,7 @@ def bands_line(fitted: Processing, seen: Processing) -> list[str]:
 
 def analysed(
     compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, chosen: bool = False,
-    prepared: Prepared | None = None, mending: Mending | None = None,
+    prepared: Prepared | None = None, mending: LogRepair | None = None,
 ) -> Observation:  # fmt: skip
     """The observation of a diagnosis.
 

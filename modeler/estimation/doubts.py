@@ -152,7 +152,7 @@ def scarce(result: FitResult, seen: CrossValidation) -> list[Doubt]:
     ]
 
 
-def unshown(result: FitResult, seen: CrossValidation, scale: np.ndarray) -> list[Doubt]:
+def unexplained_joints(result: FitResult, seen: CrossValidation, scale: np.ndarray) -> list[Doubt]:
     """Joints whose torques are described worse on all rows than windows of them let expect.
 
     Relatively, and in N m too: where the windows show a faster motion, noise alone is a larger

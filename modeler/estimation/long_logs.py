@@ -22,17 +22,17 @@ from modeler.estimation.result import FitResult
 from modeler.numerics.least_squares import Compressed, merged
 from modeler.observation import (
     FINGER,
-    Chosen,
     Chunk,
     Evaluated,
     Facts,
-    KnownFacts,
+    FactsSoFar,
+    LogChoices,
     Observation,
     Passes,
     Processing,
     Source,
     Survey,
-    WholeNeeded,
+    WholeLogNeeded,
     chunks,
     no_row_left,
     rows_of_chunk,
@@ -51,7 +51,7 @@ OF_TRIANGLES = capable("triangles")
 Share = Callable[[float], None]
 """Is told the share of the rows that are done."""
 
-Reducer = Callable[[CompiledModel, Source, Chosen], Iterable[Any]]
+Reducer = Callable[[CompiledModel, Source, LogChoices], Iterable[Any]]
 """Parts of all chunks of a log in order: `Partial`, or what has its `facts` and `merged_with`."""
 
 
@@ -72,7 +72,7 @@ class Partial:
         return Partial(merged(self.data, later.data), self.facts.merged_with(later.facts))
 
 
-def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: Chosen) -> Partial:
+def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: LogChoices) -> Partial:
     """The rows y = W beta of a chunk, as triangles. Pure: equal chunks give equal bits.
 
     Args:
@@ -201,11 +201,11 @@ def all_rows(
         DataError: as `stream`.
     """
     if any(signal.kind == "slip" for signal in model.spec.signals):
-        raise WholeNeeded(
+        raise WholeLogNeeded(
             f"{sources[0].name}: an effect of {model.spec.robot} remembers its motion without end, "
             "and long logs are read in chunks; fit a part of it, FILE@START:END"
         )
-    known, total = KnownFacts(), max(1, sum(source.rows for source in sources))
+    known, total = FactsSoFar(), max(1, sum(source.rows for source in sources))
     for number in range(1, PASSES + 1):
         found = survey(model, sources, processing or Processing(), known, rows)
         begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
@@ -232,8 +232,8 @@ def all_rows(
 def by_threads(
     model: CompiledModel,
     source: Source,
-    chosen: Chosen,
-    reduce_by: Callable[[CompiledModel, Chunk, Chosen], Any] = reduce_chunk,
+    chosen: LogChoices,
+    reduce_by: Callable[[CompiledModel, Chunk, LogChoices], Any] = reduce_chunk,
 ) -> Iterator[Any]:
     """The parts of all chunks of a log, in their order, by threads of this process.
 
@@ -254,7 +254,7 @@ def by_threads(
                 future.cancel()
 
 
-def _again(facts: Sequence[Facts], found: Survey, known: KnownFacts) -> KnownFacts | None:
+def _again(facts: Sequence[Facts], found: Survey, known: FactsSoFar) -> FactsSoFar | None:
     """What another pass is to know; None if this one was given all."""
     low = found.chosen[0].processing.low_speed
     floors = {name: low * top for own in facts for name, top in own.awake.items()}
@@ -262,7 +262,7 @@ def _again(facts: Sequence[Facts], found: Survey, known: KnownFacts) -> KnownFac
     if not floors and not wrong:
         return None
     extremes = {k: own.ranges.torques for k, own in enumerate(facts)}
-    return KnownFacts({**known.floors, **floors}, extremes)
+    return FactsSoFar({**known.floors, **floors}, extremes)
 
 
 def _check(model: CompiledModel, sources: Sequence[Source], facts: Sequence[Facts]) -> None:
@@ -277,7 +277,7 @@ def _check(model: CompiledModel, sources: Sequence[Source], facts: Sequence[Fact
         for kind, found in (("another zero", own.first("zero")), ("another turn", turned)):
             for j, time in found.items():
                 name, rows = model.spec.joints[j].name, own.tally.count("rows")
-                raise WholeNeeded(
+                raise WholeLogNeeded(
                     f"{source.name}: q{name} counts from {kind} from {time:.6g} s on; a log of "
                     f"{rows} rows is read in chunks, which cannot be joined across that; fit its "
                     f"parts, as in {source.name}@:{time:.6g}"

@@ -18,7 +18,7 @@ import numpy as np
 
 from modeler.core.errors import DataError, ManifestError
 from modeler.core.files import read_file, read_text, write_atomically
-from modeler.core.json import JsonError, PlainError, entries, parse_json, plain, shown
+from modeler.core.json import JsonError, UndeclaredEntry, entries, parse_json, plain, shown
 from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, module_from_plain
 from modeler.core.result import Presented
 from modeler.core.table import percent
@@ -296,7 +296,7 @@ def _entry(raw: Mapping[str, Any], name: str, kind: Any, where: str) -> Any:
         raise ManifestError(f"{where}: damaged, {name} is missing; fit the model again")
     try:
         return plain(kind, raw[name], name)
-    except PlainError as error:
+    except UndeclaredEntry as error:
         raise ManifestError(f"{where}: damaged, {error}; fit the model again") from None
 
 

@@ -87,7 +87,7 @@ def parameter_lines(
     return lines
 
 
-def told_spread(value: float, sigma: float, interval: tuple[float, float] | None) -> str:
+def spread_text(value: float, sigma: float, interval: tuple[float, float] | None) -> str:
     """What stands behind a value: " +- sigma", or where that says little " (low to high)"."""
     if interval is not None and interval[0] < interval[1]:
         down, up = value - interval[0], interval[1] - value

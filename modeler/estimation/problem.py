@@ -7,7 +7,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.numerics.least_squares import Compressed
-from modeler.observation import Evaluated, Observation, blocks, explained, is_streamed, products
+from modeler.observation import Evaluated, Observation, blocks, fitted_torque, is_streamed, products
 from modeler.runtime import CompiledModel
 
 _PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows times a matrix
@@ -18,7 +18,7 @@ def residual_of(
 ) -> np.ndarray:
     """y - W beta of the base parameters, for all rows or those that are counted (rows,)."""
     keep = observation.used if counted is None else kept_rows(observation, counted)
-    return np.asarray((observation.torque - explained(observation, beta, keep))[keep])
+    return np.asarray((observation.torque - fitted_torque(observation, beta, keep))[keep])
 
 
 class Neighbours:

@@ -11,7 +11,7 @@ from modeler.core.errors import DataError, ManifestError
 from modeler.core.json import built, entries, nulled
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Presented
-from modeler.core.table import POOLED, errors_by_unit, percent, told_by_unit
+from modeler.core.table import POOLED, errors_by_unit, percent, text_by_unit
 from modeler.estimation.essential import Reduced
 from modeler.estimation.parameter import ParameterEstimate, parameter_lines, read_all, read_back
 from modeler.observation import Processing, processing_from_json
@@ -371,7 +371,7 @@ class FitResult(Presented):
     def error_told(self) -> str:
         """The relative error as text; of torques and forces apart where the robot has both."""
         if self.energy is None and len(self.by_unit) > 1:
-            return told_by_unit(self.by_unit)
+            return text_by_unit(self.by_unit)
         return percent(self.relative_error)
 
     def lines(self) -> list[str]:
@@ -392,7 +392,7 @@ class FitResult(Presented):
                 f"  joint {joint.name}: {percent(joint.relative_error)}{apart}, rms "
                 f"{joint.rms:.4g} {joint.unit}"
             )
-        lines += [*bodies_told(self.standard), *self.sentences]
+        lines += [*bodies_text(self.standard), *self.sentences]
         lines += self.essential.lines() if self.essential is not None else []
         lines += self.energy.lines() if self.energy is not None else []
         if self.verdict is not None:
@@ -490,7 +490,7 @@ def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
     return Verdict(usable, str(raw["usable_for"]), line, tuple(map(str, doubts)))
 
 
-def bodies_told(standard: Mapping[str, float]) -> list[str]:
+def bodies_text(standard: Mapping[str, float]) -> list[str]:
     """A line per link: mass, mass centre in its frame, principal moments about the mass centre.
 
     Args:

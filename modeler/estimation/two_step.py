@@ -69,7 +69,7 @@ class Move:
     window: slice
 
 
-def moves_alone(
+def single_joint_moves(
     observation: Observation, directions: Directions
 ) -> tuple[list[Move], float, float]:
     """All pieces in which one joint moves and the others stand, in order of time.
@@ -233,7 +233,7 @@ _SEEN = 0.9  # of the rows of the joint that moves
 
 
 @dataclass(frozen=True, eq=False)
-class Felt:
+class FirstStep:
     """Step 1 for the torque of one joint: y = Q R theta + residual; p coefficients.
 
     Attributes:
@@ -282,7 +282,7 @@ class Configuration:
     end: float
     joint: int
     pose: np.ndarray
-    felt: tuple[Felt, ...]
+    felt: tuple[FirstStep, ...]
 
     @property
     def key(self) -> tuple[int, ...]:
@@ -322,7 +322,7 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
     Raises:
         DataError: no piece in which one joint moves and the others stand, or none that tells it.
     """
-    moves, several, total = moves_alone(observation, directions)
+    moves, several, total = single_joint_moves(observation, directions)
     found: list[Configuration] = []
     left_out: dict[str, int] = {}
     for move in moves:
@@ -399,7 +399,7 @@ def _first_step(
     usable, others = _usable(part.usable[window], directions, i)
     used = rows.share(usable[:, None])[:, 0] >= LEAST_WEIGHT
     order = [i, *others]
-    felt: list[Felt] = []
+    felt: list[FirstStep] = []
     motions = single_joint_motions(
         model, pose @ directions.rows, pose[i], way, span, directions.rows[order]
     )
@@ -439,7 +439,7 @@ def _usable(usable: np.ndarray, directions: Directions, i: int) -> tuple[np.ndar
     return own, others
 
 
-def _solved(joint: int, found: SingleJointMotion, filtered: np.ndarray) -> Felt | None:
+def _solved(joint: int, found: SingleJointMotion, filtered: np.ndarray) -> FirstStep | None:
     """Step 1 from its columns and torque; None where the rows do not tell the coefficients."""
     X, y = filtered[:, :-1], filtered[:, -1]
     rows, count = X.shape
@@ -453,7 +453,7 @@ def _solved(joint: int, found: SingleJointMotion, filtered: np.ndarray) -> Felt 
         return None
     Q, R = np.linalg.qr(X)
     projected = Q.T @ y
-    return Felt(joint, found, Q, R, projected, y - Q @ projected)
+    return FirstStep(joint, found, Q, R, projected, y - Q @ projected)
 
 
 def _with_noise(alike: list[Configuration]) -> tuple[list[Configuration], np.ndarray]:

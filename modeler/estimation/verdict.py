@@ -163,7 +163,7 @@ def with_verdict(
     found += time_doubts(model, observation, result)
     found = _with_poor(found, [*doubts.scarce(result, seen), *doubts.undescribed(result)])
     if part:
-        found += doubts.unshown(result, seen, _scale(data, observation, rows))
+        found += doubts.unexplained_joints(result, seen, _scale(data, observation, rows))
     found += doubts.systematic(result, _lasting(equations, rows, result))
     found += doubts.undetermined(model.spec, result, _spread(data, result))
     found += [*_impossible(model.spec, result, data), *doubts.negative(model.spec, result)]

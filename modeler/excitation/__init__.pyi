@@ -9,14 +9,14 @@ from .result import (
 )
 from .search import (
     Wish as Wish,
+    default_harmonics as default_harmonics,
     excite as excite,
     random_motion as random_motion,
     task_of as task_of,
-    usual_harmonics as usual_harmonics,
 )
 from .separate import (
-    Apart as Apart,
     Question as Question,
+    Separation as Separation,
     choose as choose,
     tell_apart as tell_apart,
 )

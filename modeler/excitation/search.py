@@ -232,7 +232,7 @@ def improved(
     return x
 
 
-def usual_harmonics(bounds: Bounds, duration: float) -> int:
+def default_harmonics(bounds: Bounds, duration: float) -> int:
     """As many as reach what the slowest joint can swing by an eighth of its range, 5 to 10."""
     part = 0.25 * bounds.half
     swing = np.minimum(bounds.speed / part, np.sqrt(bounds.acceleration / part)) / (2.0 * np.pi)

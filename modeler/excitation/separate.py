@@ -53,7 +53,7 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Apart:
+class Separation:
     """How well a motion tells the two apart.
 
     Attributes:
@@ -93,7 +93,7 @@ def tell_apart(
     wish: Wish,
     question: Question,
     progress: Callable[[float], None] = lambda share: None,
-) -> tuple[Exciting, Apart]:
+) -> tuple[Exciting, Separation]:
     """The motion along which two effects are least alike.
 
     Maximises what is left of each effect's columns after projection on the columns of the model
@@ -128,7 +128,7 @@ def tell_apart(
     (here, size), (there, before) = columns.left(x), columns.left(best)
     names = tuple(f"{effect.id}@{joint}" for effect, joint in question.effects)
     gain = tuple(a / b if b > 0.0 else float("inf") for a, b in zip(size, before, strict=True))
-    return motion, Apart((names[0], names[1]), here, there, (gain[0], gain[1]))
+    return motion, Separation((names[0], names[1]), here, there, (gain[0], gain[1]))
 
 
 class _Pair:

@@ -14,9 +14,9 @@ from .result import (
     fleet_lines as fleet_lines,
 )
 from .summary import (
-    Left as Left,
     LogJob as LogJob,
     LogSummary as LogSummary,
+    SkippedLog as SkippedLog,
     reduce_log as reduce_log,
     summary as summary,
 )

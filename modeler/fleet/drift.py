@@ -81,7 +81,7 @@ def scatters(groups: Sequence[Sequence[PeriodSeries]]) -> list[Scatter]:
     changes = [np.concatenate([np.zeros(0), *(own.changes for own in group)]) for group in groups]
     degrees = np.array([_EFFICIENCY * len(own) for own in changes])
     squares = np.array([_trimmed(own) for own in changes])
-    usual, prior = _usual(squares[squares > 0.0], degrees[squares > 0.0])
+    usual, prior = _typical_variance(squares[squares > 0.0], degrees[squares > 0.0])
     found = []
     for group, square, own in zip(groups, squares, degrees, strict=True):
         variance = (own * square + prior * usual) / max(own + prior, 1e-9)
@@ -102,7 +102,7 @@ def _trimmed(changes: np.ndarray) -> float:
     return float(np.sum(np.sort(changes**2)[:kept]) / np.sum(expected**2))
 
 
-def _usual(squares: np.ndarray, degrees: np.ndarray) -> tuple[float, float]:
+def _typical_variance(squares: np.ndarray, degrees: np.ndarray) -> tuple[float, float]:
     """Variance that quantities have, and the degrees of freedom that it stands for.
 
     Moments of log s^2: mean log s0^2 + (digamma - log)(d / 2) - (digamma - log)(d0 / 2), variance
@@ -185,7 +185,7 @@ def line_of(move: Drift, at: np.ndarray) -> np.ndarray:
     return move.change * columns[move.shape, move.begin]
 
 
-def least_told(series: PeriodSeries, scatter: Scatter, level: float) -> float:
+def least_detectable(series: PeriodSeries, scatter: Scatter, level: float) -> float:
     """The smallest straight drift over all periods that would be told at this chance.
 
     Args:
@@ -279,7 +279,7 @@ _SHARE, _STEPS = 5, 3  # one of so many machines may be odd, and so many of a fl
 
 
 @dataclass(frozen=True)
-class Odd:
+class OutlyingMachine:
     """A machine apart.
 
     Attributes:
@@ -311,7 +311,9 @@ def critical_deviate(count: int, step: int, chance: float) -> float:
     return float(left * t / np.sqrt((left - 1 + t**2) * (left + 1)))
 
 
-def odd_ones(values: np.ndarray, sigmas: np.ndarray, chance: float) -> tuple[Odd, ...]:
+def outlying_machines(
+    values: np.ndarray, sigmas: np.ndarray, chance: float
+) -> tuple[OutlyingMachine, ...]:
     """Machines apart, by the generalized extreme Studentized deviate.
 
     The most extreme machine is taken away, then the next, up to three and every fifth; the odd ones
@@ -346,7 +348,7 @@ def odd_ones(values: np.ndarray, sigmas: np.ndarray, chance: float) -> tuple[Odd
     middle, spread = float(np.median(values[others])), float(np.std(values[others], ddof=1))
     beyond = quantile(1e9, chance / count)
     return tuple(
-        Odd(int(k), difference, spread, difference / spread)
+        OutlyingMachine(int(k), difference, spread, difference / spread)
         for k in taken[:last]
         for difference in [float(values[k]) - middle]
         if abs(difference) > beyond * sigmas[k]

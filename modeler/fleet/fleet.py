@@ -10,10 +10,10 @@ from modeler.fleet.drift import LEAST, in_time, line_of
 from modeler.fleet.joint_fit import LOAD, joint_fit, layout_of
 from modeler.fleet.judge import FALSE_ALARM, JudgedQuantity, judged
 from modeler.fleet.result import Fleet, FleetFinding, Followed, Values, Warmth
-from modeler.fleet.summary import Left, LogSummary, of_another_robot
+from modeler.fleet.summary import LogSummary, SkippedLog, of_another_robot
 
 
-def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
+def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | SkippedLog]) -> Fleet:
     """What drifts where, from the summaries of all logs.
 
     Each log k and joint j obeys y_kj = W_j (theta + D phi_k) + gamma_kj W_j theta with theta of the
@@ -31,7 +31,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | Left]) -> Fleet:
         DataError: no usable logs, too few to compare, rows given twice, nothing that may drift.
     """
     used, foreign, said = of_another_robot([log for log in given if isinstance(log, LogSummary)])
-    apart = [*(each for each in given if isinstance(each, Left)), *foreign]
+    apart = [*(each for each in given if isinstance(each, SkippedLog)), *foreign]
     left = tuple((each.named.place, each.why) for each in apart)
     _check(used, left)
     logs, at, unit = in_time(used)
@@ -169,7 +169,7 @@ def _machines(logs: Sequence[LogSummary]) -> dict[str, tuple[str, ...]]:
 
 def _notes(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[str]:
     machines = _machines(logs)
-    said = [*not_seen(found, logs), *scatter_known(found, len(logs))]
+    said = [*undetectable_drifts(found, logs), *scatter_known(found, len(logs))]
     single = [name for name, periods in machines.items() if len(periods) < 2]
     if single:
         said.append(
@@ -194,7 +194,7 @@ FEW = 5
 """Changes from period to period below which the scatter of a quantity is not known by them."""
 
 
-def not_seen(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[str]:
+def undetectable_drifts(found: JudgedQuantity, logs: Sequence[LogSummary]) -> list[str]:
     """A sentence on each machine that would hide a drift which the others would show."""
     names = list(dict.fromkeys(each.named.machine for each in logs))
     sigmas = np.array([[_sigma(found, m, i) for i in range(len(found.quantities))]

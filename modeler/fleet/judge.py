@@ -8,13 +8,13 @@ import numpy as np
 
 from modeler.fleet.drift import (
     Drift,
-    Odd,
+    OutlyingMachine,
     PeriodSeries,
     Scatter,
-    least_told,
+    least_detectable,
     line_of,
     move_of,
-    odd_ones,
+    outlying_machines,
     scatters,
 )
 from modeler.fleet.joint_fit import GAIN, LOAD, FleetFit, Layout, Quantity
@@ -48,7 +48,7 @@ class JudgedQuantity:
     sigmas: np.ndarray
     scatters: tuple[Scatter, ...] = ()
     moves: dict[tuple[int, int], Drift] = dataclasses.field(default_factory=dict)
-    odd: dict[tuple[int, int], Odd] = dataclasses.field(default_factory=dict)
+    odd: dict[tuple[int, int], OutlyingMachine] = dataclasses.field(default_factory=dict)
     scores: dict[tuple[int, int], float] = dataclasses.field(default_factory=dict)
     loaded: frozenset[int] | None = None
 
@@ -73,7 +73,7 @@ class JudgedQuantity:
     def smallest_drift(self, i: int) -> float | None:
         """The smallest straight drift that the machine seen best would show."""
         found = [
-            least_told(series, self.scatters[i], self.level)
+            least_detectable(series, self.scatters[i], self.level)
             for m in range(self.machines)
             if len((series := self.series(m, i)).at) > 1
         ]
@@ -161,7 +161,7 @@ def _tested(found: JudgedQuantity, places: Sequence[int]) -> JudgedQuantity:
                 count = found.machines * families
                 moves[m, i] = dataclasses.replace(move, chance=min(1.0, move.chance * count))
         means, spreads = _means(found, moves, i)
-        for each in odd_ones(means, spreads, 0.5 * FALSE_ALARM / families):
+        for each in outlying_machines(means, spreads, 0.5 * FALSE_ALARM / families):
             if found.may(each.machine, i):
                 odd[each.machine, i] = each
     return dataclasses.replace(found, moves=moves, odd=odd, scores=scores)

@@ -290,13 +290,13 @@ def fleet_lines(found: Fleet) -> list[str]:
             "a drive gain above the others: the logged torque (current times gain) is more than "
             "the motion needs, as with a weaker magnet, or a torque sensor that reads too much"
         )
-    lines += left_lines(found)
+    lines += skipped_lines(found)
     if found.aside:
         lines.append(f"not told by any log, taken as 0: {', '.join(found.aside)}")
     return lines
 
 
-def left_lines(found: Fleet) -> list[str]:
+def skipped_lines(found: Fleet) -> list[str]:
     """Logs that were not used, and why; most reasons begin with the place already."""
     return [f"left out: {why if place in why else f'{place}: {why}'}" for place, why in found.left]
 

@@ -83,14 +83,14 @@ class LogSummary:
 
 
 @dataclass(frozen=True)
-class Left:
+class SkippedLog:
     """A log that could not be used, and why."""
 
     named: Named
     why: str
 
 
-def reduce_log(emitted: Emitted, job: LogJob) -> LogSummary | Left:
+def reduce_log(emitted: Emitted, job: LogJob) -> LogSummary | SkippedLog:
     """The summary of one log; pure, so that it can run anywhere and be run again.
 
     Args:
@@ -104,7 +104,7 @@ def reduce_log(emitted: Emitted, job: LogJob) -> LogSummary | Left:
             log = window(log, *job.span)
         return summary(model, log, job.named, job.processing)
     except (DataError, LoopError) as error:
-        return Left(job.named, str(error))
+        return SkippedLog(job.named, str(error))
 
 
 def summary(
@@ -173,7 +173,9 @@ def _joints_beyond(columns: Iterable[str]) -> tuple[str, ...]:
 # Logs that hold channels of joints which the robot has not: of another robot, it seems.
 
 
-def of_another_robot(used: Sequence[LogSummary]) -> tuple[list[LogSummary], list[Left], list[str]]:
+def of_another_robot(
+    used: Sequence[LogSummary],
+) -> tuple[list[LogSummary], list[SkippedLog], list[str]]:
     """The logs to compare, those that are left out, and what is to be said of the others.
 
     A log with positions and torques of more joints than the robot has is left out where more than
@@ -189,7 +191,7 @@ def of_another_robot(used: Sequence[LogSummary]) -> tuple[list[LogSummary], list
                 f"has joint{'s' * (len(each.beyond) > 1)} {', '.join(each.beyond)} besides, which "
                 "most logs have not; a log of another robot? name the right one"
             )
-            left.append(Left(each.named, f"{each.named.place}: {why}"))
+            left.append(SkippedLog(each.named, f"{each.named.place}: {why}"))
             continue
         kept.append(each)
         if each.beyond:

@@ -7,8 +7,8 @@ from . import (
 from .cad import (
     CadComparison as CadComparison,
     KnownAgainstFit as KnownAgainstFit,
+    check_known as check_known,
     compare_cad as compare_cad,
-    test_known as test_known,
 )
 from .closed_form import ClosedForm as ClosedForm, closed_form as closed_form
 from .coefficients import (
@@ -50,8 +50,8 @@ from .text import monomial_text as monomial_text
 from .values import (
     VERIFIED as VERIFIED,
     DerivedValue as DerivedValue,
-    Given as Given,
+    KnownValues as KnownValues,
     Rated as Rated,
-    given_from_text as given_from_text,
+    known_from_text as known_from_text,
     rated as rated,
 )

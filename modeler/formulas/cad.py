@@ -55,7 +55,7 @@ class KnownAgainstFit:
     contradicts: bool
 
 
-def test_known(
+def check_known(
     solution: ClosedSolution,
     data: Sequence[float],
     covariance: np.ndarray,

@@ -78,16 +78,16 @@ def fresh_model(model: SymbolicModel) -> SymbolicModel:
     return found
 
 
-def letters_of(model: SymbolicModel, parameters: Mapping[int, str]) -> dict[str, str]:
+def written_symbols(model: SymbolicModel, parameters: Mapping[int, str]) -> dict[str, str]:
     """{symbol of the graph: how it is written}: positions, speeds, signals, named columns."""
     found = {name: name for name in model.geometry.values}
     for k, joint in enumerate(model.robot.free):
         found |= {f"{kind}[{k}]": f"{kind}{joint.name}" for kind in ("q", "qd", "qdd")}
     found |= {f"beta[{column}]": name for column, name in parameters.items()}
-    return found | {f"s[{k}]": letter for k, letter in enumerate(signal_letters(model))}
+    return found | {f"s[{k}]": letter for k, letter in enumerate(signal_symbols(model))}
 
 
-def signal_letters(model: SymbolicModel) -> list[str]:
+def signal_symbols(model: SymbolicModel) -> list[str]:
     """How the signals are written that effects read besides the motion: t1, T2, z3."""
     kinds = {"time": "t", "temperature": "T", "slip": "z"}
     return [f"{kinds[signal.kind]}{k + 1}" for k, signal in enumerate(model.signals)]
@@ -101,7 +101,7 @@ def named_columns(base: BaseParameters) -> dict[int, str]:
 def effects_sheet(model: SymbolicModel, parameters: Mapping[int, str]) -> Sheet:
     """The results of `write_effects` alone, for the parameters of those columns."""
     model = fresh_model(model)
-    writer = SheetWriter(model.graph, letters_of(model, parameters))
+    writer = SheetWriter(model.graph, written_symbols(model, parameters))
     write_effects(model, parameters, writer)
     return writer.finished()
 

@@ -20,11 +20,11 @@ from modeler.derivation import (
 )
 from modeler.formulas.closed_form import (
     fresh_model,
-    letters_of,
     name_vector,
     named_columns,
-    signal_letters,
+    signal_symbols,
     write_short_form,
+    written_symbols,
 )
 from modeler.formulas.function_sheet import (
     Sheet,
@@ -306,7 +306,7 @@ def equation_of(
 ) -> Equation:
     """The equation of motion, the columns, or both on one sheet, where each name is one thing."""
     model = fresh_model(model)
-    writer = SheetWriter(model.graph, letters_of(model, named_columns(base)))
+    writer = SheetWriter(model.graph, written_symbols(model, named_columns(base)))
     loops = write_loops(model, writer) if model.closure is not None else []
     words = []
     if motion:
@@ -334,7 +334,7 @@ def equation_of(
 
 def _signals(model: SymbolicModel) -> list[str]:
     """What the letters are that effects read besides the motion."""
-    letters = signal_letters(model)
+    letters = signal_symbols(model)
     told = [
         f"{letter}: {signal.kind}"
         + (f" of joint {model.robot.joints[signal.row].name}" if signal.row >= 0 else "")

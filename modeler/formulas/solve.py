@@ -374,7 +374,7 @@ def _python(solution: ClosedSolution) -> list[str]:
     read = places_in(*polys)
     data = [name for name in system.data if system.place[name] in read]
     made_of = [w for name in (*system.constants, *system.abbreviations.values())
-               for w in _letters_of(name) if w not in system.abbreviations]  # fmt: skip
+               for w in _symbols_of(name) if w not in system.abbreviations]  # fmt: skip
     arguments = [*data, *solution.known, *dict.fromkeys(made_of)]
     where = "base parameters" if system.source == "base" else "coefficients PG, PJ"
     more = ": a list, every robot that fits" if rooted else ""
@@ -400,14 +400,14 @@ def _python(solution: ClosedSolution) -> list[str]:
     lines += [f"{indent}found.append({told})", "    return found"] if rooted else [
         f"    return {told}"
     ]  # fmt: skip
-    used = set(_letters_of("\n".join(lines), functions=True))
+    used = set(_symbols_of("\n".join(lines), functions=True))
     some = [name for name in ("cos", "pi", "sin", "sqrt") if name in used]
     head = [f"from math import {', '.join(some)}"] if some else []
     head += ["from numpy import roots", "", "", _ROOTS] if rooted else []
     return [*head, "", "", *lines] if head else lines
 
 
-def _letters_of(text: str, functions: bool = False) -> list[str]:
+def _symbols_of(text: str, functions: bool = False) -> list[str]:
     """Names in a text, those of functions and of pi only if they are wanted."""
     word = "".join(c if c.isalnum() or c == "_" else " " for c in text).split()
     known = () if functions else ("cos", "sin", "sqrt", "pi")

@@ -25,7 +25,7 @@ class TextStyle:
 
     def name(self, name: str) -> str:
         """One letter."""
-        return latex_letter(name) if self.latex else name
+        return latex_symbol(name) if self.latex else name
 
     def power(self, name: str, exponent: int) -> str:
         """name ** exponent."""
@@ -54,11 +54,11 @@ TEXT = TextStyle("*", False)
 LATEX = TextStyle(r"\,", True)
 
 
-def latex_letter(name: str) -> str:
+def latex_symbol(name: str) -> str:
     """LaTeX of a letter; sines, cosines and roots as functions."""
     function = re.fullmatch(r"(cos|sin|sqrt)\((.*)\)", name)
     if function:
-        return f"\\{function[1]}{{({latex_letter(function[2])})}}"
+        return f"\\{function[1]}{{({latex_symbol(function[2])})}}"
     return r"\pi" if name == "pi" else latex_name(name)
 
 

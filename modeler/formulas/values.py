@@ -266,7 +266,7 @@ _CAD_KEY = "relative_sigma"
 
 
 @dataclass(frozen=True)
-class Given:
+class KnownValues:
     """Parameters that somebody knows.
 
     Attributes:
@@ -280,7 +280,7 @@ class Given:
     sigmas: Mapping[str, float]
 
 
-def given_from_text(text: str, system: PhysicalSystem, where: str = "--known") -> Given:
+def known_from_text(text: str, system: PhysicalSystem, where: str = "--known") -> KnownValues:
     """Reads "am=12,bm=6+-0.1,bl1".
 
     Raises:
@@ -291,7 +291,7 @@ def given_from_text(text: str, system: PhysicalSystem, where: str = "--known") -
     names: list[str] = []
     for piece in filter(None, (part.strip() for part in text.split(","))):
         name, equals, rest = (part.strip() for part in piece.partition("="))
-        check_letter(name, system, where)
+        check_symbol(name, system, where)
         if name in names:
             raise RobotError(f"{where}: {name} is given twice; expected each parameter once")
         names.append(name)
@@ -301,14 +301,14 @@ def given_from_text(text: str, system: PhysicalSystem, where: str = "--known") -
             if spread:
                 sigmas[name] = _sigma(sigma, f"{where}, {name}")
     effective = tuple(name for name in names if name in system.letters)
-    return Given(
+    return KnownValues(
         effective,
         {name: values[name] for name in effective if name in values},
         {name: sigmas[name] for name in effective if name in sigmas},
     )
 
 
-def check_letter(name: str, system: PhysicalSystem, where: str) -> None:
+def check_symbol(name: str, system: PhysicalSystem, where: str) -> None:
     """Refuse what is no physical parameter or length of the robot.
 
     Raises:
@@ -347,7 +347,7 @@ def _sigma(text: Any, where: str) -> float:
     return value
 
 
-def cad_from_file(path: Path, system: PhysicalSystem) -> Given:
+def cad_from_file(path: Path, system: PhysicalSystem) -> KnownValues:
     """Reads a TOML file: `am = 12.0`, `bm = [6.0, 0.1]` with a standard deviation.
 
     `relative_sigma = 0.02` gives every value without one that share of itself.
@@ -365,7 +365,7 @@ def cad_from_file(path: Path, system: PhysicalSystem) -> Given:
     values: dict[str, float] = {}
     sigmas: dict[str, float] = {}
     for name, cell in raw.items():
-        check_letter(name, system, str(path))
+        check_symbol(name, system, str(path))
         where = f"{path}, {name}"
         if isinstance(cell, list):
             if len(cell) != 2:
@@ -377,7 +377,7 @@ def cad_from_file(path: Path, system: PhysicalSystem) -> Given:
     return _among(values, sigmas, system, str(path))
 
 
-def cad_from_robot(robot: Robot, system: PhysicalSystem, where: str) -> Given:
+def cad_from_robot(robot: Robot, system: PhysicalSystem, where: str) -> KnownValues:
     """The example of the robot file, `[terms.example]`; lengths that it leaves out are nominal.
 
     Raises:
@@ -395,14 +395,14 @@ def cad_from_robot(robot: Robot, system: PhysicalSystem, where: str) -> Given:
 
 def _among(
     values: Mapping[str, float], sigmas: Mapping[str, float], system: PhysicalSystem, where: str
-) -> Given:
+) -> KnownValues:
     kept: Collection[str] = [name for name in values if name in system.letters]
     if not kept:
         raise RobotError(
             f"{where}: no value of a parameter with an effect on the torques; expected some of "
             f"{', '.join(system.letters)}"
         )
-    return Given(
+    return KnownValues(
         tuple(kept),
         {name: values[name] for name in kept},
         {name: sigmas[name] for name in kept if sigmas.get(name, 0.0) > 0.0},

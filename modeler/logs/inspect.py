@@ -83,7 +83,7 @@ class Channel:
 
 
 @dataclass(frozen=True, eq=False)
-class Look(Presented):
+class LogInspection(Presented):
     """All that a log shows by itself.
 
     Attributes:
@@ -133,13 +133,13 @@ class Look(Presented):
         })  # fmt: skip
 
 
-def look(
+def inspect_log(
     table: LogTable,
     mapping: LogMap,
     joints: Sequence[JointSpec] = (),
     span: tuple[float | None, float | None] = (None, None),
     every: Iterable[LogTable] | None = None,
-) -> Look:
+) -> LogInspection:
     """What is in a log.
 
     Args:
@@ -204,7 +204,7 @@ def look(
     suggested, plain = ("" if mapping.layers else log_text(f, joints, tuple(values))
                         for f in (found, bare))  # fmt: skip
     ranged = tuple(line for line in unlike_si(found) if line not in unlike_si(bare))
-    return Look(
+    return LogInspection(
         table.path.name, rows, clock, tuple(channels), table.found.streams, notes, tuple(doubts),
         suggested, plain, ranged, *drawn,
     )  # fmt: skip
@@ -247,7 +247,7 @@ class _Extent:
 
 
 Drawn = tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]
-"""Time, steps and values of a `Look`."""
+"""Time, steps and values of a `LogInspection`."""
 
 
 def _all_rows(

@@ -18,7 +18,7 @@ _TOLD = 1e-3  # share of a column's length that another must carry to be named
 
 
 @dataclass(frozen=True)
-class Tangle:
+class SetAside:
     """A column that was set aside.
 
     Attributes:
@@ -57,7 +57,7 @@ class Rank:
     """
 
     kept: tuple[int, ...]
-    aside: tuple[Tangle, ...]
+    aside: tuple[SetAside, ...]
     last_kept: float
     first_dropped: float
 
@@ -71,7 +71,7 @@ def independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
     """
     lengths = np.linalg.norm(R, axis=0)
     active = np.flatnonzero(lengths > _IDLE * lengths.max(initial=0.0))
-    aside = [Tangle(names[i], (), 0.0) for i in range(len(names)) if i not in set(active)]
+    aside = [SetAside(names[i], (), 0.0) for i in range(len(names)) if i not in set(active)]
     if not active.size:
         return Rank((), tuple(aside), 0.0, 0.0)
     triangle, order = qr(R[:, active] / lengths[active], mode="r", pivoting=True)
@@ -85,7 +85,7 @@ def independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
             into = tuple(names[kept[i]] for i in np.argsort(-np.abs(share))
                          if abs(share[i]) > _TOLD)  # fmt: skip
             pivot = pivots[rank + position] if rank + position < len(pivots) else 0.0
-            aside.append(Tangle(names[column], into[:6], float(pivot)))
+            aside.append(SetAside(names[column], into[:6], float(pivot)))
     return Rank(
         kept=tuple(int(i) for i in sorted(kept)),
         aside=tuple(aside),

@@ -187,7 +187,7 @@ _OWN, _BENT, _PAIR, _WIDE, _PAIRS = 60, 30, 30, 60, 150  # random features
 
 
 @dataclass(frozen=True, eq=False)
-class Measured:
+class Measurements:
     """What was measured beside the residual of a joint; n rows, J joints.
 
     Attributes:
@@ -211,7 +211,7 @@ class Measured:
     further: dict[str, np.ndarray]
 
 
-def functions(measured: Measured) -> dict[str, np.ndarray]:
+def functions(measured: Measurements) -> dict[str, np.ndarray]:
     """Sets of functions by name: "own" and "surface" of the joint, "0", "1", ... of others, "wide".
 
     Curves are sums of hats over one coordinate, with and without the direction of the joint:
@@ -238,7 +238,7 @@ def functions(measured: Measured) -> dict[str, np.ndarray]:
     return sets | m.further
 
 
-def _of_joint(m: Measured, way: np.ndarray) -> np.ndarray:
+def _of_joint(m: Measurements, way: np.ndarray) -> np.ndarray:
     parts = [m.slips, way]
     for name, knots in _KNOTS.items():
         hats = curve(getattr(m, name)[:, m.joint], knots)
@@ -246,7 +246,9 @@ def _of_joint(m: Measured, way: np.ndarray) -> np.ndarray:
     return np.hstack(parts)
 
 
-def _of_other(m: Measured, k: int, way: np.ndarray, generator: np.random.Generator) -> np.ndarray:
+def _of_other(
+    m: Measurements, k: int, way: np.ndarray, generator: np.random.Generator
+) -> np.ndarray:
     curves = [curve(getattr(m, name)[:, k], knots) for name, knots in _OTHER.items()]
     plain = np.column_stack([x[:, k] for x in (m.v, m.a, m.load, m.torque)])
     both = np.column_stack([m.q[:, k], m.v[:, k]])

@@ -42,7 +42,7 @@ from .observation import (
     stacked as stacked,
 )
 from .prepare import (
-    Mending as Mending,
+    LogRepair as LogRepair,
     Prepared as Prepared,
     nearest_closed as nearest_closed,
     prepare as prepare,
@@ -56,7 +56,7 @@ from .read import (
 )
 from .reduce import (
     blocks as blocks,
-    explained as explained,
+    fitted_torque as fitted_torque,
     is_streamed as is_streamed,
     products as products,
     triangles as triangles,
@@ -69,11 +69,11 @@ from .stretch import Stretch as Stretch
 from .survey import (
     WINDOW as WINDOW,
     WINDOWS as WINDOWS,
-    Chosen as Chosen,
-    KnownFacts as KnownFacts,
+    FactsSoFar as FactsSoFar,
+    LogChoices as LogChoices,
     Passes as Passes,
     Survey as Survey,
-    WholeNeeded as WholeNeeded,
+    WholeLogNeeded as WholeLogNeeded,
     rows_of_chunk as rows_of_chunk,
     streamed_report as streamed_report,
     survey as survey,

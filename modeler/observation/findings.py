@@ -339,7 +339,7 @@ def _driven(
     for j, joint in enumerate(observation.joints):
         used = rows.used[:, j]
         speed, tau = rows.speed[used, j], rows.tau[used, j]
-        own = _own_friction(compiled, joint.name)
+        own = _pure_friction(compiled, joint.name)
         size = float(np.linalg.norm(speed) * np.linalg.norm(tau))
         both = min(np.mean(speed > 0.0), np.mean(speed < 0.0)) if size > 0.0 else 0.0
         if own and both > BOTH:
@@ -360,7 +360,7 @@ def _driven(
     return (Fault(line, True),)
 
 
-def _own_friction(compiled: CompiledModel, joint: str) -> list[int]:
+def _pure_friction(compiled: CompiledModel, joint: str) -> list[int]:
     """Base parameters that are the viscous or Coulomb friction of a joint, and nothing besides."""
     own = {
         p.name for p in compiled.spec.standard

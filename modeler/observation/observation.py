@@ -24,7 +24,7 @@ from modeler.observation.motion import (
     SATURATED,
     Segment,
 )
-from modeler.observation.prepare import Mending, Prepared, prepare, without_open
+from modeler.observation.prepare import LogRepair, Prepared, prepare, without_open
 from modeler.observation.report import DataReport
 from modeler.observation.settings import Processing
 from modeler.observation.stretch import Stretch, stretch
@@ -190,7 +190,7 @@ def observe(
     logs: Sequence[Log],
     processing: Processing | None = None,
     every_joint: bool = False,
-    mending: Mending | None = None,
+    mending: LogRepair | None = None,
 ) -> Observation:
     """The observation of logs: W, y, and which row is which.
 

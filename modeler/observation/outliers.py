@@ -112,7 +112,7 @@ def floors(walks: Sequence[LeapWalk], resolution: np.ndarray) -> np.ndarray:
     return np.maximum(lonely, top)
 
 
-def surely_none(time: np.ndarray, q: np.ndarray, known: np.ndarray) -> bool:
+def cannot_leap(time: np.ndarray, q: np.ndarray, known: np.ndarray) -> bool:
     """True if no step of a stretch can be a leap, as its slopes hardly change over 11 samples.
 
     Args:
@@ -278,7 +278,7 @@ Defects = dict[str, list[list[Defect]]]
 
 
 @dataclass(frozen=True, eq=False)
-class Usual:
+class ChannelScales:
     """What is usual in the channels of a log, beside which a defect stands out; J joints.
 
     Attributes:
@@ -294,7 +294,9 @@ class Usual:
     rates: Mapping[str, np.ndarray]
 
 
-def defects(log: Log, spec: ModuleSpec, usual: Usual | None = None) -> tuple[Log, Defects, Usual]:
+def defects(
+    log: Log, spec: ModuleSpec, usual: ChannelScales | None = None
+) -> tuple[Log, Defects, ChannelScales]:
     """The log without the values that no robot can have made; these; and what is usual in it.
 
     Wraps are counted on, and positions that begin to count from another zero are joined to the
@@ -319,11 +321,11 @@ def defects(log: Log, spec: ModuleSpec, usual: Usual | None = None) -> tuple[Log
         qd=None if log.qd is None else _without(log.qd, others["qd"]),
         qdd=None if log.qdd is None else _without(log.qdd, others["qdd"]),
     )
-    return mended, {"q": leaps, **others}, usual or Usual(steps, least, noise, levels)
+    return mended, {"q": leaps, **others}, usual or ChannelScales(steps, least, noise, levels)
 
 
 def _positions(
-    log: Log, spec: ModuleSpec, usual: Usual | None
+    log: Log, spec: ModuleSpec, usual: ChannelScales | None
 ) -> tuple[np.ndarray, np.ndarray, list[list[Defect]], np.ndarray, np.ndarray]:
     """Mended positions, segments, what was found by joint; steps and floors of leaps."""
     q, segment = log.q.copy(), log.piece_number
@@ -332,7 +334,7 @@ def _positions(
     steps = np.array([resolution(own) for own in log.q.T]) if usual is None else usual.steps
     stretches = list(_stretches(log, np.isfinite(log.q).all(axis=1)))
     if usual is not None and all(
-        surely_none(log.time[rows], log.q[rows], usual.leaps) for rows in stretches
+        cannot_leap(log.time[rows], log.q[rows], usual.leaps) for rows in stretches
     ):
         return q, segment, positions, steps, usual.leaps
     walks = [walked(log.time[rows], log.q[rows], revolute, steps) for rows in stretches]

@@ -23,7 +23,7 @@ from modeler.observation.excitation import Ringing, ringing
 from modeler.observation.log import Log
 from modeler.observation.motion import CAUSES, HIGHEST, OPEN, Segment, edge_of, segment_of
 from modeler.observation.motion_band import motion_bands
-from modeler.observation.outliers import Defects, Usual, defects
+from modeler.observation.outliers import ChannelScales, Defects, defects
 from modeler.observation.segments import Piece, SplitReport, split
 from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.runtime import CompiledModel
@@ -71,11 +71,11 @@ class Prepared:
     defects: tuple[Defects, ...]
     trembles: tuple[str, ...]
     band: float
-    usual: tuple[Usual, ...]
+    usual: tuple[ChannelScales, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class Mending(Brief):
+class LogRepair(Brief):
     """Logs to be mended once, however often they are prepared: it is the same for any filters.
 
     Attributes:
@@ -87,13 +87,13 @@ class Mending(Brief):
     spec: ModuleSpec
 
     @cached_property
-    def mended(self) -> list[tuple[Log, Defects, Usual]]:
+    def mended(self) -> list[tuple[Log, Defects, ChannelScales]]:
         """What `defects` makes of each."""
         return [defects(log, self.spec) for log in self.logs]
 
 
 def prepare(
-    spec: ModuleSpec, logs: Sequence[Log], processing: Processing, mending: Mending | None = None
+    spec: ModuleSpec, logs: Sequence[Log], processing: Processing, mending: LogRepair | None = None
 ) -> Prepared:
     """Mend, split, resample, choose the cut-offs, filter and differentiate.
 
@@ -108,7 +108,7 @@ def prepare(
             differentiate, or a logged derivative that is none.
     """
     _check(spec, logs, processing)
-    mended = (mending or Mending(logs, spec)).mended
+    mended = (mending or LogRepair(logs, spec)).mended
     if not processing.keep_damaged:
         logs = [log for log, _, _ in mended]
     logged = [processing.derivatives != "position" and log.qd is not None for log in logs]

@@ -41,7 +41,7 @@ def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
     found = []
     for part, own in _stretches(observation):
         rows = places[(places >= own.start) & (places < own.stop)] - own.start
-        if is_plain(part):
+        if is_unfiltered(part):
             found.append(observation.regressor(part.segment, part.rows.centres[rows]))
             continue
         for block, columns in part.blocks(partial(observation.regressor, part.segment)):
@@ -50,7 +50,7 @@ def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
     return np.concatenate(found)
 
 
-def explained(
+def fitted_torque(
     observation: Observation, beta: np.ndarray, keep: np.ndarray | None = None
 ) -> np.ndarray:
     """(s, n) torque of the model, `columns beta`; 0 where keep (s, n) is given and False."""
@@ -62,7 +62,7 @@ def explained(
     for part, own in _stretches(observation):
         if keep is not None and not keep[own].any():
             continue
-        if is_plain(part):
+        if is_unfiltered(part):
             every = np.ones(len(part.used), dtype=bool) if keep is None else keep[own].any(axis=1)
             some = near(np.flatnonzero(every))
             found[own][some] = regressor.torque(part.segment, near(part.rows.centres[some]), beta)
@@ -102,7 +102,7 @@ def with_stretch(
     """
     if not keep.any():
         return state
-    if isinstance(regressor, Evaluated) and is_plain(part):
+    if isinstance(regressor, Evaluated) and is_unfiltered(part):
         return regressor.triangles(part, keep, state)
     for rows, columns in part.blocks(partial(regressor, part.segment), samples):
         used = np.ascontiguousarray(keep[rows])
@@ -120,7 +120,7 @@ def products(
     regressor = observation.regressor
     if not (isinstance(regressor, Evaluated) and regressor.multiplies):
         return None
-    if not all(is_plain(part) for part in observation.stretches):
+    if not all(is_unfiltered(part) for part in observation.stretches):
         return None
     total: list[np.ndarray] | None = None
     for part, own in _stretches(observation):
@@ -129,7 +129,7 @@ def products(
     return total
 
 
-def is_plain(part: Stretch) -> bool:
+def is_unfiltered(part: Stretch) -> bool:
     """True if the rows of a stretch are samples: no parallel filter, whatever the decimation."""
     return len(part.rows.weights.data) == len(part.rows.centres)
 

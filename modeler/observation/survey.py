@@ -14,7 +14,7 @@ from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_
 from modeler.observation.low_speed import IDLE_TRAVEL, TOP, FrictionShaft, shafts
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.observation import Observation, observed
-from modeler.observation.outliers import Usual, defects
+from modeler.observation.outliers import ChannelScales, defects
 from modeler.observation.prepare import Prepared, believed, check_size, closed, prepare
 from modeler.observation.read import Ranges, Source, cut, joined, windows_joined
 from modeler.observation.report import DataReport, LogReport
@@ -48,12 +48,12 @@ _TRAVEL = 1e-3  # rad or m: less is rest
 Extremes = tuple[tuple[float, float], ...]
 
 
-class WholeNeeded(DataError):
+class WholeLogNeeded(DataError):
     """Only a log that is in memory as a whole can be fitted."""
 
 
 @dataclass(frozen=True, eq=False)
-class Chosen:
+class LogChoices:
     """What is one choice for all rows of a log; J joints.
 
     Attributes:
@@ -73,7 +73,7 @@ class Chosen:
     processing: ChosenProcessing
     decimation: int
     logged: bool
-    usual: Usual
+    usual: ChannelScales
     extremes: tuple[tuple[float, float], ...]
     shafts: tuple[FrictionShaft, ...]
     step: float
@@ -96,14 +96,14 @@ class Survey:
 
     observation: Observation
     prepared: Prepared
-    chosen: tuple[Chosen, ...]
+    chosen: tuple[LogChoices, ...]
     places: tuple[int, ...]
     windows: int
     rows: int
 
 
 @dataclass(frozen=True, eq=False)
-class KnownFacts:
+class FactsSoFar:
     """What an earlier pass over the logs found, that the windows did not show.
 
     Attributes:
@@ -119,7 +119,7 @@ def survey(
     model: CompiledModel,
     sources: Sequence[Source],
     processing: Processing,
-    known: KnownFacts,
+    known: FactsSoFar,
     rows: int = FINGER,
 ) -> Survey:
     """Looks at windows of the logs and chooses.
@@ -144,7 +144,7 @@ def survey(
         observation = observed(model, seen, prepared)
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
         where = f"the {sum(len(own) for own in windows)} windows"
-        raise WholeNeeded(f"{error}; found in {where} by which long logs are judged") from None
+        raise WholeLogNeeded(f"{error}; found in {where} by which long logs are judged") from None
     chosen, parts = observation.report.processing, shafts(model)
     chosen = dataclasses.replace(chosen, speed_floors={**chosen.speed_floors, **known.floors})
     places = tuple(looked.index(k) if k in looked else 0 for k in range(len(sources)))
@@ -158,7 +158,7 @@ def survey(
             )
         ranges, beside = Ranges.of(log), margin(chosen, log.step)
         every.append(
-            Chosen(
+            LogChoices(
                 run=k,
                 processing=chosen,
                 decimation=spacing(log.step, chosen.parallel_cutoff, chosen.decimation),
@@ -242,7 +242,7 @@ def _moves(log: Log) -> bool:
 
 
 def rows_of_chunk(
-    model: CompiledModel, chunk: Chunk, chosen: Chosen
+    model: CompiledModel, chunk: Chunk, chosen: LogChoices
 ) -> tuple[tuple[Stretch, ...], Facts]:
     """The rows of a chunk: mended, split, filtered and differentiated as those of a whole log.
 
@@ -293,7 +293,7 @@ def rows_of_chunk(
     )
 
 
-def _centres(segment: Segment, chunk: Chunk, chosen: Chosen) -> np.ndarray:
+def _centres(segment: Segment, chunk: Chunk, chosen: LogChoices) -> np.ndarray:
     """Samples on which the chunk's own rows are centred.
 
     A segment that begins and ends in the chunk has them where it would have them in a whole log.
@@ -329,7 +329,7 @@ def _clipped(log: Log, pieces: Sequence[Piece]) -> np.ndarray:
     return found
 
 
-def _awake(segments: Sequence[Segment], chosen: Chosen) -> dict[str, float]:
+def _awake(segments: Sequence[Segment], chosen: LogChoices) -> dict[str, float]:
     """Top speeds of the shafts that move, and were taken to stand still."""
     moves: dict[str, float] = {}
     for part in chosen.shafts:

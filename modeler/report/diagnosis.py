@@ -6,9 +6,9 @@ from modeler.core.table import percent, printed
 from modeler.diagnosis import Diagnosis, Finding, Step, blind_spots, tie_names, tied, unit, where
 from modeler.effects import effect_named
 from modeler.report.blocks import Block, Figure, Items, PageCell, PageTable, Paragraph
+from modeler.report.effect_evidence import evidence_of, figures
 from modeler.report.evidence import evidence_picture, rivals_of, rivals_table
 from modeler.report.page import Origin, Page, Section
-from modeler.report.shown import figures, shown
 from modeler.report.torque_picture import play_picture, push_picture, torque_picture
 
 
@@ -103,7 +103,7 @@ def _sections(diagnosis: Diagnosis) -> list[Section]:
 
 def _shown(diagnosis: Diagnosis, step: Step, own: str) -> Section:
     """One effect: what it explains, before and after, and what else could stand for it."""
-    item = shown(diagnosis.search, step)
+    item = evidence_of(diagnosis.search, step)
     effect, joint = step.pick.effect.id, step.pick.joint
     alone = Paragraph(f"No other effect of the catalogue explains anything of {where(joint)}.")
     return Section(_name(effect, joint), [

@@ -11,8 +11,8 @@ from modeler.core.style import BLACK, BLUE, GREEN, GREY, SKY, VERMILLION, Style
 from modeler.core.table import percent
 from modeler.diagnosis import Judged, Step, order_spectrum
 from modeler.report.blocks import PageCell, PageTable
+from modeler.report.effect_evidence import Evidence
 from modeler.report.evidence_axes import bins_of
-from modeler.report.shown import Shown
 from modeler.validation import DEVIATIONS
 
 # How much of the axes a picture shows: where the effect acts and most means are.
@@ -34,7 +34,7 @@ class View:
     outside: tuple[str, ...]
 
 
-def view_of(item: Shown) -> View:
+def view_of(item: Evidence) -> View:
     """Of both panels, alike, so that they can be compared.
 
     The ends are quantiles: neither one spike nor a few rows may flatten everything else. The curve
@@ -47,7 +47,7 @@ def view_of(item: Shown) -> View:
     return View(x, y, law, tuple(_outside(item, x, y)))
 
 
-def _across(item: Shown) -> tuple[float, float]:
+def _across(item: Evidence) -> tuple[float, float]:
     """Most of the rows, and no more than the neighbourhood of the place where the effect acts."""
     x, adds = item.axis.x[item.calm], (item.adds if item.own is None else item.own)[item.calm]
     low, high = np.quantile(x, (_TAIL, 1.0 - _TAIL))
@@ -71,7 +71,7 @@ def _around(x: np.ndarray, near: float, far: float) -> tuple[float, float]:
 
 
 def _upward(
-    item: Shown, x: tuple[float, float], effect: np.ndarray, drawn: Sequence[np.ndarray]
+    item: Evidence, x: tuple[float, float], effect: np.ndarray, drawn: Sequence[np.ndarray]
 ) -> tuple[float, float]:
     inside = (item.bins.centre >= x[0]) & (item.bins.centre <= x[1])
     ends, error = [], np.nan_to_num(item.errors())
@@ -87,7 +87,7 @@ def _upward(
     return low - pad, high + pad
 
 
-def _outside(item: Shown, x: tuple[float, float], y: tuple[float, float]) -> list[str]:
+def _outside(item: Evidence, x: tuple[float, float], y: tuple[float, float]) -> list[str]:
     """What the picture does not show."""
     beside = (item.axis.x < x[0]) | (item.axis.x > x[1])
     turned = item.axis.turned(item.before)
@@ -123,7 +123,7 @@ LINES, LINES_AFTER = Style(BLACK, 1.0), Style(GREEN, 1.4)
 _DOTS = 1500
 
 
-def evidence_picture(item: Shown) -> Picture:
+def evidence_picture(item: Evidence) -> Picture:
     """Residual on the axis where the effect shows itself, without the effect and with it."""
     pick, view = item.step.pick, view_of(item)
     panels = [_without(item, view), _panel("with it", item, view, _cloud(item, view, item.after))]
@@ -143,7 +143,7 @@ def evidence_picture(item: Shown) -> Picture:
     )
 
 
-def _without(item: Shown, view: View) -> Panel:
+def _without(item: Evidence, view: View) -> Panel:
     axis, bins = item.axis, item.bins
     curves = [(item.step.pick.effect.id, item.adds, EFFECT)]
     if item.rival is not None:
@@ -155,7 +155,7 @@ def _without(item: Shown, view: View) -> Panel:
     return _panel("without the effect", item, view, series)
 
 
-def _law(item: Shown, own: np.ndarray, view: View) -> Panel:
+def _law(item: Evidence, own: np.ndarray, view: View) -> Panel:
     """Torque that is left to the effect with all else in the model, and its equation."""
     y = item.bins.means(item.axis.turned(own))
     series = [*_cloud(item, view, own + item.after)]
@@ -169,12 +169,12 @@ def _law(item: Shown, own: np.ndarray, view: View) -> Panel:
     return dataclasses.replace(panel, y_label=label, y_range=view.law)
 
 
-def _panel(title: str, item: Shown, view: View, series: tuple[Series, ...]) -> Panel:
+def _panel(title: str, item: Evidence, view: View, series: tuple[Series, ...]) -> Panel:
     y_label = f"residual{item.axis.times} [{item.unit}]"
     return Panel(title, item.axis.label, y_label, series, zero=True, x_range=view.x, y_range=view.y)
 
 
-def _cloud(item: Shown, view: View, y: np.ndarray) -> tuple[Series, ...]:
+def _cloud(item: Evidence, view: View, y: np.ndarray) -> tuple[Series, ...]:
     x, turned = item.axis.x, item.axis.turned(y)
     inside = np.flatnonzero((x >= view.x[0]) & (x <= view.x[1]))
     kept = inside[:: max(1, len(inside) // _DOTS)]
@@ -184,7 +184,7 @@ def _cloud(item: Shown, view: View, y: np.ndarray) -> tuple[Series, ...]:
     )
 
 
-def _pieces(item: Shown, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _pieces(item: Evidence, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """A curve over the centres of the bins; over velocities it may leap at 0."""
     if item.axis.shows != "v":
         return item.bins.centre, y
@@ -192,7 +192,7 @@ def _pieces(item: Shown, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.insert(item.bins.centre, at, np.nan), np.insert(y, at, np.nan)
 
 
-def _orders(item: Shown) -> Panel:
+def _orders(item: Evidence) -> Panel:
     order = item.step.pick.shapes["m"]
     series = []
     for label, state, style in (
@@ -208,7 +208,7 @@ def _orders(item: Shown) -> Panel:
     )  # fmt: skip
 
 
-def _caption(item: Shown, view: View) -> list[str]:
+def _caption(item: Evidence, view: View) -> list[str]:
     lines = [
         f"Look for: {item.step.pick.effect.signature}. Without the effect, all other parameters "
         "are fitted anew; with it, the scale is the same.",

@@ -189,7 +189,7 @@ def _sections(model: IdentifiedModel) -> list[Section]:
     for title, others in (("Loads", fit.loads), ("Drive gains", fit.gains)):
         if others:
             found.append(Section(title, [values_table(others)]))
-    pairs = tangled(model)
+    pairs = correlated_pairs(model)
     if pairs:
         table = PageTable(
             ("parameter", "and", "correlation"),
@@ -215,7 +215,7 @@ def _judged(fit: FitResult) -> list[Verdict | Items]:
     return blocks
 
 
-def tangled(model: IdentifiedModel) -> list[tuple[str, str, float]]:
+def correlated_pairs(model: IdentifiedModel) -> list[tuple[str, str, float]]:
     """Pairs of parameters whose estimates correlate by more than 0.95, worst first."""
     deviation = np.sqrt(np.diag(model.covariance))
     size = np.where(deviation > 0.0, deviation, np.inf)

@@ -31,7 +31,7 @@ def fleet_page(found: Fleet, provenance: Sequence[str] = ()) -> Page:
             ("logs", str(found.logs)),
             ("chance of any finding where nothing drifts", percent(found.false_alarm)),
         ],
-        provenance=[*found.notes, *result.left_lines(found), *provenance],
+        provenance=[*found.notes, *result.skipped_lines(found), *provenance],
         command="fleet",
     )
 

@@ -10,9 +10,9 @@ from modeler.core.figure import Picture
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Cell, Table
 from modeler.diagnosis import Diagnosis, Finding, Step, blind_spots, lines
+from modeler.report.effect_evidence import evidence_of
 from modeler.report.evidence import evidence_picture
 from modeler.report.figures import errors_picture, picture_figures
-from modeler.report.shown import shown
 
 
 def _contest_summary(found: validation.Contest) -> str:
@@ -159,7 +159,7 @@ def _diagnosis_figures(diagnosis: Diagnosis) -> Figures:
 
 
 def _evidence(diagnosis: Diagnosis, step: Step) -> Picture:
-    return evidence_picture(shown(diagnosis.search, step))
+    return evidence_picture(evidence_of(diagnosis.search, step))
 
 
 def _free_run_tables(found: validation.FreeRun) -> Tables:

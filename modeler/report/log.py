@@ -11,7 +11,7 @@ from modeler.core.style import SLATE, Style
 from modeler.core.table import Cell, Table, percent
 from modeler.core.thinning import thin_points
 from modeler.excitation import Exciting
-from modeler.logs import Clock, Look, template_of
+from modeler.logs import Clock, LogInspection, template_of
 from modeler.observation import DataReport, Log, Observation
 from modeler.report.blocks import Code, Figure, Items, PageTable, Paragraph
 from modeler.report.figures import curves, log_figure, picture_figure
@@ -22,7 +22,7 @@ _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remar
 _LIMIT = 600  # points of one curve
 
 
-def log_page(look: Look, doubts: Sequence[str], provenance: Sequence[str]) -> Page:
+def log_page(look: LogInspection, doubts: Sequence[str], provenance: Sequence[str]) -> Page:
     """The page of a log.
 
     Args:
@@ -72,7 +72,7 @@ def clock_line(clock: Clock) -> str:
     return ", ".join(parts)
 
 
-def channel_rows(look: Look) -> list[list[str]]:
+def channel_rows(look: LogInspection) -> list[list[str]]:
     """Header and one row a channel, as text."""
     rows = [list(_HEAD)]
     for channel in look.channels:
@@ -92,13 +92,13 @@ def channel_rows(look: Look) -> list[list[str]]:
     return rows
 
 
-def log_pictures(look: Look) -> list[Picture]:
+def log_pictures(look: LogInspection) -> list[Picture]:
     """All pictures of a log."""
     clock = clock_picture(look)
     return [*channel_pictures(look), *([clock] if clock is not None else [])]
 
 
-def channel_pictures(look: Look) -> list[Picture]:
+def channel_pictures(look: LogInspection) -> list[Picture]:
     """One picture for the columns of each kind, against time."""
     groups: dict[str, list[str]] = {}
     for name in look.values:
@@ -111,7 +111,7 @@ def channel_pictures(look: Look) -> list[Picture]:
     ]
 
 
-def _against_time(look: Look, number: int, template: str, names: Sequence[str]) -> Picture:
+def _against_time(look: LogInspection, number: int, template: str, names: Sequence[str]) -> Picture:
     title = template.replace("{}", "*")
     unit = next((c.unit for c in look.channels if c.unit and names[0] in c.name), "")
     label = f"{title} [{unit}]" if unit else title
@@ -124,7 +124,7 @@ def _against_time(look: Look, number: int, template: str, names: Sequence[str]) 
     return Picture(f"channels_{number}", title, caption, ((panel,),), 320)
 
 
-def clock_picture(look: Look) -> Picture | None:
+def clock_picture(look: LogInspection) -> Picture | None:
     """The steps of the clock against time; None without a clock."""
     time, steps = look.steps[0], 1e3 * look.steps[1]
     if look.clock is None or not np.isfinite(steps).any():
@@ -141,26 +141,26 @@ def clock_picture(look: Look) -> Picture | None:
     return Picture("clock", "Clock", caption, ((panel,),), 260)
 
 
-def _time_label(look: Look) -> str:
+def _time_label(look: LogInspection) -> str:
     return "row" if look.clock is None else "time [s]"
 
 
 # Logs, observations of them, and motions.
 
 
-def _look_summary(look: Look) -> str:
+def _inspection_summary(look: LogInspection) -> str:
     clock = "no clock" if look.clock is None else clock_line(look.clock)
     lines = [f"{look.name}: {look.rows} rows, {len(look.channels)} channels", clock]
     lines += [f"note: {note}" for note in look.notes]
     return "\n".join([*lines, *([f"doubt: {doubt}" for doubt in look.doubts] or ["no doubts"])])
 
 
-def _look_tables(look: Look) -> Tables:
+def _inspection_tables(look: LogInspection) -> Tables:
     head, *rows = channel_rows(look)
     return {"channels": lambda: Table.of(f"channels of {look.name}", head, rows)}
 
 
-def _look_figures(look: Look) -> Figures:
+def _inspection_figures(look: LogInspection) -> Figures:
     return {picture.name: partial(picture_figure, picture) for picture in log_pictures(look)}
 
 
@@ -266,7 +266,8 @@ def _limits(motion: Exciting) -> Table:
 
 
 PRESENTATIONS = {
-    Look: Presentation("a look at a log", _look_summary, _look_tables, _look_figures),
+    LogInspection: Presentation("a look at a log", _inspection_summary, _inspection_tables,
+                                _inspection_figures),
     Log: Presentation("a log", _log_summary, _log_tables, _log_figures),
     SimulatedLog: Presentation("a simulated log", _simulated_summary, _simulated_tables,
                                _log_figures),

@@ -9,8 +9,8 @@ from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.style import BLACK, COLOR_NAMES, COLORS, GREEN, SHADE, VERMILLION, Style
 from modeler.core.table import WORDS
 from modeler.diagnosis import AFTER, MARGIN, State, Window, load_turns
+from modeler.report.effect_evidence import Evidence
 from modeler.report.evidence import MEANS, ROWS, scatter
-from modeler.report.shown import Shown
 from modeler.validation import WINDOW, broken
 
 MEASURED = Style(BLACK, width=1.2)
@@ -21,7 +21,7 @@ STAYS = Style(GREEN, width=1.2)
 _DRAWN_BESIDE = 1.5  # s on either side that are drawn too
 
 
-def torque_picture(item: Shown) -> Picture:
+def torque_picture(item: Evidence) -> Picture:
     """Measured, model without and with the effect; below, what either leaves."""
     rows = item.without.rows
     joint = item.without.data.compiled.spec.joints[item.j]
@@ -60,7 +60,7 @@ def torque_picture(item: Shown) -> Picture:
     )
 
 
-def worst_stretch(item: Shown) -> tuple[int, float, float]:
+def worst_stretch(item: Evidence) -> tuple[int, float, float]:
     """Index of the log, start and end in s of the half second where the model is worst.
 
     By its squared residual without the effect, on the joint where the effect is seen.
@@ -79,7 +79,7 @@ def worst_stretch(item: Shown) -> tuple[int, float, float]:
     return best[1], best[2], best[3]
 
 
-def _pieces(item: Shown) -> np.ndarray:
+def _pieces(item: Evidence) -> np.ndarray:
     """(rows_j,) number of the piece of each row: no line is drawn over rows that do not count."""
     time, segment = item.without.rows.time[item.j], item.without.rows.segment[item.j]
     steps = np.diff(time)
@@ -88,7 +88,7 @@ def _pieces(item: Shown) -> np.ndarray:
     return np.concatenate([[0], np.cumsum((np.diff(segment) != 0) | (steps > longest))])
 
 
-def _caption(item: Shown, what: str, window: tuple[float, float], log: str) -> str:
+def _caption(item: Evidence, what: str, window: tuple[float, float], log: str) -> str:
     rows, j = item.without.rows, item.j
     time = rows.time[j]
     number = item.without.data.observation.logs.index(log)

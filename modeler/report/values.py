@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from modeler.core.manifest import BaseSpec, TermSpec
 from modeler.core.table import percent
-from modeler.estimation import Addition, FitResult, IdentifiedModel, ParameterEstimate, told_spread
+from modeler.estimation import Addition, FitResult, IdentifiedModel, ParameterEstimate, spread_text
 from modeler.report.blocks import PageCell, PageTable
 
 _KINDS = {"% sigma": "bar", "unit": "unit", "is the sum of": "why"}
@@ -126,5 +126,5 @@ def _spread(step: Addition, name: str) -> str:
 
 def _bare_spread(value: float, sigma: float, interval: tuple[float, float] | None) -> str:
     """As behind a value, without the signs that part it from that."""
-    spread = told_spread(value, sigma, interval).strip()
+    spread = spread_text(value, sigma, interval).strip()
     return spread.removeprefix("+- ").removeprefix("(").removesuffix(")")

@@ -4,7 +4,7 @@ from .log import (
     SimulatedLog as SimulatedLog,
     Truth as Truth,
     check_suffix as check_suffix,
-    told_hidden as told_hidden,
+    hidden_json as hidden_json,
     write_log as write_log,
     write_truth as write_truth,
 )

@@ -135,13 +135,13 @@ def write_truth(path: Path, log: SimulatedLog) -> None:
         "torque_noise": log.settings.torque_noise,
         "parameters": dict(log.truth.parameters),
         "drawn": list(log.truth.drawn),
-        "hidden": told_hidden(log),
+        "hidden": hidden_json(log),
         "drive_gains": dict(log.settings.drive_gains),
     }
     write_atomically(Path(path), json.dumps(nulled(content), indent=1, allow_nan=False) + "\n")
 
 
-def told_hidden(log: SimulatedLog) -> list[dict[str, object]]:
+def hidden_json(log: SimulatedLog) -> list[dict[str, object]]:
     """The hidden effects for JSON."""
     return [
         {"effect": h.effect, "joint": h.joint, "values": dict(h.values)} for h in log.truth.hidden

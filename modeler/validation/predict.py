@@ -14,11 +14,11 @@ from modeler.estimation import IdentifiedModel, all_rows, by_threads
 from modeler.numerics.filters import LEAST_WEIGHT, moving_means, spacing
 from modeler.observation import (
     FINGER,
-    Chosen,
     Chunk,
     DataReport,
     Facts,
     Log,
+    LogChoices,
     Observation,
     Source,
     Stretch,
@@ -198,7 +198,9 @@ def compare_long(
     return compare(prediction, ripples), dataclasses.replace(looked, report=report)
 
 
-def _part(model: IdentifiedModel, compiled: CompiledModel, chunk: Chunk, chosen: Chosen) -> _Part:
+def _part(
+    model: IdentifiedModel, compiled: CompiledModel, chunk: Chunk, chosen: LogChoices
+) -> _Part:
     stretches, facts = rows_of_chunk(compiled, chunk, chosen)
     some = tuple(part for part in stretches if len(part.rows.centres))
     if not some:

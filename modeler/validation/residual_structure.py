@@ -10,7 +10,7 @@ from modeler.numerics.splines import (
     OWN,
     SLIPS,
     Flexible,
-    Measured,
+    Measurements,
     curve,
     drift_curve,
     flexible,
@@ -182,7 +182,7 @@ def _follows(
     return Follows(said.share, prediction.joints[place].name, next(iter(coordinates), ""))
 
 
-def _measured(prediction: Prediction, joint: int, rows: np.ndarray) -> Measured:
+def _measured(prediction: Prediction, joint: int, rows: np.ndarray) -> Measurements:
     """What was measured on some rows; 0 throughout for joints that may hold anything there."""
     every = [
         np.where(np.isfinite(x[rows]).all(axis=0), x[rows], 0.0)
@@ -194,7 +194,7 @@ def _measured(prediction: Prediction, joint: int, rows: np.ndarray) -> Measured:
         stroke = max(float(np.ptp(q[:, joint])), 1e-12)
         turned = [np.exp(-prediction.travel[rows, joint] / (d * stroke)) for d in SLIPS]
         slips = way[:, None] * (1.0 - 2.0 * np.column_stack(turned))
-    return Measured(joint, q, v, a, torque, torque, way, slips, {})
+    return Measurements(joint, q, v, a, torque, torque, way, slips, {})
 
 
 def _drift(prediction: Prediction, joint: int, name: str, rows: np.ndarray, e: np.ndarray) -> float:

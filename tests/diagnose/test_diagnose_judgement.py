@@ -10,7 +10,7 @@ import pytest
 from modeler.core.json import nulled
 from modeler.diagnosis import data_checks as doubts, judge as errors, search
 from modeler.diagnosis.assemble import _doubted, verdict
-from modeler.diagnosis.candidates import Candidate, Known, candidates, scales_of
+from modeler.diagnosis.candidates import Candidate, StatedEffects, candidates, scales_of
 from modeler.diagnosis.cross_checks import CrossCheck
 from modeler.diagnosis.judge import Judged, decide, possible
 from modeler.diagnosis.plausible import DRIVES
@@ -57,7 +57,7 @@ def test_a_joint_that_slides_has_no_lever_and_no_disc(case: Case) -> None:
     spec = dataclasses.replace(spec, joints=tuple(slides))
     motion = [np.random.default_rng(1).normal(size=(50, len(spec.joints)))]
     scales = scales_of(spec, motion, motion, motion)
-    found = {c.key for c in candidates(spec, scales, {}, set(), Known())}
+    found = {c.key for c in candidates(spec, scales, {}, set(), StatedEffects())}
     for name in TURNING:
         effect = effect_named(name)
         assert effect is not None and effect.turns

@@ -8,13 +8,13 @@ import pytest
 from modeler.api import compile_model, derive, generate, identified, load, observe
 from modeler.diagnosis.add import add_effect, undone
 from modeler.diagnosis.added_model import Logs, added
-from modeler.diagnosis.candidates import Known
+from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.profile import profile_of
 from modeler.diagnosis.search import extended, scan_catalogue
 from modeler.diagnosis.state import SearchData, analysed, state_of
 from modeler.estimation.identify import identify
 from modeler.estimation.model_file import load_model, save_model
-from modeler.estimation.parameter import told_spread
+from modeler.estimation.parameter import spread_text
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
 
@@ -51,7 +51,7 @@ def found(arm, log, effect, joint):
     robot = arm[0].robot
     data = SearchData(
         arm[2], analysed(arm[2], [log], model.processing), None,
-        Known(robot.catalogue, robot.coupling),
+        StatedEffects(robot.catalogue, robot.coupling),
     )  # fmt: skip
     state = state_of(data, (), model.beta)
     return extended(
@@ -175,4 +175,4 @@ def test_shapes_widen_what_stands_beside_them(arm, tmp_path):
     ],
 )
 def test_an_interval_is_told_where_one_sigma_says_little(value, sigma, interval, text):
-    assert told_spread(value, sigma, interval) == text
+    assert spread_text(value, sigma, interval) == text

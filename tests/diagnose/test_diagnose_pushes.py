@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from modeler.core.table import printed
-from modeler.diagnosis.candidates import Known, candidates, scales_of
+from modeler.diagnosis.candidates import StatedEffects, candidates, scales_of
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.effects.catalogue import effect_named
 from modeler.observation.log import Log
@@ -164,7 +164,7 @@ def test_a_declared_coupling_is_the_one_that_is_tried(case: Case) -> None:
     spec = case.compiled.spec
     motors = [np.random.default_rng(1).normal(size=(50, len(spec.joints)))]
     effect = effect_named("coupled_friction")
-    known = Known([effect], {"3": {"2": 0.5, "3": 1.0}})
+    known = StatedEffects([effect], {"3": {"2": 0.5, "3": 1.0}})
     found = candidates(spec, scales_of(spec, motors, motors, motors), {}, set(), known)
     assert [(c.joint, c.turn) for c in found if c.joint == "3"] == [("3", {1: 0.5, 2: 1.0})]
     assert {c.shapes["c"] for c in found if c.joint == "2"} == {1.0, -1.0}

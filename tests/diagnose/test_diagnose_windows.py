@@ -11,7 +11,7 @@ from modeler.core.expression import parse
 from modeler.diagnosis import effect_columns as rows_module, signals as signals_module
 from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.state import SearchData, all_columns_of, analysed, state_of
-from modeler.observation.prepare import Mending
+from modeler.observation.prepare import LogRepair
 from modeler.observation.read import read_log
 from modeler.observation.settings import Processing
 from modeler.simulation import SimulationSettings, simulate, write_log
@@ -50,7 +50,7 @@ def test_columns_do_not_depend_on_the_windows(arm, log, monkeypatch) -> None:
 
 
 def test_logs_are_mended_once_for_any_filters(arm, log) -> None:
-    mending = Mending([log], arm.spec)
+    mending = LogRepair([log], arm.spec)
     for cutoff in (15.0, 25.0):
         processing = Processing(position_cutoff=40.0, parallel_cutoff=cutoff)
         shared = analysed(arm, [log], processing, chosen=True, mending=mending)

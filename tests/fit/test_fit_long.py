@@ -15,7 +15,7 @@ from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
 from modeler.estimation import long_logs as streamed
-from modeler.estimation.doubts import unshown
+from modeler.estimation.doubts import unexplained_joints
 from modeler.estimation.identify import CrossValidation, identify
 from modeler.estimation.long_logs import identify_long, merge_all, reduce_chunk, stream
 from modeler.estimation.verdict import with_verdict
@@ -26,7 +26,7 @@ from modeler.observation.observation import observe
 from modeler.observation.read import MemorySource, cut
 from modeler.observation.segments import split
 from modeler.observation.settings import Processing
-from modeler.observation.survey import KnownFacts, WholeNeeded, survey
+from modeler.observation.survey import FactsSoFar, WholeLogNeeded, survey
 
 ROWS = 1024  # of a chunk
 ARM = planar_arm()
@@ -230,8 +230,8 @@ def test_noise_is_a_larger_share_of_slower_motion_and_no_doubt(small_windows):
     long = stream(ARM, [MemorySource(noisy_log())], rows=ROWS)
     fit = identify_long(long)
     errors = np.array([joint.relative_error for joint in fit.joints]) / 4.0
-    assert not unshown(fit, CrossValidation(errors, 1.0, 9), np.array([0.25, 0.25]))
-    assert len(unshown(fit, CrossValidation(errors, 1.0, 9), np.array([1.0, 4.0]))) == 2
+    assert not unexplained_joints(fit, CrossValidation(errors, 1.0, 9), np.array([0.25, 0.25]))
+    assert len(unexplained_joints(fit, CrossValidation(errors, 1.0, 9), np.array([1.0, 4.0]))) == 2
 
 
 def test_a_drive_limit_that_the_windows_reach_and_others_exceed_costs_a_second_pass(small_windows):
@@ -278,7 +278,7 @@ def test_windows_that_all_rest_need_the_whole_log(small_windows):
     log = noisy_log(seconds=120.0)
     q = np.tile(log.q[:1], (log.rows, 1))
     q[400:480] = log.q[400:480]
-    with pytest.raises(WholeNeeded, match="found in the 4 windows by which long"):
+    with pytest.raises(WholeLogNeeded, match="found in the 4 windows by which long"):
         stream(ARM, [MemorySource(dataclasses.replace(log, q=q))], rows=ROWS)
 
 
@@ -287,7 +287,7 @@ def test_what_is_wrong_in_one_window_is_not_said_of_all(small_windows):
     log = noisy_log(seconds=60.0)
     tau = log.tau.copy()
     tau[1600, 0] = 1e15
-    with pytest.raises(WholeNeeded, match=r"tau of joint 1 is 1e\+15 at 8 s") as told:
+    with pytest.raises(WholeLogNeeded, match=r"tau of joint 1 is 1e\+15 at 8 s") as told:
         stream(ARM, [MemorySource(dataclasses.replace(log, tau=tau))],
                Processing(keep_damaged=True), rows=ROWS)  # fmt: skip
     assert "all windows" not in str(told.value)
@@ -308,14 +308,16 @@ def test_a_logger_that_is_slow_while_the_robot_rests_has_one_unit(small_windows)
     time[9000:] = time[9000] + 200.0 * (time[9000:] - time[9000])
     q[9000:] = q[9000]
     slow = dataclasses.replace(log, time=time, q=q)
-    assert survey(ARM, [MemorySource(slow)], Processing(), KnownFacts(), ROWS).windows == 4
+    assert survey(ARM, [MemorySource(slow)], Processing(), FactsSoFar(), ROWS).windows == 4
 
 
 def test_another_zero_of_an_encoder_needs_the_whole_log():
     log = noisy_log()
     q = log.q.copy()
     q[3 * ROWS :, 0] += 0.7
-    with pytest.raises(WholeNeeded, match=r"q1 counts from another zero from 15\.36 s on.*@:15.36"):
+    with pytest.raises(
+        WholeLogNeeded, match=r"q1 counts from another zero from 15\.36 s on.*@:15.36"
+    ):
         stream(ARM, [MemorySource(dataclasses.replace(log, q=q))], rows=ROWS)
 
 
@@ -326,7 +328,7 @@ def test_threads_change_nothing_and_chunks_can_be_sent_away(monkeypatch):
     many = stream(ARM, [MemorySource(log)], rows=ROWS)
     np.testing.assert_array_equal(one.data.triangles, many.data.triangles)
     source = MemorySource(log)
-    chosen = survey(ARM, [source], Processing(), KnownFacts(), ROWS).chosen[0]
+    chosen = survey(ARM, [source], Processing(), FactsSoFar(), ROWS).chosen[0]
     parts = []
     for chunk in chunks(source, chosen.own, chosen.beside):
         sent = pickle.loads(pickle.dumps((chunk, chosen)))

@@ -10,7 +10,12 @@ from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.core.manifest import SignalSpec
 from modeler.estimation.identify import identify
-from modeler.estimation.two_step import Directions, moves_alone, single_joint_motions, two_steps
+from modeler.estimation.two_step import (
+    Directions,
+    single_joint_motions,
+    single_joint_moves,
+    two_steps,
+)
 from modeler.estimation.two_step_result import identify_in_two_steps, inertia_rows
 from modeler.observation.log import Log
 from modeler.observation.observation import observe
@@ -153,7 +158,7 @@ def test_too_few_configurations_are_not_persistently_exciting():
 def test_pieces_of_several_joints_are_left_out(exact):
     log = _log(_ROBOT)
     observation = _observed(_ROBOT, log)
-    moves, several, total = moves_alone(observation, _directions(_ROBOT))
+    moves, several, total = single_joint_moves(observation, _directions(_ROBOT))
     speeds = np.abs(log.qd @ np.linalg.inv(_directions(_ROBOT).rows))
     for move in moves:
         others = np.delete(speeds[move.window], move.joint, axis=1)

@@ -9,7 +9,7 @@ from modeler.core.errors import DataError
 from modeler.fleet.fleet import fleet_of
 from modeler.fleet.naming import Named
 from modeler.fleet.result import Fleet, FleetFinding, fleet_lines, sentence
-from modeler.fleet.summary import Left
+from modeler.fleet.summary import SkippedLog
 from tests.fleet.machines import Planted, Scene, compiled, summaries
 
 
@@ -136,7 +136,7 @@ def test_what_cannot_be_compared_is_refused() -> None:
     spec, one = compiled().spec, summaries(Scene(machines=2, periods=1), 1)
     with pytest.raises(DataError, match="got one log each of r1, r2; expected two periods of a ma"):
         fleet_of(spec, one)
-    gone = [Left(Named("r1", "a", "r1/a.csv"), "r1/a.csv: there is no such file")]
+    gone = [SkippedLog(Named("r1", "a", "r1/a.csv"), "r1/a.csv: there is no such file")]
     with pytest.raises(DataError, match=r"none of 1 logs can be used; the first: r1/a.csv: t"):
         fleet_of(spec, gone)
     scene = Scene(machines=1, periods=2)
@@ -148,7 +148,7 @@ def test_what_cannot_be_compared_is_refused() -> None:
 def test_a_log_that_is_left_out_and_a_short_fleet_are_told() -> None:
     given = [*summaries(Scene(machines=2, periods=3), 1)]
     late = dataclasses.replace(given[0], named=Named("r9", "day1", "r9/day1.csv"))
-    left = Left(Named("r1", "day9", "r1/day9.csv"), "r1/day9.csv: damaged")
+    left = SkippedLog(Named("r1", "day9", "r1/day9.csv"), "r1/day9.csv: damaged")
     found = fleet_of(compiled().spec, [*given, late, left])
     lines = "\n".join(fleet_lines(found))
     assert found.left == (("r1/day9.csv", "r1/day9.csv: damaged"),) and "left out: r1/day9" in lines

@@ -9,7 +9,7 @@ from modeler.core.errors import DataError
 from modeler.fleet.fleet import fleet_of
 from modeler.fleet.naming import Named
 from modeler.fleet.result import Fleet, fleet_lines, sentence
-from modeler.fleet.summary import Left, LogSummary, summary
+from modeler.fleet.summary import LogSummary, SkippedLog, summary
 from modeler.observation.log import Log
 from modeler.observation.settings import Processing
 from modeler.runtime.model import CompiledModel
@@ -18,13 +18,15 @@ from tests.fleet.machines import Planted, Scene, compiled, logs, motion, paramet
 GIVEN = Processing(position_cutoff=20.0, parallel_cutoff=8.0)
 
 
-def reduced(pairs: list[tuple[Named, Log]], robot: str = "two-link") -> list[LogSummary | Left]:
-    found: list[LogSummary | Left] = []
+def reduced(
+    pairs: list[tuple[Named, Log]], robot: str = "two-link"
+) -> list[LogSummary | SkippedLog]:
+    found: list[LogSummary | SkippedLog] = []
     for named, log in pairs:
         try:
             found.append(summary(compiled(robot), log, named, GIVEN))
         except DataError as error:
-            found.append(Left(named, str(error)))
+            found.append(SkippedLog(named, str(error)))
     return found
 
 
@@ -136,6 +138,8 @@ def test_few_logs_say_little_of_scatter() -> None:
 
 def test_one_log_besides_those_left_out_says_why() -> None:
     [one] = summaries(Scene(machines=1, periods=1), 2)
-    gone = Left(Named("r1", "b", "r1/b.csv"), "r1/b.csv: there is no such file; check the path")
+    gone = SkippedLog(
+        Named("r1", "b", "r1/b.csv"), "r1/b.csv: there is no such file; check the path"
+    )
     with pytest.raises(DataError, match=r"left out: 1, the first: r1/b.csv: there is no such file"):
         fleet_of(compiled().spec, [one, gone])

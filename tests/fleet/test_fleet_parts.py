@@ -8,9 +8,9 @@ from modeler.estimation.least_squares import least_squares
 from modeler.fleet.drift import (
     PeriodSeries,
     critical_deviate,
-    least_told,
+    least_detectable,
     move_of,
-    odd_ones,
+    outlying_machines,
     quantile,
     scatters,
 )
@@ -35,7 +35,7 @@ def test_critical_values_are_those_of_the_handbook() -> None:
 def test_the_largest_of_rosners_data_are_odd() -> None:
     """His three at 5 %, told here where each step gets all of the 5 %: three steps, 15 %."""
     data = np.array(list(map(float, ROSNER.split())))
-    found = odd_ones(data, np.full(54, 1e-3), 0.15)
+    found = outlying_machines(data, np.full(54, 1e-3), 0.15)
     assert sorted(data[odd.machine] for odd in found) == [5.34, 5.42, 6.01]
 
 
@@ -43,12 +43,16 @@ def test_alike_machines_are_rarely_odd_and_a_far_one_is() -> None:
     rng = np.random.default_rng(5)
     for machines in (5, 12, 20):
         sigmas = np.full(machines, 0.01)
-        alarms = sum(bool(odd_ones(rng.normal(size=machines), sigmas, 0.05)) for _ in range(600))
+        alarms = sum(
+            bool(outlying_machines(rng.normal(size=machines), sigmas, 0.05)) for _ in range(600)
+        )
         assert alarms / 600 < 0.05 + 3.0 * np.sqrt(0.05 / 600)
     two = rng.normal(size=20) + np.where(np.arange(20) < 2, 15.0, 0.0)
-    assert {odd.machine for odd in odd_ones(two, np.full(20, 0.01), 0.001)} == {0, 1}
-    assert not odd_ones(two, np.full(20, 10.0), 0.001)  # explained by what they are known to
-    assert not odd_ones(np.array([0.0, 0.1, 0.2, 50.0]), np.full(4, 0.01), 0.05)
+    assert {odd.machine for odd in outlying_machines(two, np.full(20, 0.01), 0.001)} == {0, 1}
+    assert not outlying_machines(
+        two, np.full(20, 10.0), 0.001
+    )  # explained by what they are known to
+    assert not outlying_machines(np.array([0.0, 0.1, 0.2, 50.0]), np.full(4, 0.01), 0.05)
 
 
 def test_a_quantile_is_students() -> None:
@@ -96,7 +100,7 @@ def test_what_a_series_does_is_told() -> None:
         assert move is not None and move.shape == shape and move.chance < 1e-6
         assert abs(move.change) == pytest.approx(np.abs(plan).max(), abs=4.0 * move.sigma)
         assert move.begin == {"trend": 0, "jump": 3, "one period": 4}[shape]
-        told = least_told(own, scatter, 1e-3)
+        told = least_detectable(own, scatter, 1e-3)
         assert 3.0 < told < 30.0
     assert move_of(PeriodSeries(np.zeros(1), np.zeros(1), np.ones(1)), scatter) is None
 

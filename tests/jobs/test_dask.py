@@ -20,7 +20,7 @@ from modeler.core.jobs import Workers, open_workers
 from modeler.estimation.long_logs import by_threads, identify_long, merge_all, stream
 from modeler.observation.log import Log
 from modeler.observation.read import source_of
-from modeler.observation.survey import KnownFacts, survey
+from modeler.observation.survey import FactsSoFar, survey
 from modeler.runtime.model import CompiledModel
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs
 from tests.jobs.work import added, ends_always, refused, third
@@ -57,7 +57,7 @@ def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path, ro
     """To the bit where they are merged in the same order, by workers of this process."""
     model = compiled()
     given = sources(place, model)
-    chosen = survey(model, given, PROCESSING, KnownFacts(), rows).chosen[0]
+    chosen = survey(model, given, PROCESSING, FactsSoFar(), rows).chosen[0]
     one = merge_all(by_threads(model, given[0], chosen))
     other = merge_all(by_workers(Workers(), emitted())(model, given[0], chosen))
     counts = one.facts.tally.sums
@@ -75,7 +75,7 @@ def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path, ro
 def test_time_increases_from_job_to_job(place: Path) -> None:
     model = compiled()
     [source, *_] = sources(place, model)
-    chosen = survey(model, [source], PROCESSING, KnownFacts(), ROWS).chosen[0]
+    chosen = survey(model, [source], PROCESSING, FactsSoFar(), ROWS).chosen[0]
     first, later, *_ = by_threads(model, source, chosen)
     assert merged_in_time(first, later).facts.span == (first.facts.span[0], later.facts.span[1])
     with pytest.raises(DataError, match="s; expected increasing time; sort and split the file"):
@@ -89,7 +89,7 @@ def test_logs_that_cannot_be_read_from_the_middle_are_read_here(place: Path) -> 
     pyarrow.csv.write_csv(pq.read_table(place / "r1" / "day1.parquet"), file)
     source = source_of(file, model.spec)
     assert source is not None
-    chosen = survey(model, [source], PROCESSING, KnownFacts(), ROWS).chosen[0]
+    chosen = survey(model, [source], PROCESSING, FactsSoFar(), ROWS).chosen[0]
     partials = by_workers(Workers(), emitted())(model, source, chosen)
     assert merge_all(partials).facts.tally.count("rows") == 4000
 
@@ -152,7 +152,7 @@ def test_workers_must_see_the_same_file(workers: cluster.Cluster, place: Path, t
     file = written(tmp_path / "a.parquet", logs(Scene(machines=1, periods=1), 2)[0][1])
     source = source_of(file, model.spec)
     assert source is not None
-    chosen = survey(model, [source], PROCESSING, KnownFacts(), ROWS).chosen[0]
+    chosen = survey(model, [source], PROCESSING, FactsSoFar(), ROWS).chosen[0]
     file.unlink()
     with pytest.raises(DataError, match="a worker sees none, expected a file of 1200 rows; work"):
         list(by_workers(workers, emitted())(model, source, chosen))

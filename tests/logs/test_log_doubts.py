@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.logs.inspect import look
+from modeler.logs.inspect import inspect_log
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap, map_from_table
 from tests.logs.writers import parquet
@@ -25,7 +25,7 @@ def plain(case):
 
 
 def seen(tmp_path, table):
-    return look(LogTable(parquet(tmp_path / "run.parquet", table)), LogMap())
+    return inspect_log(LogTable(parquet(tmp_path / "run.parquet", table)), LogMap())
 
 
 def told(capsys, tmp_path, table, *words):

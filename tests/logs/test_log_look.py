@@ -8,7 +8,7 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.logs.inspect import look
+from modeler.logs.inspect import inspect_log
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap, map_from_table
 from modeler.report.log import log_pictures
@@ -205,7 +205,7 @@ def test_whatever_is_in_it_is_told(tmp_path):
         n = int(rng.choice([10, 60]))
         path = parquet(tmp_path / "run.parquet", {str(name): odd(rng, n) for name in names})
         try:
-            seen = look(LogTable(path), LogMap())
+            seen = inspect_log(LogTable(path), LogMap())
         except DataError as error:
             assert "\n" not in str(error)
             continue

@@ -12,10 +12,10 @@ from modeler import api
 from modeler.core.manifest import Emitted
 from modeler.diagnosis.add import add_findings
 from modeler.diagnosis.added_model import Logs, left_of, rows_of
-from modeler.diagnosis.candidates import Known
+from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
-from modeler.diagnosis.score import Score, Unseen, scored
+from modeler.diagnosis.score import CountedRows, Score, scored
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.motion import HIGHEST
@@ -131,10 +131,10 @@ def scaled(chosen: Processing, factor: float, logs: Sequence[Log]) -> Processing
 
 def _found(fitted: Fitted) -> Diagnosis:
     robot, logs = fitted.derivation.robot, fitted.logs
-    known = Known(robot.catalogue, robot.coupling)
+    known = StatedEffects(robot.catalogue, robot.coupling)
     return diagnose(fitted.model, fitted.compiled, logs.fitted, logs.held_out, known=known)
 
 
-def _unseen(fitted: Fitted, model: IdentifiedModel, compiled: CompiledModel) -> Unseen:
+def _unseen(fitted: Fitted, model: IdentifiedModel, compiled: CompiledModel) -> CountedRows:
     rows = rows_of(compiled, fitted.logs, model.processing)
     return left_of(model, compiled, rows.seen[-1])

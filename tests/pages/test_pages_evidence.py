@@ -19,10 +19,10 @@ from modeler.effects.effect import VARIABLES
 from modeler.observation.log import Log
 from modeler.observation.low_speed import bristle
 from modeler.report.diagnosis import diagnosis_page
+from modeler.report.effect_evidence import evidence_of, figures
 from modeler.report.evidence import EFFECT, MEANS, RIVAL, ROWS, evidence_picture
 from modeler.report.evidence_axes import bins_of, calm_rows
 from modeler.report.page import write_page
-from modeler.report.shown import figures, shown
 from modeler.report.torque_picture import play_picture
 from modeler.robot.read import robot_from_text
 from tests.captions import assert_all_named
@@ -83,7 +83,7 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
     search = found(case, load_friction(case) if effect == "load_friction" else torque).search
     step = search.steps[0]
     assert step.pick.effect.id == effect
-    picture = evidence_picture(shown(search, step))
+    picture = evidence_picture(evidence_of(search, step))
     drawn = panels(picture)
     without, full = drawn["without the effect"], drawn["with it"]
     assert without.x_label == full.x_label == label
@@ -107,7 +107,7 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
 def test_the_law_is_drawn_as_it_is(case: Case) -> None:
     """What the model imitates of a spring is not seen in residuals, but it is in its law."""
     search = found(case, spring).search
-    law = panels(evidence_picture(shown(search, search.steps[0])))["its law"]
+    law = panels(evidence_picture(evidence_of(search, search.steps[0])))["its law"]
     means = series(law, Means, "mean")
     slope, rest = np.polyfit(means.x, means.y, 1)
     assert slope == pytest.approx(1.5, rel=0.02)
@@ -116,7 +116,7 @@ def test_the_law_is_drawn_as_it_is(case: Case) -> None:
 
 def test_the_spectrum_of_a_ripple_loses_its_line(case: Case) -> None:
     search = found(case, motor_ripple).search
-    spectrum = panels(evidence_picture(shown(search, search.steps[0])))["order spectrum"]
+    spectrum = panels(evidence_picture(evidence_of(search, search.steps[0])))["order spectrum"]
     before, after = spectrum.series
     place = np.argmax(before.y)
     assert before.x[place] == pytest.approx(101.0, rel=0.01)
@@ -126,7 +126,7 @@ def test_the_spectrum_of_a_ripple_loses_its_line(case: Case) -> None:
 @pytest.mark.parametrize("effect", ["stribeck", "motor_ripple"])
 def test_captions_name_the_colours_that_are_drawn(case: Case, effect: str) -> None:
     search = found(case, HIDDEN[effect][0]).search
-    assert_all_named(evidence_picture(shown(search, search.steps[0])))
+    assert_all_named(evidence_picture(evidence_of(search, search.steps[0])))
     assert_all_named(play_picture(search.end, 0))
 
 
@@ -138,7 +138,7 @@ def test_the_colours_have_different_names() -> None:
 
 def test_figures_stand_by_the_picture(case: Case, tmp_path: Path) -> None:
     diagnosis = found(case, stribeck)
-    item = shown(diagnosis.search, diagnosis.search.steps[0])
+    item = evidence_of(diagnosis.search, diagnosis.search.steps[0])
     text = figures(item)
     sizes = [float(size) for size in re.findall(r"([\d.]+) N m \(", text)]
     before, after, rival = sizes
@@ -160,7 +160,7 @@ def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:
     quiet, loud = (found(case, torque) for torque in (stribeck, torn))
     assert [f.effect for f in loud.effects] == ["stribeck"]  # a spike is no push
     assert any("8.9 to 9.2 s: torques that come only once" in line for line in loud.data)
-    pictures = [evidence_picture(shown(s, s.steps[0])) for s in (quiet.search, loud.search)]
+    pictures = [evidence_picture(evidence_of(s, s.steps[0])) for s in (quiet.search, loud.search)]
     assert "in no mean" in pictures[1].caption
     spans = [np.ptp(panels(p)["without the effect"].y_range) for p in pictures]
     assert spans[1] < 1.5 * spans[0]

@@ -11,7 +11,7 @@ import pytest
 
 from modeler.cli import main
 from modeler.estimation.model_file import IdentifiedModel, load_model
-from modeler.report.fit import tangled
+from modeler.report.fit import correlated_pairs
 from modeler.report.history import additions_page, joints_picture, waterfall_picture
 from modeler.report.page import write_page
 from modeler.report.values import relation
@@ -169,7 +169,7 @@ def test_a_sum_is_the_base_parameter(made: Made) -> None:
 
 
 def test_tangled_parameters_are_those_of_the_covariance(made: Made) -> None:
-    for one, other, value in tangled(made.after):
+    for one, other, value in correlated_pairs(made.after):
         names = [p.name for p in made.after.fit.parameters]
         i, j = names.index(one), names.index(other)
         covariance = made.after.covariance

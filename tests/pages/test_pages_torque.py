@@ -5,8 +5,8 @@ import pytest
 
 from modeler.core.figure import Band, Curve
 from modeler.diagnosis.ranking import base_of
+from modeler.report.effect_evidence import Evidence, covariance_of, evidence_of
 from modeler.report.evidence import evidence_picture, rivals_of, rivals_table
-from modeler.report.shown import Shown, covariance_of, shown
 from modeler.report.torque_picture import torque_picture, worst_stretch
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case
@@ -15,12 +15,12 @@ from tests.pages.test_pages_evidence import found
 
 
 @pytest.fixture(scope="module")
-def item(case: Case) -> Shown:
+def item(case: Case) -> Evidence:
     search = found(case, stribeck).search
-    return shown(search, search.steps[0])
+    return evidence_of(search, search.steps[0])
 
 
-def test_the_model_after_is_nearer_where_the_model_before_was_worst(item: Shown) -> None:
+def test_the_model_after_is_nearer_where_the_model_before_was_worst(item: Evidence) -> None:
     picture = torque_picture(item)
     above, below = (row[0] for row in picture.panels)
     assert all(isinstance(series, Curve) for series in (*above.series, *below.series))
@@ -35,7 +35,7 @@ def test_the_model_after_is_nearer_where_the_model_before_was_worst(item: Shown)
     assert_all_named(picture)
 
 
-def test_no_other_half_second_is_worse(item: Shown) -> None:
+def test_no_other_half_second_is_worse(item: Evidence) -> None:
     log, start, end = worst_stretch(item)
     assert 0.3 < end - start <= 0.5
     time, square = item.without.rows.time[item.j], np.where(item.calm, item.before, 0.0) ** 2
@@ -45,7 +45,7 @@ def test_no_other_half_second_is_worse(item: Shown) -> None:
     assert log == 0
 
 
-def test_rivals_are_of_the_same_joint(item: Shown) -> None:
+def test_rivals_are_of_the_same_joint(item: Evidence) -> None:
     step = item.step
     assert {rival.candidate.joint for rival in rivals_of(step)} == {step.pick.joint}
     other = next(
@@ -81,7 +81,7 @@ def test_a_spring_is_as_sure_as_its_coefficient(case: Case) -> None:
     diagnosis = found(case, spring)
     search = diagnosis.search
     step = next(s for s in search.steps if s.pick.effect.id == "spring")
-    own = shown(search, step)
+    own = evidence_of(search, step)
     assert own.own_sigma is not None
     finding = next(f for f in diagnosis.effects if f.effect == "spring")
     widest = int(np.argmax(np.abs(own.bins.centre)))
@@ -89,7 +89,7 @@ def test_a_spring_is_as_sure_as_its_coefficient(case: Case) -> None:
     assert 0.3 < ratio / next(iter(finding.sigmas.values())) < 3.0
 
 
-def test_the_band_is_drawn_and_named(item: Shown) -> None:
+def test_the_band_is_drawn_and_named(item: Evidence) -> None:
     picture = evidence_picture(item)
     law = picture.panels[0][-1]
     bands = [series for series in law.series if isinstance(series, Band)]
@@ -98,7 +98,7 @@ def test_the_band_is_drawn_and_named(item: Shown) -> None:
     assert_all_named(picture)
 
 
-def test_no_line_is_drawn_over_rows_that_do_not_count(item: Shown) -> None:
+def test_no_line_is_drawn_over_rows_that_do_not_count(item: Evidence) -> None:
     """Filtered rows of joint 2 leave out its reversals: the curves break there."""
     time = item.without.rows.time[item.j]
     step = np.median(np.diff(time))

@@ -7,12 +7,12 @@ import pytest
 from scipy.signal import lfilter
 
 import modeler.numerics.splines as rival
-from modeler.numerics.splines import Measured, flexible, functions, stretches
+from modeler.numerics.splines import Measurements, flexible, functions, stretches
 
 STEP, ROWS, JOINTS = 1.0 / 80.0, 1600, 7
 
 
-def measured(seed: int, joint: int = 0, rows: int = ROWS, joints: int = JOINTS) -> Measured:
+def measured(seed: int, joint: int = 0, rows: int = ROWS, joints: int = JOINTS) -> Measurements:
     """Six harmonics on each joint for 20 s."""
     rng = np.random.default_rng(seed)
     t = np.arange(rows)[:, None] * STEP
@@ -26,7 +26,7 @@ def measured(seed: int, joint: int = 0, rows: int = ROWS, joints: int = JOINTS) 
     load = 2.0 * a + 8.0 * np.cos(q)
     torque = load + 3.0 * v + 2.0 * np.sign(v)
     none = np.zeros((rows, 0))
-    return Measured(joint, q, v, a, load, torque, np.sign(v[:, joint]), none, {})
+    return Measurements(joint, q, v, a, load, torque, np.sign(v[:, joint]), none, {})
 
 
 def noise(seed: int, memory: float = 0.0, rows: int = ROWS) -> np.ndarray:
@@ -60,7 +60,7 @@ def test_noise_of_any_colour_is_not_predicted(memory: float) -> None:
     lambda m: m.load[:, 3],
 ])  # fmt: skip
 def test_functions_of_what_was_measured_are_predicted(
-    function: Callable[[Measured], np.ndarray],
+    function: Callable[[Measurements], np.ndarray],
 ) -> None:
     """Half of the variance; every row by fits that did not see it."""
     m = measured(1)

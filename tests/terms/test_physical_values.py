@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError, RobotError
-from modeler.formulas.cad import chi_squared_limit, compare_cad, limit, test_known
+from modeler.formulas.cad import check_known, chi_squared_limit, compare_cad, limit
 from modeler.formulas.solve import solve
-from modeler.formulas.values import cad_from_file, cad_from_robot, derive_values, given_from_text
+from modeler.formulas.values import cad_from_file, cad_from_robot, derive_values, known_from_text
 from tests.terms.cases import model_of
 from tests.terms.physical_cases import SEVEN, data_of, example, random_letters, system_of
 
-known_against_fit = test_known
-del test_known  # pytest must not take it for a test
+known_against_fit = check_known
+del check_known  # pytest must not take it for a test
 
 
 def covariance_of(data: np.ndarray, rng: np.random.Generator, share: float) -> np.ndarray:
@@ -180,11 +180,11 @@ def test_cad_tolerances_widen_and_missing_values_are_told():
 )
 def test_known_parameters_that_are_none(text, message):
     with pytest.raises(RobotError, match=message):
-        given_from_text(text, system_of("wrist"))
+        known_from_text(text, system_of("wrist"))
 
 
 def test_known_parameters_as_they_are_typed():
-    given = given_from_text(" am=12+-0.1, bm = 6e0 ,al1=0.2,cm,", system_of("wrist"))
+    given = known_from_text(" am=12+-0.1, bm = 6e0 ,al1=0.2,cm,", system_of("wrist"))
     assert given.names == ("am", "bm", "cm")  # al1 has no effect
     assert given.values == {"am": 12.0, "bm": 6.0} and given.sigmas == {"am": 0.1}
 

@@ -18,7 +18,7 @@ from modeler.formulas.render import (
     determinant_text,
     table_lines,
 )
-from modeler.formulas.text import LATEX, combination_text, latex_letter, signed_sum
+from modeler.formulas.text import LATEX, combination_text, latex_symbol, signed_sum
 from tests.base.formulas import written_value
 from tests.terms.cases import model_of, table_of
 from tests.terms.closed_form_values import evaluate
@@ -89,7 +89,7 @@ def test_markdown_has_a_row_per_monomial():
 def test_latex_has_the_values_of_the_text(name):
     closed = closed_form(model_of(name))
     names, _, _ = numbers_of(name)
-    letters = {latex_letter(key): value for key, value in names.items()}
+    letters = {latex_symbol(key): value for key, value in names.items()}
     blocks = closed_form_latex(closed).split("\\begin{align*}\n")[1:]
     text = printed_functions(closed_form_text(closed))
     assert len(blocks) >= len(closed.functions) == len(text)
@@ -133,7 +133,7 @@ def test_coefficients_as_tables():
     ],
 )
 def test_latex_names(name, expected):
-    assert latex_letter(name) == expected
+    assert latex_symbol(name) == expected
 
 
 @pytest.mark.parametrize(

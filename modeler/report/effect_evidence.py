@@ -10,7 +10,7 @@ from modeler.report.evidence_axes import Axis, Bins, axis_of, bins_of, calm_rows
 
 
 @dataclass(frozen=True, eq=False)
-class Shown:
+class Evidence:
     """All other effects that were found are in the model, with the effect and without it.
 
     Attributes:
@@ -68,7 +68,7 @@ class Shown:
         return self.without.data.compiled.spec.joints[self.j].effort_unit
 
 
-def shown(found: Search, step: Step) -> Shown:
+def evidence_of(found: Search, step: Step) -> Evidence:
     """What there is to draw of an effect.
 
     Args:
@@ -84,7 +84,7 @@ def shown(found: Search, step: Step) -> Shown:
     calm = calm_rows(full.residual[j], full.base.block[j])
     own = None if axis.shows == "itself" else _own(found, step, j)
     bins = bins_of(axis.x, adds if own is None else own, without.base.block[j], calm)
-    return Shown(
+    return Evidence(
         step=step, without=without, full=full, j=j, axis=axis,
         rival=rival(without, j).prediction, own=own, calm=calm,
         bins=bins, own_sigma=None if own is None else law_sigma(found, step, j, axis, bins),
@@ -111,7 +111,7 @@ def _own(found: Search, step: Step, j: int) -> np.ndarray | None:
     return None if columns is None else columns @ found.end.values[place]
 
 
-def figures(item: Shown) -> str:
+def figures(item: Evidence) -> str:
     """What is left on blocks of time that were left out of the fit, N m or N, and in percent."""
     size = float(np.sqrt(np.mean(item.without.rows.y[item.j] ** 2)))
 
