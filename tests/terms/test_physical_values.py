@@ -10,9 +10,6 @@ from modeler.formulas.values import cad_from_file, cad_from_robot, derive_values
 from tests.terms.cases import model_of
 from tests.terms.physical_cases import SEVEN, data_of, example, random_letters, system_of
 
-known_against_fit = check_known
-del check_known  # pytest must not take it for a test
-
 
 def covariance_of(data: np.ndarray, rng: np.random.Generator, share: float) -> np.ndarray:
     """A correlated covariance, standard deviations a share of the values."""
@@ -98,14 +95,14 @@ def test_known_parameters_are_tested_and_the_test_is_honest():
     for _ in range(30):
         given = {x: truth[x] + sigmas.get(x, 0.0) * rng.normal() for x in solution.known}
         sample = data + L @ rng.normal(size=len(data))
-        rows = known_against_fit(solution, sample, C, given, sigmas)
+        rows = check_known(solution, sample, C, given, sigmas)
         assert {"cm", "ct2", "bt1"} <= {row.letter for row in rows}
         z.append([row.z for row in rows])
     assert 0.8 < np.sqrt(np.mean(np.square(z))) < 1.2
     wrong = {x: truth[x] for x in solution.known} | {"ct2": truth["ct2"] * 1.05}
-    told = {row.letter: row for row in known_against_fit(solution, data, C, wrong, sigmas)}
+    told = {row.letter: row for row in check_known(solution, data, C, wrong, sigmas)}
     assert told["ct2"].contradicts and told["ct2"].implied == pytest.approx(truth["ct2"], rel=0.01)
-    assert not known_against_fit(solve(system, (*SEVEN, "cm")), data, C, wrong, sigmas)
+    assert not check_known(solve(system, (*SEVEN, "cm")), data, C, wrong, sigmas)
 
 
 def test_cad_false_alarms_are_as_rare_as_told():
