@@ -11,7 +11,7 @@ from modeler.core.estimators import ABOUT
 from tests.modules import compiled
 
 ROBOT, JOINTS, MASS = "demo-arm", 3, 2.0
-RESTING = [(1,), (0, 1, 2), pytest.param((0,), marks=pytest.mark.slow)]
+RESTING = [(1,), (0, 1, 2)]
 
 
 def written(place, rest, seed, load=0.0, kind="tau"):

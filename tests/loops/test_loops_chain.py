@@ -28,7 +28,7 @@ def test_a_hidden_friction_is_named_and_added(robot: str, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    "file", [pytest.param(name, marks=SLOW) for name in ("3rpr_passive", "excavator_sim", "rccc")]
+    "file", [pytest.param(name, marks=SLOW) for name in ("3rpr_passive", "excavator_sim")]
 )
 def test_on_robots_from_elsewhere(
     file: str, loop_robots_folder: FurtherRobots, tmp_path: Path
