@@ -11,7 +11,7 @@ from modeler.core.result import present, present_later
 
 _SHOWN = {
     "derivation": "Robot Derivation Emitted CompiledModel HomeModes",
-    "log": "Look Log SimulatedLog Observation DataReport Exciting",
+    "log": "LogInspection Log SimulatedLog Observation DataReport Exciting",
     "fit": "FitResult IdentifiedModel Addition SideBySide",
     "judgements": "Contest Comparison Diagnosis FreeRun",
     "fleet": "Fleet",

@@ -138,7 +138,7 @@ def test_home_is_that_of_the_command(tmp_path: Path) -> None:
         again.modes[again.own].posture, found.modes[place].posture, atol=1e-6
     )
     one = api.home(robot, near={robot.coordinates[0].name: 1.2})
-    given = found.linkage.closing.given[0]
+    given = found.linkage.loops.given[0]
     assert one.modes[0].posture[given] == pytest.approx(1.2)
 
 

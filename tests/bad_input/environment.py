@@ -101,7 +101,8 @@ CACHE = [
 STREAMS = [
     on("no locale at all", "works", "robots", "wrist", LC_ALL="nonsense", LANG="x"),
     on("stdin closed", "works", "derive two-link --no-terms", redirect="<&-"),
-    on("a disk that is full for the model", "refused", FIT, "f.json", "cannot be written",
+    # The model, or the compiled robot where the cache has forgotten it.
+    on("a disk that is full for the model", "refused", FIT, "cannot be written",
        file_limit=2000, **SESSION),
     on("a disk that is full for a page", "refused", "compare m.json b.csv --report p.html",
        "p.html", file_limit=200000),

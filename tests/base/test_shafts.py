@@ -24,7 +24,9 @@ def columns(effect: str, *shafts: dict[int, float]) -> list[ShaftColumn]:
 
 def test_coulomb_columns_of_proportional_speeds_group():
     """q5 = -q2 as on the Orthoglide: weight |-1|; a gear of 2.5: weight 2.5."""
-    given = columns("coulomb", {0: 1}, {0: -1}, {1: 1}, {0: 1, 1: 1}, {0: 2.5, 1: 2.5})
+    given = columns(
+        "coulomb", {0: 1}, {0: -1}, {1: 1}, {0: 1, 1: 1}, {0: Fraction(5, 2), 1: Fraction(5, 2)}
+    )
     assert friction_relations(given) == [
         {1: Fraction(1), 0: Fraction(-1)},
         {4: Fraction(1), 3: Fraction(-5, 2)},

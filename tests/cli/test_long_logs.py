@@ -10,8 +10,11 @@ import pyarrow.csv
 import pyarrow.parquet
 import pytest
 
+from modeler import observation
 from modeler.api import compile_model, derive, generate, load
 from modeler.cli import main
+from modeler.estimation import stream
+from modeler.validation import compare_long
 
 ROWS = 9000
 
@@ -44,18 +47,19 @@ def place(tmp_path_factory):
 @pytest.fixture
 def chunked(monkeypatch):
     """Logs of some thousand rows are long."""
-    for where in ("modeler.observation.log.LONG", "modeler.api.long_logs.LONG",
-                  "modeler.observation.survey.LONG",
+    for where in ("modeler.observation.log.LONG",
                   "modeler.api.checks.LONG"):  # fmt: skip
         monkeypatch.setattr(where, 4000)
-    for where in ("observation.log", "observation.survey", "api.checks"):
+    monkeypatch.setattr(observation, "LONG", 4000)
+    survey = sys.modules["modeler.observation.survey"]
+    monkeypatch.setattr(survey, "LONG", 4000)
+    monkeypatch.setattr(survey, "FINGER", 1024)
+    for where in ("observation.log", "api.checks"):
         monkeypatch.setattr(f"modeler.{where}.FINGER", 1024)
     monkeypatch.setattr("modeler.api.checks.WINDOW", 900)
-    monkeypatch.setattr(
-        "modeler.validation.predict.compare_long.__defaults__", (lambda share: None, 1024)
-    )
+    monkeypatch.setattr(compare_long, "__defaults__", (lambda share: None, 1024))
     defaults = (None, lambda share: None, 1024, None)
-    monkeypatch.setattr("modeler.estimation.long_logs.stream.__defaults__", defaults)
+    monkeypatch.setattr(stream, "__defaults__", defaults)
 
 
 def fitted(place, log, name, *options):
@@ -75,7 +79,7 @@ def test_a_long_log_is_fitted_in_chunks(log, place, chunked, monkeypatch, capsys
     out = capsys.readouterr().out
     assert f"all {ROWS} rows are read once, in 9 chunks" in out and "9000 rows at 200 Hz" in out
     assert fit["reading"]["chunks"] == 9 and fit["reading"]["passes"] == 1
-    monkeypatch.setattr("modeler.api.long_logs.LONG", 10**9)
+    monkeypatch.setattr(observation, "LONG", 10**9)
     whole = fitted(place, log, "whole")
     assert "reading" not in whole
     (beta, _), (true, sigma) = values(fit), values(whole)
@@ -86,7 +90,7 @@ def test_a_long_log_is_fitted_in_chunks(log, place, chunked, monkeypatch, capsys
 def test_its_model_knows_the_log_again(place, chunked, monkeypatch, capsys):
     """Fingerprint, rows and span of a log in chunks are those of the log read whole."""
     fitted(place, "run.parquet", "chunked")
-    monkeypatch.setattr("modeler.api.long_logs.LONG", 10**9)
+    monkeypatch.setattr(observation, "LONG", 10**9)
     fitted(place, "run.csv", "whole")
     logs = [json.loads((place / f"{n}.json").read_text())["logs"][0] for n in ("chunked", "whole")]
     one, other = ({k: log[k] for k in ("rows", "content", "start", "end")} for log in logs)
@@ -189,7 +193,7 @@ def test_a_long_log_is_compared_in_chunks(log, place, chunked, tmp_path, monkeyp
     words = ["compare", str(place / "model.json"), str(path)]
     found, out = told_of([*words, "--report", str(tmp_path / "long.html")], tmp_path / "l", capsys)
     assert "long logs: all 8992 rows are read once, in 9 chunks" in out
-    monkeypatch.setattr("modeler.api.long_logs.LONG", 10**9)
+    monkeypatch.setattr(observation, "LONG", 10**9)
     whole, out = told_of(words, tmp_path / "whole", capsys)
     assert "long logs" not in out
     agree(counted(found), counted(whole))

@@ -68,8 +68,8 @@ def test_a_push_whose_torque_changes_its_sign_is_one_push(case: Case, tmp_path: 
     for curve in panel.series:
         inside = (curve.x > start + 0.2) & (curve.x < end - 0.2)
         outside = (curve.x < start - 0.2) | (curve.x > end + 0.2)
-        pushed, quiet = (np.nanmedian(np.abs(curve.y[x])) for x in (inside, outside))
-        assert pushed > 20.0 * quiet
+        loud, quiet = (np.nanmedian(np.abs(curve.y[x])) for x in (inside, outside))
+        assert loud > 20.0 * quiet
     assert (
         "Something pushed"
         in write_page(tmp_path / "page.html", diagnosis_page(diagnosis)).read_text()

@@ -138,7 +138,7 @@ def test_gaps_holes_limits_spikes_and_segments_across_borders_are_as_in_the_whol
 def small_windows(monkeypatch):
     """A survey that sees little of a short log."""
     for name, value in (("WINDOW", 512), ("SECONDS", 1.0), ("WINDOWS", 4)):
-        monkeypatch.setattr(f"modeler.observation.survey.{name}", value)
+        monkeypatch.setattr(sys.modules["modeler.observation.survey"], name, value)
 
 
 def test_windows_choose_for_all_rows(small_windows):
@@ -158,7 +158,7 @@ def test_windows_choose_for_all_rows(small_windows):
 def test_the_zero_of_the_clock_changes_nothing(zero, monkeypatch):
     """Stamps differ by their rounding: 1e-13 s, or 2.4e-7 s where they count from 1970."""
     for name, value in (("WINDOW", 512), ("SECONDS", 0.0), ("WINDOWS", 8)):
-        monkeypatch.setattr(f"modeler.observation.survey.{name}", value)
+        monkeypatch.setattr(sys.modules["modeler.observation.survey"], name, value)
     log = noisy_log(seconds=90.0)
     fast = log.time > 45.0  # half of the windows: their median must not hang on a digit
     q = np.where(fast[:, None], np.sin(7.0 * log.time)[:, None] * [0.5, 0.4], log.q)
@@ -297,7 +297,7 @@ def test_a_time_that_changes_its_unit_is_told_by_the_windows(small_windows, monk
     log = noisy_log(seconds=60.0)
     time = log.time.copy()
     time[6000:] = time[6000] + 1e3 * (time[6000:] - time[6000])
-    monkeypatch.setattr(streamed, "reduce_chunk", None)  # no row is reduced
+    monkeypatch.setattr(streamed.by_threads, "__defaults__", (None,))  # no row is reduced
     with pytest.raises(DataError, match=r"column time: a row every 0\.005 s at 7\.5 s and every"):
         stream(ARM, [MemorySource(dataclasses.replace(log, time=time))], rows=ROWS)
 
@@ -345,7 +345,7 @@ def test_an_error_or_an_interrupt_ends_the_threads(monkeypatch):
             raise KeyboardInterrupt
         return reduce_chunk(model, chunk, chosen)
 
-    monkeypatch.setattr(streamed, "reduce_chunk", broken)
+    monkeypatch.setattr(streamed.by_threads, "__defaults__", (broken,))
     monkeypatch.setattr("modeler.estimation.long_logs.cpu_count", lambda: 1)
     with pytest.raises(KeyboardInterrupt):
         stream(ARM, [MemorySource(log)], rows=512)

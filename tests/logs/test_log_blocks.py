@@ -2,6 +2,7 @@
 
 import dataclasses
 import os
+import sys
 
 import numpy as np
 import pyarrow as pa
@@ -209,7 +210,7 @@ def test_a_piece_of_a_long_log_is_that_of_the_whole(span, tmp_path, case, monkey
     del columns["note"], columns["temperature"]
     path = written(tmp_path / "run.parquet", columns)
     for where in ("chunk", "log"):
-        monkeypatch.setattr(f"modeler.observation.{where}.FINGER", 256)
+        monkeypatch.setattr(sys.modules[f"modeler.observation.{where}"], "FINGER", 256)
     monkeypatch.setattr("modeler.observation.log.LONG", 500)
     spec = case.compiled.spec
     whole = window(read_log(path, spec), *span)

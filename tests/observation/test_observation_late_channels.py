@@ -54,7 +54,10 @@ MORE = ("stribeck", "presliding", "load_friction", "asymmetric_viscous", "payloa
 @pytest.mark.parametrize(
     ("name", "hidden"),
     [("demo-arm", hidden) for hidden in EFFECTS]
-    + [pytest.param("ur10e", hidden, marks=pytest.mark.slow) for hidden in EFFECTS[1::2] + MORE[::2]],
+    + [
+        pytest.param("ur10e", hidden, marks=pytest.mark.slow)
+        for hidden in EFFECTS[1::2] + MORE[::2]
+    ],
 )
 def test_physics_is_not_late(name, hidden, tmp_path):
     rng = np.random.default_rng([9, *name.encode(), *hidden.encode()])

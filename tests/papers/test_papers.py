@@ -96,7 +96,7 @@ def test_a_line_that_differs_ends_with_status_1(capsys, monkeypatch):
     paper = read_paper("hanssen-2000")
     wrong = dataclasses.replace(paper.lines[1], quote="as many as 33 physical parameters")
     changed = dataclasses.replace(paper, lines=(wrong,))
-    monkeypatch.setattr("modeler.cli.reproduce.read_paper", lambda name: changed)
+    monkeypatch.setattr("modeler.papers.read_paper", lambda name: changed)
     assert main(["reproduce", "hanssen-2000", "--section", "print"]) == 1
     assert "1 line is different: as many as 33 physical" in capsys.readouterr().err
 
