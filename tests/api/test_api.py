@@ -40,6 +40,7 @@ def chain(logs: tuple[str, str]) -> tuple[Any, Any, Any]:
     return derivation, emitted, api.observe(api.compile_model(emitted), [logs[0]])
 
 
+@pytest.mark.slow
 def test_the_simulation_of_the_command_is_that_of_the_function(tmp_path: Path, logs) -> None:
     options = ["--duration", "8", "--seed", "1", "--hide", "spring@1"]
     assert main(["simulate", "two-link", "--out", str(tmp_path / "c.parquet"), *options]) == 0

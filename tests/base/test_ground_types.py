@@ -39,6 +39,7 @@ def answers(types: str) -> dict:
     return found
 
 
+@pytest.mark.slow
 def test_base_parameters_do_not_depend_on_the_numbers_of_sympy():
     python, flint = answers("python"), answers("flint")
     assert python == flint

@@ -70,6 +70,7 @@ def load(folder, name, mass=None):
     return words if mass is None else (*words, "--payload-mass", mass)
 
 
+@pytest.mark.slow
 def test_the_gains_of_table_3_come_out_within_a_percent(cell):
     fit = json.loads((cell / "fit.json").read_text())
     found = {entry["name"]: entry for entry in fit["gains"]}

@@ -105,6 +105,7 @@ def test_pictures_show_every_mode_and_need_no_other_file(crank, capsys, kind) ->
         assert not re.search(r"<link|<iframe|\bsrc=|@import|<script|url\((?!#)", text)
 
 
+@pytest.mark.slow
 def test_modes_stand_in_rows_of_four(crank, capsys, monkeypatch) -> None:
     modes = home(load("stewart"))  # which takes seconds
     monkeypatch.setattr("modeler.cli.home.home_modes", lambda *given: modes)

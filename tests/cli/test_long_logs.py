@@ -110,7 +110,7 @@ def test_a_method_that_needs_all_rows_reads_them_or_says_that_they_are_too_many(
     place, chunked, monkeypatch, capsys
 ):
     assert "reading" not in fitted(place, "run.parquet", "robust", "--method", "robust")
-    monkeypatch.setattr("modeler.api.long_logs.MOST_WHOLE", 5000)
+    monkeypatch.setattr(observation, "MOST_WHOLE", 5000)
     words = ["fit", "two-link", str(place / "run.parquet"), "--out", str(place / "m.json")]
     assert main([*words, "--method", "robust"]) == 1
     told = capsys.readouterr().err
@@ -131,7 +131,7 @@ def test_where_only_the_whole_log_will_do_it_is_read_whole(place, chunked, tmp_p
     told = capsys.readouterr()
     assert "counts from another zero from 25 s on" in told.err
     assert "read as a whole instead" in told.err and "the encoder found another zero" in told.out
-    monkeypatch.setattr("modeler.api.long_logs.MOST_WHOLE", 5000)
+    monkeypatch.setattr(observation, "MOST_WHOLE", 5000)
     assert main(words) == 1
     assert "fit its parts, as in moved.parquet@:25" in capsys.readouterr().err
 
@@ -206,7 +206,7 @@ def test_rows_of_a_comparison_are_no_more_than_fit_in_memory(place, chunked, tmp
     capsys.readouterr()
     every, out = told_of(words, tmp_path / "every", capsys)
     assert "training only: the model was fitted on run.parquet" in out
-    monkeypatch.setattr("modeler.validation.predict.MOST", 150)
+    monkeypatch.setattr(sys.modules["modeler.validation.predict"], "MOST", 150)
     some, _ = told_of(words, tmp_path / "some", capsys)
     assert 120 < some["samples"] <= 151 < every["samples"]
     assert some["relative_error"] == pytest.approx(every["relative_error"], rel=0.3)

@@ -240,6 +240,7 @@ def test_a_page_may_go_into_a_pipe(small: Comparison, tmp_path: Path) -> None:
     assert read == [page_text(comparison_page(small))] and (tmp_path / "pipe").is_fifo()
 
 
+@pytest.mark.slow
 def test_pictures_as_files(small: Comparison, tmp_path: Path) -> None:
     done: list[float] = []
     written = write_files(tmp_path, all_pictures(small), done.append)

@@ -60,6 +60,7 @@ def test_poses_are_the_product_of_elementary_motions(name):
     )
 
 
+@pytest.mark.slow
 def test_a_row_may_hold_anything():
     robot = robot_from_text(TREE, "odd-tree")
     model = derive_model(robot)

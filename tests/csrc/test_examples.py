@@ -93,6 +93,7 @@ def test_a_line_that_is_no_sample_is_told(fitted, name):
             assert f"a line has {count}" in told and f"expected {width}: q, qd, " in told
 
 
+@pytest.mark.slow
 def test_the_controller_carries_what_friction_remembers(tmp_path):
     """A bristle on joint 2 of the machine: the error there falls from 2.5 to 0.07 mrad rms.
 

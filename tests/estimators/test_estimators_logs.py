@@ -43,6 +43,7 @@ def test_every_method_finds_the_values_of_a_well_measured_arm(observation, run, 
     assert json.loads(json.dumps(fit.to_json()))["method"] == method
 
 
+@pytest.mark.slow
 def test_the_noise_of_a_coarse_encoder_bends_weighted_values_and_not_those_of_iv():
     """1500 counts a turn: over machines the weighted values lie to one side, by many sigmas."""
     found = covered(range(1, 7), "coarse", ["weighted", "iv"])
@@ -188,6 +189,7 @@ def pieces(seed):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_short_pieces_with_derivatives_of_their_own_are_followed_by_these():
     """Differentiating q again, and a controller that follows its noise: 4.0 % in the mean."""
     error = [
@@ -197,6 +199,7 @@ def test_short_pieces_with_derivatives_of_their_own_are_followed_by_these():
     assert np.mean(error) < 0.026
 
 
+@pytest.mark.slow
 def test_didim_says_where_it_ends_worse_than_it_began(run, observation):
     """Commands that come late are not the ones that the robot followed."""
     log, _ = run

@@ -45,6 +45,7 @@ def test_a_missing_effect_is_in_the_sigmas_of_what_carries_it(name, seed, effect
     assert "`modeler diagnose`" in told
 
 
+@pytest.mark.slow
 def test_clean_logs_raise_no_alarm():
     """z of all values stays that of their sigmas."""
     z = []

@@ -238,6 +238,7 @@ def simulated(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_the_command_fits_motor_side_logs(simulated, capsys):
     out = simulated / "two.json"
     line = ["fit", "wrist-coupled", str(simulated / "one.parquet"), "--method", "two-step"]

@@ -71,6 +71,7 @@ def test_text_json_and_page(capsys, plant: Path, tmp_path: Path) -> None:
     assert "All machines" in text and "What was looked at" in text
 
 
+@pytest.mark.slow
 def test_processes_and_lists_give_the_same(capsys, plant: Path, tmp_path: Path) -> None:
     places = [str(path) for path in sorted(plant.glob("*/*.parquet"))]
     whole = run(capsys, *places)

@@ -21,6 +21,7 @@ def told(found: Fleet) -> list[tuple[str, str, str]]:
     return [(one.machine, one.quantity.parameter, one.shape) for one in found.findings]
 
 
+@pytest.mark.slow
 def test_fleets_without_drift_are_quiet() -> None:
     """5 % of them may show anything at all: 4 and more of 16 have a chance of 1 %."""
     scene = Scene(machines=2, periods=3, noise=0.05)

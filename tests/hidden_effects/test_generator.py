@@ -112,6 +112,7 @@ def test_every_effect_changes_the_logged_torque(name):
     assert max(np.abs(after - before)[:, j].max() / scales.rated[j] for j in joints) > 0.01
 
 
+@pytest.mark.slow
 def test_a_seed_is_a_case(tmp_path):
     case = Case(("offset",), "low", 7, "2R")
     truths = [make_case(case, tmp_path / name, visible=0) for name in "ab"]

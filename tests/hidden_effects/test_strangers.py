@@ -209,6 +209,7 @@ def test_a_load_that_swings_only_loses_energy():
     assert work > lifted
 
 
+@pytest.mark.slow
 def test_strangers_are_apart_and_visible(tmp_path, monkeypatch):
     assert not STRANGERS.keys() & EFFECTS.keys() and len(STRANGERS) >= 10
     assert KNOWN.keys() == STRANGERS.keys() | EFFECTS.keys()

@@ -17,6 +17,7 @@ from modeler.runtime.model import load as load_compiled
 from tests.diagnose.conftest import Case, motion, on_joint, two
 
 
+@pytest.mark.slow
 def test_two_effects_added_one_after_the_other_and_undone(case: Case, tmp_path: Path) -> None:
     model, train, holdout = case.hidden(two)
     logs = Logs([train], [holdout])

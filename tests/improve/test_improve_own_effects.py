@@ -91,6 +91,7 @@ def test_nothing_is_named_where_nothing_is_hidden(own: Case) -> None:
     assert diagnosis.verdict == "nothing significant" and not diagnosis.effects
 
 
+@pytest.mark.slow
 def test_one_that_reads_a_temperature_is_tried_where_one_is_logged(own: Case) -> None:
     def heat(log: Log) -> np.ndarray:
         return 30.0 + 20.0 * (1.0 - np.exp(-log.time / 12.0))

@@ -20,6 +20,7 @@ def loops(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_viscous_and_coulomb_one_after_the_other(loops: Path, run: Run, tmp_path: Path) -> None:
     logs = (loops / "train.parquet", "--holdout", loops / "other.parquet")
     one, two, robot = tmp_path / "1.json", tmp_path / "2.json", tmp_path / "r.toml"

@@ -66,6 +66,7 @@ def test_every_call_ends_within_the_stated_number_of_evaluations(name, tmp_path)
     check_bound(module(name).emitted, tmp_path)
 
 
+@pytest.mark.slow
 @pytest.mark.measured
 @pytest.mark.parametrize("name", ["rccc_wide", "3rpr_sim"])
 def test_so_do_those_of_further_robots(name, loop_robots_folder, tmp_path):

@@ -48,6 +48,7 @@ def logged(robot: str, folder: Path, name: str, seed: int, *hidden: str) -> str:
     return str(folder / name)
 
 
+@pytest.mark.slow
 def test_what_is_found_and_cannot_be_added_is_left_out(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -67,6 +68,7 @@ def test_what_is_found_and_cannot_be_added_is_left_out(
     assert main(["compare", models[1], held_out]) == 0
 
 
+@pytest.mark.slow
 def test_a_load_on_the_platform_is_called_a_load(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

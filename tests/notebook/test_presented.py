@@ -23,6 +23,7 @@ NAMES = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_every_object_that_is_reached_prints_one_short_line() -> None:
     found = list(reached(session()))
     assert len({type(thing) for _, thing in found}) > 80  # it went deep

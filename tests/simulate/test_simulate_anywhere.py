@@ -8,6 +8,7 @@ from pathlib import Path
 import casadi as ca
 import mpmath
 import numpy as np
+import pytest
 
 from modeler.simulation.portable_math import (
     exponential,
@@ -54,6 +55,7 @@ def measured(out: Path, environment: dict[str, str]) -> dict:
     return dict(np.load(out))
 
 
+@pytest.mark.slow
 def test_logs_do_not_depend_on_the_processor(tmp_path):
     here = measured(tmp_path / "here.npz", {})
     assert len(here) == 3 * len(_CASES)

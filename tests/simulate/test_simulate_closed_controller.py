@@ -95,6 +95,7 @@ def test_a_stiffer_controller_keeps_nearer_to_the_command(name: str) -> None:
     assert np.array_equal(exact.truth.q, exact.qc)
 
 
+@pytest.mark.slow
 def test_the_settings_of_other_robots_hold() -> None:
     source = read_robot("five-bar")
     free = simulate(source, DRIVEN)

@@ -350,6 +350,7 @@ def clean():
     return simulate(ARM, SHORT)
 
 
+@pytest.mark.slow
 def test_sensors_that_are_wrong_do_not_change_the_machine(clean):
     late = simulate(ARM, settings_of("time_delay:delay=0.006"))
     np.testing.assert_allclose(late.tau[4:], clean.tau[1:-3], atol=1e-9)

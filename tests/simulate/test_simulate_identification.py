@@ -2,6 +2,7 @@
 
 import numpy as np
 import pinocchio as pin
+import pytest
 from scipy.signal import butter, decimate, filtfilt
 from simulated_robots import ARM, pinocchio_model, robot
 
@@ -32,6 +33,7 @@ def columns_and_torques(model: pin.Model, seed: int) -> tuple[np.ndarray, np.nda
     return thinned[0][inner], thinned[1][inner], thinned[2][inner] > 0.03
 
 
+@pytest.mark.slow
 def test_another_regressor_finds_the_true_friction_and_predicts_other_motion():
     source = robot(ARM)
     truth = plant_parameters(source, motion_limits(source))
