@@ -155,7 +155,7 @@ def say_lines(lines: Iterable[str], before: str = "") -> None:
         say(before + line)
 
 
-def show_next_command(commands: Sequence[str]) -> None:
+def show_next(commands: Sequence[str]) -> None:
     """The command to go on with, as the last line."""
     say_lines(commands[:1], "next: ")
 

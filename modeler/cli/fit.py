@@ -8,16 +8,7 @@ from pathlib import Path
 import modeler.api.fitting as fitting
 import modeler.api.long_logs as long_logs
 from modeler.api.workflow import compile_model, derive, generate, read_logs
-from modeler.cli.console import (
-    Json,
-    draw_page,
-    note,
-    progress,
-    say,
-    say_lines,
-    show_next_command,
-    working,
-)
+from modeler.cli.console import Json, draw_page, note, progress, say, say_lines, show_next, working
 from modeler.cli.lists import robot_of
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError
@@ -196,7 +187,7 @@ def _written(
         write_atomically(Path(args.robot_out), text)
         say(f"written: {args.robot_out}")
     say(verdict)
-    show_next_command(after_fit(args.out, [*args.logs, *args.payload_log], args.robot, model.fit))
+    show_next(after_fit(args.out, [*args.logs, *args.payload_log], args.robot, model.fit))
     return model.fit.to_json()
 
 

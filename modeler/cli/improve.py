@@ -5,7 +5,7 @@ from pathlib import Path
 
 import modeler.api.improve as improve
 from modeler import report
-from modeler.cli.console import Json, progress, say, say_lines, show_next_command, working
+from modeler.cli.console import Json, progress, say, say_lines, show_next, working
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.table import DIGITS, percent
@@ -42,7 +42,7 @@ def run_diagnose(args: argparse.Namespace) -> Json:
             )
         wrote = [f"written: {place}"]
     say_lines([*lines(diagnosis), *model.warning, *wrote])
-    show_next_command(following)
+    show_next(following)
     return diagnosis.to_json()
 
 
@@ -103,7 +103,7 @@ def run_add(args: argparse.Namespace) -> Json:
     if better.fit.verdict is not None:
         say(f"now: {better.fit.verdict.line}")
     say_lines(places, "written: ")
-    show_next_command(following)
+    show_next(following)
     steps = [step.to_json() for step in better.history]
     return better.fit.to_json() | {"waterfall": steps, "left_out": list(left_out)}
 

@@ -131,7 +131,7 @@ _NUMBER = re.compile(r"-\d+$|-\d*\.\d+$")  # what argparse takes for a negative 
 
 
 @dataclass
-class _TypedOption:
+class _Typed:
     """An option as typed, and the places of the words that are its values."""
 
     word: int
@@ -198,16 +198,16 @@ def arguments_of(parser: argparse.ArgumentParser) -> list[argparse.Action]:
 
 def _split(
     parser: argparse.ArgumentParser, words: Sequence[str]
-) -> tuple[list[_TypedOption], list[int], bool]:
+) -> tuple[list[_Typed], list[int], bool]:
     """Options with their values, places of all else, and whether `--` was among them."""
-    taken: list[_TypedOption] = []
+    taken: list[_Typed] = []
     free: list[int] = []
     for i, word in enumerate(words):
         if word == "--":
             return taken, [*free, *range(i + 1, len(words))], True
         if _is_option(word):
             name, equals, _ = word.partition("=")
-            taken.append(_TypedOption(i, _action(parser, name), attached=bool(equals)))
+            taken.append(_Typed(i, _action(parser, name), attached=bool(equals)))
         elif taken and _may_take(taken[-1], words[:i]):
             taken[-1].values.append(i)
         else:
@@ -228,7 +228,7 @@ def _action(parser: argparse.ArgumentParser, name: str) -> argparse.Action | Non
     return meant[0] if meant and all(action is meant[0] for action in meant) else None
 
 
-def _may_take(option: _TypedOption, words: Sequence[str]) -> bool:
+def _may_take(option: _Typed, words: Sequence[str]) -> bool:
     """Whether the word after `words` is a value of this, the last option in them."""
     if option.action is None or option.attached:
         return False
@@ -239,9 +239,7 @@ def _may_take(option: _TypedOption, words: Sequence[str]) -> bool:
     return len(option.values) < most
 
 
-def _given_back(
-    parser: argparse.ArgumentParser, taken: Sequence[_TypedOption], free: int
-) -> list[int]:
+def _given_back(parser: argparse.ArgumentParser, taken: Sequence[_Typed], free: int) -> list[int]:
     """Takes from options what arguments would lack; one word is enough for each argument."""
     missing = len(arguments_of(parser)) - free
     back: list[int] = []
@@ -253,7 +251,7 @@ def _given_back(
 
 def _told(
     parser: argparse.ArgumentParser,
-    taken: Sequence[_TypedOption],
+    taken: Sequence[_Typed],
     words: Sequence[str],
     arguments: Sequence[str],
 ) -> str:

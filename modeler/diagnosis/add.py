@@ -26,7 +26,7 @@ from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.effect_columns import body_parameters
 from modeler.diagnosis.result import Pick
-from modeler.diagnosis.score import CountedRows, Score, error_changes, errors_of, rms_error, scored
+from modeler.diagnosis.score import Residuals, Score, error_changes, errors_of, rms_error, scored
 from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.state import SearchData, analysed, state_of
@@ -140,7 +140,7 @@ class _Fitted:
     rows: HoldoutRows
     free: np.ndarray | None = None
 
-    def unseen(self, refitted: bool) -> CountedRows:
+    def unseen(self, refitted: bool) -> Residuals:
         """What it leaves of held-out logs; where there are none, of its own logs in turn."""
         if not self.rows.held_out and (refitted or self.free is not None):
             return left_out(self.model, self.rows.fitted, self.free)

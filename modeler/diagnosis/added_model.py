@@ -10,7 +10,7 @@ from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.profile import Profile, ProfileProblem, profile
 from modeler.diagnosis.ranking import base_of, blocks_of
-from modeler.diagnosis.score import CountedRows, error_changes
+from modeler.diagnosis.score import Residuals, error_changes
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.signals import SignalReference, tilt_basis
 from modeler.diagnosis.state import SearchData, State, columns_of, state_of
@@ -368,9 +368,7 @@ def _rows(compiled: CompiledModel, logs: Logs, prepared: tuple[Prepared, ...]) -
     return HoldoutRows(logs, compiled, prepared, tuple(observed(compiled, *pair) for pair in pairs))
 
 
-def left_of(
-    model: IdentifiedModel, compiled: CompiledModel, observation: Observation
-) -> CountedRows:
+def left_of(model: IdentifiedModel, compiled: CompiledModel, observation: Observation) -> Residuals:
     """What it leaves of logs."""
     left = observation.torque - model_torque(observation, compiled, model.beta)
     return _unseen_of(observation, [left[own, j] for j, own in enumerate(observation.used.T)])
@@ -378,7 +376,7 @@ def left_of(
 
 def left_out(
     model: IdentifiedModel, observation: Observation, free: np.ndarray | None = None
-) -> CountedRows:
+) -> Residuals:
     """What it leaves of its own logs, each eighth predicted from a fit to the others.
 
     Args:
@@ -399,9 +397,9 @@ def left_out(
     return _unseen_of(observation, [s * e for s, e in zip(sigma, base.left_out, strict=True)])
 
 
-def _unseen_of(observation: Observation, left: list[np.ndarray]) -> CountedRows:
+def _unseen_of(observation: Observation, left: list[np.ndarray]) -> Residuals:
     used = observation.used.T
-    return CountedRows(
+    return Residuals(
         tuple(joint.name for joint in observation.joints),
         tuple(left),
         tuple(observation.torque[own, j] for j, own in enumerate(used)),

@@ -27,7 +27,7 @@ from modeler.diagnosis.result import (
     explained_fraction,
     mean_square,
 )
-from modeler.diagnosis.score import Change, CountedRows, Score, errors_of
+from modeler.diagnosis.score import Change, Residuals, Score, errors_of
 from modeler.diagnosis.search import Search, Tick, extended
 from modeler.diagnosis.sentences import evidence, sentences
 from modeler.diagnosis.state import SearchData, State, state_of
@@ -191,7 +191,7 @@ def _same_waves(first: Candidate, later: Candidate) -> bool:
 
 
 def _joints(
-    found: Search, seen: Sequence[CountedRows], systematic: Sequence[float]
+    found: Search, seen: Sequence[Residuals], systematic: Sequence[float]
 ) -> dict[str, JointState]:
     states, ends = {}, [errors_of(seen[k]) for k in (0, -1)]
     for j, joint in enumerate(found.spec.joints):

@@ -10,7 +10,7 @@ from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import Columns
 from modeler.diagnosis.ranking import VISIBLE, Ranking, pool_of, total_falls
-from modeler.diagnosis.score import SURE as TIED, CountedRows, Score, scored, standard_errors
+from modeler.diagnosis.score import SURE as TIED, Residuals, Score, scored, standard_errors
 from modeler.diagnosis.state import SearchData, State, picked_columns
 from modeler.diagnosis.timing import confirmed
 
@@ -257,7 +257,7 @@ def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
 # Errors of a state on motion it was not fitted to, and whether an effect lowers them.
 
 
-def holdout_residuals(state: State, other: SearchData | None) -> CountedRows:
+def holdout_residuals(state: State, other: SearchData | None) -> Residuals:
     """What a state leaves of held-out logs; without any, of its own, each fold from the others.
 
     Args:
@@ -270,7 +270,7 @@ def holdout_residuals(state: State, other: SearchData | None) -> CountedRows:
     return _of(state.data, tuple(left))
 
 
-def left_of(state: State, data: SearchData) -> CountedRows:
+def left_of(state: State, data: SearchData) -> Residuals:
     """What a state leaves of logs, with its parameters as they are."""
     rows = data.about(state.reference)
     extra = picked_columns(rows, state.picks)
@@ -282,17 +282,13 @@ def left_of(state: State, data: SearchData) -> CountedRows:
     return _of(data, tuple(found))
 
 
-def _of(data: SearchData, left: tuple[np.ndarray, ...]) -> CountedRows:
+def _of(data: SearchData, left: tuple[np.ndarray, ...]) -> Residuals:
     names, rows = tuple(joint.name for joint in data.spec.joints), data.rows
-    return CountedRows(names, left, rows.y, rows.time, rows.run)
+    return Residuals(names, left, rows.y, rows.time, rows.run)
 
 
 def compared(
-    before: CountedRows,
-    after: CountedRows,
-    concerned: Sequence[int],
-    state: State,
-    block: float = 0.0,
+    before: Residuals, after: Residuals, concerned: Sequence[int], state: State, block: float = 0.0
 ) -> Score:
     """The score of an effect on the joints that it concerns, in blocks of some s.
 

@@ -24,7 +24,7 @@ WORSE = math.sqrt(2.0)
 
 
 @dataclass(frozen=True, eq=False)
-class CountedRows:
+class Residuals:
     """Rows of every joint that count; J joints.
 
     Attributes:
@@ -117,8 +117,8 @@ class Score:
 
 
 def scored(
-    before: CountedRows,
-    after: CountedRows,
+    before: Residuals,
+    after: Residuals,
     weights: Mapping[str, float] | None = None,
     block: float = 0.0,
 ) -> Score:
@@ -177,7 +177,7 @@ def rms_error(errors: Iterable[float]) -> float:
     return float(np.sqrt(np.mean(np.square(found)))) if found else 0.0
 
 
-def errors_of(seen: CountedRows) -> dict[str, float]:
+def errors_of(seen: Residuals) -> dict[str, float]:
     """Relative error of every joint that has a torque."""
     sizes = [(float(np.linalg.norm(e)), float(np.linalg.norm(y)))
              for e, y in zip(seen.residual, seen.torque, strict=True)]  # fmt: skip
@@ -201,7 +201,7 @@ def error_changes(joints: Mapping[str, tuple[float, float]], changed: Sequence[s
     return "; ".join(part for part in parts if part)
 
 
-def _by_block(logs: CountedRows, block: float) -> Callable[[CountedRows, int], np.ndarray]:
+def _by_block(logs: Residuals, block: float) -> Callable[[Residuals, int], np.ndarray]:
     """The function that gives the squared residuals of a joint, over its squared torque, by block.
 
     Blocks of that many s, of 0 half a second, longer where logs are long; the same for all models
@@ -215,7 +215,7 @@ def _by_block(logs: CountedRows, block: float) -> Callable[[CountedRows, int], n
         last = count + int((b - a) / length)
         ends[r], count = (count, last), last + 1
 
-    def shares(seen: CountedRows, j: int) -> np.ndarray:
+    def shares(seen: Residuals, j: int) -> np.ndarray:
         number = np.zeros(len(seen.run[j]), dtype=int)
         for r, (start, _) in spans.items():
             own = seen.run[j] == r

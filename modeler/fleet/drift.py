@@ -279,7 +279,7 @@ _SHARE, _STEPS = 5, 3  # one of so many machines may be odd, and so many of a fl
 
 
 @dataclass(frozen=True)
-class OutlyingMachine:
+class Outlier:
     """A machine apart.
 
     Attributes:
@@ -311,9 +311,7 @@ def critical_deviate(count: int, step: int, chance: float) -> float:
     return float(left * t / np.sqrt((left - 1 + t**2) * (left + 1)))
 
 
-def outlying_machines(
-    values: np.ndarray, sigmas: np.ndarray, chance: float
-) -> tuple[OutlyingMachine, ...]:
+def outlying_machines(values: np.ndarray, sigmas: np.ndarray, chance: float) -> tuple[Outlier, ...]:
     """Machines apart, by the generalized extreme Studentized deviate.
 
     The most extreme machine is taken away, then the next, up to three and every fifth; the odd ones
@@ -348,7 +346,7 @@ def outlying_machines(
     middle, spread = float(np.median(values[others])), float(np.std(values[others], ddof=1))
     beyond = quantile(1e9, chance / count)
     return tuple(
-        OutlyingMachine(int(k), difference, spread, difference / spread)
+        Outlier(int(k), difference, spread, difference / spread)
         for k in taken[:last]
         for difference in [float(values[k]) - middle]
         if abs(difference) > beyond * sigmas[k]

@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.fleet.drift import (
     Drift,
-    OutlyingMachine,
+    Outlier,
     PeriodSeries,
     Scatter,
     least_detectable,
@@ -48,7 +48,7 @@ class JudgedQuantity:
     sigmas: np.ndarray
     scatters: tuple[Scatter, ...] = ()
     moves: dict[tuple[int, int], Drift] = dataclasses.field(default_factory=dict)
-    odd: dict[tuple[int, int], OutlyingMachine] = dataclasses.field(default_factory=dict)
+    odd: dict[tuple[int, int], Outlier] = dataclasses.field(default_factory=dict)
     scores: dict[tuple[int, int], float] = dataclasses.field(default_factory=dict)
     loaded: frozenset[int] | None = None
 

@@ -24,7 +24,7 @@ _DURATION, _RATE = 6.0, 50.0  # s and Hz of the motion that is looked at
 _TOP = 0.98
 
 
-def motor_side_amplitudes(
+def motor_amplitudes(
     robot: Robot, parameters: PlantParameters, limits: Sequence[Limits], joint: str, seed: int
 ) -> tuple[float, float]:
     """(torque, speed) of a joint that are large for the closed machine around it.
@@ -192,9 +192,7 @@ def _site(
         after = scales[motors[motors.index(row) + 1]]
         torque, inertia = min(torque, after.torque), min(inertia, after.inertia)
     elif joint is not None and robot.loops and kind.where in ("joint", "lever", "passive"):
-        torque, felt = motor_side_amplitudes(
-            robot, parameters, limits, joint, settings.parameter_seed
-        )
+        torque, felt = motor_amplitudes(robot, parameters, limits, joint, settings.parameter_seed)
         # What no motor commands is as fast as the loops make it.
         speed = felt if kind.where == "passive" else speed
     # Torque of a force of 1 N on the last body, per rms torque of the joint that feels it most.

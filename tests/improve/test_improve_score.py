@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from modeler.core.table import printed
-from modeler.diagnosis.score import CountedRows, Score, error_changes, scored
+from modeler.diagnosis.score import Residuals, Score, error_changes, scored
 
 RATE, SPAN = 20.0, 30.0
 
@@ -18,10 +18,10 @@ def coloured(seed: int, joint: int) -> np.ndarray:
     return smooth / np.sqrt(np.mean(smooth**2))
 
 
-def unseen(*residuals: np.ndarray, torque: float = 10.0) -> CountedRows:
+def unseen(*residuals: np.ndarray, torque: float = 10.0) -> Residuals:
     count = len(residuals)
     time = np.arange(len(residuals[0])) / RATE
-    return CountedRows(
+    return Residuals(
         tuple(str(j + 1) for j in range(count)),
         residuals,
         (np.full(len(time), torque),) * count,

@@ -15,7 +15,7 @@ from modeler.diagnosis.added_model import Logs, left_of, rows_of
 from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
-from modeler.diagnosis.score import CountedRows, Score, scored
+from modeler.diagnosis.score import Residuals, Score, scored
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.motion import HIGHEST
@@ -135,6 +135,6 @@ def _found(fitted: Fitted) -> Diagnosis:
     return diagnose(fitted.model, fitted.compiled, logs.fitted, logs.held_out, known=known)
 
 
-def _unseen(fitted: Fitted, model: IdentifiedModel, compiled: CompiledModel) -> CountedRows:
+def _unseen(fitted: Fitted, model: IdentifiedModel, compiled: CompiledModel) -> Residuals:
     rows = rows_of(compiled, fitted.logs, model.processing)
     return left_of(model, compiled, rows.seen[-1])
