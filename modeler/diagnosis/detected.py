@@ -10,7 +10,7 @@ from modeler.core.table import percent, printed
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.events import BURST, LOUD, Window, burst_ratio
 from modeler.diagnosis.generate import ruled_out
-from modeler.diagnosis.judge import GATE, SURE, Judged
+from modeler.diagnosis.judge import GATE, NAMED_T_RATIO, Judged
 from modeler.diagnosis.orders import knocking
 from modeler.diagnosis.result import Finding
 from modeler.diagnosis.score import Score
@@ -153,7 +153,7 @@ def _faint(found: Search, least: float, knocks: bool) -> Finding | None:
     """
     shares = {
         j: judged.share for j, judged in _columns(found).items()
-        if j in _asked(found) and judged.gain > GATE and judged.sure > SURE
+        if j in _asked(found) and judged.gain > GATE and judged.sure > NAMED_T_RATIO
     }  # fmt: skip
     for j in sorted(shares, key=lambda j: -shares[j]):
         ratio, share = burst_ratio(found.end, j), knocking(found.end, j)

@@ -10,7 +10,7 @@ from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import Columns
 from modeler.diagnosis.ranking import VISIBLE, Ranking, pool_of, total_falls
-from modeler.diagnosis.score import SURE as TIED, Residuals, Score, scored, standard_errors
+from modeler.diagnosis.score import STANDARD_ERRORS, Residuals, Score, scored, standard_errors
 from modeler.diagnosis.state import SearchData, State, picked_columns
 from modeler.diagnosis.timing import confirmed
 
@@ -20,7 +20,7 @@ GATE = 0.03
 FELT = 0.002
 """Least fall of the error, as a share of the rms torque of its joints: filters distort as much."""
 
-SURE = 4.5
+NAMED_T_RATIO = 4.5
 """Least ratio of a fall to its standard error over blocks: random signs of the blocks reach it by
 chance with one candidate in a hundred thousand."""
 
@@ -97,7 +97,7 @@ class Judged(Brief):
     @property
     def significant(self) -> bool:
         """True if it is worth a name."""
-        big = self.gain > GATE and self.sure > SURE and self.felt > FELT
+        big = self.gain > GATE and self.sure > NAMED_T_RATIO and self.felt > FELT
         return big and self.possible and self.confirmed and self.visible > VISIBLE
 
 
@@ -249,7 +249,7 @@ def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
         if other is best or not other.possible or other.gain < GATE:
             continue
         same = other.candidate.effect.id in best.candidate.effect.same_as
-        if same or standard_errors(best.drop - other.drop) <= TIED:
+        if same or standard_errors(best.drop - other.drop) <= STANDARD_ERRORS:
             found.append(other)
     return found
 

@@ -144,7 +144,7 @@ class ProfileProblem:
             first += len(y)
 
 
-SURE = 3.841458820694124
+CHI2_95 = 3.841458820694124
 """95 % quantile of chi-square with one degree of freedom."""
 
 REFUSED = 9.0
@@ -202,10 +202,10 @@ class Profile:
         """(k, 2) 95 % intervals of the parameters, shapes included."""
         every = [*self.points, self.told]
         rise = np.append(self.rise, 0.0)
-        half = np.sqrt(np.maximum(SURE - rise, 0.0))[:, None] * self.factor
+        half = np.sqrt(np.maximum(CHI2_95 - rise, 0.0))[:, None] * self.factor
         values = np.array([point.values for point in every])
         reach = half * np.array([point.deviations for point in every])
-        allowed = rise < SURE
+        allowed = rise < CHI2_95
         low, high = (values - reach)[allowed], (values + reach)[allowed]
         return np.column_stack([low.min(axis=0), high.max(axis=0)])
 
@@ -219,7 +219,7 @@ class Profile:
 
     def shape_intervals(self) -> dict[str, tuple[float, float]]:
         """95 % intervals of the shapes by name: all that the data do not refuse."""
-        allowed = [p for p, rise in zip(self.points, self.rise, strict=True) if rise < SURE]
+        allowed = [p for p, rise in zip(self.points, self.rise, strict=True) if rise < CHI2_95]
         found = {n: [p.shapes[n] for p in (self.told, *allowed)] for n in self.told.shapes}
         return {name: (min(own), max(own)) for name, own in found.items()}
 

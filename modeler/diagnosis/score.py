@@ -13,7 +13,7 @@ import numpy as np
 from modeler.core.table import printed
 from modeler.diagnosis.ranking import BLOCK, MOST
 
-SURE = 2.0
+STANDARD_ERRORS = 2.0
 """Standard errors beyond which differences over blocks of time are more than chance."""
 
 LEAST = 1e-3
@@ -65,12 +65,12 @@ class Change:
     @property
     def falls(self) -> bool:
         """True if the error surely falls."""
-        return self.scatter > SURE and self.differs and self.after < self.before
+        return self.scatter > STANDARD_ERRORS and self.differs and self.after < self.before
 
     @property
     def rises(self) -> bool:
         """True if it surely rises."""
-        return self.scatter < -SURE and self.differs and self.after > self.before
+        return self.scatter < -STANDARD_ERRORS and self.differs and self.after > self.before
 
     @property
     def gain(self) -> float:

@@ -13,7 +13,7 @@ from modeler.diagnosis.state import State, picked_columns
 from modeler.effects import Acts
 from modeler.observation import low_pass
 
-SURE = 4.0
+DELAY_T_RATIO = 4.0
 """Least ratio of the instrumental estimate to its standard error."""
 
 SLOWEST = 0.5
@@ -56,7 +56,7 @@ def _by_smooth_motion(
 ) -> tuple[np.ndarray, bool, bool]:
     """Values by instruments, whether these support the effect, and whether it is a convention."""
     found, error = instrumental(state, candidate)
-    sure = bool(np.max(np.abs(found) / np.maximum(error, 1e-300)) > SURE)
+    sure = bool(np.max(np.abs(found) / np.maximum(error, 1e-300)) > DELAY_T_RATIO)
     step = float(np.median([s.segment.step for s in state.rows.signals]))
     small = abs(float(found[0])) < CONVENTION * step
     supported = sure and bool(np.sum(found * values) > 0.0)

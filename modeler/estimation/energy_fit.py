@@ -21,7 +21,7 @@ from modeler.estimation.identify import (
 )
 from modeler.estimation.least_squares import Estimate, condition_numbers
 from modeler.estimation.methods import method_of
-from modeler.estimation.result import SURE, EnergyReport, FitResult, ModelFigures
+from modeler.estimation.result import KNOWN_BELOW_PERCENT, EnergyReport, FitResult, ModelFigures
 from modeler.numerics.least_squares import (
     compress,
     independent_columns,
@@ -488,7 +488,7 @@ def _figures(
         model=name,
         rows=rows,
         condition_scaled=fit.condition_scaled,
-        known=int(np.sum((sigma > 0.0) & (100.0 * sigma < SURE * np.abs(beta)))),
+        known=int(np.sum((sigma > 0.0) & (100.0 * sigma < KNOWN_BELOW_PERCENT * np.abs(beta)))),
         torque_error=float(np.linalg.norm(y - W @ beta) / np.linalg.norm(y)),
         torque_sigma=float(np.sqrt(squares.sum()) / np.linalg.norm(y)),
         joint_sigma={

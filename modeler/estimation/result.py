@@ -19,7 +19,7 @@ from modeler.observation import Processing, processing_from_json
 # The energy model beside the torque model of the same data: figures, and what they come to.
 
 
-SURE = 10.0
+KNOWN_BELOW_PERCENT = 10.0
 """%sigma below which a parameter counts as known."""
 
 _FELT = 0.5  # sigmas: a bias that is no longer small beside the noise

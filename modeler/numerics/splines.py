@@ -11,7 +11,7 @@ from scipy.optimize import nnls
 LEAST = 100
 """Rows below which nothing is predicted."""
 
-SURE = 2.0
+MIN_T_RATIO = 2.0
 """Share over its standard error that is more than chance."""
 
 _RIDGES = (0.1, 2.0)  # times the number of columns: noise over signal, variances
@@ -38,7 +38,7 @@ class Flexible:
     @property
     def sure(self) -> bool:
         """True if the share is more than chance, also in noise that has a colour."""
-        return self.share > SURE * self.sigma
+        return self.share > MIN_T_RATIO * self.sigma
 
 
 def flexible(sets: Mapping[str, np.ndarray], residual: np.ndarray, fold: np.ndarray) -> Flexible:
