@@ -110,7 +110,7 @@ def test_inertia_gravity_coriolis_and_friction_are_parts_of_the_torque(name):
     "name",
     [
         *("puma560", "five-bar"),
-        *(pytest.param(n, marks=pytest.mark.slow) for n in ("sr400", "orthoglide-2003", "evra")),
+        *(pytest.param(n, marks=pytest.mark.slow) for n in ("sr400", "orthoglide-2003")),
     ],
 )
 def test_an_optimising_compiler_changes_roundings_only(name):

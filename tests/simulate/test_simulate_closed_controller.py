@@ -20,7 +20,7 @@ from modeler.simulation import (
 )
 from modeler.simulation.closing import constraints_of, followed, rates, sampled
 from modeler.simulation.plant import build_plant, inner_states, tick_function
-from tests.robots import TIED, kinds_first
+from tests.robots import KINDS, TIED, kinds_first
 
 LOOPS = kinds_first(name for name in TIED if read_robot(name).loops)
 DRIVEN = SimulationSettings(
@@ -48,7 +48,7 @@ def test_the_plant_is_the_tree_with_multipliers(name: str) -> None:
     np.testing.assert_allclose(qdd, truth.qdd, rtol=0, atol=1e-9 * np.abs(qdd).max())
 
 
-@pytest.mark.parametrize("name", LOOPS)
+@pytest.mark.parametrize("name", [*KINDS[-3:], pytest.param("delta", marks=pytest.mark.slow)])
 def test_the_motors_work_is_what_the_energy_gains(name: str) -> None:
     """Exact for torques held over each tick, but for the steps of the integration."""
     source = without_effects(name)
