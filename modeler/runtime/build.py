@@ -221,8 +221,9 @@ def whole(library: Path) -> bool:
 def placed(made: Path, final: Path) -> None:
     """Moves a library into its folder, which another process may just be removing."""
     for _ in range(_AGAIN):
-        final.parent.mkdir(exist_ok=True)
-        with contextlib.suppress(FileNotFoundError):
+        # Gone again after `mkdir` found it, it is told to exist by Python 3.11.
+        with contextlib.suppress(FileNotFoundError, FileExistsError):
+            final.parent.mkdir(exist_ok=True)
             made.replace(final)
             return
     made.replace(final)
