@@ -24,9 +24,8 @@ from modeler.observation.motion import (
     SATURATED,
     Segment,
 )
-from modeler.observation.prepare import LogRepair, Prepared, prepare, without_open
+from modeler.observation.prepare import Prepared, without_open
 from modeler.observation.report import DataReport
-from modeler.observation.settings import Processing
 from modeler.observation.stretch import Stretch, stretch
 from modeler.observation.tally import joint_reports, log_report, tally
 from modeler.runtime import CompiledModel, NonzeroPattern, Triangles
@@ -185,33 +184,6 @@ def near(places: np.ndarray) -> slice | np.ndarray:
     return places
 
 
-def observe(
-    model: CompiledModel,
-    logs: Sequence[Log],
-    processing: Processing | None = None,
-    every_joint: bool = False,
-    mending: LogRepair | None = None,
-) -> Observation:
-    """The observation of logs: W, y, and which row is which.
-
-    One parallel filter and decimation for the torque and every column (Guegan, Khalil and Lemoine
-    2003, section 5.2). Samples below the speed floor, saturated or missing ones have no weight.
-
-    Args:
-        model: the compiled robot.
-        logs: read with the same manifest.
-        processing: None: automatic. For held-out logs `report.processing` of the fit.
-        every_joint: mask low speeds also on joints whose dry friction the model lacks.
-        mending: of the same logs, where it is shared.
-
-    Raises:
-        DataError: no logs, of another robot, or no usable row.
-        LoopError: hardly a sample closes the loops.
-    """
-    prepared = prepare(model.spec, logs, processing or Processing(), mending)
-    return observed(model, logs, prepared, every_joint)
-
-
 def observed(
     model: CompiledModel, logs: Sequence[Log], prepared: Prepared, every_joint: bool = False
 ) -> Observation:
@@ -242,7 +214,7 @@ def observed(
     report = DataReport(
         processing=chosen,
         choices=prepared.choices,
-        trembles=prepared.trembles,
+        noise=prepared.noise,
         band=prepared.band,
         logs=tuple(reports),
         joints=joint_reports(model.spec.joints, parts, floors, tallies),

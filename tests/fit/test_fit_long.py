@@ -22,7 +22,7 @@ from modeler.estimation.verdict import with_verdict
 from modeler.numerics.filters import spacing
 from modeler.observation.chunk import chunks, margin
 from modeler.observation.motion import low_pass
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from modeler.observation.read import MemorySource, cut
 from modeler.observation.segments import split
 from modeler.observation.settings import Processing
