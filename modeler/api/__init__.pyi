@@ -8,7 +8,12 @@ from .fitting import (
 )
 from .fleets import fleet as fleet
 from .improve import add as add, auto as auto, diagnose as diagnose, undo as undo
-from .motion import excite as excite, simulate as simulate, tell_apart as tell_apart
+from .motion import (
+    excite as excite,
+    forecast as forecast,
+    simulate as simulate,
+    tell_apart as tell_apart,
+)
 from .pages import write_report as write_report
 from .physical_parameters import physical as physical
 from .postures import at_home as at_home, home as home

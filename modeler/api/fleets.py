@@ -7,7 +7,7 @@ from pathlib import Path
 from modeler.api.workflow import AnyLog, Mapped, compile_model, file_and_span, log_map, read_logs
 from modeler.codegen import derive, generate
 from modeler.core.errors import DataError, LoopError, file_and_window
-from modeler.core.jobs import Workers, open_workers
+from modeler.core.jobs import Workers, open_workers, untold
 from modeler.core.manifest import Emitted
 from modeler.fleet import (
     Fleet,
@@ -49,7 +49,7 @@ def fleet(
         robot: of all machines; with the effects that are to be followed.
         logs: files, machine and period by their names; or logs by machine and period.
         name: pattern of files, as "{machine}-{period}.csv"; None: folder and file.
-        processing: None: chosen from the first log, for all.
+        processing: None: chosen for each log, from its own noise.
         mapping: as of `read_logs`.
         processes: that read logs at once; only files are read by others than this one.
         dask: address of a scheduler, or "local".
@@ -85,26 +85,14 @@ def reduce_logs(
     mapping: Mapped = (),
     progress: Progress | None = None,
 ) -> list[LogSummary | SkippedLog]:
-    """The summaries of all logs; all filtered as is chosen from the first that can be used."""
+    """The summaries of all logs, each with the cut-offs that its own noise asks for."""
     names = log_map(compiled, mapping)
     jobs = []
     for each in named:
         path, span = file_and_span(each.place)
         jobs.append(LogJob(each, str(Path(path).absolute()), span, processing, names))
-    found: list[LogSummary | SkippedLog] = []
-    while len(found) < len(jobs) and not (found and isinstance(found[-1], LogSummary)):
-        found.append(reduce_log(emitted, jobs[len(found)]))
-    if found and isinstance(found[-1], LogSummary):
-        chosen, done = found[-1].processing, len(found)
-        rest = [dataclasses.replace(job, processing=chosen) for job in jobs[done:]]
-
-        def tell(share: float) -> None:
-            if progress is not None:
-                progress((done + share * len(rest)) / len(jobs))
-
-        code = dataclasses.replace(emitted, files=emitted.code)
-        found += workers.each(reduce_log, code, rest, tell)
-    return found
+    code = dataclasses.replace(emitted, files=emitted.code)
+    return workers.each(reduce_log, code, jobs, progress or untold)
 
 
 def _reduced(
@@ -119,9 +107,7 @@ def _reduced(
     for named in in_order(logs):
         try:
             [log] = read_logs(compiled, [logs[named]], mapping)
-            own = summary(compiled, log, named, processing)
-            found.append(own)
-            processing = own.processing
+            found.append(summary(compiled, log, named, processing))
         except (DataError, LoopError) as error:
             found.append(SkippedLog(named, str(error)))
         if progress is not None:

@@ -13,7 +13,9 @@ from modeler import excitation, simulation
 from modeler.api.workflow import compile_model, derive, generate, recompile
 from modeler.core.errors import DataError
 from modeler.effects import effect_named
-from modeler.estimation import IdentifiedModel
+from modeler.estimation import FitResult, IdentifiedModel, identify
+from modeler.numerics.filters import BANDWIDTH
+from modeler.observation import Log, observe
 from modeler.robot import Limits, Robot, near, robot_from_text
 from modeler.runtime import CompiledModel
 from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
@@ -34,6 +36,7 @@ class Subject:
         sigma: (J,) standard deviation of the torque of each joint; None where unknown.
         kept: (k,) columns that matter; None: all.
         beta: (c,) base parameters; None where unknown.
+        cutoff: of the parallel filter behind which sigma was found, Hz; 0: none.
     """
 
     robot: Robot
@@ -41,6 +44,7 @@ class Subject:
     sigma: np.ndarray | None = None
     kept: np.ndarray | None = None
     beta: np.ndarray | None = None
+    cutoff: float = 0.0
 
     def search(
         self, bounds: excitation.Bounds, wish: excitation.Wish, progress: Progress = _no_progress
@@ -49,6 +53,66 @@ class Subject:
         return excitation.excite(
             self.compiled, bounds, wish, self.sigma, self.kept, self.beta, progress
         )
+
+    def check_forecast(self, where: str = "") -> None:
+        """Refuse a robot of which too little is known; `where` begins the message."""
+        if self.sigma is None or self.beta is None:
+            raise DataError(
+                f"{where}{self.robot.name}: sigmas follow from the values of its parameters and "
+                "the noise of its torques, which are not known; expected a model of `modeler fit`"
+            )
+
+    def forecast(self, motion: excitation.Exciting, rate: float, encoders: "Encoders") -> FitResult:
+        """What a fit would say of a log of a motion; see `forecast`."""
+        self.check_forecast()
+        assert self.sigma is not None and self.beta is not None
+        spec, moves = self.compiled.spec, motion.sampled(rate)
+        names = [joint.name for joint in spec.joints]
+        q, qd, qdd = (np.column_stack([moves[p + j] for j in names]) for p in ("q", "qd", "qdd"))
+        read = excitation.signals(spec, q, moves["time"])
+        rng = np.random.default_rng(int(motion.wish["seed"]))
+        # White noise that leaves sigma behind the filter.
+        power = 0.5 * rate / (BANDWIDTH * self.cutoff) if self.cutoff else 1.0
+        driven = [joint.actuated for joint in spec.joints]
+        tau = self.compiled.inverse_dynamics(q, qd, qdd, self.beta, read)
+        tau = tau + driven * self.sigma * np.sqrt(power) * rng.normal(size=q.shape)
+        log = Log(
+            "forecast", tuple(names), moves["time"],
+            encoders.read(q, [joint.unit for joint in spec.joints], rng), tau,
+            extra={"temperature": np.zeros(len(q))},
+        )  # fmt: skip
+        return identify(observe(self.compiled, [log]), "weighted", self.compiled)
+
+
+@dataclass(frozen=True)
+class Encoders:
+    """What the positions of a log are known to.
+
+    Attributes:
+        counts: per turn of a revolute joint; 0: exact.
+        noise: standard deviation of white noise besides, rad or m.
+    """
+
+    counts: int = 0
+    noise: float = 0.0
+
+    def read(self, q: np.ndarray, units: Sequence[str], rng: np.random.Generator) -> np.ndarray:
+        """(n, J) positions as they are logged of exact ones (n, J)."""
+        if self.counts < 0 or not 0.0 <= self.noise < math.inf:
+            raise DataError(
+                f"encoders of {self.counts} counts and noise {self.noise:g}: expected neither "
+                "below 0"
+            )
+        seen = q + self.noise * rng.normal(size=q.shape)
+        step = np.array([2.0 * np.pi if unit == "rad" else 0.0 for unit in units])
+        step = step / self.counts if self.counts else np.zeros(len(units))
+        return np.where(step > 0.0, np.round(seen / np.where(step > 0.0, step, 1.0)) * step, seen)
+
+    def words(self) -> str:
+        """As "positions of 4096 counts a turn"."""
+        told = [f"of {self.counts} counts a turn"] if self.counts else []
+        told += [f"with noise of {self.noise:g} rad (m)"] if self.noise else []
+        return f"positions {' and '.join(told) or 'exact'}"
 
 
 def subject_of(thing: Robot | IdentifiedModel) -> Subject:
@@ -62,7 +126,8 @@ def subject_of(thing: Robot | IdentifiedModel) -> Subject:
     sigma = np.array([joint.sigma for joint in thing.fit.joints])
     known = bool(np.all(np.isfinite(sigma)) and np.all(sigma > 0.0))
     kept = np.flatnonzero([parameter.essential for parameter in thing.fit.parameters])
-    return Subject(robot, recompile(thing), sigma if known else None, kept, thing.beta)
+    cutoff = thing.processing.parallel_cutoff or 0.0
+    return Subject(robot, recompile(thing), sigma if known else None, kept, thing.beta, cutoff)
 
 
 def excite(
@@ -90,6 +155,32 @@ def excite(
     subject = subject_of(thing)
     bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {})
     return subject.search(bounds, _wish(bounds, wish), progress)
+
+
+def forecast(
+    model: IdentifiedModel,
+    motion: excitation.Exciting,
+    *,
+    rate: float = 1000.0,
+    counts: int = 0,
+    noise: float = 0.0,
+) -> FitResult:
+    """What a fit would say of a log of a motion, before it is run: its sigmas and its cut-offs.
+
+    The log is made of the motion, the torques of the model along it, and noise of both; what
+    `observe` and `identify` make of it is the forecast, with the cut-offs that they choose.
+
+    Args:
+        model: with values, and with the residuals as the noise of its torques, taken to be white.
+        motion: of `excite`.
+        rate: samples of the log per second.
+        counts: of the encoders, per turn of a revolute joint; 0: positions are exact.
+        noise: standard deviation of white noise of the positions besides, rad or m.
+
+    Raises:
+        DataError: no noise of torques is known, or such a log could not be fitted.
+    """
+    return subject_of(model).forecast(motion, rate, Encoders(counts, noise))
 
 
 def tell_apart(

@@ -362,7 +362,7 @@ _FLEET = Command(
                   "line, or .toml with [[log]] tables"),
         )),
         _MAP,
-        Group("processing", "chosen from the first log, for all alike", (
+        Group("processing", "chosen for each log, from its own noise", (
             value("--cutoff", "HZ", float, "low-pass of the positions"),
             value("--parallel-cutoff", "HZ", float, _PARALLEL),
         )),
@@ -431,6 +431,10 @@ _EXCITE = Command(
         value("--duration", "S", float, "seconds, from rest to rest", default=10.0),
         value("--laps", "N", int, "times that this motion is driven in MOTION", default=1),
         value("--rate", "HZ", float, "samples per second of MOTION", default=200.0),
+        value("--encoder-counts", "N", int,
+              "per turn, of the log whose sigmas are forecast; of a MODEL; default: exact"),
+        value("--position-noise", "X", float,
+              "rad or m, white, of the positions of that log; of a MODEL; default: none"),
         value("--harmonics", "N", int, "of the Fourier series; default: 5 to 10, by the limits"),
         choice("--objective", ("both", "condition", "information"),
                "condition: the condition number, columns of length one; information: log det of "

@@ -23,6 +23,9 @@ def run_excite(args: argparse.Namespace) -> Json:
     """Finds a motion and writes it, or chooses among motions."""
     _check_usage(args)
     subject = _subject(args)
+    encoders = motions.Encoders(args.encoder_counts or 0, args.position_noise or 0.0)
+    if encoders != motions.Encoders():
+        subject.check_forecast("--encoder-counts, --position-noise: ")
     bounds = bounds_of(subject.robot, subject.compiled, args.limit, args.box)
     if args.choose is not None:
         return _choose(args, subject)
@@ -42,6 +45,10 @@ def run_excite(args: argparse.Namespace) -> Json:
         else:
             motion = subject.search(bounds, wish, bar)
             lines = motion.lines()
+    if subject.sigma is not None:
+        with working("forecasting sigmas"):
+            told, extra["forecast"] = forecast_line(subject, motion, args.rate, encoders)
+        lines.append(told)
     say_lines(lines)
     columns = motion.sampled(args.rate)
     table = (
@@ -61,17 +68,50 @@ def run_excite(args: argparse.Namespace) -> Json:
     return motion.to_json() | {"effects": [u.effect for u in subject.robot.effects]} | extra
 
 
+def forecast_line(
+    subject: motions.Subject, motion: excitation.Exciting, rate: float, encoders: motions.Encoders
+) -> tuple[str, Json | None]:
+    """What a log of the motion will tell, in a sentence and for machines."""
+    about = f"forecast of a log at {rate:g} Hz, {encoders.words()}, torques as noisy as the model's"
+    try:
+        fit = subject.forecast(motion, rate, encoders)
+    except DataError as error:
+        return f"{about}: it cannot be fitted: {error}", None
+    shares = {p.name: p.relative_sigma_percent for p in fit.parameters}
+    sure = [name for name, share in shares.items() if share is not None and share < _SURE]
+    worse = sorted(set(shares) - set(sure), key=lambda name: -(shares[name] or math.inf))
+    named = [f"{name} ({'not told' if shares[name] is None else f'{shares[name]:.3g} %'})"
+             for name in worse[:_NAMED]]  # fmt: skip
+    chosen = fit.processing
+    told = (
+        f"{about}: the fit filters positions at {chosen.position_cutoff:g} Hz and torques at "
+        f"{chosen.parallel_cutoff:g} Hz; sigma is below {_SURE:g} % for {len(sure)} of "
+        f"{len(shares)} parameters{'; least sure: ' * bool(named)}{', '.join(named)}"
+    )
+    return told, {
+        "rate": rate, "encoder_counts": encoders.counts, "position_noise": encoders.noise,
+        "position_cutoff": chosen.position_cutoff, "parallel_cutoff": chosen.parallel_cutoff,
+        "sigmas": {p.name: p.sigma for p in fit.parameters},
+    }  # fmt: skip
+
+
+_SURE = 10.0  # percent, of a value that counts as known
+_NAMED = 3
+
+
 def _check_usage(args: argparse.Namespace) -> None:
     """Before any long work."""
     if args.choose is None and args.out is None:
         raise DataError("--out: missing; expected the file of the motion, .csv or .parquet")
     if (args.choose is None) != (not args.candidates):
         raise DataError("--choose and --from go together: --choose 2 --from a.csv b.csv c.csv")
-    for option in ("out", "picture", "between") if args.choose is not None else ():
-        if getattr(args, option) is not None:
+    names = ("out", "picture", "between", "encoder_counts", "position_noise")
+    for name in names if args.choose is not None else ():
+        if getattr(args, name) is not None:
+            option = f"--{name.replace('_', '-')}"
             raise DataError(
-                f"--{option}: got it with --choose, which names motions of --from and writes none; "
-                f"leave --{option} out"
+                f"{option}: got it with --choose, which names motions of --from and writes none; "
+                f"leave {option} out"
             )
     if args.out is not None:
         simulation.check_suffix(Path(args.out))

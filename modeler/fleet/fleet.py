@@ -25,7 +25,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | SkippedLog]) -> Flee
 
     Args:
         spec: of the robot.
-        given: from `reduce_log`, all with one processing.
+        given: from `reduce_log`.
 
     Raises:
         DataError: no usable logs, too few to compare, rows given twice, nothing that may drift.
@@ -52,7 +52,7 @@ def fleet_of(spec: ModuleSpec, given: Sequence[LogSummary | SkippedLog]) -> Flee
         aside=fit.aside,
         left=left,
         doubts=tuple(f"{e.named.machine}, {e.named.period}: {d}" for e in logs for d in e.doubts),
-        notes=(*_processed(used[0]), *_notes(found, logs), *said, *unseen),
+        notes=(*_processed(logs), *_notes(found, logs), *said, *unseen),
     )
 
 
@@ -148,15 +148,25 @@ def _followed(found: JudgedQuantity, logs: Sequence[LogSummary]) -> tuple[Follow
     return tuple(followed)
 
 
-def _processed(first: LogSummary) -> list[str]:
-    chosen = first.processing
-    if chosen is None or chosen.parallel_cutoff is None:
+def _processed(logs: Sequence[LogSummary]) -> list[str]:
+    """Between what cut-offs the logs were filtered, and where they differ, why."""
+    chosen = [each.processing for each in logs if each.processing is not None]
+    position, parallel = (
+        np.array([getattr(each, f"{what}_cutoff") or 0.0 for each in chosen])
+        for what in ("position", "parallel")
+    )
+    if not parallel.any():
         return []
-    position = chosen.position_cutoff or 0.0
+    alike = np.ptp(position) == 0.0 and np.ptp(parallel) == 0.0
     return [
-        f"all logs are filtered alike, as chosen from {first.named.place}: positions below "
-        f"{position:.4g} Hz, torques and columns below {chosen.parallel_cutoff:.4g} Hz"
+        f"{'all logs are filtered alike' if alike else 'each log is filtered as its noise asks'}: "
+        f"positions below {_span(position)} Hz, torques and columns below {_span(parallel)} Hz"
     ]
+
+
+def _span(values: np.ndarray) -> str:
+    """As "5" or "3 to 5"."""
+    return " to ".join(dict.fromkeys(f"{end:.4g}" for end in (values.min(), values.max())))
 
 
 def _machines(logs: Sequence[LogSummary]) -> dict[str, tuple[str, ...]]:

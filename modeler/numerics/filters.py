@@ -12,6 +12,9 @@ from modeler.core.brief import Brief
 SPREAD = 0.1325
 """Standard deviation of the Gaussian weights times the cut-off: its gain is -3 dB there."""
 
+BANDWIDTH = 1.0645
+"""Noise bandwidth for white noise, sqrt(pi) / (4 pi SPREAD), over the cut-off."""
+
 RATE = 2.5
 """Rows per period of the cut-off: neighbours then correlate by 0.1."""
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.numerics.filters import SPREAD
+from modeler.numerics.filters import BANDWIDTH, SPREAD
 from modeler.numerics.least_squares import scaled_least_squares
 from modeler.observation.log import Log
 from modeler.observation.low_speed import floors_of, shafts
@@ -380,7 +380,7 @@ def meeting_cutoff(
         inside = spread**power * (0.75 if power == 4 else 0.5)
         found = []
         for j, density in fit.propagated(noise).items():
-            T = sigma[j] ** 2 / (_BANDWIDTH * at)
+            T = sigma[j] ** 2 / (BANDWIDTH * at)
             T = max(T - density * inside, _LEAST_SHARE * T)
             found.append(((T / max(density, 1e-300)) ** (1.0 / power), j))
         new = float(np.clip(min(found)[0], least, highest)) if found else highest
@@ -390,6 +390,5 @@ def meeting_cutoff(
     return at, None if not found or at >= highest else min(found)[1]
 
 
-_BANDWIDTH = 1.0645  # of the parallel filter for white noise, over its cut-off
 _LEAST_SHARE = 0.1  # of the residual's variance that is taken for the torque's own noise
 _SAME = 0.03

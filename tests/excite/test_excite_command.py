@@ -211,6 +211,20 @@ def test_one_line_for_what_a_model_cannot(capsys, folder, tmp_path, words, told)
     assert told in refused(capsys, "excite", folder / "m.json", *words, "--out", tmp_path / "m.csv")
 
 
+def test_sigmas_of_a_model_are_forecast_and_refused_of_a_robot(capsys, folder, tmp_path):
+    words = ("--duration", 3, "--starts", 1, "--rate", 500, "--out", tmp_path / "m.csv")
+    page = tmp_path / "j.json"
+    status, out, _ = run(
+        capsys, "excite", folder / "m.json", "--encoder-counts", 4096, *words, "--json", page
+    )
+    raw = json.loads(page.read_text())["forecast"]
+    assert status == 0 and "forecast of a log at 500 Hz, positions of 4096 counts a turn" in out
+    assert raw["encoder_counts"] == 4096 and f"torques at {raw['parallel_cutoff']:g} Hz" in out
+    assert all(sigma > 0.0 for sigma in raw["sigmas"].values())
+    told = refused(capsys, *EXCITE, "--position-noise", "1e-4", "--out", tmp_path / "n.csv")
+    assert "--position-noise: demo-arm: sigmas follow from" in told and "expected a model" in told
+
+
 def test_a_motion_of_a_file_is_as_long_as_it_is(capsys, folder, tmp_path):
     words = ("simulate", "demo-arm", "--motion", folder / "motion.csv", "--out", tmp_path / "l.csv")
     told = refused(capsys, *words, "--duration", 3)

@@ -1,0 +1,95 @@
+"""What a motion will tell, before it is run: forecast sigmas beside those of fits of its logs."""
+
+import numpy as np
+import pytest
+
+from modeler.api import compile_model, derive, excite, fit, forecast, generate, load, observe
+from modeler.api.motion import Encoders, subject_of
+from modeler.cli.motion import forecast_line
+from modeler.core.errors import DataError
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.excitation.result import Exciting
+from modeler.observation.log import Log
+
+RATE, NOISE = 500.0, np.array([0.6, 0.2])  # Hz; N m, white
+
+
+@pytest.fixture(scope="module")
+def arm():
+    """A function that fits logs of a two-link arm, its columns and values, and its noise's rng."""
+    derivation = derive(load("two-link"))
+    emitted = generate(derivation)
+    compiled, rng = compile_model(emitted), np.random.default_rng(20)
+    beta = compiled.base_parameters([p.nominal for p in compiled.spec.standard])
+
+    def fitted(columns: dict[str, np.ndarray], step: float) -> IdentifiedModel:
+        q, qd, qdd = (np.column_stack([columns[p + j] for j in "12"]) for p in ("q", "qd", "qdd"))
+        tau = compiled.base_regressor(q, qd, qdd) @ beta + NOISE * rng.normal(size=q.shape)
+        seen = np.floor(q / step) * step if step else q
+        log = Log("made", ("1", "2"), columns["time"], seen, tau)
+        return fit(derivation, emitted, observe(compiled, [log]))
+
+    return fitted
+
+
+@pytest.fixture(scope="module")
+def known(arm) -> tuple[IdentifiedModel, Exciting]:
+    """A model of a log without noise of positions, and a motion found for it."""
+    at = np.arange(0.0, 20.0, 1.0 / RATE)
+    columns = {"time": at}
+    for j, phases in (("1", (0.3, 1.2)), ("2", (2.0, 0.7))):
+        waves = [(1.0, 2.1, phases[0]), (0.4, 4.9, phases[1])]
+        columns["q" + j] = sum(a * np.sin(w * at + p) for a, w, p in waves)
+        columns["qd" + j] = sum(a * w * np.cos(w * at + p) for a, w, p in waves)
+        columns["qdd" + j] = sum(-a * w**2 * np.sin(w * at + p) for a, w, p in waves)
+    model = arm(columns, 0.0)
+    return model, excite(model, duration=8.0, starts=1, seed=4)
+
+
+def sigmas(fitted) -> np.ndarray:
+    return np.array([parameter.sigma for parameter in fitted.parameters])
+
+
+@pytest.mark.parametrize("counts", [0, 4096])
+def test_forecast_sigmas_are_those_that_fits_find(arm, known, counts) -> None:
+    model, motion = known
+    told = forecast(model, motion, rate=RATE, counts=counts)
+    step = 2.0 * np.pi / counts if counts else 0.0
+    found = [arm(motion.sampled(RATE), step).fit for _ in range(4)]
+    ratio = sigmas(told) / np.median([sigmas(each) for each in found], axis=0)
+    assert ratio.min() > 0.7 and ratio.max() < 1.4
+    cutoffs = [each.processing.parallel_cutoff for each in found]
+    assert told.processing.parallel_cutoff == pytest.approx(np.median(cutoffs), rel=0.25)
+
+
+def test_a_coarse_encoder_costs_sigma_and_white_noise_as_much(known) -> None:
+    """The noise of 512 counts a turn is uniform within a step, of deviation step / sqrt 12."""
+    model, motion = known
+    exact, coarse = (forecast(model, motion, rate=RATE, counts=c) for c in (0, 512))
+    like = forecast(model, motion, rate=RATE, noise=2.0 * np.pi / 512 / 12**0.5)
+    assert coarse.processing.parallel_cutoff < exact.processing.parallel_cutoff
+    assert np.all(sigmas(coarse) > sigmas(exact))
+    assert np.exp(np.mean(np.log(sigmas(coarse) / sigmas(like)))) == pytest.approx(1.0, abs=0.4)
+
+
+def test_positions_of_joints_that_slide_have_no_turns() -> None:
+    q = np.array([[0.0101, 0.0101], [0.0139, 0.0139]])
+    seen = Encoders(500).read(q, ["rad", "m"], np.random.default_rng(0))
+    assert np.allclose(seen[:, 0], 2.0 * np.pi / 500) and np.array_equal(seen[:, 1], q[:, 1])
+    for encoders in (Encoders(-1), Encoders(0, float("nan"))):
+        with pytest.raises(DataError, match="expected neither below 0"):
+            encoders.read(q, ["rad", "m"], np.random.default_rng(0))
+
+
+def test_a_robot_without_values_has_no_forecast() -> None:
+    subject = subject_of(load("scara"))
+    with pytest.raises(DataError, match="scara: sigmas follow from the values of its parameters"):
+        subject.check_forecast()
+
+
+def test_a_log_that_could_not_be_fitted_is_told_in_a_line(known) -> None:
+    """Eight seconds at 3 Hz: fewer rows than the filters need."""
+    model, motion = known
+    line, raw = forecast_line(subject_of(model), motion, 3.0, Encoders(100, 1e-4))
+    assert raw is None and "of 100 counts a turn and with noise of 0.0001 rad (m)" in line
+    assert "it cannot be fitted: forecast" in line
