@@ -287,8 +287,9 @@ def effects(robot: Robot | None = None) -> Table:
 
 def estimators() -> Table:
     """The estimators that `fit` takes as `method`."""
-    rows = [(a.id, a.title, a.law, a.source, a.avoid) for a in ABOUT.values()]
-    return Table.of("estimators", "method, title, law, source, when not to use it", rows)
+    rows = [(a.id, a.title, a.law, a.source, a.avoid, a.motion) for a in ABOUT.values()]
+    names = "method, title, law, source, when not to use it, noise of the motion"
+    return Table.of("estimators", names, rows)
 
 
 def on_gpu(derivation: Derivation) -> GpuModel:

@@ -204,7 +204,8 @@ def run_estimators(args: argparse.Namespace) -> Json:
             say(f"  law        {about.law}")
             say(f"  source     {about.source}")
             say(f"  not        {about.avoid}")
-        return [{"method": m} | entries(ABOUT[m], "title law source avoid") for m in methods]
+            say(f"  assumes    {about.motion}")
+        return [{"method": m} | entries(ABOUT[m], "title law source avoid motion") for m in methods]
     if not args.logs:
         raise DataError(
             f"estimators: got robot {args.robot} and no log; expected logs to fit, as in "

@@ -16,6 +16,7 @@ class About:
         law: its equation.
         source: where it comes from.
         avoid: when not to use it.
+        motion: what it assumes of the noise of the measured motion.
     """
 
     id: str
@@ -23,7 +24,13 @@ class About:
     law: str
     source: str
     avoid: str
+    motion: str
 
+
+_EXACT = (
+    "the motion is exact below the chosen cut-offs, where its noise is less torque than that of "
+    "the drives; what rows near reversals say otherwise is in sigma"
+)
 
 _EVERY = (
     About(
@@ -32,8 +39,9 @@ _EVERY = (
         "min sum_j |y_j - W_j beta|^2 / sigma_j^2, sigma_j^2 the residual variance of joint j, "
         "iterated to the fixed point",
         "Gautier 1997, ICRA",
-        "where rows are wrong here and there (robust), or the motion is so noisy that W itself is "
-        "(iv, iv-direct): noise of W pulls values towards 0, and sigma does not say so",
+        "where rows are wrong here and there (robust), or the motion is noise even where it moves "
+        "most (iv, iv-direct): noise of W pulls values towards 0",
+        _EXACT,
     ),
     About(
         "ordinary",
@@ -42,6 +50,7 @@ _EVERY = (
         "Gauss; White 1980",
         "where joints differ in torque or noise: the loudest joint decides, and the others' "
         "parameters are worse than they need be",
+        _EXACT,
     ),
     About(
         "robust",
@@ -51,6 +60,7 @@ _EVERY = (
         "Huber 1964; Holland and Welsch 1977",
         "where the model lacks an effect: the rows that show it lose their weight, and the fit "
         "looks better than it is; with white noise it needs 5 % more rows",
+        _EXACT,
     ),
     About(
         "ridge",
@@ -60,6 +70,7 @@ _EVERY = (
         "Hoerl and Kennard 1970; MacKay 1992",
         "where the values themselves matter and the motion could be better: it hides what the data "
         "do not tell, its values are biased towards the prior, and sigma knows no bias",
+        _EXACT,
     ),
     About(
         "iv",
@@ -68,6 +79,7 @@ _EVERY = (
         "Young 2011; Janot, Vandanjon and Gautier 2014, IEEE TCST 22(1)",
         "without logged commands qc, where the command follows the measurement (hand guiding, "
         "impedance control), or where the position is clean: then sigma is larger for nothing",
+        "the motion may be noisy, if the command was not made from it; the same cut-offs apply",
     ),
     About(
         "iv-direct",
@@ -77,6 +89,8 @@ _EVERY = (
         "Janot, Vandanjon and Gautier 2014, IEEE TCST 22(1)",
         "without logged commands qc (it then follows the logged motion, and little is gained), or "
         "where the fit cannot be simulated",
+        "the motion may be noisy, as far as the simulated one does not follow its noise; the same "
+        "cut-offs apply",
     ),
     About(
         "didim",
@@ -85,6 +99,8 @@ _EVERY = (
         "Gautier, Janot and Vandanjon 2013, IEEE TCST 21(2)",
         "where the controller of the log is not known and none comes near its motion: what they "
         "differ by goes into the values; sigma is raised by as much",
+        "the measured motion enters by its start and its differences from the simulated one alone; "
+        "the same cut-offs apply",
     ),
     About(
         "consistent",
@@ -95,6 +111,7 @@ _EVERY = (
         "Sousa and Cortesao 2014, IJRR 33(6); Lee, Wensing and Park 2020, IEEE T-RO 36(2)",
         "to see what is wrong: it hides a missing effect in the nearest machine; look at the "
         "doubts of weighted first",
+        _EXACT,
     ),
 )
 ABOUT: dict[Method, About] = {cast(Method, about.id): about for about in _EVERY}
@@ -109,6 +126,7 @@ APART = (
         "of the currents V, rows and columns in units of their noise",
         "Briot and Gautier 2012; Van Huffel and Vandewalle 1991",
         "without logs of currents and a run with a load of known mass",
+        _EXACT,
     ),
     About(
         TWO_STEPS,
@@ -116,6 +134,7 @@ APART = (
         "inertia J_ii, gravity and friction of each joint that moves alone, then theta = Phi beta",
         "Hanssen, Hovland and Brogardh 2000, section 4",
         "where joints may move together: rows of such motion are left out",
+        _EXACT,
     ),
 )
 """Beside the others: they take other logs."""

@@ -88,8 +88,8 @@ def test_a_robot_without_values_has_no_forecast() -> None:
 
 
 def test_a_log_that_could_not_be_fitted_is_told_in_a_line(known) -> None:
-    """Eight seconds at 3 Hz: fewer rows than the filters need."""
+    """Eight seconds at 1 Hz: fewer rows than the filters need."""
     model, motion = known
-    line, raw = forecast_line(subject_of(model), motion, 3.0, Encoders(100, 1e-4))
+    line, raw = forecast_line(subject_of(model), motion, 1.0, Encoders(100, 1e-4))
     assert raw is None and "of 100 counts a turn and with noise of 0.0001 rad (m)" in line
-    assert "it cannot be fitted: forecast" in line
+    assert "it cannot be fitted: no more than 8 s" in line

@@ -14,7 +14,14 @@ def test_choices_words_and_functions_are_the_same_list():
     assert list(get_args(Method)) == list(ABOUT) == list(METHODS)
     for id, estimator in METHODS.items():
         assert estimator.about.id == id
-        assert all((estimator.about.law, estimator.about.source, estimator.about.avoid))
+        assert all(
+            (
+                estimator.about.law,
+                estimator.about.source,
+                estimator.about.avoid,
+                estimator.about.motion,
+            )
+        )
 
 
 def test_an_unknown_method_is_refused_by_name():
@@ -41,5 +48,5 @@ def test_the_page_says_what_the_table_says():
     page = (Path(__file__).resolve().parents[2] / "docs" / "estimators.md").read_text("utf-8")
     for about in ABOUT.values():
         law = about.law.replace("|", "&#124;")
-        row = f"| `{about.id}` | {about.title} | {law} | {about.source} | {about.avoid} |"
-        assert row in page, about.id
+        told = (f"`{about.id}`", about.title, law, about.source, about.avoid, about.motion)
+        assert f"| {' | '.join(told)} |" in page, about.id
