@@ -168,7 +168,7 @@ def flat(found, name=""):
     return {name: found}
 
 
-def agree(found, whole, rel=1e-9, least=1e-12):
+def agree(found, whole, rel=1e-9, least=1e-10):
     """Equal texts, and numbers that differ by no more."""
     assert found.keys() == whole.keys()
     for name, value in whole.items():
