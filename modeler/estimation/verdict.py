@@ -25,7 +25,7 @@ from modeler.estimation.least_squares import solve_by_qr
 from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
 from modeler.estimation.result import FitResult, JointFit, Verdict, friction_by_direction
 from modeler.numerics.least_squares import Compressed, independent_columns, triangle
-from modeler.observation import Observation
+from modeler.observation import Fault, Observation
 from modeler.runtime import CompiledModel
 
 # Is the time of the logs in seconds? The clock that a robot carries with it is gravity.
@@ -159,7 +159,8 @@ def with_verdict(
     rows = alive_rows(observation)
     part, data = data is not None, data or equations.compressed(rows)
     seen = crossed(equations, rows, np.array([joint.sigma for joint in result.joints]), refit)
-    found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
+    unseen = tuple(i.line for i in told if isinstance(i, Fault) and i.unseen)
+    found = _doubts_of(told)
     found += time_doubts(model, observation, result)
     found = _with_poor(found, [*doubts.scarce(result, seen), *doubts.undescribed(result)])
     if part:
@@ -169,7 +170,16 @@ def with_verdict(
     found += [*_impossible(model.spec, result, data), *doubts.negative(model.spec, result)]
     verdict = _verdict(found, _predicts(equations, rows, result, seen))
     directions = friction_by_direction(model.spec, result)
+    verdict = dataclasses.replace(verdict, unseen=unseen)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
+
+
+def _doubts_of(told: Sequence[LogFinding]) -> list[Doubt]:
+    """What is told of logs, as doubts."""
+    return [
+        i if isinstance(i, Doubt) else Doubt(i.line, i.certain, explains=i.certain)
+        for i in told if isinstance(i, Doubt) or not i.unseen
+    ]  # fmt: skip
 
 
 def _predicts(
@@ -222,9 +232,8 @@ def contradictions(
         data: all rows that were fitted; None: those of the observation.
     """
     data = data or all_rows(observation)
-    found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found = _with_poor(
-        [*found, *time_doubts(model, observation, result)], doubts.undescribed(result)
+        [*_doubts_of(told), *time_doubts(model, observation, result)], doubts.undescribed(result)
     )
     found += _impossible(model.spec, result, data)
     return list(dict.fromkeys(doubt.line for doubt in found if doubt.certain))

@@ -110,7 +110,6 @@ class Log(Presented):
             return step
         return float(np.mean(steps[np.abs(steps - step) <= 1.5 * resolution]))
 
-
     @property
     def gap(self) -> float:
         """s; a longer step ends a piece of motion."""

@@ -8,14 +8,7 @@ import numpy as np
 
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
-from modeler.numerics.held import (
-    RESTS,
-    Clip,
-    clips_of,
-    frozen_runs,
-    longest_usual,
-    repeated_rows,
-)
+from modeler.numerics.held import RESTS, Clip, clips_of, frozen_runs, longest_usual, repeated_rows
 from modeler.numerics.noise import (
     LEAST,
     NEAR,

@@ -163,7 +163,9 @@ def survey(
             LogChoices(
                 run=k,
                 processing=chosen,
-                decimation=spacing(next(fresh, log.step), chosen.parallel_cutoff, chosen.decimation),
+                decimation=spacing(
+                    next(fresh, log.step), chosen.parallel_cutoff, chosen.decimation
+                ),
                 logged=prepared.checks[at] is not None,
                 usual=prepared.usual[at],
                 extremes=known.extremes.get(k) or ranges.torques,

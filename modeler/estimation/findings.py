@@ -1,0 +1,632 @@
+"""Faults of logs: one rule decides what is wrong with channels, before any physics is blamed.
+
+A fault is a hypothesis: undo it, and what a machine leaves of the torques of joint j,
+
+    e_j = ||tau_j - W_j beta|| / ||tau_j||,
+
+falls. beta is that of the nearest machine that could be built to a fit in which every joint weighs
+1 / e_j^2, so that sum_j log e_j is least, or that of a model whose torques are compared. A fault
+is told if it lowers that sum by log 2 or more, halves the error of a joint, and does so as well as
+any other. What it would be seen by can be computed beforehand: made of the torques of the machine
+itself, a fault that raises the sum by no more is one that these logs cannot show.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from itertools import combinations
+
+import numpy as np
+
+from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
+from modeler.numerics.least_squares import whitening
+from modeler.observation import (
+    Fault,
+    Observation,
+    ThinnedRows,
+    Turn,
+    model_torque,
+    thinned,
+    turns,
+    zeros,
+)
+from modeler.runtime import CompiledModel
+
+HALF = 0.5
+"""Share of its error that a fault, undone, leaves of a joint: physics that a model lacks
+(elasticity, friction that lags) looks like a fault for a part of the torque only."""
+
+ALSO = 1.3
+"""Times the least that another fault may leave and still explain the logs as well."""
+
+FLOOR = 0.005
+"""Relative error below which all are alike."""
+
+LEAST = 0.02
+"""Relative error of a joint from which on a fault of the log is looked for."""
+
+SUSPECT = 0.2
+"""Relative error of a joint from which on its channels may be those of another, or another's."""
+
+WRONG = 0.5
+"""Relative error of a joint from which on a prediction of its torque is no matter of physics."""
+
+GAIN = 1.4
+"""A torque is wrong by more than this factor, or a drive gain is not known better."""
+
+SCALE = 5.0
+"""A torque that is off by this factor is a matter of units, not of a drive gain or a load."""
+
+_UNITS = 1e9  # units are no farther apart
+_LEAST_ROWS = 20  # of a joint whose torque is exchanged
+_FOR_EACH = 3  # rows for every parameter, at least: fewer are described by anything
+_FEW = 400  # rows for a motion that is changed
+_TOLD = 1e-11  # eigenvalue over the largest
+_TURNS = 4  # of weights; they settle by a digit each time
+_SUBSETS = 8  # joints of which every subset is tried
+_MACHINES = 8  # subsets of which the machine is asked for
+
+
+@dataclass(frozen=True, eq=False)
+class Products:
+    """Of the rows of k joints, torques of length one: all that a fit of them needs.
+
+    Attributes:
+        gram: (k, c, c) X_j^T X_j.
+        cross: (k, c) X_j^T y_j.
+    """
+
+    gram: np.ndarray
+    cross: np.ndarray
+
+    def scaled(self, gains: np.ndarray) -> "Products":
+        """Of torques that are multiplied by gains (k,)."""
+        return Products(self.gram / gains[:, None, None] ** 2, self.cross / gains[:, None])
+
+    def left(self, beta: np.ndarray) -> np.ndarray:
+        """(k,) relative error of each joint."""
+        square = 1.0 - 2.0 * self.cross @ beta + np.einsum("c,kcd,d->k", beta, self.gram, beta)
+        return np.asarray(np.sqrt(np.maximum(square, 0.0)))
+
+
+def _products(W: np.ndarray, tau: np.ndarray, used: np.ndarray, joints: Sequence[int]) -> Products:
+    """Of rows W (m, n, c), tau (m, n), used (m, n)."""
+    grams, crosses = [], []
+    for j in joints:
+        X, y = W[used[:, j], j], tau[used[:, j], j]
+        size = max(float(np.linalg.norm(y)), 1e-300)
+        grams.append(X.T @ X / size**2)
+        crosses.append(X.T @ y / size**2)
+    return Products(np.stack(grams), np.stack(crosses))
+
+
+@dataclass(frozen=True, eq=False)
+class Judge:
+    """What a machine leaves of torques.
+
+    Attributes:
+        machine: that can be built.
+        beta: (c,) of a model that predicts; None: each time it is fitted.
+    """
+
+    machine: Machine
+    beta: np.ndarray | None = None
+
+    def solved(self, data: Products) -> tuple[np.ndarray, np.ndarray]:
+        """beta (c,) and weights (k,) that make the sum of the logarithms of the errors least."""
+        weights = np.ones(len(data.gram))
+        if self.beta is not None:
+            return self.beta, weights
+        for _ in range(_TURNS):
+            beta = _fitted(data, weights)
+            weights = 1.0 / np.maximum(data.left(beta), FLOOR) ** 2
+        return beta, weights
+
+    def errors(self, data: Products, possible: bool = True) -> np.ndarray:
+        """(k,) relative errors, of a machine that can be built if asked for."""
+        beta, weights = self.solved(data)
+        if possible and self.beta is None:
+            beta = self.possible(data, beta, weights)
+        return data.left(beta)
+
+    def possible(self, data: Products, beta: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        """(c,) the nearest machine that can be built; the fit itself where none is found."""
+        values, vectors = np.linalg.eigh(np.tensordot(weights, data.gram, 1))
+        root = np.sqrt(np.maximum(values, 0.0))[:, None] * vectors.T
+        nearest = nearest_possible(self.machine, beta, root)
+        return beta if nearest is None else nearest.beta
+
+
+def _fitted(data: Products, weights: np.ndarray) -> np.ndarray:
+    # Many fits of a few digits: normal equations, without what the data cannot tell.
+    turn = whitening(np.tensordot(weights, data.gram, 1), _TOLD)
+    return np.asarray(turn @ (turn.T @ (weights @ data.cross)))
+
+
+def _score(errors: np.ndarray) -> float:
+    return float(np.sum(np.log(np.maximum(errors, FLOOR))))
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """A fault that a log may have.
+
+    Attributes:
+        fault: in words.
+        data: of the log with the fault undone.
+        touches: joints that it concerns; empty: all.
+    """
+
+    fault: Fault
+    data: Products
+    touches: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """Some rows of logs, and who judges them.
+
+    Attributes:
+        compiled: the robot.
+        observation: of the logs.
+        judge: of their torques.
+        rows: some of them.
+        joints: with a motor and a torque; none of too few rows.
+    """
+
+    compiled: CompiledModel
+    observation: Observation
+    judge: Judge
+    rows: ThinnedRows
+    joints: tuple[int, ...]
+
+    @cached_property
+    def few(self) -> ThinnedRows:
+        """Fewer rows, for motions that are changed."""
+        return thinned(self.compiled, self.observation, _FEW)
+
+    @cached_property
+    def data(self) -> Products:
+        """Of the log as it is."""
+        return _products(self.rows.W, self.rows.tau, self.rows.used, self.joints)
+
+    @cached_property
+    def few_data(self) -> Products:
+        """The same of fewer rows."""
+        return _products(self.few.W, self.few.tau, self.few.used, self.joints)
+
+    @cached_property
+    def errors(self) -> np.ndarray:
+        """(k,) of the log as it is."""
+        return self.judge.errors(self.data)
+
+    @property
+    def tree(self) -> bool:
+        """True if joints move on their own: positions that do not close loops have no torque."""
+        return self.compiled.spec.closure is None
+
+    def name(self, place: int) -> str:
+        """Of one of the joints."""
+        return self.observation.joints[self.joints[place]].name
+
+
+def _evidence(
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray | None = None,
+    gains: np.ndarray | None = None,
+) -> Evidence:  # fmt: skip
+    rows = thinned(compiled, observation)
+    if gains is not None:
+        rows = replace(rows, tau=rows.tau / gains)
+    joints = [j for j, joint in enumerate(observation.joints) if joint.actuated]
+    joints = [j for j in joints if rows.tau[rows.used[:, j], j].any()]
+    enough = bool(joints) and rows.used[:, joints].sum() >= _FOR_EACH * rows.W.shape[2]
+    judge = Judge(machine_of(compiled.spec), beta)
+    return Evidence(compiled, observation, judge, rows, tuple(joints if enough else ()))
+
+
+# What contradicts.
+
+
+def findings_of_fit(compiled: CompiledModel, observation: Observation) -> tuple[Fault, ...]:
+    """Doubts about the channels and the samples of logs that a model was fitted to.
+
+    Args:
+        compiled: the robot.
+        observation: that was fitted.
+    """
+    found = faults_of_fit(compiled, observation)
+    return (*found, *(Fault(line, False) for line in observation.report.doubts()))
+
+
+def findings_of_prediction(
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray
+) -> tuple[Fault, ...]:
+    """Doubts about the channels and the samples of logs whose torque a model predicts.
+
+    Args:
+        compiled: the robot.
+        observation: of the logs.
+        beta: (c,) base parameters of the model.
+    """
+    doubts = (Fault(line, False) for line in observation.report.doubts())
+    return (*faults(compiled, observation, beta), *doubts)
+
+
+def faults_of_fit(compiled: CompiledModel, observation: Observation) -> tuple[Fault, ...]:
+    """The one fault of logs that explains most; or which of them could not be seen in any case.
+
+    Args:
+        compiled: the robot.
+        observation: that was fitted.
+    """
+    seen = _evidence(compiled, observation)
+    if not seen.joints:
+        return ()
+    told = _explained(seen) if seen.errors.max() > LEAST else None
+    return _unseen(seen) if told is None else (told.fault,)
+
+
+def faults(
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray,
+    gains: np.ndarray | None = None,
+) -> tuple[Fault, ...]:  # fmt: skip
+    """Faults of logs by the prediction of a model; of joints that it misses by more than half.
+
+    Args:
+        compiled: the robot.
+        observation: of the logs.
+        beta: (c,) base parameters of the model.
+        gains: (J,) what the torques of the model are multiplied by, if drive gains are wrong.
+    """
+    seen, found = _evidence(compiled, observation, beta, gains), list[Fault]()
+    while seen.joints and seen.errors.max() > WRONG:
+        told = _explained(seen)
+        if told is None:
+            break
+        found.append(told.fault)
+        rest = [j for j in seen.joints if told.touches and j not in told.touches]
+        seen = replace(seen, joints=tuple(rest))
+    return tuple(found)
+
+
+def suspects(compiled: CompiledModel, observation: Observation, beta: np.ndarray) -> list[int]:
+    """Indices of the joints whose torque the model misses by more than half."""
+    predicted, found = model_torque(observation, compiled, beta), []
+    for j, (y, p) in enumerate(zip(observation.torque.T, predicted.T, strict=True)):
+        used = observation.used[:, j]
+        size = float(np.linalg.norm(y[used]))
+        if used.sum() >= _LEAST_ROWS and np.linalg.norm((y - p)[used]) > WRONG * size > 0.0:
+            found.append(j)
+    return found
+
+
+def _explained(seen: Evidence) -> Hypothesis | None:
+    """The hypothesis that explains most, with those that do as well in its words."""
+    before, few = seen.errors, seen.judge.errors(seen.few_data)
+    found = [
+        (score, one)
+        for hypotheses, base in ((_torques(seen), before), (_motions(seen), few))
+        for one in hypotheses
+        if (score := _gain_of(seen, base, one.data)) >= -np.log(HALF)
+    ]
+    if not found:
+        return None
+    most = max(score for score, _ in found)
+    likely = sorted((x for x in found if x[0] >= most - np.log(ALSO)), key=lambda x: -x[0])
+    best = likely[0][1]
+    if len(likely) == 1:
+        return best
+    line = "; or: ".join(dict.fromkeys(one.fault.line for _, one in likely[:3]))
+    certain = all(one.fault.certain for _, one in likely)
+    touches = {j for _, one in likely for j in one.touches}
+    return Hypothesis(replace(best.fault, line=line, certain=certain), best.data, tuple(touches))
+
+
+def _gain_of(seen: Evidence, before: np.ndarray, data: Products) -> float:
+    """By how much a hypothesis lowers the sum of logarithms; minus infinity if it is none."""
+    none, floor = -float("inf"), np.maximum(before, FLOOR)
+    for possible in (False, True):  # machines that can be built leave more, and take longer
+        errors = seen.judge.errors(data, possible)
+        score = _score(before) - _score(errors)
+        halves = np.any(np.maximum(errors, FLOOR) <= HALF * floor)
+        if score < -np.log(HALF) or not halves or errors.max() > WRONG:
+            return none
+    return score
+
+
+# Hypotheses about torques.
+
+
+def _torques(seen: Evidence) -> Iterator[Hypothesis]:
+    """Torques of another scale or sign, and exchanged ones."""
+    every = range(len(seen.joints))
+    for place in every if len(seen.joints) > 1 or seen.judge.beta is not None else ():
+        gain = _gain(seen, place)
+        if 1.0 / _UNITS < gain < _UNITS and not 1.0 / GAIN < gain < GAIN:
+            unit = ": is it in mN m?" if 0.9 < 1e-3 / gain < 1.1 else ""
+            line = (
+                f"joint {seen.name(place)}: the measured torque is {1.0 / gain:.3g} times what it "
+                f"should be{unit or ', by the others'}; check unit and drive gain of that channel"
+            )
+            certain, j = not 1.0 / SCALE < gain < SCALE, seen.joints[place]
+            gains = np.where(np.arange(len(seen.joints)) == place, gain, 1.0)
+            yield Hypothesis(Fault(line, certain, j), seen.data.scaled(gains), (j,))
+    yield from _signs(seen)
+    if seen.errors.max() <= SUSPECT:
+        return
+    rows, J = seen.rows, len(seen.observation.joints)
+    for a, b in combinations(every, 2):
+        order, (j, k) = np.arange(J), (seen.joints[a], seen.joints[b])
+        order[[j, k]] = order[[k, j]]
+        both = rows.used & rows.used[:, order]
+        if both[:, [j, k]].sum(axis=0).min() >= _LEAST_ROWS:
+            line = (
+                f"joints {seen.name(a)} and {seen.name(b)}: their torques look exchanged; check "
+                "the order of the columns"
+            )
+            data = _products(rows.W, rows.tau[:, order], both, seen.joints)
+            yield Hypothesis(Fault(line, True), data, (j, k))
+
+
+def _gain(seen: Evidence, place: int) -> float:
+    """What the torque of a joint is to be multiplied by, from the torques of the others.
+
+    X_j beta - gain y_j = 0 beside X_k beta = y_k: linear in beta and the gain.
+    """
+    data = seen.data
+    beta, weights = seen.judge.solved(data)
+    if seen.judge.beta is None:
+        for _ in range(_TURNS):
+            own = weights[place]
+            gram = np.tensordot(weights, data.gram, 1)
+            side = -own * data.cross[place]
+            whole = np.block([[gram, side[:, None]], [side[None], np.array([[own]])]])
+            right = np.append(weights @ data.cross - own * data.cross[place], 0.0)
+            turn = whitening(whole, _TOLD)
+            solved = turn @ (turn.T @ right)
+            beta, gain = solved[:-1], float(solved[-1])
+            scaled = data.scaled(
+                np.where(np.arange(len(weights)) == place, gain if gain else 1.0, 1.0)
+            )
+            weights = 1.0 / np.maximum(scaled.left(beta), FLOOR) ** 2
+            weights[place] /= max(gain**2, 1e-300)
+        return gain
+    return float(data.cross[place] @ beta)
+
+
+def _signs(seen: Evidence) -> Iterator[Hypothesis]:
+    """Some torques of the other sign: every subset of a few joints, all and single ones of many.
+
+    A subset and the rest leave the same without a machine: friction and inertia tell them apart.
+    """
+    count = len(seen.joints)
+    sizes = range(1, count + 1) if count <= _SUBSETS else (1, count)
+    tried = [own for size in sizes for own in combinations(range(count), size)]
+    least = _score(seen.errors) + np.log(HALF)
+    found, scores = [], dict[tuple[int, ...], float]()
+    for own in tried:
+        rest = tuple(k for k in range(count) if k not in own)
+        if seen.judge.beta is not None or rest not in scores:
+            data = _signed(seen.data, own)
+            scores[own] = _score(seen.judge.errors(data, possible=False))
+        else:
+            scores[own] = scores[rest]
+        if scores[own] <= least:
+            found.append(own)
+    for own in sorted(found, key=lambda own: (round(scores[own], 1), len(own)))[:_MACHINES]:
+        names, s = ", ".join(seen.name(k) for k in own), "s" * (len(own) > 1)
+        whose = f"joint{s} {names}: the measured torque{s} ha{'ve' if s else 's'}"
+        if len(own) == count > 1:
+            whose = "all measured torques have"
+        line = f"{whose} the other sign of what a machine that can be built needs; check the sign"
+        j = tuple(seen.joints[k] for k in own)
+        yield Hypothesis(Fault(line, True), _signed(seen.data, own), j)
+
+
+def _signed(data: Products, own: Sequence[int]) -> Products:
+    return data.scaled(np.where(np.isin(np.arange(len(data.gram)), own), -1.0, 1.0))
+
+
+# Hypotheses about positions and times.
+
+
+def _motions(seen: Evidence) -> Iterator[Hypothesis]:
+    """Positions in other units, reversed, exchanged, from another zero; what comes late."""
+    if seen.tree:
+        grave = turns(seen.observation) if seen.errors.max() > SUSPECT else ()
+        for turn in (*grave, *zeros(seen.observation)):
+            data = _turned(seen, turn)
+            if data is not None:
+                yield Hypothesis(Fault(turn.line, True), data)
+    if seen.judge.beta is None:
+        yield from _late(seen)
+
+
+def _turned(seen: Evidence, turn: Turn) -> Products | None:
+    """Of other positions; None where too few rows count."""
+    used = seen.few.used & seen.few.used[:, turn.torque]
+    if used[:, list(seen.joints)].sum(axis=0).min() < _LEAST_ROWS:
+        return None
+    W, tau = seen.few.turned(seen.compiled, turn), seen.few.tau[:, turn.torque]
+    return _products(W, tau, used, seen.joints)
+
+
+LONGEST = 0.15
+"""s, the largest delay that is looked for: beyond it, channels do not look late but wrong."""
+
+_STARTS = (-0.1, -0.05, 0.05, 0.1)  # s; a step along the slope goes astray from farther away
+_STEPS = 4  # of Gauss and Newton
+Columns = Callable[[float], np.ndarray]
+"""(m, n, c) columns with a channel taken some seconds later."""
+
+
+@dataclass(frozen=True)
+class _Channel:
+    """What may be late.
+
+    Attributes:
+        what: it comes.
+        other: what would then be early.
+        sign: of its lateness, by the shift of the motion.
+        columns: with the motion that many seconds later.
+    """
+
+    what: str
+    other: str
+    sign: float
+    columns: Columns
+
+
+def _late(seen: Evidence) -> Iterator[Hypothesis]:
+    """Channels of another time: all torques, and of one joint torque, position, or both.
+
+    W(t + d) beta = tau(t) is fitted for a shift d of the motion of all joints, for the rows of a
+    joint alone (its torque is late), and of the motion of a joint alone (its position is late), by
+    Gauss and Newton.
+    """
+    step = float(np.median([part.segment.step for part in seen.observation.stretches]))
+    for channel in _channels(seen):
+        shift, data = _best_shift(seen, channel.columns, step)
+        way, back = ("late", "early") if channel.sign * shift > 0.0 else ("early", "late")
+        line = (
+            f"{channel.what} {1e3 * abs(shift):.0f} ms {way}, by a fit at other times (or "
+            f"{channel.other} {back}); check the clocks of the channels, and shift the column"
+        )
+        if abs(shift) > 0.5 * step:
+            yield Hypothesis(Fault(line, False), data)
+
+
+def _best_shift(seen: Evidence, columns: Columns, step: float) -> tuple[float, Products]:
+    """The shift of a channel that leaves least, s, and what it leaves that of."""
+    few = seen.few
+
+    def data_of(W: np.ndarray) -> Products:
+        return _products(W, few.tau, few.used, seen.joints)
+
+    def left(data: Products) -> float:
+        return _score(seen.judge.errors(data, possible=False))
+
+    tried = [(left(seen.few_data), 0.0, few.W)]
+    tried += [(left(data_of(W := columns(start))), start, W) for start in _STARTS]
+    least, shift, W = min(tried, key=lambda one: one[0])
+    for _ in range(_STEPS):
+        beta, _ = seen.judge.solved(data_of(W))
+        slope = (columns(shift + step) - W) @ beta / step
+        both = data_of(np.concatenate([W, slope[..., None]], axis=2))
+        found, _ = Judge(seen.judge.machine).solved(both)
+        further = float(np.clip(shift + found[-1], -LONGEST, LONGEST))
+        closer = columns(further)
+        reached = left(data_of(closer))
+        if reached >= least:
+            break
+        shift, W, least = further, closer, reached
+    return shift, data_of(W)
+
+
+def _channels(seen: Evidence) -> list[_Channel]:
+    """What may be late."""
+    n = len(seen.observation.joints)
+    compiled, few = seen.compiled, seen.few
+    kept: dict[float, np.ndarray] = {}
+
+    def all_later(shift: float) -> np.ndarray:
+        if shift not in kept:
+            kept[shift] = few.shifted(compiled, np.full(n, shift))
+        return kept[shift]
+
+    def torque_earlier(j: int, shift: float) -> np.ndarray:
+        W = few.W.copy()
+        W[:, j] = all_later(shift)[:, j]
+        return W
+
+    def one_later(j: int, shift: float) -> np.ndarray:
+        return few.shifted(compiled, shift * np.eye(n)[j])
+
+    def both_later(j: int, shift: float) -> np.ndarray:
+        W = one_later(j, shift)
+        W[:, j] = few.shifted(compiled, shift * (np.eye(n)[j] - 1.0))[:, j]
+        return W
+
+    found = [_Channel("all torques come", "the positions", -1.0, all_later)]
+    if not seen.tree or len(seen.joints) == 1:
+        return found  # positions that are not of one time do not close the loops
+    for place, j in enumerate(seen.joints):
+        name, rest = f"joint {seen.name(place)}:", "all the others"
+        found += [
+            _Channel(f"{name} its torque comes", rest, -1.0, partial(torque_earlier, j)),
+            _Channel(f"{name} its position comes", rest, 1.0, partial(one_later, j)),
+            _Channel(f"{name} its position and torque come", rest, 1.0, partial(both_later, j)),
+        ]
+    return found
+
+
+# What could not be seen in any case.
+
+
+SURELY = 2.0
+"""Times the evidence that is told, below which a fault would not be seen for sure."""
+
+_DELAY = 0.02  # s
+
+
+def _unseen(seen: Evidence) -> tuple[Fault, ...]:
+    """Which faults the torques of the machine itself would not show, beside what is left of them."""
+    beta, weights = seen.judge.solved(seen.data)
+    beta = seen.judge.possible(seen.data, beta, weights)
+    if seen.errors.max() > WRONG:
+        return ()
+
+    def hidden(data: Products) -> bool:
+        return _raised(seen, data) < SURELY * np.log(1.0 / HALF)
+
+    every, found = range(len(seen.joints)), dict[str, list[str]]()
+    made = _machine_data(seen, seen.rows, seen.rows.W, beta)
+    for what, gain in (("a torque twice as large", 2.0), ("a torque of the other sign", -1.0)):
+        found[what] = [
+            seen.name(k) for k in every
+            if hidden(made.scaled(np.where(np.arange(len(seen.joints)) == k, 1.0 / gain, 1.0)))
+        ]  # fmt: skip
+    if seen.tree:
+        driven = {seen.observation.joints[j].name for j in seen.joints}
+        turned = [
+            (turn.line.split(":")[0].removeprefix("joint "), seen.few.turned(seen.compiled, turn))
+            for turn in zeros(seen.observation, (90,))
+        ]
+        found["a zero that is off by 90 degrees"] = _hidden_motion(
+            seen, turned, beta, driven, hidden
+        )
+        late = [
+            (
+                seen.name(k),
+                seen.few.shifted(seen.compiled, _DELAY * np.eye(len(seen.observation.joints))[j]),
+            )
+            for k, j in enumerate(seen.joints)
+        ]
+        found[f"a delay of {1e3 * _DELAY:.0f} ms"] = _hidden_motion(
+            seen, late, beta, driven, hidden
+        )
+    told = [f"{what} of joint {', '.join(names)}" for what, names in found.items() if names]
+    if not told:
+        return ()
+    return (Fault(f"could not be seen in these logs: {'; '.join(told)}", False, unseen=True),)
+
+
+def _hidden_motion(
+    seen: Evidence, changed: Iterable[tuple[str, np.ndarray]], beta: np.ndarray,
+    driven: set[str], hidden: Callable[[Products], bool],
+) -> list[str]:  # fmt: skip
+    return [
+        name for name, W in changed
+        if name in driven and hidden(_machine_data(seen, seen.few, W, beta))
+    ]  # fmt: skip
+
+
+def _machine_data(seen: Evidence, rows: ThinnedRows, W: np.ndarray, beta: np.ndarray) -> Products:
+    """Of columns W and the torques that a machine makes in the logs as they are."""
+    return _products(W, rows.W @ beta, rows.used, seen.joints)
+
+
+def _raised(seen: Evidence, data: Products) -> float:
+    """By how much a fault without noise raises the sum of logarithms, beside what is left now."""
+    errors = np.hypot(seen.judge.errors(data), seen.errors)
+    return _score(errors) - _score(seen.errors)
