@@ -42,14 +42,14 @@ ALSO = 1.3
 FLOOR = 0.005
 """Relative error below which all are alike."""
 
-LEAST = 0.02
-"""Relative error of a joint from which on a fault of the log is looked for."""
-
-SUSPECT = 0.2
+SUSPECT = 0.1
 """Relative error of a joint from which on its channels may be those of another, or another's."""
 
 WRONG = 0.5
 """Relative error of a joint from which on a prediction of its torque is no matter of physics."""
+
+ENOUGH = float(np.log(1.0 / HALF))
+"""What a fault adds to the sum of the logarithms of the errors, at least."""
 
 GAIN = 1.4
 """A torque is wrong by more than this factor, or a drive gain is not known better."""
@@ -57,6 +57,7 @@ GAIN = 1.4
 SCALE = 5.0
 """A torque that is off by this factor is a matter of units, not of a drive gain or a load."""
 
+_MILLI = 1e-3  # N m in mN m
 _UNITS = 1e9  # units are no farther apart
 _LEAST_ROWS = 20  # of a joint whose torque is exchanged
 _FOR_EACH = 3  # rows for every parameter, at least: fewer are described by anything
@@ -145,6 +146,12 @@ def _fitted(data: Products, weights: np.ndarray) -> np.ndarray:
 
 def _score(errors: np.ndarray) -> float:
     return float(np.sum(np.log(np.maximum(errors, FLOOR))))
+
+
+def _evidence_for(without: np.ndarray, with_it: np.ndarray) -> float:
+    """What a fault adds to the sum of logarithms; 0 if it doubles the error of no joint."""
+    doubles = np.maximum(without, FLOOR) <= HALF * np.maximum(with_it, FLOOR)
+    return _score(with_it) - _score(without) if doubles.any() else 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -262,7 +269,7 @@ def faults_of_fit(compiled: CompiledModel, observation: Observation) -> tuple[Fa
     seen = _evidence(compiled, observation)
     if not seen.joints:
         return ()
-    told = _explained(seen) if seen.errors.max() > LEAST else None
+    told = _explained(seen) if seen.errors.max() > FLOOR / HALF else None
     return _unseen(seen) if told is None else (told.fault,)
 
 
@@ -307,7 +314,7 @@ def _explained(seen: Evidence) -> Hypothesis | None:
         (score, one)
         for hypotheses, base in ((_torques(seen), before), (_motions(seen), few))
         for one in hypotheses
-        if (score := _gain_of(seen, base, one.data)) >= -np.log(HALF)
+        if (score := _lowered(seen, base, one.data)) >= ENOUGH
     ]
     if not found:
         return None
@@ -322,14 +329,13 @@ def _explained(seen: Evidence) -> Hypothesis | None:
     return Hypothesis(replace(best.fault, line=line, certain=certain), best.data, tuple(touches))
 
 
-def _gain_of(seen: Evidence, before: np.ndarray, data: Products) -> float:
+def _lowered(seen: Evidence, before: np.ndarray, data: Products) -> float:
     """By how much a hypothesis lowers the sum of logarithms; minus infinity if it is none."""
-    none, floor = -float("inf"), np.maximum(before, FLOOR)
+    none, score = -float("inf"), 0.0
     for possible in (False, True):  # machines that can be built leave more, and take longer
         errors = seen.judge.errors(data, possible)
-        score = _score(before) - _score(errors)
-        halves = np.any(np.maximum(errors, FLOOR) <= HALF * floor)
-        if score < -np.log(HALF) or not halves or errors.max() > WRONG:
+        score = _evidence_for(errors, before)
+        if score < ENOUGH or errors.max() > WRONG:
             return none
     return score
 
@@ -341,16 +347,17 @@ def _torques(seen: Evidence) -> Iterator[Hypothesis]:
     """Torques of another scale or sign, and exchanged ones."""
     every = range(len(seen.joints))
     for place in every if len(seen.joints) > 1 or seen.judge.beta is not None else ():
-        gain = _gain(seen, place)
-        if 1.0 / _UNITS < gain < _UNITS and not 1.0 / GAIN < gain < GAIN:
-            unit = ": is it in mN m?" if 0.9 < 1e-3 / gain < 1.1 else ""
+        for gain in (_gain(seen, place), _MILLI):
+            if not 1.0 / _UNITS < gain < _UNITS or 1.0 / GAIN < gain < GAIN:
+                continue
+            unit = " (is it in mN m?)" if abs(_MILLI / gain - 1.0) < 0.1 else ""
             line = (
                 f"joint {seen.name(place)}: the measured torque is {1.0 / gain:.3g} times what it "
-                f"should be{unit or ', by the others'}; check unit and drive gain of that channel"
+                f"should be{unit}; check unit and drive gain of that channel"
             )
-            certain, j = not 1.0 / SCALE < gain < SCALE, seen.joints[place]
-            gains = np.where(np.arange(len(seen.joints)) == place, gain, 1.0)
-            yield Hypothesis(Fault(line, certain, j), seen.data.scaled(gains), (j,))
+            j = seen.joints[place]
+            fault = Fault(line, not 1.0 / SCALE < gain < SCALE, j)
+            yield Hypothesis(fault, _with_gain(seen, place, gain), (j,))
     yield from _signs(seen)
     if seen.errors.max() <= SUSPECT:
         return
@@ -373,25 +380,26 @@ def _gain(seen: Evidence, place: int) -> float:
 
     X_j beta - gain y_j = 0 beside X_k beta = y_k: linear in beta and the gain.
     """
-    data = seen.data
-    beta, weights = seen.judge.solved(data)
-    if seen.judge.beta is None:
-        for _ in range(_TURNS):
-            own = weights[place]
-            gram = np.tensordot(weights, data.gram, 1)
-            side = -own * data.cross[place]
-            whole = np.block([[gram, side[:, None]], [side[None], np.array([[own]])]])
-            right = np.append(weights @ data.cross - own * data.cross[place], 0.0)
-            turn = whitening(whole, _TOLD)
-            solved = turn @ (turn.T @ right)
-            beta, gain = solved[:-1], float(solved[-1])
-            scaled = data.scaled(
-                np.where(np.arange(len(weights)) == place, gain if gain else 1.0, 1.0)
-            )
-            weights = 1.0 / np.maximum(scaled.left(beta), FLOOR) ** 2
-            weights[place] /= max(gain**2, 1e-300)
-        return gain
-    return float(data.cross[place] @ beta)
+    data, weights, gain = seen.data, np.ones(len(seen.joints)), 0.0
+    if seen.judge.beta is not None:
+        return float(data.cross[place] @ seen.judge.beta)
+    for _ in range(_TURNS):
+        own, side = weights[place], -weights[place] * data.cross[place]
+        gram = np.tensordot(weights, data.gram, 1)
+        whole = np.block([[gram, side[:, None]], [side[None], np.array([[own]])]])
+        turn = whitening(whole, _TOLD)
+        solved = turn @ (turn.T @ np.append(weights @ data.cross + side, 0.0))
+        gain = float(solved[-1])
+        if not 1.0 / _UNITS < abs(gain) < _UNITS:
+            break
+        weights = 1.0 / np.maximum(_with_gain(seen, place, gain).left(solved[:-1]), FLOOR) ** 2
+        weights[place] /= gain**2
+    return gain
+
+
+def _with_gain(seen: Evidence, place: int, gain: float) -> Products:
+    """Of the log with the torque of a joint multiplied by a gain."""
+    return seen.data.scaled(np.where(np.arange(len(seen.joints)) == place, gain, 1.0))
 
 
 def _signs(seen: Evidence) -> Iterator[Hypothesis]:
@@ -456,6 +464,7 @@ LONGEST = 0.15
 
 _STARTS = (-0.1, -0.05, 0.05, 0.1)  # s; a step along the slope goes astray from farther away
 _STEPS = 4  # of Gauss and Newton
+_HINT = 0.2  # of the sum of logarithms; what a small part of a shift explains at least
 Columns = Callable[[float], np.ndarray]
 """(m, n, c) columns with a channel taken some seconds later."""
 
@@ -497,23 +506,30 @@ def _late(seen: Evidence) -> Iterator[Hypothesis]:
 
 
 def _best_shift(seen: Evidence, columns: Columns, step: float) -> tuple[float, Products]:
-    """The shift of a channel that leaves least, s, and what it leaves that of."""
-    few = seen.few
+    """The shift of a channel that leaves least, s, and what it leaves that of.
+
+    A channel whose shift, to first order, does not help is given up; where torques are missed by
+    far, a long delay is looked for too.
+    """
+    few, judge = seen.few, seen.judge
 
     def data_of(W: np.ndarray) -> Products:
         return _products(W, few.tau, few.used, seen.joints)
 
     def left(data: Products) -> float:
-        return _score(seen.judge.errors(data, possible=False))
+        return _score(judge.errors(data, possible=False))
 
     tried = [(left(seen.few_data), 0.0, few.W)]
-    tried += [(left(data_of(W := columns(start))), start, W) for start in _STARTS]
+    if seen.errors.max() > SUSPECT:
+        tried += [(left(data_of(W := columns(start))), start, W) for start in _STARTS]
     least, shift, W = min(tried, key=lambda one: one[0])
     for _ in range(_STEPS):
-        beta, _ = seen.judge.solved(data_of(W))
+        beta, _ = judge.solved(data_of(W))
         slope = (columns(shift + step) - W) @ beta / step
         both = data_of(np.concatenate([W, slope[..., None]], axis=2))
-        found, _ = Judge(seen.judge.machine).solved(both)
+        found, _ = judge.solved(both)
+        if shift == 0.0 and _score(both.left(found)) > least - _HINT:
+            break
         further = float(np.clip(shift + found[-1], -LONGEST, LONGEST))
         closer = columns(further)
         reached = left(data_of(closer))
@@ -566,67 +582,70 @@ def _channels(seen: Evidence) -> list[_Channel]:
 SURELY = 2.0
 """Times the evidence that is told, below which a fault would not be seen for sure."""
 
-_DELAY = 0.02  # s
+_DELAY = 0.01  # s; a shorter one is not asked for
+_SHOWN = 0.02  # s; from what it does that of others is taken: it grows with the delay
 
 
 def _unseen(seen: Evidence) -> tuple[Fault, ...]:
     """Which faults the torques of the machine itself would not show, beside what is left of them."""
-    beta, weights = seen.judge.solved(seen.data)
-    beta = seen.judge.possible(seen.data, beta, weights)
     if seen.errors.max() > WRONG:
         return ()
-
-    def hidden(data: Products) -> bool:
-        return _raised(seen, data) < SURELY * np.log(1.0 / HALF)
-
-    every, found = range(len(seen.joints)), dict[str, list[str]]()
+    beta = seen.judge.possible(seen.data, *seen.judge.solved(seen.data))
+    every = range(len(seen.joints))
     made = _machine_data(seen, seen.rows, seen.rows.W, beta)
-    for what, gain in (("a torque twice as large", 2.0), ("a torque of the other sign", -1.0)):
-        found[what] = [
-            seen.name(k) for k in every
-            if hidden(made.scaled(np.where(np.arange(len(seen.joints)) == k, 1.0 / gain, 1.0)))
-        ]  # fmt: skip
+    told = []
+    for what, gain in (("a torque twice as large", 0.5), ("a torque of the other sign", -1.0)):
+        scaled = (made.scaled(np.where(np.arange(len(every)) == k, gain, 1.0)) for k in every)
+        hidden = [seen.name(k) for k, data in zip(every, scaled, strict=True) if _hides(seen, data)]
+        told += [f"{what} of joint {', '.join(hidden)}"] if hidden else []
     if seen.tree:
-        driven = {seen.observation.joints[j].name for j in seen.joints}
-        turned = [
-            (turn.line.split(":")[0].removeprefix("joint "), seen.few.turned(seen.compiled, turn))
-            for turn in zeros(seen.observation, (90,))
-        ]
-        found["a zero that is off by 90 degrees"] = _hidden_motion(
-            seen, turned, beta, driven, hidden
-        )
-        late = [
-            (
-                seen.name(k),
-                seen.few.shifted(seen.compiled, _DELAY * np.eye(len(seen.observation.joints))[j]),
-            )
-            for k, j in enumerate(seen.joints)
-        ]
-        found[f"a delay of {1e3 * _DELAY:.0f} ms"] = _hidden_motion(
-            seen, late, beta, driven, hidden
-        )
-    told = [f"{what} of joint {', '.join(names)}" for what, names in found.items() if names]
+        told += _unseen_motions(seen, beta)
     if not told:
         return ()
     return (Fault(f"could not be seen in these logs: {'; '.join(told)}", False, unseen=True),)
 
 
-def _hidden_motion(
-    seen: Evidence, changed: Iterable[tuple[str, np.ndarray]], beta: np.ndarray,
-    driven: set[str], hidden: Callable[[Products], bool],
-) -> list[str]:  # fmt: skip
-    return [
-        name for name, W in changed
-        if name in driven and hidden(_machine_data(seen, seen.few, W, beta))
-    ]  # fmt: skip
+def _unseen_motions(seen: Evidence, beta: np.ndarray) -> list[str]:
+    """Another zero, and delays."""
+    driven = [seen.observation.joints[j] for j in seen.joints]
+    turning = [place for place, joint in enumerate(driven) if joint.unit == "rad"]
+    every = {joint.name: turn for joint, turn in zip(
+        (joint for joint in seen.observation.joints if joint.unit == "rad"),
+        zeros(seen.observation, (90,)), strict=True)}  # fmt: skip
+    hidden, told = [], []
+    for place in turning:
+        W = seen.few.turned(seen.compiled, every[seen.name(place)])
+        if _hides(seen, _machine_data(seen, seen.few, W, beta)):
+            hidden.append(seen.name(place))
+    if hidden:
+        told.append(f"a zero that is off by 90 degrees of joint {', '.join(hidden)}")
+    for place, j in enumerate(seen.joints) if len(seen.joints) > 1 else ():
+        shift = _SHOWN * np.eye(len(seen.observation.joints))[j]
+        data = _machine_data(seen, seen.few, seen.few.shifted(seen.compiled, shift), beta)
+        least = _least_delay(seen, seen.judge.errors(data, possible=False))
+        if least > _DELAY:
+            told.append(f"a delay below {1e3 * least:.2g} ms of joint {seen.name(place)}")
+    return told
+
+
+def _least_delay(seen: Evidence, errors: np.ndarray) -> float:
+    """s that would be seen, by the errors (k,) that `_SHOWN` makes; `LONGEST` at most."""
+    for delay in np.geomspace(_DELAY, LONGEST, 20):
+        made = np.hypot(errors * delay / _SHOWN, seen.errors)
+        if _evidence_for(seen.errors, made) >= SURELY * ENOUGH:
+            return float(delay)
+    return LONGEST
+
+
+def _hides(seen: Evidence, data: Products) -> bool:
+    """True if a fault, made of the torques of the machine, adds too little to what is left now."""
+    for possible in (False, True):  # what shows without a machine that can be built shows with it
+        made = np.hypot(seen.judge.errors(data, possible), seen.errors)
+        if _evidence_for(seen.errors, made) >= SURELY * ENOUGH:
+            return False
+    return True
 
 
 def _machine_data(seen: Evidence, rows: ThinnedRows, W: np.ndarray, beta: np.ndarray) -> Products:
     """Of columns W and the torques that a machine makes in the logs as they are."""
     return _products(W, rows.W @ beta, rows.used, seen.joints)
-
-
-def _raised(seen: Evidence, data: Products) -> float:
-    """By how much a fault without noise raises the sum of logarithms, beside what is left now."""
-    errors = np.hypot(seen.judge.errors(data), seen.errors)
-    return _score(errors) - _score(seen.errors)
