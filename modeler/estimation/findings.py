@@ -6,7 +6,7 @@ A fault is a hypothesis: undo it, and what a machine leaves of the torques of jo
 
 falls. beta is that of the nearest machine that could be built to a fit in which every joint weighs
 1 / e_j^2, so that sum_j log e_j is least, or that of a model whose torques are compared. A fault
-is told if it lowers that sum by log 2 or more, halves the error of a joint, and does so as well as
+is told if it lowers that sum by log 3 or more, halves the error of a joint, and does so as well as
 any other. What it would be seen by can be computed beforehand: made of the torques of the machine
 itself, a fault that raises the sum by no more is one that these logs cannot show.
 """
@@ -48,8 +48,9 @@ SUSPECT = 0.1
 WRONG = 0.5
 """Relative error of a joint from which on a prediction of its torque is no matter of physics."""
 
-ENOUGH = float(np.log(1.0 / HALF))
-"""What a fault adds to the sum of the logarithms of the errors, at least."""
+ENOUGH = float(np.log(3.0))
+"""What a fault adds to the sum of the logarithms of the errors, at least: physics that a model
+lacks, and noise of the motion, look like a delay by up to 1."""
 
 GAIN = 1.4
 """A torque is wrong by more than this factor, or a drive gain is not known better."""
@@ -463,6 +464,7 @@ LONGEST = 0.15
 """s, the largest delay that is looked for: beyond it, channels do not look late but wrong."""
 
 _STARTS = (-0.1, -0.05, 0.05, 0.1)  # s; a step along the slope goes astray from farther away
+_NEAR = 5e-3  # s between the motions of which a slope is taken
 _STEPS = 4  # of Gauss and Newton
 _HINT = 0.2  # of the sum of logarithms; what a small part of a shift explains at least
 Columns = Callable[[float], np.ndarray]
@@ -495,7 +497,7 @@ def _late(seen: Evidence) -> Iterator[Hypothesis]:
     """
     step = float(np.median([part.segment.step for part in seen.observation.stretches]))
     for channel in _channels(seen):
-        shift, data = _best_shift(seen, channel.columns, step)
+        shift, data = _best_shift(seen, channel.columns)
         way, back = ("late", "early") if channel.sign * shift > 0.0 else ("early", "late")
         line = (
             f"{channel.what} {1e3 * abs(shift):.0f} ms {way}, by a fit at other times (or "
@@ -505,7 +507,7 @@ def _late(seen: Evidence) -> Iterator[Hypothesis]:
             yield Hypothesis(Fault(line, False), data)
 
 
-def _best_shift(seen: Evidence, columns: Columns, step: float) -> tuple[float, Products]:
+def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
     """The shift of a channel that leaves least, s, and what it leaves that of.
 
     A channel whose shift, to first order, does not help is given up; where torques are missed by
@@ -525,7 +527,8 @@ def _best_shift(seen: Evidence, columns: Columns, step: float) -> tuple[float, P
     least, shift, W = min(tried, key=lambda one: one[0])
     for _ in range(_STEPS):
         beta, _ = judge.solved(data_of(W))
-        slope = (columns(shift + step) - W) @ beta / step
+        near = 0.5 * _NEAR  # both sides alike: columns of other times have samples of their own
+        slope = (columns(shift + near) - columns(shift - near)) @ beta / _NEAR
         both = data_of(np.concatenate([W, slope[..., None]], axis=2))
         found, _ = judge.solved(both)
         if shift == 0.0 and _score(both.left(found)) > least - _HINT:
@@ -579,7 +582,7 @@ def _channels(seen: Evidence) -> list[_Channel]:
 # What could not be seen in any case.
 
 
-SURELY = 2.0
+SURELY = 1.5
 """Times the evidence that is told, below which a fault would not be seen for sure."""
 
 _DELAY = 0.01  # s; a shorter one is not asked for

@@ -29,7 +29,7 @@ STUCK = 0.005
 """
 
 _FEW = 3  # long runs of equal values that may be faults
-_MOST = 40  # samples before a stop that show how the motion would go on
+_BEFORE = (6, 12, 24, 48)  # samples before a stop that show how the motion would go on
 
 
 def equal_rows(values: np.ndarray) -> np.ndarray:
@@ -83,12 +83,12 @@ def frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> list[tu
     """
     starts, length = lengths_of_runs(np.concatenate([[True], np.diff(values) != 0.0]))
     long = length > max(LEAST, LONGER * usual)
-    noise = OVERSHOOT * noise_of(position) if long.any() else 0.0
+    least = 2.0 * OVERSHOOT * noise_of(position) if long.any() else 0.0
     return [
         (int(start) + 1, int(start + count))
         for start, count in zip(starts[long], length[long], strict=True)
         if values.min() < values[start] < values.max()
-        and abs(float(position[start + count - 1] - position[start])) > 2.0 * noise
+        and abs(float(position[start + count - 1] - position[start])) > least
     ]
 
 
@@ -131,24 +131,31 @@ def clips_of(values: np.ndarray) -> tuple[Clip, ...]:
         top = float(x.max())
         starts, length = lengths_of_runs(np.concatenate([[True], np.diff(x == top) != 0]))
         stays = [(s, n) for s, n in zip(starts, length, strict=True) if x[s] == top and n >= 5]
-        least = OVERSHOOT * noise_of(x) if stays else 0.0
+        noise = noise_of(x) if stays else 0.0
         cut = sum(
             int(n) for s, n in stays
-            if _goes_beyond(x[max(0, s - _MOST) : s], n, top, least)
-            or _goes_beyond(x[s + n : s + n + _MOST][::-1], n, top, least)
+            if _goes_beyond(x[max(0, s - _BEFORE[-1]) : s], n, top, noise)
+            or _goes_beyond(x[s + n : s + n + _BEFORE[-1]][::-1], n, top, noise)
         )  # fmt: skip
         if cut > max(0.5 * np.sum(x == top), STUCK * len(x)):
             found.append(Clip(sign * top, sign > 0.0))
     return tuple(found)
 
 
-def _goes_beyond(before: np.ndarray, stay: int, top: float, least: float) -> bool:
-    """True if a motion, over `before` (m,), leads beyond `top` in the middle of a stay there."""
-    count = min(len(before), max(int(stay), 6))
-    if count < 6:
-        return False
-    time = np.arange(1 - count, 1) / count
-    bend, slope, last = np.polyfit(time, before[-count:], 2)
-    middle = min(0.5 * stay / count, 0.5)
-    carried = last + slope * middle + min(bend, 0.0) * middle**2
-    return bool(carried - top > least and slope > 0.0)
+def _goes_beyond(before: np.ndarray, stay: int, top: float, noise: float) -> bool:
+    """True if a motion that is a parabola just before leads beyond `top` in a stay there."""
+    return any(
+        _carried(before[-count:], min(0.5 * stay / count, 0.5), noise) - top > OVERSHOOT * noise
+        for count in _BEFORE
+        if count <= min(len(before), max(int(stay), _BEFORE[0]))
+    )
+
+
+def _carried(before: np.ndarray, later: float, noise: float) -> float:
+    """Where a motion (m,) leads that much later, by m samples; nowhere if it is no parabola."""
+    time = np.arange(1 - len(before), 1) / len(before)
+    shape = np.polyfit(time, before, 2)
+    off = float(np.std(before - np.polyval(shape, time)))
+    if off > noise or shape[1] <= 0.0:
+        return -np.inf
+    return float(shape[2] + shape[1] * later + min(shape[0], 0.0) * later**2)
