@@ -29,6 +29,7 @@ STUCK = 0.005
 """
 
 _FEW = 3  # long runs of equal values that may be faults
+_PARABOLA = 1.5  # times the noise, what a motion may be off a parabola
 _BEFORE = (6, 12, 24, 48)  # samples before a stop that show how the motion would go on
 
 
@@ -120,7 +121,7 @@ def clips_of(values: np.ndarray) -> tuple[Clip, ...]:
 
     A joint that turns back or stops slows down before; one that is cut off reaches the end in full
     motion, stays there to the bit and leaves it as fast. So the motion of the samples before each
-    stay at the end is carried on, as a parabola, and must lead beyond it.
+    stay at the end, and after it, is carried on, as a parabola, and must lead beyond it.
     """
     there = values[np.isfinite(values)]
     found = []
@@ -132,23 +133,22 @@ def clips_of(values: np.ndarray) -> tuple[Clip, ...]:
         starts, length = lengths_of_runs(np.concatenate([[True], np.diff(x == top) != 0]))
         stays = [(s, n) for s, n in zip(starts, length, strict=True) if x[s] == top and n >= 5]
         noise = noise_of(x) if stays else 0.0
-        cut = sum(
-            int(n) for s, n in stays
-            if _goes_beyond(x[max(0, s - _BEFORE[-1]) : s], n, top, noise)
-            or _goes_beyond(x[s + n : s + n + _BEFORE[-1]][::-1], n, top, noise)
-        )  # fmt: skip
+        cut = 0
+        for start, count in stays:
+            sides = (x[max(0, start - _BEFORE[-1]) : start],
+                     x[start + count : start + count + _BEFORE[-1]][::-1])  # fmt: skip
+            beyond = sum(_overshoot(side, count, top, noise) for side in sides)
+            cut += int(count) if beyond > 2.0 * OVERSHOOT * noise else 0
         if cut > max(0.5 * np.sum(x == top), STUCK * len(x)):
             found.append(Clip(sign * top, sign > 0.0))
     return tuple(found)
 
 
-def _goes_beyond(before: np.ndarray, stay: int, top: float, noise: float) -> bool:
-    """True if a motion that is a parabola just before leads beyond `top` in a stay there."""
-    return any(
-        _carried(before[-count:], min(0.5 * stay / count, 0.5), noise) - top > OVERSHOOT * noise
-        for count in _BEFORE
-        if count <= min(len(before), max(int(stay), _BEFORE[0]))
-    )
+def _overshoot(before: np.ndarray, stay: int, top: float, noise: float) -> float:
+    """How far a motion that is a parabola just before leads beyond `top` in a stay there."""
+    counts = (c for c in _BEFORE if c <= min(len(before), max(int(stay), _BEFORE[0])))
+    carried = (_carried(before[-c:], min(0.5 * stay / c, 0.5), noise) - top for c in counts)
+    return max(carried, default=0.0)
 
 
 def _carried(before: np.ndarray, later: float, noise: float) -> float:
@@ -156,6 +156,6 @@ def _carried(before: np.ndarray, later: float, noise: float) -> float:
     time = np.arange(1 - len(before), 1) / len(before)
     shape = np.polyfit(time, before, 2)
     off = float(np.std(before - np.polyval(shape, time)))
-    if off > noise or shape[1] <= 0.0:
-        return -np.inf
+    if off > _PARABOLA * noise or shape[1] <= 0.0:
+        return float(before[-1])
     return float(shape[2] + shape[1] * later + min(shape[0], 0.0) * later**2)
