@@ -4,14 +4,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import block_diag, csr_array, diags_array
 
-from modeler.numerics.filters import RowFilter
+from modeler.numerics.filters import only
 from modeler.observation.low_speed import signals_of
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
 from modeler.observation.prepare import nearest_closed
 from modeler.observation.reduce import columns_at
-from modeler.observation.stretch import Stretch
 from modeler.runtime import CompiledModel
 
 MOST = 1200
@@ -39,107 +39,88 @@ class Fault:
 
 
 @dataclass(frozen=True, eq=False)
-class ThinnedPart:
-    """A stretch with some of its rows, and some of the samples that those reach."""
-
-    segment: Segment
-    samples: np.ndarray
-    rows: RowFilter
-    usable: np.ndarray
-    used: np.ndarray
-    read: np.ndarray | None
-
-    def motion(self) -> tuple[np.ndarray, ...]:
-        """q, qd, qdd of the samples."""
-        s = self.segment
-        return s.q[self.samples], s.qd[self.samples], s.qdd[self.samples]
-
-    def means(self, values: np.ndarray, j: int) -> np.ndarray:
-        """(m, ...) of values (samples, ...) of a joint, through the filter of its rows."""
-        whole = self.segment.whole[self.samples]
-        return self.rows.means(values, self.usable[:, j], self.used[:, j], whole)
-
-    def columns(self, compiled: CompiledModel, motion: Sequence[np.ndarray]) -> np.ndarray:
-        """(m, n, c) filtered columns of a motion q, qd, qdd of the samples."""
-        q, qd, qdd = motion
-        nearest = nearest_closed(compiled, q)  # a motion that was changed may leave what closes
-        if nearest is not None:
-            q = np.ascontiguousarray(q[nearest])
-        values = compiled.base_regressor(q, qd, qdd, self.read)
-        return np.stack([self.means(own, j) for j, own in enumerate(values.swapaxes(0, 1))], axis=1)
-
-
-@dataclass(frozen=True, eq=False)
 class ThinnedRows:
-    """Some rows of an observation.
+    """Some rows of an observation, and some of the samples that those reach, of all stretches.
 
     Attributes:
         W: (m, n, c).
         tau: (m, n).
         used: (m, n) that count.
-        parts: to build W anew of a motion that was changed.
+        means: by joint, (m, samples) weights of the samples in each row; they sum to one.
+        samples: by stretch, its segment and places in it.
+        read: (samples, k) other inputs of the model; None without any.
     """
 
     W: np.ndarray
     tau: np.ndarray
     used: np.ndarray
-    parts: tuple[ThinnedPart, ...]
+    means: tuple[csr_array, ...]
+    samples: tuple[tuple[Segment, np.ndarray], ...]
+    read: np.ndarray | None
 
     def turned(self, compiled: CompiledModel, turn: "Turn") -> np.ndarray:
         """(m, n, c) columns of the motion with other positions."""
-        found = []
-        for part in self.parts:
-            q, qd, qdd = (x @ turn.motion for x in part.motion())
-            found.append(part.columns(compiled, [q + turn.offset, qd, qdd]))
-        return np.concatenate(found)
+        every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
+        q, qd, qdd = np.concatenate(every, axis=1) @ turn.motion
+        return self._columns(compiled, q + turn.offset, qd, qdd)
 
     def shifted(self, compiled: CompiledModel, shift: np.ndarray) -> np.ndarray:
         """(m, n, c) columns of the motion of each joint, shift (n,) s later."""
         found = []
-        for part in self.parts:
-            s = part.segment
-            at = (s.time[part.samples][:, None] + shift).T
-            motion = [
-                np.column_stack([np.interp(t, s.time, own) for t, own in zip(at, x.T, strict=True)])
+        for s, k in self.samples:
+            place = (s.time[k, None] + shift - s.time[0]) / s.step
+            below = np.clip(place.astype(int), 0, s.samples - 2)
+            above = np.clip(place - below, 0.0, 1.0)
+            joint = np.arange(len(shift))
+            found.append(np.stack([
+                x[below, joint] * (1.0 - above) + x[below + 1, joint] * above
                 for x in (s.q, s.qd, s.qdd)
-            ]
-            found.append(part.columns(compiled, motion))
-        return np.concatenate(found)
+            ]))  # fmt: skip
+        return self._columns(compiled, *np.concatenate(found, axis=1))
+
+    def _columns(
+        self, compiled: CompiledModel, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray
+    ) -> np.ndarray:
+        """(m, n, c) filtered columns of a motion of the samples."""
+        nearest = nearest_closed(compiled, q)  # a motion that was changed may leave what closes
+        if nearest is not None:
+            q = np.ascontiguousarray(q[nearest])
+        values = compiled.base_regressor(q, qd, qdd, self.read)
+        return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
 
 
 def thinned(compiled: CompiledModel, observation: Observation, most: int = MOST) -> ThinnedRows:
     """At most so many of the rows of the observation, evenly; fewer of many joints."""
     most = max(1, min(most, _CELLS // len(observation.joints)))
     every = max(1, -(-len(observation.time) // most))
-    parts, chosen, at = [], [], 0
+    means: list[list[csr_array]] = [[] for _ in observation.joints]
+    samples, read, chosen, at = [], [], [], 0
     for part in observation.stretches:
         rows = np.arange(-at % every, len(part.used), every)
         chosen.append(at + rows)
         at += len(part.used)
-        if rows.size:
-            parts.append(_part(compiled, part, rows))
+        if not rows.size:
+            continue
+        weights = part.rows.weights[rows]
+        width = max(1, int(np.max(np.diff(weights.indptr))))
+        reached = np.unique(weights.indices)
+        reached = reached[reached % max(1, width // _TAPS) == 0]
+        weights = weights[:, reached]
+        for own, usable in zip(means, part.usable[reached].T, strict=True):
+            masked = only(weights, usable)
+            total = masked.sum(axis=1)
+            own.append(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ masked)
+        samples.append((part.segment, reached))
+        signals = signals_of(compiled.spec, part.segment)
+        read += [] if signals is None else [signals[reached]]
     place = np.concatenate(chosen)
     return ThinnedRows(
         W=columns_at(observation, place),
         tau=observation.torque[place],
         used=observation.used[place],
-        parts=tuple(parts),
-    )
-
-
-def _part(compiled: CompiledModel, part: Stretch, rows: np.ndarray) -> ThinnedPart:
-    weights = part.rows.weights[rows]
-    width = max(1, int(np.max(np.diff(weights.indptr))))
-    reached = np.unique(weights.indices)
-    samples = reached[reached % max(1, width // _TAPS) == 0]
-    read = signals_of(compiled.spec, part.segment)
-    return ThinnedPart(
-        segment=part.segment,
-        samples=samples,
-        rows=RowFilter(weights[:, samples], part.rows.centres[rows]),
-        usable=part.usable[samples],
-        used=part.used[rows],
-        read=None if read is None else read[samples],
+        means=tuple(block_diag(own, format="csr") for own in means),
+        samples=tuple(samples),
+        read=np.concatenate(read) if read else None,
     )
 
 
