@@ -11,7 +11,7 @@ any other. What it would be seen by can be computed beforehand: made of the torq
 itself, a fault that raises the sum by no more is one that these logs cannot show.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import combinations
@@ -590,7 +590,7 @@ _SHOWN = 0.02  # s; from what it does that of others is taken: it grows with the
 
 
 def _unseen(seen: Evidence) -> tuple[Fault, ...]:
-    """Which faults the torques of the machine itself would not show, beside what is left of them."""
+    """Faults that torques of the machine itself would not show, beside what is left of them."""
     if seen.errors.max() > WRONG:
         return ()
     beta = seen.judge.possible(seen.data, *seen.judge.solved(seen.data))
@@ -615,7 +615,7 @@ def _unseen_motions(seen: Evidence, beta: np.ndarray) -> list[str]:
     every = {joint.name: turn for joint, turn in zip(
         (joint for joint in seen.observation.joints if joint.unit == "rad"),
         zeros(seen.observation, (90,)), strict=True)}  # fmt: skip
-    hidden, told = [], []
+    hidden, told, short = list[str](), list[str](), list[str]()
     for place in turning:
         W = seen.few.turned(seen.compiled, every[seen.name(place)])
         if _hides(seen, _machine_data(seen, seen.few, W, beta)):
@@ -627,8 +627,8 @@ def _unseen_motions(seen: Evidence, beta: np.ndarray) -> list[str]:
         data = _machine_data(seen, seen.few, seen.few.shifted(seen.compiled, shift), beta)
         least = _least_delay(seen, seen.judge.errors(data, possible=False))
         if least > _DELAY:
-            told.append(f"a delay below {1e3 * least:.2g} ms of joint {seen.name(place)}")
-    return told
+            short.append(f"{1e3 * least:.0f} ms of joint {seen.name(place)}")
+    return [*told, f"a delay below {', '.join(short)}"] if short else told
 
 
 def _least_delay(seen: Evidence, errors: np.ndarray) -> float:

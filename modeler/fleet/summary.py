@@ -11,8 +11,8 @@ from modeler.core.manifest import Emitted
 from modeler.estimation import (
     contradictions,
     dead_joints,
-    identify,
     faults_of_fit,
+    identify,
     least_squares,
     remembered,
     repeated_whole,

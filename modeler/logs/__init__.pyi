@@ -13,3 +13,4 @@ from .mapping import (
     map_from_table as map_from_table,
     map_from_words as map_from_words,
 )
+from .rates import clock_line as clock_line, common_factor as common_factor

@@ -11,8 +11,8 @@ import pytest
 
 from modeler.api import observe
 from modeler.cli import main
-from modeler.estimation.identify import identify
 from modeler.estimation.findings import findings_of_fit, findings_of_prediction
+from modeler.estimation.identify import identify
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.modules import compiled, module
@@ -51,7 +51,8 @@ MISTAKES = {
     "torques": (lambda c, q, tau, j, k: tau.__setitem__(np.s_[:, [j, k]], tau[:, [k, j]]),
                 "torques look exchanged"),
     "torque sign": (lambda c, q, tau, j, k: tau[:, j].__imul__(-1.0), "sign"),
-    "all signs": (lambda c, q, tau, j, k: tau.__imul__(-1.0), "all measured torques have the other sign"),
+    "all signs": (lambda c, q, tau, j, k: tau.__imul__(-1.0),
+                  "all measured torques have the other sign"),
 }  # fmt: skip
 
 
@@ -64,7 +65,7 @@ def fitted(machine, log):
 def test_a_fit_to_sound_channels_is_not_doubted(runs, name):
     machine, logs = runs[name]
     for log in logs:
-        observation, beta = fitted(machine, log)
+        observation = observe(machine, [log])
         assert all(found.unseen for found in findings_of_fit(machine, observation))
 
 
@@ -80,7 +81,7 @@ def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(runs, mistak
             j, k = random.permutation(len(log.joints))[:2]
             q, tau = log.q.copy(), log.tau.copy()
             change(machine, q, tau, j, k)
-            observation, beta = fitted(machine, replace(log, q=q, tau=tau))
+            observation = observe(machine, [replace(log, q=q, tau=tau)])
             lines = [f.line for f in findings_of_fit(machine, observation) if f.certain]
             named = lines and words in lines[0]
             if named and mistake in ("unit", "position sign", "torque sign"):
@@ -92,7 +93,7 @@ def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(runs, mistak
 
 def test_the_torque_in_another_unit_is_named_where_joints_are_coupled(runs):
     machine, (log, _) = runs["demo-arm"]
-    observation, beta = fitted(machine, replace(log, tau=log.tau * [1.0, 1.0, 1000.0]))
+    observation = observe(machine, [replace(log, tau=log.tau * [1.0, 1.0, 1000.0])])
     (found, *_) = findings_of_fit(machine, observation)
     assert found.certain
     head, _, tail = found.line.partition(" times what it should be (is it in mN m?)")

@@ -55,7 +55,9 @@ def test_pieces_end_at_gaps_and_segment_changes():
     assert not any(p.resampled for p in pieces) and report.jitter < 1e-9
     marked = log_of(np.arange(100) * 0.01, segment=np.repeat([0, 1, 2], [40, 57, 3]))
     pieces, report = split(marked, 0, False)
-    assert [len(p.time) for p in pieces] == [40, 57] and report.short == pytest.approx([0.97, 0.98, 0.99])
+    assert [len(p.time) for p in pieces] == [40, 57] and report.short == pytest.approx(
+        [0.97, 0.98, 0.99]
+    )
 
 
 def test_short_losses_are_bridged_and_marked_long_ones_cut():
