@@ -1,5 +1,6 @@
 """Spectra of motions and residuals, orders of a shaft, laps of a motion that repeats."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -303,3 +304,69 @@ def motion_spectrum(positions: np.ndarray, step: float) -> MotionSpectrum:
     power = 2.0 * np.abs(transform) ** 2 / (samples * np.sum(window**2))
     white = np.median(power[len(power) // 2 :], axis=0) / np.log(2.0)
     return MotionSpectrum(np.fft.rfftfreq(samples, step), power, white)
+
+
+# The power density of a signal that falls steeply: by third octaves, differentiated first.
+
+
+WINDOW_SECONDS = 4.0
+_THIRDS = 3  # of an octave
+
+
+@dataclass(frozen=True, eq=False)
+class BandSpectrum:
+    """Means over third octaves; m of them, J channels.
+
+    Attributes:
+        frequency: (m,) Hz, in the middle of each.
+        density: (m, J) one-sided power density; NaN where no line of the transform falls.
+    """
+
+    frequency: np.ndarray
+    density: np.ndarray
+
+
+def band_spectrum(
+    channels: Sequence[np.ndarray], steps: Sequence[float], order: int
+) -> BandSpectrum:
+    """Power densities of signals whose low frequencies would leak over all others.
+
+    Differences of the given order are transformed in Blackman windows of 4 s, half overlapping, and
+    their density is divided by (2 sin(pi f h))^(2 order): that of the signal itself.
+
+    Args:
+        channels: (n, J) signals, uniform pieces.
+        steps: s, of each.
+        order: of the differences that make them level.
+    """
+    longest = max(WINDOW_SECONDS, *(2.0 * step for step in steps))
+    low, high = 1.0 / longest, 0.5 / min(steps)
+    edges = low * 2.0 ** (np.arange(np.ceil(np.log2(high / low) * _THIRDS) + 1) / _THIRDS)
+    total = np.zeros((len(edges) - 1, channels[0].shape[1]))
+    count = np.zeros(len(edges) - 1)
+    for values, step in zip(channels, steps, strict=True):
+        level = np.diff(values, order, axis=0)
+        length = min(len(level), max(8, round(WINDOW_SECONDS / step)))
+        if length < 8:
+            continue
+        power, frames = _blackman(level, length, step)
+        f = np.fft.rfftfreq(length, step)
+        gain = (2.0 * np.sin(np.pi * f[1:] * step)) ** (2 * order)
+        place = np.searchsorted(edges, f[1:], side="right") - 1
+        inside = (place >= 0) & (place < len(total)) & (f[1:] >= 2.5 / (length * step))
+        np.add.at(total, place[inside], frames * power[1:][inside] / gain[inside, None])
+        np.add.at(count, place[inside], frames)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        density = np.where(count[:, None] > 0.0, total / count[:, None], np.nan)
+    return BandSpectrum(np.sqrt(edges[1:] * edges[:-1]), density)
+
+
+def _blackman(values: np.ndarray, length: int, step: float) -> tuple[np.ndarray, int]:
+    """(length // 2 + 1, J) one-sided density, mean over half overlapping windows; how many."""
+    window = np.blackman(length)
+    starts = range(0, len(values) - length + 1, max(1, length // 2))
+    power = np.zeros((length // 2 + 1, values.shape[1]))
+    for start in starts:
+        frame = values[start : start + length] * window[:, None]
+        power += np.abs(np.fft.rfft(frame, axis=0)) ** 2
+    return 2.0 * step / (len(starts) * np.sum(window**2)) * power, len(starts)

@@ -30,6 +30,7 @@ from .motion import (
     low_pass as low_pass,
     travel_since_reversal as travel_since_reversal,
 )
+from .motion_noise import JointNoise as JointNoise, MotionNoise as MotionNoise
 from .observation import (
     MASKS as MASKS,
     WHY as WHY,
@@ -38,11 +39,11 @@ from .observation import (
     masks_of as masks_of,
     model_torque as model_torque,
     no_row_left as no_row_left,
-    observe as observe,
     observed as observed,
     observed_alike as observed_alike,
     stacked as stacked,
 )
+from .observe import observe as observe
 from .prepare import (
     LogRepair as LogRepair,
     Prepared as Prepared,

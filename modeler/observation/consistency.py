@@ -1,6 +1,5 @@
 """Are the logged velocities and accelerations the derivatives of what they claim?"""
 
-import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -467,8 +466,3 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
         return False
     noisier = np.median(logged, axis=0) > QUIETER * np.median(moved, axis=0)
     return bool(np.mean(noisier) > 0.5)
-
-
-def without_velocities(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
-    """The pieces with their velocities to be taken from the positions."""
-    return tuple(dataclasses.replace(piece, qd=None) for piece in pieces)

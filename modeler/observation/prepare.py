@@ -9,20 +9,14 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, LoopError
-from modeler.core.manifest import JointSpec, ModuleSpec
+from modeler.core.manifest import ModuleSpec
 from modeler.numerics.least_squares import weighted_median
 from modeler.numerics.spectra import MotionSpectrum, motion_spectrum
-from modeler.observation.consistency import (
-    Consistency,
-    consistency,
-    quieter,
-    without_late,
-    without_velocities,
-)
+from modeler.observation.consistency import Consistency, consistency, quieter, without_late
 from modeler.observation.excitation import Ringing, ringing
 from modeler.observation.log import Log
 from modeler.observation.motion import CAUSES, HIGHEST, OPEN, Segment, edge_of, segment_of
-from modeler.observation.motion_band import motion_bands
+from modeler.observation.motion_noise import MotionNoise, motion_bands, motion_noise
 from modeler.observation.outliers import ChannelScales, Defects, defects
 from modeler.observation.segments import Piece, SplitReport, split
 from modeler.observation.settings import ChosenProcessing, Processing
@@ -31,12 +25,8 @@ from modeler.runtime import CompiledModel
 LARGEST = 1e12
 """Positions, velocities, accelerations and torques above are damage, not measurements."""
 
-POSITION_BANDS = 25.0
-LEAST_POSITION = 30.0  # Hz
-ENOUGH_POSITION = 100.0  # Hz; above it only 5 bands are kept: the rest would be noise
 PARALLEL_BANDS = 4.0
 LEAST_PARALLEL = 5.0  # Hz
-_TOLD = 2.0  # times the band is what trembling would have made of it, or nothing is said
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +44,7 @@ class Prepared:
         checks: of the logged derivatives, by log; None where positions are differentiated.
         rings: sentences on joints that ring, by log.
         defects: values that no robot can have made, by log.
-        trembles: sentences on joints that tremble beside their motion.
+        noise: of the motion.
         band: Hz of the motion of the fastest joint, or what pieces of that length can show.
         usual: what is usual in the channels, by log.
     """
@@ -69,7 +59,7 @@ class Prepared:
     checks: tuple[Consistency | None, ...]
     rings: tuple[tuple[str, ...], ...]
     defects: tuple[Defects, ...]
-    trembles: tuple[str, ...]
+    noise: MotionNoise
     band: float
     usual: tuple[ChannelScales, ...]
 
@@ -122,8 +112,9 @@ def prepare(
     _check_windows(logs, pieces, processing)
     _check_nyquist(logs, pieces, processing)
     spectra = spectra_of(pieces)
-    motions = joint_motions(spec.joints, pieces, spectra)
-    chosen, choices = choose_cutoffs(processing, pieces, motions)
+    bands = joint_bands(pieces, spectra)
+    positions = motion_noise(spec.joints, [without_speeds(piece) for piece in pieces], bands)
+    chosen, _ = choose_cutoffs(processing, pieces, positions)
     found = [own for own, _ in split_logs]
     refuse = not chosen.keep_contradicted
     checks = [
@@ -132,36 +123,37 @@ def prepare(
     ]
     rated = [piece for own, use in zip(found, logged, strict=True) if use for piece in own]
     if processing.derivatives == "auto" and quieter(rated, chosen.position_cutoff):
-        found = [without_velocities(own) for own in found]
-        logged, checks = [False] * len(logs), [None] * len(logs)
+        found = [tuple(map(without_speeds, own)) for own in found]
+        logged = [False] * len(logs)
+        checks = [
+            without_late(check, own) if check and check.harmful else None
+            for check, own in zip(checks, found, strict=True)
+        ]
     for run, check in enumerate(checks):
-        if check is None or chosen.keep_contradicted:
+        if check is None or chosen.keep_contradicted or not logged[run]:
             continue
         if processing.derivatives == "auto" and check.harmful:
-            found[run], logged[run] = without_velocities(found[run]), False
+            found[run], logged[run] = tuple(map(without_speeds, found[run])), False
             checks[run] = check = without_late(check, found[run])
         found[run] = believed(found[run], check)
-    filtered = [(piece, segment_of(piece, chosen)) for own in found for piece in own]
-    segments = tuple(segment for _, segment in filtered if segment is not None)
-    if not segments:
-        rows, piece = max(((len(p.time), p) for own in found for p in own), key=lambda of: of[0])
-        raise DataError(
-            f"{logs[0].name}: no more than {(rows - 1) * piece.step:.2g} s without a gap; "
-            f"expected more than {2.0 * edge_of(piece, chosen) * piece.step:.2g} s: the ends are "
-            f"lost to the {chosen.position_cutoff:g} Hz low-pass of the positions; record longer "
-            "motions"
-        )
-    return Prepared(
+    differentiated = [piece for own in found for piece in own]
+    noise = (
+        motion_noise(spec.joints, differentiated, bands)
+        if all(piece.qd is not None for piece in differentiated)
+        else positions
+    )
+    chosen, choices = choose_cutoffs(processing, differentiated, noise)
+    prepared = Prepared(
         processing=chosen,
         choices=choices,
-        segments=segments,
+        segments=(),
         pieces=tuple(found),
         splits=tuple(report for _, report in split_logs),
         derivatives=tuple(
             _source(log, use, processing.derivatives, check)
             for log, use, check in zip(logs, logged, checks, strict=True)
         ),
-        left_out=tuple(piece for piece, segment in filtered if segment is None),
+        left_out=(),
         checks=tuple(checks),
         rings=tuple(
             tuple(
@@ -174,9 +166,10 @@ def prepare(
         ),
         defects=tuple(defect for _, defect, _ in mended),
         usual=tuple(usual for _, _, usual in mended),
-        trembles=what_trembles(motions),
-        band=shown_band(motions, pieces),
+        noise=noise,
+        band=shown_band(noise.band, pieces),
     )
+    return filtered_again(prepared, chosen)
 
 
 def believed(pieces: Sequence[Piece], check: Consistency) -> tuple[Piece, ...]:
@@ -278,63 +271,34 @@ def _source(log: Log, logged: bool, asked: str, check: Consistency | None) -> st
     return "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
 
 
-@dataclass(frozen=True)
-class JointMotion:
-    """What one joint does in all logs.
+def joint_bands(pieces: Sequence[Piece], spectra: Sequence[MotionSpectrum]) -> np.ndarray:
+    """(J,) Hz below which 99 % of each velocity's energy lies; NaN of a joint at rest.
 
-    Attributes:
-        name: joint.
-        unit: of its position, rad or m.
-        moves: False at rest.
-        band: Hz below which 99 % of its velocity's energy lies; 0 at rest.
-        shaken: Hz, the same with all that is not white noise.
-        trembling: rms of the position that is not motion, rad or m.
-    """
-
-    name: str
-    unit: str
-    moves: bool
-    band: float
-    shaken: float
-    trembling: float
-
-    def trembles(self) -> str:
-        """A sentence on what was left out."""
-        return (
-            f"joint {self.name}: its position trembles by {1e3 * self.trembling:.2g} m{self.unit} "
-            f"up to {self.shaken:.3g} Hz, beside a motion of up to {self.band:.3g} Hz: noise of "
-            "its sensor, or a controller that shakes it; the cut-offs are chosen without it, but "
-            "look at both"
-        )
-
-
-def joint_motions(
-    joints: Sequence[JointSpec], pieces: Sequence[Piece], spectra: Sequence[MotionSpectrum]
-) -> tuple[JointMotion, ...]:
-    """What each joint does: medians over the pieces in which it moves, by their lengths.
+    The median over the pieces in which the joint moves, by their lengths.
 
     Args:
-        joints: of the robot.
         pieces: of all logs.
         spectra: of their positions.
     """
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
-    found = np.stack([motion_bands(*pair) for pair in zip(pieces, spectra, strict=True)], axis=1)
-    motions = []
-    for joint, values in zip(joints, found, strict=True):
-        moved = np.isfinite(values[:, 0])
-        moves = bool(moved.any())
-        kept, weights = (values[moved], lengths[moved]) if moves else (values, lengths)
-        band, shaken, trembling = (weighted_median(column, weights) for column in kept.T)
-        band = band if moves else 0.0
-        motions.append(JointMotion(joint.name, joint.unit, moves, band, shaken, trembling))
-    return tuple(motions)
+    found = np.stack([motion_bands(*pair) for pair in zip(pieces, spectra, strict=True)])
+    bands = np.full(found.shape[1], np.nan)
+    for j, own in enumerate(found.T):
+        moved = np.isfinite(own)
+        if moved.any():
+            bands[j] = weighted_median(own[moved], lengths[moved])
+    return bands
 
 
-def shown_band(motions: Sequence[JointMotion], pieces: Sequence[Piece]) -> float:
+def shown_band(band: float, pieces: Sequence[Piece]) -> float:
     """Hz of the fastest joint, as the window of a piece shows it: 2/T at least."""
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
-    return float(np.hypot(max(m.band for m in motions), 2.0 / weighted_median(lengths, lengths)))
+    return float(np.hypot(band, 2.0 / weighted_median(lengths, lengths)))
+
+
+def without_speeds(piece: Piece) -> Piece:
+    """The piece with its velocities to be taken from the positions."""
+    return dataclasses.replace(piece, qd=None, qdd=None)
 
 
 def spectra_of(pieces: Sequence[Piece]) -> list[MotionSpectrum]:
@@ -353,80 +317,86 @@ def what_rings(spectra: Sequence[MotionSpectrum]) -> list[Ringing]:
 
 
 def choose_cutoffs(
-    processing: Processing, pieces: Sequence[Piece], motions: Sequence[JointMotion]
+    processing: Processing, pieces: Sequence[Piece], noise: MotionNoise
 ) -> tuple[ChosenProcessing, tuple[str, ...]]:
-    """The processing with both cut-offs chosen, and a sentence for each choice.
+    """The processing with the widest cut-offs that the motion asks for, and what it was chosen by.
 
-    The motion band is that of the fastest joint. Position filter: 25 times the motion band within
-    30 to 100 Hz, never less than 5 times, at most 0.4 of the sampling rate; a filter too close to
-    the motion looks like a flexible joint. Parallel filter: 4 times the motion band, at least 5 Hz,
-    at most half the position filter. The EMPS benchmark, whose authors chose 100 Hz and 16 Hz by
-    hand, comes out at 90 Hz and 14 Hz.
+    Parallel filter: 4 times the motion band of the fastest joint, at least 5 Hz. Position filter:
+    where the spectrum of the positions meets their noise, at most 100 Hz, never less than 5 bands
+    or twice the parallel filter; at most 0.4 of the sampling rate. `observe` then lowers both where
+    the noise of the positions is more than that of the torques.
 
     Args:
         processing: what is given is kept.
         pieces: of all logs.
-        motions: of the joints.
+        noise: of the motion.
     """
-    fastest = max(motions, key=lambda motion: motion.band)
+    fastest = max(noise.joints, key=lambda joint: joint.band)
     band = fastest.band
-    rate = 1.0 / float(np.median([piece.step for piece in pieces]))
     slowest = 1.0 / max(piece.step for piece in pieces)
     shown = (
         f"{band:.3g} Hz" if band else "of less than the pieces of motion are long enough to show"
     )
-    said = [f"motion band {shown} (99 % of the velocity's energy), sampled at {rate:.4g} Hz"]
-    rest = [motion.name for motion in motions if not motion.moves]
-    if rest and len(rest) < len(motions):
+    said = [f"motion band {shown} (99 % of the velocity's energy), sampled at {noise.rate:.4g} Hz"]
+    rest = [joint.name for joint in noise.joints if not joint.moves]
+    if rest and len(rest) < len(noise.joints):
         one = len(rest) == 1
         said.append(
             f"joint{'' if one else 's'} {', '.join(rest)} rest{'s' if one else ''}: not counted in "
             "the motion band"
         )
-    position = processing.position_cutoff
+    given, highest = processing.position_cutoff, HIGHEST * slowest
+    parallel = processing.parallel_cutoff
+    if parallel is None:
+        parallel = min(max(LEAST_PARALLEL, PARALLEL_BANDS * band), 0.5 * (given or highest))
+        parallel = two_digits(parallel)
     logged = all(piece.qdd is not None for piece in pieces)
-    unused = " (not needed: accelerations are logged)" if logged else ""
+    position = given
     if position is None:
-        wanted = max(LEAST_POSITION, min(POSITION_BANDS * band, ENOUGH_POSITION), 5.0 * band)
-        position = _two_digits(min(wanted, HIGHEST * slowest))
-        said.append(
-            f"position filter {position:g} Hz{unused}: {POSITION_BANDS:g} x the band within "
-            f"{LEAST_POSITION:g} to {ENOUGH_POSITION:g} Hz, never less than 5 x, at most "
-            f"{HIGHEST:g} of the sampling rate"
-        )
+        position = two_digits(min(max(noise.cutoff, 2.0 * parallel), highest))
     if not logged and 0.0 < position < 5.0 * band:
-        given = processing.position_cutoff is not None
         higher, better = "give a higher --cutoff, or leave it out", "sample faster or move slower"
         said.append(
             f"position filter {position:g} Hz is less than 5 x the motion band of joint "
             f"{fastest.name}, {band:.3g} Hz: accelerations are damped; "
-            f"{higher if given else better}"
-        )
-    parallel = processing.parallel_cutoff
-    if parallel is None:
-        highest = 0.5 * (position or HIGHEST * slowest)
-        parallel = _two_digits(min(max(LEAST_PARALLEL, PARALLEL_BANDS * band), highest))
-        said.append(
-            f"parallel filter {parallel:g} Hz: {PARALLEL_BANDS:g} x the band, at least "
-            f"{LEAST_PARALLEL:g} Hz, at most half the position filter"
+            f"{better if given is None else higher}"
         )
     own = [n for n in ("position_cutoff", "parallel_cutoff") if getattr(processing, n) is None]
     choices = {
         "position_cutoff": position,
         "parallel_cutoff": parallel,
         "speed_floors": processing.speed_floors or {},
-        "chosen": (*processing.chosen, *own),
+        "chosen": tuple(dict.fromkeys((*processing.chosen, *own))),
     }
     return ChosenProcessing(**{**vars(processing), **choices}), tuple(said)
 
 
-def what_trembles(motions: Sequence[JointMotion]) -> tuple[str, ...]:
-    """A sentence on each joint that would have made the motion look twice as fast as it is."""
-    fast = _TOLD * max(LEAST_PARALLEL / PARALLEL_BANDS, *(motion.band for motion in motions))
-    return tuple(motion.trembles() for motion in motions if motion.moves and motion.shaken > fast)
+def filtered_again(prepared: Prepared, chosen: ChosenProcessing) -> Prepared:
+    """The same pieces, filtered with other cut-offs.
+
+    Raises:
+        DataError: a filter leaves nothing of any of them.
+    """
+    every = [piece for own in prepared.pieces for piece in own]
+    filtered = [(piece, segment_of(piece, chosen)) for piece in every]
+    segments = tuple(segment for _, segment in filtered if segment is not None)
+    if not segments:
+        longest = max(every, key=lambda piece: len(piece.time))
+        raise DataError(
+            f"no more than {(len(longest.time) - 1) * longest.step:.2g} s without a gap; expected "
+            f"more than {2.0 * edge_of(longest, chosen) * longest.step:.2g} s: the ends are lost "
+            f"to the {chosen.position_cutoff:g} Hz low-pass of the positions; record longer motions"
+        )
+    return dataclasses.replace(
+        prepared,
+        processing=chosen,
+        segments=segments,
+        left_out=tuple(piece for piece, segment in filtered if segment is None),
+    )
 
 
-def _two_digits(value: float) -> float:
+def two_digits(value: float) -> float:
+    """As it is told, and used."""
     return float(f"{value:.2g}")
 
 

@@ -7,6 +7,7 @@ from modeler.core.brief import Brief
 from modeler.core.result import Presented
 from modeler.core.table import percent
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
+from modeler.observation.motion_noise import MotionNoise
 from modeler.observation.outliers import Damage
 from modeler.observation.segments import JITTER
 from modeler.observation.settings import ChosenProcessing
@@ -183,7 +184,7 @@ class DataReport(Presented):
         choices: one sentence per automatic choice.
         logs: in the order given.
         joints: in the order of the manifest.
-        trembles: one sentence per joint that trembles beside its motion.
+        noise: of the motion; None where the rows are a part of a log.
         band: Hz of the motion.
     """
 
@@ -191,17 +192,17 @@ class DataReport(Presented):
     choices: tuple[str, ...]
     logs: tuple[LogReport, ...]
     joints: tuple[JointReport, ...]
-    trembles: tuple[str, ...] = ()
+    noise: MotionNoise | None = None
     band: float = 0.0
 
     def doubts(self) -> list[str]:
         """What is wrong with the measurements of all logs, one sentence each."""
-        return [*(line for log in self.logs for line in log.doubts()), *self.trembles]
+        return [line for log in self.logs for line in log.doubts()]
 
     def lines(self) -> list[str]:
         """Lines of text for people."""
         lines = [line for log in self.logs for line in log.lines()]
-        lines += [*self.trembles, *self.choices]
+        lines += [*(self.noise.lines() if self.noise else ()), *self.choices]
         if any(log.saturated for log in self.logs):
             used = "used" if self.processing.keep_saturated else "not used"
             lines.append(f"rows with a torque at its limit are {used}")

@@ -13,7 +13,8 @@ from modeler.observation.consistency import consistency
 from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_of, fingers
 from modeler.observation.low_speed import IDLE_TRAVEL, TOP, FrictionShaft, shafts
 from modeler.observation.motion import Segment, segment_of
-from modeler.observation.observation import Observation, observed
+from modeler.observation.observation import Observation
+from modeler.observation.observe import within_noise
 from modeler.observation.outliers import ChannelScales, defects
 from modeler.observation.prepare import Prepared, believed, check_size, closed, prepare
 from modeler.observation.read import Ranges, Source, cut, joined, windows_joined
@@ -142,7 +143,7 @@ def survey(
     seen = [log for log in logs if log is not None]
     try:
         prepared = prepare(model.spec, seen, processing)
-        observation = observed(model, seen, prepared)
+        observation = within_noise(model, seen, prepared, processing)
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
         where = f"the {sum(len(own) for own in windows)} windows"
         raise WholeLogNeeded(f"{error}; found in {where} by which long logs are judged") from None

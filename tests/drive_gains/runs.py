@@ -7,7 +7,8 @@ import numpy as np
 from modeler.api import compile_model, derive, generate, load
 from modeler.estimation.payload import Payload
 from modeler.observation.log import Log
-from modeler.observation.observation import Observation, observe
+from modeler.observation.observation import Observation
+from modeler.observation.observe import observe
 from modeler.robot.edit import with_drive_gains
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import CompiledModel

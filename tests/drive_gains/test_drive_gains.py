@@ -15,7 +15,7 @@ from modeler.estimation.drive_gains import check_currents, identify_gains, mixed
 from modeler.estimation.known import deviations, known_doubts
 from modeler.estimation.payload import Payload
 from modeler.numerics.least_squares import compress
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from modeler.robot.edit import with_drive_gains
 from modeler.robot.read import robot_from_text
 from tests.drive_gains.runs import Runs, runs_of

@@ -12,7 +12,8 @@ from test_observation_rows import exact_log, some_beta
 from modeler.estimation.covariance import autocorrelation
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
-from modeler.observation.observation import MASKS, WHY, masks_of, observe
+from modeler.observation.observation import MASKS, WHY, masks_of
+from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
 from modeler.validation.prediction import DEVIATIONS, sigma_of
 

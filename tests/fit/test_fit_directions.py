@@ -11,7 +11,7 @@ from modeler.estimation.identify import identify
 from modeler.estimation.result import fit_from_json
 from modeler.estimation.verdict import with_verdict
 from modeler.observation.log import Log
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
 from modeler.robot.edit import with_effects
 from modeler.robot.read import robot_from_text

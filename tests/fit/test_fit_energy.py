@@ -12,7 +12,7 @@ from modeler.core.errors import DataError
 from modeler.estimation.energy_fit import energy_rows, identify_energy, unequal_least_squares
 from modeler.estimation.identify import base_equations, crossed, identify
 from modeler.estimation.result import fit_from_json
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 
 NOISE = np.array([0.2, 0.5])
 SEEDS = 30

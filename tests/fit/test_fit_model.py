@@ -19,7 +19,7 @@ from modeler.estimation.model_file import (
     save_model,
 )
 from modeler.estimation.payload import Payload, identify_with_payloads
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 
 
 def noisy(log, size, seed=0):

@@ -20,7 +20,7 @@ from modeler.estimation.model_file import (
     provenance,
     save_model,
 )
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from tests.modules import compiled, module
 
 MANY_DIGITS = "a whole number of 10 000 digits"

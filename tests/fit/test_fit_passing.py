@@ -13,7 +13,8 @@ from modeler.estimation.verdict import with_verdict
 from modeler.observation import reduce as passing, stretch
 from modeler.observation.channels import thinned
 from modeler.observation.log import Log
-from modeler.observation.observation import Evaluated, Observation, observe
+from modeler.observation.observation import Evaluated, Observation
+from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
 from modeler.runtime.model import CompiledModel
 from tests.modules import compiled

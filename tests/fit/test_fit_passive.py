@@ -10,7 +10,7 @@ from test_observation_rows import exact_log, some_beta
 from modeler.core.errors import DataError
 from modeler.derivation.numeric_rank import grouping_matrix
 from modeler.estimation.identify import identify
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.modules import compiled, module

@@ -21,7 +21,7 @@ from modeler.estimation.model_file import (
 )
 from modeler.estimation.result import fit_from_json
 from modeler.numerics.least_squares import compress
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from tests.modules import compiled
 
 NOISE = 0.3

@@ -18,7 +18,7 @@ from modeler.estimation.two_step import (
 )
 from modeler.estimation.two_step_result import identify_in_two_steps, inertia_rows
 from modeler.observation.log import Log
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
 from modeler.robot.motors import joint_directions
 from modeler.robot.read import read_robot

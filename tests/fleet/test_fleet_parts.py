@@ -15,7 +15,7 @@ from modeler.fleet.drift import (
     scatters,
 )
 from modeler.fleet.joint_fit import GAIN, LOAD, joint_fit, layout_of
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs, parameters, summaries
 
 ROSNER = """

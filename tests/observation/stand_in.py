@@ -56,6 +56,17 @@ class StandIn:
         columns = np.arange(len(self.spec.base), dtype=np.intc)
         return NonzeroPattern((columns,) * len(self.rows), len(columns))
 
+    def inertia_matrix(self, q, beta):
+        still = np.zeros_like(q)
+        return np.stack(
+            [
+                (self.base_regressor(q, still, still + one) - self.base_regressor(q, still, still))
+                @ beta
+                for one in np.eye(q.shape[1])
+            ],
+            axis=2,
+        )
+
     def triangles(self, q, qd, qdd, tau, use=None, s=None, weight=None, state=None):
         def evaluate(w):
             return self.base_regressor(q[w], qd[w], qdd[w]), np.zeros(len(q[w]), dtype=bool)

@@ -10,7 +10,7 @@ from test_observation_rows import exact_log, some_beta
 from modeler.core.errors import DataError
 from modeler.estimation.energy_fit import energy_rows, kinetic_columns, weights
 from modeler.observation.log import Log
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
 from tests.modules import compiled
 

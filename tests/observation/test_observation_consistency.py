@@ -9,7 +9,7 @@ from stand_in import Row, StandIn, planar_arm
 from modeler.core.errors import DataError
 from modeler.observation.consistency import consistency
 from modeler.observation.log import Log
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from modeler.observation.read import read_log
 from modeler.observation.segments import split
 from modeler.observation.settings import Processing, processing_from_json

@@ -12,7 +12,7 @@ from stand_in import Row, StandIn, planar_arm, rotor, slider
 
 from modeler.core.manifest import JointSpec
 from modeler.observation.log import Log
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from modeler.observation.outliers import damages, defects
 from modeler.observation.read import read_log
 from modeler.observation.settings import Processing, processing_from_json

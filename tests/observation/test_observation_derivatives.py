@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from modeler.observation.consistency import quieter, without_velocities
+from modeler.observation.consistency import quieter
+from modeler.observation.prepare import without_speeds
 from modeler.observation.segments import Piece
 
 TIME = np.arange(2000) * 0.002
@@ -33,7 +34,7 @@ def test_the_position_is_differentiated_where_that_is_clearly_quieter(position, 
 
 
 def test_without_logged_velocities_there_is_no_choice():
-    pieces = without_velocities([piece(1e-6, 1e-2)])
+    pieces = tuple(map(without_speeds, [piece(1e-6, 1e-2)]))
     assert pieces[0].qd is None
     assert not quieter(pieces, CUTOFF)
     assert not quieter([], CUTOFF)

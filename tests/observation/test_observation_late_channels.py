@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.estimation.findings import faults_of_fit
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
 from tests.modules import compiled, module

@@ -8,7 +8,8 @@ from test_observation_rows import some_beta
 
 from modeler.cli import main
 from modeler.observation.log import Log
-from modeler.observation.observation import MASKS, masks_of, observe
+from modeler.observation.observation import MASKS, masks_of
+from modeler.observation.observe import observe
 from modeler.observation.prepare import nearest_closed
 from modeler.observation.settings import Processing
 from tests.modules import compiled

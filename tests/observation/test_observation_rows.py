@@ -11,7 +11,7 @@ from modeler.numerics.filters import filter_at
 from modeler.observation.excitation import excitation
 from modeler.observation.log import Log
 from modeler.observation.low_speed import shafts
-from modeler.observation.observation import observe
+from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
 
 

@@ -9,13 +9,8 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.observation.log import Log
 from modeler.observation.motion import segment_of
-from modeler.observation.prepare import (
-    choose_cutoffs,
-    joint_motions,
-    spectra_of,
-    what_rings,
-    what_trembles,
-)
+from modeler.observation.motion_noise import motion_noise
+from modeler.observation.prepare import choose_cutoffs, joint_bands, spectra_of, what_rings
 from modeler.observation.segments import saturated, split
 from modeler.observation.settings import ChosenProcessing, Processing, processing_from_json
 
@@ -144,20 +139,20 @@ def test_saturated_samples_count_only_on_request():
     assert kept.valid.sum() - left.valid.sum() == (piece.clipped[:, 0] & left.whole).sum()
 
 
-def motions_of(*pieces):
+def noise_in(*pieces):
     joints = [
         JointSpec(name, "revolute", "rad", "N m", True, None)
         for name in "1234567"[: pieces[0].q.shape[1]]
     ]
-    return joint_motions(joints, pieces, spectra_of(pieces))
+    return motion_noise(joints, pieces, joint_bands(pieces, spectra_of(pieces)))
 
 
 def band_of(piece):
-    return max(motion.band for motion in motions_of(piece))
+    return noise_in(piece).band
 
 
 def cutoffs_of(processing, *pieces):
-    return choose_cutoffs(processing, pieces, motions_of(*pieces))
+    return choose_cutoffs(processing, pieces, noise_in(*pieces))
 
 
 @pytest.mark.parametrize("noise", [0.0, 1e-5, 1e-3])
@@ -209,15 +204,14 @@ def test_a_log_that_stands_still_has_no_band():
 
 @pytest.mark.parametrize(
     ("hertz", "rate", "position", "parallel"),
-    [(0.3, 1000, 30, 5), (3.0, 1000, 75, 12), (30.0, 5000, 150, 75), (3.0, 50, 20, 10)],
+    [(0.3, 1000, 100, 5), (3.0, 1000, 100, 12), (30.0, 5000, 240, 120), (3.0, 50, 20, 10)],
 )
 def test_automatic_cutoffs_follow_the_motion(hertz, rate, position, parallel):
     time = np.arange(20 * rate) / rate
     piece = split(log_of(time, np.sin(2 * np.pi * hertz * time)[:, None]), 0, False)[0][0]
-    chosen, said = cutoffs_of(Processing(), piece)
+    chosen = cutoffs_of(Processing(), piece)[0]
     assert chosen.position_cutoff == pytest.approx(position, rel=0.05)
     assert chosen.parallel_cutoff == pytest.approx(parallel, rel=0.05)
-    assert any("position filter" in s for s in said) and any("parallel filter" in s for s in said)
     given = Processing(position_cutoff=40.0, parallel_cutoff=7.0)
     kept = cutoffs_of(given, piece)[0]
     assert (kept.position_cutoff, kept.parallel_cutoff, kept.chosen) == (40.0, 7.0, ())
@@ -278,24 +272,17 @@ def test_the_motion_band_does_not_follow_the_noise_of_a_joint(colour, joints):
         assert band_of(first_piece(noisy)) == pytest.approx(quiet, abs=0.05), size
 
 
-def test_a_joint_that_trembles_is_told_with_its_size():
-    piece = first_piece(arm_log(noise_of("shaking", 0.005)))
-    (said,) = what_trembles(motions_of(piece))
-    assert said.startswith("joint 4: its position trembles by 5.1 mrad up to 22 Hz, beside")
-    assert what_trembles(motions_of(first_piece(arm_log(noise_of("white", 1e-4))))) == ()
-
-
 @pytest.mark.parametrize("colour", ["white", "of a slow sensor", "shaking"])
 def test_joints_at_rest_do_not_count_whatever_their_noise(colour):
     log = arm_log()
     log.q[:, 1:] = 0.3 + np.column_stack([noise_of(colour, 1e-3, seed) for seed in range(3)])
     piece = first_piece(log)
-    assert [motion.moves for motion in motions_of(piece)] == [True, False, False, False]
+    assert [joint.moves for joint in noise_in(piece).joints] == [True, False, False, False]
     assert band_of(piece) == pytest.approx(0.6, abs=0.05)
     said = cutoffs_of(Processing(), piece)[1]
     assert "joints 2, 3, 4 rest: not counted in the motion band" in said
-    both = motions_of(piece, first_piece(arm_log()))
-    assert all(motion.moves for motion in both)
+    both = noise_in(piece, first_piece(arm_log()))
+    assert all(joint.moves for joint in both.joints)
 
 
 def test_a_commanded_joint_moves_no_faster_than_its_command():

@@ -1,0 +1,361 @@
+"""The noise of the measured motion: where its spectrum meets a floor, and what that floor is.
+
+What is differentiated twice to give accelerations is known only up to the frequency at which the
+motion drowns in the noise of its sensor. One object says where that is, joint by joint; cut-offs,
+masks, sigmas, doubts and the diagnosis read it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.core.manifest import JointSpec
+from modeler.numerics.noise import resolution
+from modeler.numerics.spectra import BandSpectrum, MotionSpectrum, band_spectrum, motion_spectrum
+from modeler.observation.excitation import ringing
+from modeler.observation.segments import Piece
+
+FLAT = 3.0
+"""The spectrum meets its floor where it is less than this many times its median over the two
+octaves above, and no band of these stands out by more than the square of it: white noise is flat,
+motion falls far more steeply, and may come back in lines."""
+
+OCTAVES = 2.0
+
+HIGHEST_CUTOFF = 100.0
+"""Hz; no arm has more to say, and joints whose positions are exact would ask for the Nyquist
+frequency."""
+
+LEAST_BANDS = 5.0
+"""Bands of the motion that a position filter leaves at least: closer to it, it damps the
+acceleration."""
+
+_QUANTITY = ("logged accelerations", "logged speeds", "positions")
+
+WHITE = 1.0
+"""Power of 1/f in the floor above which noise is called coloured."""
+
+
+@dataclass(frozen=True)
+class JointNoise(Brief):
+    """Noise of what is measured of one joint's motion.
+
+    Attributes:
+        name: joint.
+        unit: of its position, "rad" or "m".
+        moves: False at rest.
+        band: Hz of its motion.
+        order: derivatives from what is measured to the acceleration: 2 of positions, 1 of logged
+            speeds, 0 of logged accelerations.
+        floor: one-sided power density of its noise, unit^2/Hz (of speeds: (unit/s)^2/Hz).
+        meets: Hz at which the spectrum meets the floor.
+        colour: noise grows as f^-colour towards low frequencies, seen above `meets`; 0 for white.
+        step: resolution of the position, unit.
+    """
+
+    name: str
+    unit: str
+    moves: bool
+    band: float
+    order: int
+    floor: float
+    meets: float
+    colour: float
+    step: float
+
+    @property
+    def cutoff(self) -> float:
+        """Hz up to which the position says more of the motion than of its sensor."""
+        return float(np.clip(self.meets, LEAST_BANDS * self.band, HIGHEST_CUTOFF))
+
+    def speed_deviation(self, cutoff: float) -> float:
+        """Standard deviation of the noise of the speed below a cut-off (Hz), unit/s.
+
+        White noise of density N differentiated, sigma_v^2 = N (2 pi)^2 f^3 / 3; of a logged speed
+        N f.
+        """
+        power = 3.0 if self.order == 2 else 1.0
+        factor = (2.0 * np.pi) ** 2 / 3.0 if self.order == 2 else 1.0
+        return float(np.sqrt(self.floor * factor * cutoff**power))
+
+    def words(self, rate: float) -> str:
+        """Its noise in words, at a rate of samples in Hz."""
+        size = 1e3 * self.deviation(rate)
+        unit = f"m{self.unit}" + ("", "/s", "/s2")[2 - self.order]
+        coloured = f", growing as f^-{self.colour:.1f}" if self.colour else ""
+        return f"joint {self.name} {size:.2g} {unit} above {self.meets:.2g} Hz{coloured}"
+
+    def acceleration_density(self, frequency: float) -> float:
+        """Its noise as that of the acceleration: (2 pi f)^(2 order) N, (unit/s^2)^2/Hz."""
+        return float(self.floor * (2.0 * np.pi * frequency) ** (2 * self.order))
+
+    def deviation(self, rate: float) -> float:
+        """Standard deviation of white noise of this density, sampled at a rate (Hz)."""
+        return float(np.sqrt(0.5 * self.floor * rate))
+
+
+@dataclass(frozen=True)
+class MotionNoise(Brief):
+    """Of all joints.
+
+    Attributes:
+        joints: in the order of the manifest.
+        rate: Hz, of the samples.
+        spectra: what was seen, for pictures; None where nothing was.
+    """
+
+    joints: tuple[JointNoise, ...]
+    rate: float
+    spectra: BandSpectrum | None = None
+
+    @property
+    def moving(self) -> tuple[JointNoise, ...]:
+        """The joints that move."""
+        return tuple(joint for joint in self.joints if joint.moves)
+
+    @property
+    def band(self) -> float:
+        """Hz of the motion of the fastest joint."""
+        return max((joint.band for joint in self.moving), default=0.0)
+
+    @property
+    def cutoff(self) -> float:
+        """Hz of the position filter that the noise asks for: the geometric mean of the joints'."""
+        every = [max(joint.cutoff, LEAST_BANDS * self.band) for joint in self.moving]
+        return float(np.exp(np.mean(np.log(every)))) if every else HIGHEST_CUTOFF
+
+    def doubtful_speed(self, coefficients: Sequence[float], cutoff: float) -> float:
+        """Standard deviation of the noise of a shaft's speed below a cut-off, Hz, or D f if more.
+
+        Args:
+            coefficients: (J,) of the joints' speeds in that of the shaft.
+            cutoff: of the position filter.
+        """
+        own = [max(joint.speed_deviation(cutoff), joint.step * cutoff) for joint in self.joints]
+        return float(np.linalg.norm(np.asarray(coefficients) * own))
+
+    def lines(self) -> list[str]:
+        """One line: of each joint that moves, how large its noise is and where it begins."""
+        if not self.moving:
+            return []
+        every = "; ".join(joint.words(self.rate) for joint in self.moving)
+        what = _QUANTITY[self.order]
+        return [f"noise of the {what}, and from what frequency on it hides the motion: {every}"]
+
+    def why_cutoff(self, chosen: float) -> str:
+        """Why a position filter of this cut-off (Hz) was chosen."""
+        found = self.cutoff
+        if chosen > 1.05 * found:
+            return (
+                f"the {_QUANTITY[self.order]} are noise above {found:.2g} Hz; twice the parallel "
+                "filter, which takes that off"
+            )
+        if found >= HIGHEST_CUTOFF:
+            return f"the {_QUANTITY[self.order]} are no noise up to there"
+        return f"above, the spectrum of the {_QUANTITY[self.order]} is that of their noise"
+
+    @property
+    def order(self) -> int:
+        """Derivatives from what is measured to the acceleration."""
+        return self.joints[0].order
+
+
+def motion_noise(
+    joints: Sequence[JointSpec], pieces: Sequence[Piece], bands: np.ndarray
+) -> MotionNoise:
+    """The noise of the motion in all logs.
+
+    Args:
+        joints: of the robot.
+        pieces: of all logs, uniform.
+        bands: (J,) Hz of the motion of each joint; NaN at rest.
+    """
+    order = 2 if any(piece.qd is None for piece in pieces) else 1
+    order = 0 if all(piece.qdd is not None for piece in pieces) else order
+    measured = [(p.qdd, p.qd, p.q)[order] for p in pieces]
+    spectra = band_spectrum(
+        [np.asarray(x) for x in measured], [piece.step for piece in pieces], order
+    )
+    every = []
+    for j, (joint, band) in enumerate(zip(joints, bands, strict=True)):
+        moves = bool(np.isfinite(band))
+        floor, meets, colour = floor_of(spectra, j, band if moves else 0.0)
+        step = resolution(np.concatenate([piece.q[:, j] for piece in pieces]))
+        every.append(
+            JointNoise(
+                joint.name, joint.unit, moves, band if moves else 0.0, order, floor, meets, colour,
+                step,
+            )
+        )  # fmt: skip
+    rate = 1.0 / float(np.median([piece.step for piece in pieces]))
+    return MotionNoise(tuple(every), rate, spectra)
+
+
+def floor_of(spectra: BandSpectrum, j: int, band: float) -> tuple[float, float, float]:
+    """Floor density of joint j, Hz at which its spectrum meets it, and the colour above that.
+
+    Args:
+        spectra: of what is measured.
+        j: index of the joint.
+        band: Hz of its motion, below which nothing is a floor.
+    """
+    f, S = spectra.frequency, spectra.density[:, j]
+    kept = (f > band) & np.isfinite(S)
+    f, S = f[kept], S[kept]
+    for k in range(len(f)):
+        above = S[(f > f[k]) & (f <= f[k] * 2.0**OCTAVES)]
+        if above.size >= 3 and max(S[k], above.max() / FLAT) < FLAT * np.median(above):
+            return float(np.median(above)), float(f[k]), _colour(f[k:], S[k:])
+    return (float(S[-1]) if S.size else 0.0), (float(f[-1]) if f.size else np.inf), 0.0
+
+
+def _colour(f: np.ndarray, S: np.ndarray) -> float:
+    if len(f) < 6 or not (S > 0.0).all():
+        return 0.0
+    slope = -float(np.polyfit(np.log(f), np.log(S), 1)[0])
+    return slope if slope > WHITE else 0.0
+
+
+# Which part of the measured positions is motion, joint by joint.
+
+
+SHARE = 0.99
+"""The motion band holds this share of the energy of the velocity."""
+
+VALLEY = 4.0
+"""Over an octave the position's energy is lower by this than that of motion and of trembling."""
+
+APART = 4.0
+"""Times the band of the joints' median: a joint that is faster may be one that trembles."""
+
+TREMBLING = 0.05
+"""Rms position of what is apart from the motion over that of the motion: below, it is none."""
+
+REST = 0.01
+"""Rms position over that of the joint that moves most: a joint at rest has less."""
+
+_STEPS = 6  # per octave
+
+
+def motion_bands(piece: Piece, measured: MotionSpectrum) -> np.ndarray:
+    """(J,) Hz below which 99 % of the velocity's energy lies in one piece; NaN of joints at rest.
+
+    What counts is the power above white noise, up to where the joint rings or trembles; where
+    positions were commanded, up to the band of the command. The window's own width 2/T is taken
+    off in quadrature, or a piece of half a second would look fast.
+
+    Args:
+        piece: of a log.
+        measured: spectrum of its positions.
+    """
+    frequency, above = measured.frequency, measured.above
+    joints = range(above.shape[1])
+    speed = above * frequency[:, None] ** 2
+    rings = [ringing(frequency, speed[:, j], j)[1] for j in joints]
+    ends = [_end(frequency[:n], above[:n, j]) for j, n in zip(joints, rings, strict=True)]
+    size = np.array([np.sqrt(above[: ends[j], j].sum()) for j in joints])
+    moves = (size > REST * size.max()) & (np.ptp(piece.q, axis=0) > 0.0)
+    ends = _together(frequency, above, ends, moves)
+    window = 2.0 / (len(piece.time) * piece.step)
+    band = np.fmin(_bands(frequency, above, ends), _commanded(piece))
+    return np.where(moves, np.sqrt(np.maximum(0.0, band**2 - window**2)), np.nan)
+
+
+def _together(
+    frequency: np.ndarray, above: np.ndarray, ends: list[int], moves: np.ndarray
+) -> list[int]:
+    """The ends of the motion, where a joint that is far faster than the others only trembles.
+
+    The joints of a robot are moved together: what one of them does beyond `APART` bands of their
+    median, and does a little of, is noise of any colour.
+    """
+    if not moves.any():
+        return ends
+    band = _bands(frequency, above, ends)
+    most = int(np.searchsorted(frequency, APART * np.median(band[moves])))
+    return [
+        most if most < end and own > frequency[most] and _small(above[:end, j], most) else end
+        for j, (end, own) in enumerate(zip(ends, band, strict=True))
+    ]
+
+
+def _bands(frequency: np.ndarray, power: np.ndarray, ends: Sequence[int]) -> np.ndarray:
+    """(J,) energy bands of the power (n, J) before each joint's end."""
+    return np.array([energy_band(frequency[:n], power[:n, j]) for j, n in enumerate(ends)])
+
+
+def energy_band(frequency: np.ndarray, power: np.ndarray) -> float:
+    """Frequency below which 99 % of the velocity's energy lies, Hz; 0 without any.
+
+    Args:
+        frequency: (n,) Hz.
+        power: (n,) of the position.
+    """
+    total = np.cumsum(power * frequency**2)
+    return float(frequency[np.searchsorted(total, SHARE * total[-1])]) if total[-1] > 0.0 else 0.0
+
+
+def _commanded(piece: Piece) -> np.ndarray:
+    """(J,) band of the commanded positions, Hz; NaN where none is known, or none moves."""
+    if piece.commanded is None:
+        return np.full(piece.q.shape[1], np.nan)
+    command = motion_spectrum(piece.commanded, piece.step)
+    size = np.sqrt(command.above.sum(axis=0))
+    band = [energy_band(command.frequency, own) for own in command.above.T]
+    return np.where(size > REST * size.max(), band, np.nan)
+
+
+def _end(frequency: np.ndarray, above: np.ndarray) -> int:
+    """Index of the first frequency that is not motion.
+
+    Motion fades with frequency, noise and shaking grow before they fade: the position's energy per
+    octave has a wide valley between them. What stands behind it is motion unless it is small.
+
+    Args:
+        frequency: (n,) Hz.
+        above: (n,) power of the position above white noise.
+    """
+    if len(frequency) < 3 or not above.any():
+        return len(frequency)
+    octaves = np.log2(frequency[-1] / frequency[1])
+    grid = frequency[1] * 2.0 ** np.arange(0.0, octaves, 1.0 / _STEPS)
+    energy = _per_octave(frequency, above, grid)
+    start = int(np.argmax(energy))
+    while (valley := _valley(energy[start:])) is not None:
+        first, last = (start + place for place in valley)
+        bottom = grid[first + int(np.argmin(energy[first : last + 1]))]
+        parted = int(np.searchsorted(frequency, bottom))
+        if _small(above, parted):
+            return parted
+        start = last
+    return len(frequency)
+
+
+def _small(power: np.ndarray, place: int) -> bool:
+    """True if what stands from there on in power (n,) is none of the motion before."""
+    return bool(power[place:].sum() < TREMBLING**2 * power[:place].sum())
+
+
+def _per_octave(frequency: np.ndarray, energy: np.ndarray, grid: np.ndarray) -> np.ndarray:
+    """(m,) energy within half an octave of each frequency of the grid (m,), Hz."""
+    total = np.concatenate([[0.0], np.cumsum(energy)])
+    low = np.searchsorted(frequency, grid / np.sqrt(2.0))
+    high = np.searchsorted(frequency, grid * np.sqrt(2.0), side="right")
+    return np.asarray(total[high] - total[low])
+
+
+def _valley(energy: np.ndarray) -> tuple[int, int] | None:
+    """First and last place of the first valley of energies (m,) per octave; None without one.
+
+    It is an octave wide or more, and lower than what stands on either side by `VALLEY`.
+    """
+    before = np.maximum.accumulate(energy)
+    behind = np.maximum.accumulate(energy[::-1])[::-1]
+    low = VALLEY * energy < np.minimum(before, behind)
+    edges = np.flatnonzero(np.diff(low.astype(np.int8), prepend=0, append=0))
+    for first, stop in zip(edges[::2], edges[1::2], strict=True):
+        if stop - first > _STEPS:
+            return int(first), int(stop) - 1
+    return None

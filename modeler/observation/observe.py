@@ -1,0 +1,395 @@
+"""From logs to rows, with the cut-offs below which the torques answer to the measured motion.
+
+Two things are asked of a band: that the noise of the motion, as torque, is less than that of the
+drives, and that the torque of the model does not tremble more than the measured one.
+"""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.numerics.filters import SPREAD
+from modeler.numerics.least_squares import scaled_least_squares
+from modeler.observation.log import Log
+from modeler.observation.low_speed import floors_of, shafts
+from modeler.observation.motion import Segment, segment_of
+from modeler.observation.motion_noise import MotionNoise
+from modeler.observation.observation import Observation, observed, stacked
+from modeler.observation.prepare import (
+    LogRepair,
+    Prepared,
+    closed,
+    filtered_again,
+    prepare,
+    two_digits,
+)
+from modeler.observation.report import DataReport
+from modeler.observation.segments import Piece
+from modeler.observation.settings import ChosenProcessing, Processing
+from modeler.observation.stretch import stretch
+from modeler.runtime import CompiledModel
+
+LEAST_BANDS = 2.0
+"""Bands of the motion that a parallel filter leaves at least, and ..."""
+
+LEAST_CUTOFF = 0.5
+"""... Hz."""
+
+TREMBLES = 4.0
+"""Times as much as the measured torque a model's may tremble: beyond, its motion is noise."""
+
+LOWER = 0.7
+"""Factor by which a cut-off is lowered."""
+
+APART = 2.5
+"""Times the parallel cut-off, down to which that of the positions is lowered by itself."""
+
+ROWS_EACH = 3
+"""Rows for every parameter, at least: of fewer a fit leaves less than their noise."""
+
+ROUNDS = 4
+"""Fits by which the parallel cut-off is found."""
+
+SAMPLES = 2**15
+"""Of the logs, evenly spread over them, that the cut-offs are chosen by."""
+
+
+def observe(
+    model: CompiledModel,
+    logs: Sequence[Log],
+    processing: Processing | None = None,
+    every_joint: bool = False,
+    mending: LogRepair | None = None,
+) -> Observation:
+    """The observation of logs: W, y, and which row is which.
+
+    One parallel filter and decimation for the torque and every column (Guegan, Khalil and Lemoine
+    2003, section 5.2). Samples below the speed floor, saturated or missing ones have no weight.
+
+    Args:
+        model: the compiled robot.
+        logs: read with the same manifest.
+        processing: None: automatic. For held-out logs `report.processing` of the fit.
+        every_joint: mask low speeds also on joints whose dry friction the model lacks.
+        mending: of the same logs, where it is shared.
+
+    Raises:
+        DataError: no logs, of another robot, or no usable row.
+        LoopError: hardly a sample closes the loops.
+    """
+    asked = processing or Processing()
+    prepared = prepare(model.spec, logs, asked, mending)
+    return within_noise(model, logs, prepared, asked, every_joint)
+
+
+def within_noise(
+    model: CompiledModel, logs: Sequence[Log], prepared: Prepared, asked: Processing,
+    every_joint: bool = False,
+) -> Observation:  # fmt: skip
+    """The observation of prepared logs, with the cut-offs lowered to what torques answer to.
+
+    Args:
+        model: the compiled robot.
+        logs: as they were prepared.
+        prepared: with the widest cut-offs that the motion asks for.
+        asked: the processing that was asked for; a cut-off that it gives stays.
+        every_joint: as of `observe`.
+
+    Raises:
+        DataError: no usable row.
+    """
+    if asked.parallel_cutoff is None and prepared.noise.moving:
+        prepared = lowered(model, prepared, asked.position_cutoff)
+    return observed(model, logs, prepared, every_joint)
+
+
+def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Prepared:
+    """The logs with both cut-offs where the torques answer to the motion.
+
+    Parallel filter: where the noise of the positions, as torque, meets the noise of the torques.
+    With positions of noise density N_i, M the inertia matrix of the fitted model, and the residual
+    of joint j of variance s_j^2 behind a filter of cut-off f and noise bandwidth 1.0645 f,
+
+        A_j = (2 pi)^4 sum_i mean(M_ji^2) N_i,  T_j = s_j^2 / 1.0645 f - A_j mean(f^4),
+        f' = min_j (max(T_j, T_least) / A_j)^(1/4)
+
+    is tried anew until it stays, from below: from above, inertias bent by noise would hide it.
+    Then, while the model's torque trembles more than `TREMBLES` times as much as the measured one,
+    the parallel filter, and then the position filter, is lowered further: noise without a floor.
+
+    Args:
+        model: the compiled robot.
+        prepared: the logs, with the widest cut-offs.
+        given: position cut-off of the user, Hz; None: chosen.
+    """
+    noise, wide = prepared.noise, prepared.processing
+    look = Look(model, wide, tuple(piece for own in prepared.pieces for piece in own))
+    least = min(max(LEAST_BANDS * noise.band, LEAST_CUTOFF), wide.parallel_cutoff)
+    position, parallel = wide.position_cutoff, wide.parallel_cutoff
+    while least < parallel and not determined(look.fit(max(noise.cutoff, 2.0 * least), least)):
+        least = min(least / LOWER, parallel)
+    met, by = meeting_cutoff(look, noise, position, (least, parallel))
+    narrow = look.fit(max(min(noise.cutoff, position), 2.0 * least), least)
+    beta = narrow.solution[0] if narrow is not None else None
+    shaken, first = trembling(look.fit(position, parallel), beta), (0.0, 0)
+    while shaken[0] > TREMBLES and parallel > least:
+        first = max(first, shaken)
+        if parallel > met:
+            parallel = max(met, LOWER * parallel)
+        elif given is None and position > APART * parallel:
+            position *= LOWER
+        else:
+            parallel = max(least, LOWER * parallel)
+            position = position if given is not None else LOWER * position
+        shaken = trembling(look.fit(position, parallel), beta)
+    if position < wide.position_cutoff:
+        met, by = meeting_cutoff(look, noise, position, (least, parallel))
+    parallel = two_digits(min(met, parallel))
+    if given is None:
+        position = two_digits(max(min(noise.cutoff, position), 2.0 * parallel))
+    chosen = dataclasses.replace(wide, position_cutoff=position, parallel_cutoff=parallel)
+    said = _sentences(prepared, chosen, given is None, by, first)
+    return dataclasses.replace(filtered_again(prepared, chosen), choices=said)
+
+
+def _sentences(
+    prepared: Prepared, chosen: ChosenProcessing, own: bool, by: int | None,
+    shaken: tuple[float, int],
+) -> tuple[str, ...]:  # fmt: skip
+    """What was chosen, and why."""
+    noise, wide, f = prepared.noise, prepared.processing, chosen.parallel_cutoff
+    said = [*prepared.choices]
+    if own:
+        said.append(
+            f"position filter {chosen.position_cutoff:g} Hz: "
+            f"{noise.why_cutoff(chosen.position_cutoff)}"
+        )
+    if shaken[0]:
+        why = "with more, the model's torque trembles and the measured one does not"
+    elif by is None:
+        why = "the widest that the motion asks for; the noise of the torques is larger up to there"
+    else:
+        why = (
+            f"there the noise of the positions makes as much torque on joint "
+            f"{noise.joints[by].name} as is left of it"
+        )
+    said.append(f"parallel filter {f:g} Hz: {why}")
+    if shaken[0]:
+        name = noise.joints[shaken[1]].name
+        said.append(
+            f"motion between {f:g} and {wide.parallel_cutoff:g} Hz is not what the torques answer "
+            f"to: up to there the model's torque of joint {name} trembles {shaken[0]:.2g} times as "
+            "much as the measured one"
+        )
+    return tuple(said)
+
+
+# Some of the samples, as rows of any cut-offs.
+
+
+@dataclass(frozen=True, eq=False)
+class Look(Brief):
+    """Pieces of the logs, of which `SAMPLES` samples at most are evaluated.
+
+    Attributes:
+        model: the compiled robot.
+        processing: of the logs, with its widest cut-offs.
+        pieces: uniform.
+    """
+
+    model: CompiledModel
+    processing: ChosenProcessing
+    pieces: tuple[Piece, ...]
+
+    @cached_property
+    def _filtered(self) -> dict[float, tuple[Segment, ...]]:
+        return {}
+
+    def segments(self, position: float) -> tuple[Segment, ...]:
+        """Parts of the pieces behind a position filter, Hz."""
+        if position not in self._filtered:
+            chosen = dataclasses.replace(self.processing, position_cutoff=position)
+            every = [segment_of(piece, chosen) for piece in self.pieces]
+            share = SAMPLES / sum(len(piece.time) for piece in self.pieces)
+            self._filtered[position] = tuple(
+                closed(self.model, _part(segment, place))[0]
+                for segment in every if segment is not None
+                for place in _windows(segment.samples, share)
+            )  # fmt: skip
+        return self._filtered[position]
+
+    def fit(self, position: float, parallel: float) -> "WeightedFit | None":
+        """The weighted fit of the rows behind filters of these cut-offs, Hz; None without rows."""
+        segments, parts = self.segments(position), shafts(self.model)
+        chosen = dataclasses.replace(
+            self.processing, position_cutoff=position, parallel_cutoff=parallel
+        )
+        if not any(segment.whole.any() for segment in segments):
+            return None
+        floors = floors_of(chosen, parts, segments)
+        chosen = dataclasses.replace(chosen, speed_floors=floors)
+        some = tuple(stretch(s, parts, chosen) for s in segments if s.whole.any())
+        return WeightedFit(
+            self.model, stacked(self.model, (), some, DataReport(chosen, (), (), ()))
+        )
+
+
+def _part(segment: Segment, place: slice) -> Segment:
+    """The samples of a segment in some place of it."""
+    if place == slice(0, segment.samples):
+        return segment
+    arrays: dict[str, Any] = {
+        field.name: x[place]
+        for field in dataclasses.fields(segment)
+        if isinstance(x := getattr(segment, field.name), np.ndarray)
+    }
+    extra = {name: x[place] for name, x in segment.extra.items()}
+    return dataclasses.replace(segment, **arrays, extra=extra)
+
+
+def _windows(samples: int, share: float) -> list[slice]:
+    """Eight evenly spread windows that hold a share of the samples, or all of them."""
+    if share >= 1.0:
+        return [slice(0, samples)]
+    size = max(1, round(samples * share / 8.0))
+    starts = np.linspace(0, samples - size, 8).astype(int)
+    return [slice(int(start), int(start) + size) for start in starts]
+
+
+@dataclass(frozen=True, eq=False)
+class WeightedFit(Brief):
+    """Weighted least squares of some rows; n joints.
+
+    Attributes:
+        model: the compiled robot.
+        rows: y = W beta.
+    """
+
+    model: CompiledModel
+    rows: Observation
+
+    @cached_property
+    def driven(self) -> list[int]:
+        """Joints with a motor, rows and a torque."""
+        rows, joints = self.rows, self.rows.joints
+        return [
+            j for j, joint in enumerate(joints)
+            if joint.actuated and rows.torque[rows.used[:, j], j].any()
+        ]  # fmt: skip
+
+    @cached_property
+    def solution(self) -> tuple[np.ndarray, dict[int, float]]:
+        """beta (c,), and the rms residual of each joint that is driven."""
+        rows = self.rows
+        W = {j: rows.columns[rows.used[:, j], j] for j in self.driven}
+        y = {j: rows.torque[rows.used[:, j], j] for j in self.driven}
+        sigma = {j: float(np.sqrt(np.mean(y[j] ** 2))) for j in self.driven}
+        least, beta = {j: _EXACT * sigma[j] for j in sigma}, np.zeros(len(rows.names))
+        for _ in range(_WEIGHTINGS if W else 0):
+            beta = scaled_least_squares(
+                np.concatenate([W[j] / sigma[j] for j in W]),
+                np.concatenate([y[j] / sigma[j] for j in W]),
+                _SEEN,
+            )
+            free = 1.0 - min(0.9, len(beta) / sum(map(len, y.values())))
+            sigma = {
+                j: max(float(np.sqrt(np.mean((y[j] - W[j] @ beta) ** 2) / free)), least[j])
+                for j in W
+            }
+        return beta, sigma
+
+    def propagated(self, noise: MotionNoise) -> dict[int, float]:
+        """Torque of the noise of the motion at 1 Hz, as density, (N m)^2/Hz, by driven joint."""
+        beta, _ = self.solution
+        q = np.concatenate([part.segment.q[part.rows.centres] for part in self.rows.stretches])
+        M = self.model.inertia_matrix(q[:: max(1, len(q) // _POSTURES)], beta)
+        squares = np.mean(M**2, axis=0) @ [j.acceleration_density(1.0) for j in noise.joints]
+        return {j: float(squares[j]) for j in self.driven}
+
+
+def determined(fit: WeightedFit | None) -> bool:
+    """True if there are rows enough for the residual to be one."""
+    if fit is None:
+        return False
+    count = int(fit.rows.used[:, fit.driven].sum())
+    return count >= ROWS_EACH * len(fit.rows.names)
+
+
+def trembling(fit: WeightedFit | None, beta: np.ndarray | None) -> tuple[float, int]:
+    """How much more the torque of beta (c,) trembles than the measured one; joint where most.
+
+    Root mean square of the second differences from row to row, over that of the torque itself, of
+    the model's over that of the measured: a gain of the channel leaves it as it is.
+    """
+    if fit is None or beta is None:
+        return 0.0, 0
+    rows = fit.rows
+    near = np.diff(rows.segment) == 0
+    near, most = near[1:] & near[:-1], (0.0, 0)
+    for j in fit.driven:
+        used = rows.used[:, j]
+        kept = near & used[2:] & used[1:-1] & used[:-2]
+        if kept.sum() < _FEW:
+            continue
+        own = rows.torque[:, j], rows.columns[:, j] @ beta
+        measured, model = (
+            np.sqrt(np.mean(np.diff(x, 2)[kept] ** 2) / max(np.mean(x[used] ** 2), 1e-300))
+            for x in own
+        )
+        if measured > 0.0:
+            most = max(most, (float(model / measured), j))
+    return most
+
+
+_EXACT = 1e-6  # of a torque's rms: a residual that is less is none
+_WEIGHTINGS = 4
+_SEEN = 1e-8  # of the largest singular value, columns scaled
+_POSTURES = 50
+_FEW = 10  # rows
+
+
+def meeting_cutoff(
+    look: Look, noise: MotionNoise, position: float, span: tuple[float, float]
+) -> tuple[float, int | None]:
+    """Hz where the noise of the motion, as torque, meets that of the drives; the joint it does on.
+
+    Args:
+        look: at the logs.
+        noise: of the motion.
+        position: highest cut-off of the position filter, Hz.
+        span: Hz that the answer lies between; None as the joint at its end.
+    """
+    least, highest = span
+    power = 2 * noise.order
+    if power == 0:
+        return highest, None
+    at, own = least, min(noise.cutoff, position)
+    found: list[tuple[float, int]] = []
+    for _ in range(ROUNDS):
+        fit = look.fit(max(own, 2.0 * at), at)
+        if fit is None:
+            return highest, None
+        _, sigma = fit.solution
+        spread = at / (2.0 * np.pi * SPREAD)
+        # mean of f^power over the squared gain exp(-f^2 / spread^2) of the filter
+        inside = spread**power * (0.75 if power == 4 else 0.5)
+        found = []
+        for j, density in fit.propagated(noise).items():
+            T = sigma[j] ** 2 / (_BANDWIDTH * at)
+            T = max(T - density * inside, _LEAST_SHARE * T)
+            found.append(((T / max(density, 1e-300)) ** (1.0 / power), j))
+        new = float(np.clip(min(found)[0], least, highest)) if found else highest
+        if abs(new - at) < _SAME * at:
+            break
+        at = new
+    return at, None if not found or at >= highest else min(found)[1]
+
+
+_BANDWIDTH = 1.0645  # of the parallel filter for white noise, over its cut-off
+_LEAST_SHARE = 0.1  # of the residual's variance that is taken for the torque's own noise
+_SAME = 0.03
