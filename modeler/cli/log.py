@@ -42,7 +42,7 @@ def run_log(args: argparse.Namespace) -> Json:
         if stands:  # it fits as it is: a range alone is no doubt
             doubts = [line for line in doubts if line not in seen.ranged]
             seen = dataclasses.replace(seen, suggested=seen.plain)
-        doubts += [line for line in heard if line not in doubts]
+        doubts += [line for line in heard if not line.endswith(tuple(doubts))]
     say_lines(_lines(seen, doubts))
     places = []
     if args.page is not None:

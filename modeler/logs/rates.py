@@ -6,6 +6,8 @@ from itertools import permutations
 
 import numpy as np
 
+from modeler.core.table import percent
+
 RATES: Mapping[str, float] = {
     "rad/s": 1.0, "deg/s": np.pi / 180.0, "rpm": np.pi / 30.0, "rev/s": 2.0 * np.pi,
 }  # fmt: skip
@@ -133,6 +135,22 @@ def clock_line(factor: float, rate: float) -> str:
         "positions: the clock seems to be wrong by that factor, and the rows to come at "
         f"{rate * factor:.4g} Hz, not at {rate:.4g}{unit}; check the time column, then the units "
         "of the speeds"
+    )
+
+
+def repeats_line(repeated: int, rows: int, rate: float) -> str:
+    """What rows that repeat the one before them in all channels mean.
+
+    Args:
+        repeated: rows.
+        rows: in all.
+        rate: of them, Hz.
+    """
+    return (
+        f"all channels: {repeated} rows ({percent(repeated / rows)}) repeat the row before them: "
+        "the recorder is faster than the robot, which gave about "
+        f"{rate * (1.0 - repeated / rows):.3g} rows a second; repeats are left out; record at the "
+        "rate of the robot"
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
+from modeler.logs import repeats_line
 from modeler.numerics.held import RESTS, Clip, clips_of, frozen_runs, longest_usual, repeated_rows
 from modeler.numerics.noise import (
     LEAST,
@@ -534,13 +535,8 @@ def damages(log: Log, rows: int, spec: ModuleSpec, found: Defects) -> tuple[Dama
 def _recorded_again(log: Log, rows: int, found: Sequence[Defect]) -> Damage:
     """Rows that were recorded more than once."""
     count = sum(one.stop - one.start for one in found)
-    rate = (1.0 - count / rows) / log.step
-    line = (
-        f"all channels: {count} rows ({percent(count / rows)}) repeat the row before them: the "
-        f"recorder is faster than the robot, which gave about {rate:.3g} rows a second; repeats "
-        "are left out; record at the rate of the robot"
-    )
-    times = tuple(one.time for one in found[:1])
+    times, rate = tuple(one.time for one in found[:1]), 1.0 / log.step
+    line = repeats_line(count, rows, rate)
     return Damage("all channels", "", "repeated", times, count, rate, "Hz", line)
 
 
