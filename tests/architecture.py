@@ -22,7 +22,7 @@ STAGES: dict[str, set[str]] = {
     "core": set(),
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
-    "logs": {"core"},
+    "logs": {"core", "numerics"},
     "diagnosis": {"core", "effects", *SOUTH[: SOUTH.index("diagnosis")]},
     "fleet": {"core", "effects", *SOUTH[: SOUTH.index("fleet")]},
     "excitation": {"core", "effects", "numerics", "runtime", "observation", "diagnosis"},
