@@ -251,13 +251,16 @@ def findings_of_prediction(
 ) -> tuple[Fault, ...]:
     """Doubts about the channels and the samples of logs whose torque a model predicts.
 
+    Where the prediction blames none, those of a fit to the same logs are asked for.
+
     Args:
         compiled: the robot.
         observation: of the logs.
         beta: (c,) base parameters of the model.
     """
+    found = faults(compiled, observation, beta) or faults_of_fit(compiled, observation)
     doubts = (Fault(line, False) for line in observation.report.doubts())
-    return (*faults(compiled, observation, beta), *doubts)
+    return (*(one for one in found if not one.unseen), *doubts)
 
 
 def faults_of_fit(compiled: CompiledModel, observation: Observation) -> tuple[Fault, ...]:
