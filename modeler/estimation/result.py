@@ -426,6 +426,7 @@ class FitResult(Presented):
             "usable_for": None if verdict is None else verdict.usable_for,
             "verdict": None if verdict is None else verdict.line,
             "doubts": [] if verdict is None else verdict.doubts,
+            **({"unseen": verdict.unseen} if verdict is not None and verdict.unseen else {}),
             **({"reading": dict(self.reading)} if self.reading else {}),
         })  # fmt: skip
 
@@ -490,7 +491,8 @@ def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
         return None
     if not (isinstance(usable, bool) and isinstance(line, str) and isinstance(doubts, list)):
         raise ValueError("its verdict is not as saved")
-    return Verdict(usable, str(raw["usable_for"]), line, tuple(map(str, doubts)))
+    unseen = tuple(map(str, raw.get("unseen", ())))
+    return Verdict(usable, str(raw["usable_for"]), line, tuple(map(str, doubts)), unseen)
 
 
 def bodies_text(standard: Mapping[str, float]) -> list[str]:
