@@ -58,6 +58,7 @@ GAIN = 1.4
 SCALE = 5.0
 """A torque that is off by this factor is a matter of units, not of a drive gain or a load."""
 
+_CLOCKS = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # they are off by
 _MILLI = 1e-3  # N m in mN m
 _UNITS = 1e9  # units are no farther apart
 _LEAST_ROWS = 20  # of a joint whose torque is exchanged
@@ -444,6 +445,14 @@ def _signed(data: Products, own: Sequence[int]) -> Products:
 
 def _motions(seen: Evidence) -> Iterator[Hypothesis]:
     """Positions in other units, reversed, exchanged, from another zero; what comes late."""
+    for factor in _CLOCKS if seen.errors.max() > SUSPECT else ():
+        line = (
+            f"the clock seems to be wrong: with all motion {factor:g} times as fast, torques are "
+            "those of a machine; check the time column, its unit and rate"
+        )
+        W = seen.few.timed(seen.compiled, factor)
+        data = _products(W, seen.few.tau, seen.few.used, seen.joints)
+        yield Hypothesis(Fault(line, True), data)
     if seen.tree:
         grave = turns(seen.observation) if seen.errors.max() > SUSPECT else ()
         for turn in (*grave, *zeros(seen.observation)):

@@ -64,6 +64,12 @@ class ThinnedRows:
         q, qd, qdd = np.concatenate(every, axis=1) @ turn.motion
         return self._columns(compiled, q + turn.offset, qd, qdd)
 
+    def timed(self, compiled: CompiledModel, factor: float) -> np.ndarray:
+        """(m, n, c) columns of the motion by a clock that is slower by a factor."""
+        every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
+        q, qd, qdd = np.concatenate(every, axis=1)
+        return self._columns(compiled, q, factor * qd, factor**2 * qdd)
+
     def shifted(self, compiled: CompiledModel, shift: np.ndarray) -> np.ndarray:
         """(m, n, c) columns of the motion of each joint, shift (n,) s later."""
         found = []
