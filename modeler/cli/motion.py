@@ -36,7 +36,7 @@ def run_excite(args: argparse.Namespace) -> Json:
         args.duration, harmonics,
         args.objective, args.starts, args.seed, args.time_limit, args.laps,
     )  # fmt: skip
-    extra = {}
+    extra: dict[str, Json] = {}
     with progress(f"looking for a motion of {subject.robot.name}") as bar:
         if args.between is not None:
             question = motions.question_of(subject, args.between)
