@@ -141,20 +141,26 @@ class MotionNoise(Brief):
         if not self.moving:
             return []
         every = "; ".join(joint.words(self.rate) for joint in self.moving)
-        what = _QUANTITY[self.order]
-        return [f"noise of the {what}, and from what frequency on it hides the motion: {every}"]
+        return [
+            f"noise of the {self.quantity}, and from what frequency on it hides the motion: {every}"
+        ]
 
     def why_cutoff(self, chosen: float) -> str:
         """Why a position filter of this cut-off (Hz) was chosen."""
         found = self.cutoff
         if chosen > 1.05 * found:
             return (
-                f"the {_QUANTITY[self.order]} are noise above {found:.2g} Hz; twice the parallel "
+                f"the {self.quantity} are noise above {found:.2g} Hz; twice the parallel "
                 "filter, which takes that off"
             )
         if found >= HIGHEST_CUTOFF:
-            return f"the {_QUANTITY[self.order]} are no noise up to there"
-        return f"above, the spectrum of the {_QUANTITY[self.order]} is that of their noise"
+            return f"the {self.quantity} are no noise up to there"
+        return f"above, the spectrum of the {self.quantity} is that of their noise"
+
+    @property
+    def quantity(self) -> str:
+        """What is measured, in words."""
+        return _QUANTITY[self.order]
 
     @property
     def order(self) -> int:

@@ -175,7 +175,7 @@ def _sentences(
         why = "the widest that the motion asks for; the noise of the torques is larger up to there"
     else:
         why = (
-            f"there the noise of the positions makes as much torque on joint "
+            f"there the noise of the {noise.quantity} makes as much torque on joint "
             f"{noise.joints[by].name} as is left of it"
         )
     said.append(f"parallel filter {f:g} Hz: {why}")
@@ -382,8 +382,6 @@ def meeting_cutoff(
     """
     least, highest = span
     power = 2 * noise.order
-    if power == 0:
-        return highest, None
     at, own = least, min(noise.cutoff, position)
     found: list[tuple[float, int]] = []
     for _ in range(ROUNDS):
@@ -393,10 +391,10 @@ def meeting_cutoff(
         _, sigma = fit.solution
         spread = at / (2.0 * np.pi * SPREAD)
         # mean of f^power over the squared gain exp(-f^2 / spread^2) of the filter
-        inside = spread**power * (0.75 if power == 4 else 0.5)
+        inside = spread**power * (1.0, 0.5, 0.75)[noise.order]
         densities = fit.propagated(noise)
         found = []
-        for j, density in densities.items():
+        for j, density in densities.items() if power else ():
             T = sigma[j] ** 2 / (BANDWIDTH * at)
             T = max(T - density * inside, _LEAST_SHARE * T)
             found.append(((T / max(density, 1e-300)) ** (1.0 / power), j))

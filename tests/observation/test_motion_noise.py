@@ -4,10 +4,13 @@ import numpy as np
 import pytest
 
 from modeler.core.manifest import JointSpec
+from modeler.estimation.identify import identify
 from modeler.numerics.filters import forwards_and_backwards
 from modeler.observation.log import Log
 from modeler.observation.motion_noise import motion_noise
+from modeler.observation.observe import observe
 from modeler.observation.segments import split
+from tests.fleet.machines import compiled, motion, parameters
 
 JOINT = JointSpec("1", "revolute", "rad", "N m", True, None)
 
@@ -75,3 +78,22 @@ def test_a_valley_between_two_lines_of_the_motion_is_no_floor():
     both = np.sin(2 * np.pi * 0.5 * time) + 0.01 * np.sin(2 * np.pi * 3.0 * time)
     white = np.random.default_rng(4).normal(0.0, 3e-4, len(time))
     assert noise_of(both + white, 1e3, 0.5).meets > 3.0
+
+
+def test_noise_of_logged_accelerations_lowers_the_parallel_filter_and_is_in_sigma():
+    """White noise that no cut-off parts from the torque's: less of it bends inertias less."""
+    model, z, cutoffs = compiled(), [], []
+    for seed in range(4):
+        rng, beta = np.random.default_rng([8, seed]), parameters(seed, model)
+        time, q, qd, qdd = motion(rng, 2, 30.0)
+        tau = model.base_regressor(q, qd, qdd) @ beta
+        tau += 0.01 * np.std(tau, axis=0) * rng.normal(size=tau.shape)
+        for size in (0.0, 2.0):
+            seen = qdd + size * rng.normal(size=q.shape)
+            found = observe(model, [Log("a", ("1", "2"), time, q, tau, qd=qd, qdd=seen)])
+            cutoffs.append(found.report.processing.parallel_cutoff)
+        fit = identify(found, "weighted", model)
+        z.append((fit.beta - beta) / np.sqrt(np.diag(fit.covariance)))
+        assert "noise of the logged accelerations" in "\n".join(found.report.lines())
+    assert max(cutoffs[1::2]) < 0.8 * min(cutoffs[::2])
+    assert np.sqrt(np.mean(np.square(z))) < 1.6
