@@ -372,7 +372,8 @@ def meeting_cutoff(
     And no more than where a drive that answers the same noise could bend the inertias by one
     standard deviation: there the share P_n / P_s of it in the torque of inertia is 1 / n, n rows.
     (Of noise in W of power P_n, and noise of variance V in y that is wholly correlated with it, the
-    relative bias is sqrt(P_n V) / P_s, and the relative standard deviation sqrt(V / n P_s).)
+    relative bias is sqrt(P_n V) / P_s, and the relative standard deviation sqrt(V / n P_s).) Of
+    logged accelerations this alone: as torque their noise is as flat as that of the drives.
 
     Args:
         look: at the logs.
