@@ -5,6 +5,7 @@ motion drowns in the noise of its sensor. One object says where that is, joint b
 masks, sigmas, doubts and the diagnosis read it.
 """
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -126,6 +127,16 @@ class MotionNoise(Brief):
         every = [max(joint.cutoff, LEAST_BANDS * self.band) for joint in self.moving]
         return float(np.exp(np.mean(np.log(every)))) if every else HIGHEST_CUTOFF
 
+    def of_last_floors(self) -> "MotionNoise":
+        """The noise if what looks like a floor, and falls again, is motion: see `floor_of`."""
+        if self.spectra is None:
+            return self
+        every = []
+        for j, joint in enumerate(self.joints):
+            floor, meets, colour = floor_of(self.spectra, j, joint.band, last=True)
+            every.append(dataclasses.replace(joint, floor=floor, meets=meets, colour=colour))
+        return dataclasses.replace(self, joints=tuple(every))
+
     def doubtful_speed(self, coefficients: Sequence[float], cutoff: float) -> float:
         """Standard deviation of the noise of a shaft's speed below a cut-off, Hz, or D f if more.
 
@@ -199,20 +210,27 @@ def motion_noise(
     return MotionNoise(tuple(every), rate, spectra)
 
 
-def floor_of(spectra: BandSpectrum, j: int, band: float) -> tuple[float, float, float]:
+def floor_of(
+    spectra: BandSpectrum, j: int, band: float, last: bool = False
+) -> tuple[float, float, float]:
     """Floor density of joint j, Hz at which its spectrum meets it, and the colour above that.
 
     Args:
         spectra: of what is measured.
         j: index of the joint.
         band: Hz of its motion, below which nothing is a floor.
+        last: True for a floor from which the spectrum does not fall again: what a controller leaves
+            of the motion may be flat before it does.
     """
     f, S = spectra.frequency, spectra.density[:, j]
     kept = (f > band) & np.isfinite(S)
     f, S = f[kept], S[kept]
     for k in range(len(f)):
         above = S[(f > f[k]) & (f <= f[k] * 2.0**OCTAVES)]
-        if above.size >= 3 and max(S[k], above.max() / FLAT) < FLAT * np.median(above):
+        if above.size < 3 or max(S[k], above.max() / FLAT) > FLAT * np.median(above):
+            continue
+        beyond = S[f > f[k] * 2.0**OCTAVES]
+        if not (last and beyond.size and S[k] > FLAT**2 * np.median(beyond)):
             return float(np.median(above)), float(f[k]), _colour(f[k:], S[k:])
     return (float(S[-1]) if S.size else 0.0), (float(f[-1]) if f.size else np.inf), 0.0
 
