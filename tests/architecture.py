@@ -78,8 +78,8 @@ ONLY_IN = {
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
-MOST_MODULES = 311  # observation/observe.py: cut-offs by what the torques answer to
-MOST_CODE_LINES = 51_900  # the noise of the motion
+MOST_MODULES = 312  # report/noise.py: the noise of the motion is seen
+MOST_CODE_LINES = 52_200  # the noise of the motion, and that it is seen
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.

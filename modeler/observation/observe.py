@@ -5,14 +5,15 @@ drives, and that the torque of the model does not tremble more than the measured
 """
 
 import dataclasses
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import Brief
+from modeler.core.json import entries
 from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import scaled_least_squares
 from modeler.observation.log import Log
@@ -28,7 +29,7 @@ from modeler.observation.prepare import (
     prepare,
     two_digits,
 )
-from modeler.observation.report import DataReport
+from modeler.observation.report import DataReport, bands_of
 from modeler.observation.segments import Piece
 from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.observation.stretch import stretch
@@ -133,14 +134,14 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
     position, parallel = wide.position_cutoff, wide.parallel_cutoff
     while least < parallel and not determined(look.fit(max(noise.cutoff, 2.0 * least), least)):
         least = min(least / LOWER, parallel)
-    met, by = meeting_cutoff(look, noise, position, (least, parallel))
+    met = meeting_cutoff(look, noise, position, (least, parallel))
     narrow = look.fit(max(min(noise.cutoff, position), 2.0 * least), least)
     beta = narrow.solution[0] if narrow is not None else None
     shaken, first = trembling(look.fit(position, parallel), beta), (0.0, 0)
     while shaken[0] > TREMBLES and parallel > least:
         first = max(first, shaken)
-        if parallel > met:
-            parallel = max(met, LOWER * parallel)
+        if parallel > met.cutoff:
+            parallel = max(met.cutoff, LOWER * parallel)
         elif given is None and position > APART * parallel:
             position *= LOWER
         else:
@@ -148,13 +149,24 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
             position = position if given is not None else LOWER * position
         shaken = trembling(look.fit(position, parallel), beta)
     if position < wide.position_cutoff:
-        met, by = meeting_cutoff(look, noise, position, (least, parallel))
-    parallel = two_digits(min(met, parallel))
+        met = meeting_cutoff(look, noise, position, (least, parallel))
+    parallel = two_digits(min(met.cutoff, parallel))
     if given is None:
         position = two_digits(max(min(noise.cutoff, position), 2.0 * parallel))
     chosen = dataclasses.replace(wide, position_cutoff=position, parallel_cutoff=parallel)
-    said = _sentences(prepared, chosen, given is None, by, first)
-    return dataclasses.replace(filtered_again(prepared, chosen), choices=said)
+    said = _sentences(prepared, chosen, given is None, met.joint, first)
+    by = first[1] if first[0] else met.joint
+    bands = bands_of(
+        noise,
+        chosen,
+        met.torques,
+        widest=entries(wide, "position_cutoff parallel_cutoff"),
+        chosen_by=said,
+        limited_by=None if by is None else noise.joints[by].name,
+        trembling=first[0],
+    )
+    choices = (*prepared.choices, *said)
+    return dataclasses.replace(filtered_again(prepared, chosen), choices=choices, lowered=bands)
 
 
 def _sentences(
@@ -163,7 +175,7 @@ def _sentences(
 ) -> tuple[str, ...]:  # fmt: skip
     """What was chosen, and why."""
     noise, wide, f = prepared.noise, prepared.processing, chosen.parallel_cutoff
-    said = [*prepared.choices]
+    said = []
     if own:
         said.append(
             f"position filter {chosen.position_cutoff:g} Hz: "
@@ -244,9 +256,9 @@ def _part(segment: Segment, place: slice) -> Segment:
     if place == slice(0, segment.samples):
         return segment
     arrays: dict[str, Any] = {
-        field.name: x[place]
-        for field in dataclasses.fields(segment)
-        if isinstance(x := getattr(segment, field.name), np.ndarray)
+        own.name: x[place]
+        for own in dataclasses.fields(segment)
+        if isinstance(x := getattr(segment, own.name), np.ndarray)
     }
     extra = {name: x[place] for name, x in segment.extra.items()}
     return dataclasses.replace(segment, **arrays, extra=extra)
@@ -353,41 +365,57 @@ _POSTURES = 50
 _FEW = 10  # rows
 
 
+@dataclass(frozen=True)
+class Meeting(Brief):
+    """Where the noise of the motion, as torque, meets that of the drives.
+
+    Attributes:
+        cutoff: Hz.
+        joint: it does so on; None at the highest cut-off, where it has not yet.
+        torques: by driven joint, torque of the noise of the motion at 1 Hz and noise of the torque
+            itself, (N m)^2/Hz.
+    """
+
+    cutoff: float
+    joint: int | None = None
+    torques: Mapping[int, tuple[float, float]] = field(default_factory=dict)
+
+
 def meeting_cutoff(
     look: Look, noise: MotionNoise, position: float, span: tuple[float, float]
-) -> tuple[float, int | None]:
-    """Hz where the noise of the motion, as torque, meets that of the drives; the joint it does on.
+) -> Meeting:
+    """Where the noise of the motion, as torque, meets that of the drives.
 
     Args:
         look: at the logs.
         noise: of the motion.
         position: highest cut-off of the position filter, Hz.
-        span: Hz that the answer lies between; None as the joint at its end.
+        span: Hz that the answer lies between.
     """
     least, highest = span
     power = 2 * noise.order
     if power == 0:
-        return highest, None
+        return Meeting(highest)
     at, own = least, min(noise.cutoff, position)
-    found: list[tuple[float, int]] = []
+    torques = dict[int, tuple[float, float]]()
     for _ in range(ROUNDS):
         fit = look.fit(max(own, 2.0 * at), at)
         if fit is None:
-            return highest, None
+            return Meeting(highest)
         _, sigma = fit.solution
         spread = at / (2.0 * np.pi * SPREAD)
         # mean of f^power over the squared gain exp(-f^2 / spread^2) of the filter
         inside = spread**power * (0.75 if power == 4 else 0.5)
-        found = []
         for j, density in fit.propagated(noise).items():
             T = sigma[j] ** 2 / (_BANDWIDTH * at)
-            T = max(T - density * inside, _LEAST_SHARE * T)
-            found.append(((T / max(density, 1e-300)) ** (1.0 / power), j))
+            torques[j] = density, max(T - density * inside, _LEAST_SHARE * T)
+        found = [((T / max(A, 1e-300)) ** (1.0 / power), j) for j, (A, T) in torques.items()]
         new = float(np.clip(min(found)[0], least, highest)) if found else highest
         if abs(new - at) < _SAME * at:
             break
         at = new
-    return at, None if not found or at >= highest else min(found)[1]
+    by = None if not found or at >= highest else min(found)[1]
+    return Meeting(at, by, torques)
 
 
 _BANDWIDTH = 1.0645  # of the parallel filter for white noise, over its cut-off
