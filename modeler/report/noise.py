@@ -50,11 +50,11 @@ def _motion(one: ChannelNoise, bands: Bands) -> Panel:
         series.append(_upright("the noise hides the motion", one.hides_above_hz, ends, _MEETS))
     band = np.array([[f[0], max(one.band_hz, f[0])]])
     colour = f", noise of f^-{one.colour:.1f}" if one.colour else ""
-    unit = one.unit + {4: "", 2: "/s", 0: "/s2"}[_POWER[one.of]]
+    unit = {4: one.unit, 2: f"({one.unit}/s)", 0: f"({one.unit}/s2)"}[_POWER[one.of]]
     return Panel(
         f"Joint {one.joint}: {one.of}{colour}",
         "frequency [Hz]",
-        f"density [({unit})^2/Hz]",
+        f"density [{unit}^2/Hz]",
         (*series, *_cutoffs(bands, ends)),
         "log",
         spans=(Span("motion band", band, PALE["blue"]),),
