@@ -217,7 +217,7 @@ PICTURES = {"docs/motion-noise.md": "pictures/noise_of_the_motion.svg"}
 
 def _labels(picture: Path) -> list[str]:
     """All that is written in it; curves and numbers differ a little between machines."""
-    return re.findall(r"<!-- (.*[a-z].*) -->", picture.read_text(encoding="utf-8"))
+    return re.findall(r">([A-Za-z][^<]{2,})</", picture.read_text(encoding="utf-8"))
 
 
 # Pages that take ten seconds and more: of their subjects, the README and the tutorial run some.

@@ -154,7 +154,7 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
     if given is None:
         position = two_digits(max(min(noise.cutoff, position), 2.0 * parallel))
     chosen = dataclasses.replace(wide, position_cutoff=position, parallel_cutoff=parallel)
-    said = _sentences(prepared, chosen, given is None, met.joint, first)
+    said = _sentences(prepared, chosen, given is None, met, first)
     by = first[1] if first[0] else met.joint
     bands = bands_of(
         noise,
@@ -170,7 +170,7 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
 
 
 def _sentences(
-    prepared: Prepared, chosen: ChosenProcessing, own: bool, by: int | None,
+    prepared: Prepared, chosen: ChosenProcessing, own: bool, met: "Meeting",
     shaken: tuple[float, int],
 ) -> tuple[str, ...]:  # fmt: skip
     """What was chosen, and why."""
@@ -183,12 +183,17 @@ def _sentences(
         )
     if shaken[0]:
         why = "with more, the model's torque trembles and the measured one does not"
-    elif by is None:
+    elif met.joint is None:
         why = "the widest that the motion asks for; the noise of the torques is larger up to there"
+    elif met.answered:
+        why = (
+            "above, a drive that answers the noise of its encoder could bend the inertias, most by "
+            f"joint {noise.joints[met.joint].name}"
+        )
     else:
         why = (
-            f"there the noise of the positions makes as much torque on joint "
-            f"{noise.joints[by].name} as is left of it"
+            f"there the noise of the {noise.measured} makes as much torque on joint "
+            f"{noise.joints[met.joint].name} as is left of it"
         )
     said.append(f"parallel filter {f:g} Hz: {why}")
     if shaken[0]:
@@ -315,13 +320,24 @@ class WeightedFit(Brief):
             }
         return beta, sigma
 
-    def propagated(self, noise: MotionNoise) -> dict[int, float]:
-        """Torque of the noise of the motion at 1 Hz, as density, (N m)^2/Hz, by driven joint."""
+    @cached_property
+    def _inertias(self) -> tuple[np.ndarray, np.ndarray]:
+        """(k, n, n) matrices at some of the rows, and (k, n) accelerations there."""
         beta, _ = self.solution
         q = np.concatenate([part.segment.q[part.rows.centres] for part in self.rows.stretches])
-        M = self.model.inertia_matrix(q[:: max(1, len(q) // _POSTURES)], beta)
-        squares = np.mean(M**2, axis=0) @ [j.acceleration_density(1.0) for j in noise.joints]
+        every = max(1, len(q) // _POSTURES)
+        return self.model.inertia_matrix(q[::every], beta), self.rows.qdd[::every]
+
+    def propagated(self, noise: MotionNoise) -> dict[int, float]:
+        """Torque of the noise of the motion at 1 Hz, as density, (N m)^2/Hz, by driven joint."""
+        densities = [joint.acceleration_density(1.0) for joint in noise.joints]
+        squares = np.mean(self._inertias[0] ** 2, axis=0) @ densities
         return {j: float(squares[j]) for j in self.driven}
+
+    def inertial(self) -> dict[int, float]:
+        """Mean square of the torque of inertia, (N m)^2, by driven joint."""
+        torque = np.einsum("kij,kj->ki", *self._inertias)
+        return {j: float(np.mean(torque[:, j] ** 2)) for j in self.driven}
 
 
 def determined(fit: WeightedFit | None) -> bool:
@@ -374,17 +390,24 @@ class Meeting(Brief):
         joint: it does so on; None at the highest cut-off, where it has not yet.
         torques: by driven joint, torque of the noise of the motion at 1 Hz and noise of the torque
             itself, (N m)^2/Hz.
+        answered: True where it is lower, for drives that may answer the noise.
     """
 
     cutoff: float
     joint: int | None = None
     torques: Mapping[int, tuple[float, float]] = field(default_factory=dict)
+    answered: bool = False
 
 
 def meeting_cutoff(
     look: Look, noise: MotionNoise, position: float, span: tuple[float, float]
 ) -> Meeting:
     """Where the noise of the motion, as torque, meets that of the drives.
+
+    And no more than where a drive that answers the same noise could bend the inertias by one
+    standard deviation: there the share P_n / P_s of it in the torque of inertia is 1 / n, n rows.
+    (Of noise in W of power P_n, and noise of variance V in y that is wholly correlated with it, the
+    relative bias is sqrt(P_n V) / P_s, and the relative standard deviation sqrt(V / n P_s).)
 
     Args:
         look: at the logs.
@@ -410,12 +433,17 @@ def meeting_cutoff(
             T = sigma[j] ** 2 / (_BANDWIDTH * at)
             torques[j] = density, max(T - density * inside, _LEAST_SHARE * T)
         found = [((T / max(A, 1e-300)) ** (1.0 / power), j) for j, (A, T) in torques.items()]
-        new = float(np.clip(min(found)[0], least, highest)) if found else highest
+        shares = {j: A * inside * _BANDWIDTH * at / sigma[j] ** 2 for j, (A, _) in torques.items()}
+        inertial = sum(own / sigma[j] ** 2 for j, own in fit.inertial().items())
+        rows = len(fit.rows.time) * sum(shares.values())
+        answered = at * (inertial / max(rows, 1e-300)) ** (1.0 / (power + 2))
+        found.append((answered, max(shares, key=lambda j: shares[j], default=0)))
+        new = float(np.clip(min(found)[0], least, highest))
         if abs(new - at) < _SAME * at:
             break
         at = new
-    by = None if not found or at >= highest else min(found)[1]
-    return Meeting(at, by, torques)
+    limit, by = min(found)
+    return Meeting(at, None if at >= highest else by, torques, limit == answered)
 
 
 _BANDWIDTH = 1.0645  # of the parallel filter for white noise, over its cut-off

@@ -48,7 +48,7 @@ def _motion(one: ChannelNoise, bands: Bands) -> Panel:
         along = np.array([one.hides_above_hz, f[-1]])
         series.append(Curve("floor: its noise", along, np.full(2, one.density), _FLOOR))
         series.append(_upright("the noise hides the motion", one.hides_above_hz, ends, _MEETS))
-    band = np.array([[f[0], max(one.band_hz, f[0])]])
+    band = np.array([[min(f[0], one.band_hz) / 2.0, one.band_hz]])
     colour = f", noise of f^-{one.colour:.1f}" if one.colour else ""
     unit = {4: one.unit, 2: f"({one.unit}/s)", 0: f"({one.unit}/s2)"}[_POWER[one.of]]
     return Panel(
@@ -57,7 +57,7 @@ def _motion(one: ChannelNoise, bands: Bands) -> Panel:
         f"density [{unit}^2/Hz]",
         (*series, *_cutoffs(bands, ends)),
         "log",
-        spans=(Span("motion band", band, PALE["blue"]),),
+        spans=(Span("motion band", band, PALE["blue"]),) if one.band_hz else (),
     )
 
 
@@ -106,9 +106,9 @@ def _caption(bands: Bands, of: str, fitted: bool) -> str:
     if fitted:
         text += (
             f" On the right the same noise as torque, A f^{_POWER[of]} through the inertia matrix "
-            "(dark orange), and the noise of the torque itself (green). Above their crossing the "
-            "sensor says less of the motion than the drive: the first crossing of all joints is "
-            "the highest parallel filter, but never less than twice the motion band."
+            "(dark orange), and the noise of the torque itself (green): above their crossing the "
+            "sensor is what is seen. The parallel filter lies no higher than the first crossing of "
+            "all joints, unless that is below twice the motion band; the lines above say why."
         )
     if bands.trembling:
         text += (
