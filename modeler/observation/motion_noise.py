@@ -88,8 +88,9 @@ class JointNoise(Brief):
         return f"joint {self.name} {size:.2g} {unit} above {self.meets:.2g} Hz{coloured}"
 
     def milli(self, size: float) -> tuple[float, str]:
-        """A size in mrad or mm, and that; counts stay counts."""
-        return (1e3 * size, f"m{self.unit}") if self.unit in ("rad", "m") else (size, self.unit)
+        """A size and its unit: mrad or mm if it is small; counts stay counts."""
+        small = size < 0.1 and self.unit in ("rad", "m")
+        return (1e3 * size, f"m{self.unit}") if small else (size, self.unit)
 
     def acceleration_density(self, frequency: float) -> float:
         """Its noise as that of the acceleration: (2 pi f)^(2 order) N, (unit/s^2)^2/Hz."""

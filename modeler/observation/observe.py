@@ -195,6 +195,8 @@ def _sentences(
             f"there the noise of the {noise.measured} makes as much torque on joint "
             f"{noise.joints[met.joint].name} as is left of it"
         )
+    if met.bounded and not shaken[0]:
+        why += "; it would be lower, but for the motion band"
     said.append(f"parallel filter {f:g} Hz: {why}")
     if shaken[0]:
         name = noise.joints[shaken[1]].name
@@ -391,12 +393,14 @@ class Meeting(Brief):
         torques: by driven joint, torque of the noise of the motion at 1 Hz and noise of the torque
             itself, (N m)^2/Hz.
         answered: True where it is lower, for drives that may answer the noise.
+        bounded: True where it would be lower, but may not.
     """
 
     cutoff: float
     joint: int | None = None
     torques: Mapping[int, tuple[float, float]] = field(default_factory=dict)
     answered: bool = False
+    bounded: bool = False
 
 
 def meeting_cutoff(
@@ -443,7 +447,8 @@ def meeting_cutoff(
             break
         at = new
     limit, by = min(found)
-    return Meeting(at, None if at >= highest else by, torques, limit == answered)
+    joint = None if at >= highest else by
+    return Meeting(at, joint, torques, limit == answered, at <= least > limit)
 
 
 _BANDWIDTH = 1.0645  # of the parallel filter for white noise, over its cut-off
