@@ -22,7 +22,7 @@ STAGES: dict[str, set[str]] = {
     "core": set(),
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
-    "logs": {"core"},
+    "logs": {"core", "numerics"},
     "diagnosis": {"core", "effects", *SOUTH[: SOUTH.index("diagnosis")]},
     "fleet": {"core", "effects", *SOUTH[: SOUTH.index("fleet")]},
     "excitation": {"core", "effects", "numerics", "runtime", "observation", "diagnosis"},
@@ -78,8 +78,10 @@ ONLY_IN = {
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
-MOST_MODULES = 312  # report/noise.py: the noise of the motion is seen
-MOST_CODE_LINES = 52_200  # the noise of the motion, and that it is seen
+MOST_MODULES = (
+    313  # observe.py: what torques answer to; held.py: values that stand still; noise.py: seen
+)
+MOST_CODE_LINES = 52_600  # the noise of the motion, and that it is seen; faults of logs
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.

@@ -15,8 +15,8 @@ from modeler.diagnosis.plausible import has_friction, largest_friction
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import CONVENTION
-from modeler.estimation import IdentifiedModel
-from modeler.observation import Fault, LogRepair, faults, suspects
+from modeler.estimation import IdentifiedModel, faults, suspects
+from modeler.observation import Fault, LogRepair
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""

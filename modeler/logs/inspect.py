@@ -24,7 +24,8 @@ from modeler.logs.guess import (
 )
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LENGTH, LogMap, find_unit, unit_named
-from modeler.logs.rates import moves, on_grid, rate_doubts
+from modeler.logs.rates import moves, on_grid, rate_doubts, repeats_line
+from modeler.numerics.held import repeated_rows
 
 _GAP = 1.5  # of the median step
 _HELD = 3  # rows in a row at the extreme value that make it a limit
@@ -222,6 +223,7 @@ def inspect_log(
     doubts = [*_of_clock(clock), *absent_roles(found), *unlike_si(found)]
     rest = {speed for position, speed in pairs if not moves(values[position])}
     doubts += rate_doubts(pairs, values, time)
+    doubts += _repeats(found, values, rows, clock)
     doubts += [
         f"{channel.name} never changes: is it connected?"
         for channel, name in zip(channels, shown, strict=True)
@@ -256,6 +258,21 @@ def _positions(
         columns.append(values[name] * factor)
     names = tuple(map(table.called, one.columns))
     return Positions(names, tuple(units), time, np.column_stack(columns))
+
+
+def _repeats(
+    found: Sequence[Guess], values: Mapping[str, np.ndarray], rows: int, clock: Clock | None
+) -> list[str]:
+    """Rows that a recorder wrote again; by the rows of the windows of a long log."""
+    q, others = (
+        [values[name] for one in found if one.own in own for name in one.columns]
+        for own in (("q",), ("tau", "current", "qd", "qdd"))
+    )
+    if clock is None or not q or not others:
+        return []
+    again = repeated_rows(np.column_stack(q), np.column_stack(others))
+    count = round(float(again.mean()) * rows)
+    return [repeats_line(count, rows, clock.rate)] if count else []
 
 
 def _within(
