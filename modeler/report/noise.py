@@ -51,14 +51,10 @@ def _motion(one: ChannelNoise, bands: Bands) -> Panel:
     band = np.array([[min(f[0], one.band_hz) / 2.0, one.band_hz]])
     colour = f", noise of f^-{one.colour:.1f}" if one.colour else ""
     unit = {4: one.unit, 2: f"({one.unit}/s)", 0: f"({one.unit}/s2)"}[_POWER[one.of]]
-    return Panel(
-        f"Joint {one.joint}: {one.of}{colour}",
-        "frequency [Hz]",
-        f"density [{unit}^2/Hz]",
-        (*series, *_cutoffs(bands, ends)),
-        "log",
-        spans=(Span("motion band", band, PALE["blue"]),) if one.band_hz else (),
-    )
+    title, label = f"Joint {one.joint}: {one.of}{colour}", f"density [{unit}^2/Hz]"
+    spans = (Span("motion band", band, PALE["blue"]),) if one.band_hz else ()
+    every = (*series, *_cutoffs(bands, ends))
+    return Panel(title, "frequency [Hz]", label, every, "log", spans=spans)
 
 
 def _torque(one: ChannelNoise, bands: Bands) -> Panel:
@@ -71,18 +67,11 @@ def _torque(one: ChannelNoise, bands: Bands) -> Panel:
     along = np.geomspace(max(f[0], min(cross, high) / factor), high, 20)
     noise = A * along**power
     ends = min(noise[0], T / _BEYOND), max(noise[-1], T * _BEYOND)
-    effort = "N" if one.unit == "m" else "N m"
-    return Panel(
-        f"Joint {one.joint}: torques{', which limits' * (one.joint == bands.limited_by)}",
-        "frequency [Hz]",
-        f"density [({effort})^2/Hz]",
-        (
-            Curve("torque of that noise", along, noise, _OF_NOISE),
-            Curve("noise of the torque", np.array([f[0], f[-1]]), np.full(2, T), _TORQUE),
-            *_cutoffs(bands, ends),
-        ),
-        "log",
-    )
+    label = f"density [({'N' if one.unit == 'm' else 'N m'})^2/Hz]"
+    title = f"Joint {one.joint}: torques{', which limits' * (one.joint == bands.limited_by)}"
+    level = Curve("noise of the torque", np.array([f[0], f[-1]]), np.full(2, T), _TORQUE)
+    curves = Curve("torque of that noise", along, noise, _OF_NOISE), level, *_cutoffs(bands, ends)
+    return Panel(title, "frequency [Hz]", label, curves, "log")
 
 
 def _cutoffs(bands: Bands, ends: tuple[float, float]) -> list[Curve]:
