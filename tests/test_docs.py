@@ -26,7 +26,7 @@ from modeler.simulation.hidden import HIDDEN
 
 ROOT = Path(__file__).resolve().parents[1]
 RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "docs/processing.md",
-       "docs/logs.md",
+       "docs/logs.md", "docs/motion-noise.md",
        "docs/emitted-c.md", "docs/fitted-c.md", "docs/parallel-robots.md",
        "docs/orthoglide.md", "docs/evra.md", "docs/sr400.md", "docs/parallel-examples.md",
        "docs/diagnosis.md", "docs/converting.md",
@@ -211,6 +211,15 @@ def run(command: str) -> tuple[int, str]:
     return status, out.getvalue()
 
 
+PICTURES = {"docs/motion-noise.md": "pictures/noise_of_the_motion.svg"}
+"""The picture of a page, written by its own commands."""
+
+
+def _labels(picture: Path) -> list[str]:
+    """All that is written in it; curves and numbers differ a little between machines."""
+    return re.findall(r">([A-Za-z][^<]{2,})</", picture.read_text(encoding="utf-8"))
+
+
 # Pages that take ten seconds and more: of their subjects, the README and the tutorial run some.
 LONG = ("docs/drive-gains.md", "docs/diagnosis.md", "docs/excitation.md", "docs/motor-side.md")
 
@@ -224,6 +233,11 @@ def test_a_reader_gets_what_the_page_shows(page, tmp_path, monkeypatch, regenera
     text = (ROOT / page).read_text(encoding="utf-8")
     for block in blocks(text):
         reader.do(block)
+    if page in PICTURES:
+        drawn, kept = Path(PICTURES[page]), (ROOT / page).with_suffix(".svg")
+        if regenerate:
+            kept.write_bytes(drawn.read_bytes())
+        assert _labels(kept) == _labels(drawn), f"{page}: make regenerate draws its picture anew"
     if reader.replaced:
         lines = [reader.replaced.get(line, line) for line in text.splitlines()]
         (ROOT / page).write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -303,7 +303,10 @@ def found_with_gains(
         derivation = dataclasses.replace(derivation, robot=robot, model=symbolic)
         emitted = workflow.generate(derivation)
         again = workflow.compile_model(emitted)
+        bands = observation.report.bands
         observation, payloads = observed(again, observation.report.processing)
+        report = dataclasses.replace(observation.report, choices=choices, lowered=bands)
+        observation = dataclasses.replace(observation, report=report)
         result = estimation.identify_gains(again, observation, payloads).result
     with working("judging the fit"):
         apart = estimation.not_together(again, observation, payloads)
@@ -313,8 +316,6 @@ def found_with_gains(
     if lines := estimation.deviations(compiled.spec, found):
         against = f"against the robot file: {'; '.join(lines)}"
         result = dataclasses.replace(result, sentences=(*result.sentences, against))
-    report = dataclasses.replace(observation.report, choices=choices)
-    observation = dataclasses.replace(observation, report=report)
     return identified(derivation, emitted, observation, result), observation
 
 

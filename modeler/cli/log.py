@@ -14,10 +14,18 @@ from modeler.api.long_logs import are_long, judged_long, too_long
 from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.lists import read_robot_with_notes
 from modeler.core.errors import ModelerError
+from modeler.core.json import nulled
 from modeler.core.table import aligned, percent
 from modeler.estimation import FitResult, findings_of_fit, identify, stream
 from modeler.logs import LogInspection, LogMap, map_from_table, map_from_words
-from modeler.observation import Observation, WholeLogNeeded, source_of
+from modeler.observation import (
+    DataReport,
+    Observation,
+    WholeLogNeeded,
+    bands_of,
+    noise_of_positions,
+    source_of,
+)
 from modeler.report import channel_rows, clock_line, log_page, log_pictures, write_files, write_page
 from modeler.runtime import CompiledModel
 
@@ -37,27 +45,32 @@ def run_log(args: argparse.Namespace) -> Json:
     mapping = map_from_words(args.map) if compiled is None else workflow.log_map(compiled, args.map)
     seen = look_at(args.log, compiled, args.map)
     doubts = [*seen.doubts]
+    noise = noise_of_positions(seen.positions)
+    bands = bands_of(noise)
     if compiled is not None:
-        heard, stands = doubts_of_fit(compiled, args.log, mapping, seen)
+        heard, stands = heard_of_fit(compiled, args.log, mapping, seen)
+        if heard.report is not None:
+            noise, bands = heard.report.noise, heard.report.bands
         if stands:  # it fits as it is: a range alone is no doubt
             doubts = [line for line in doubts if line not in seen.ranged]
             seen = dataclasses.replace(seen, suggested=seen.plain)
-        doubts += [line for line in heard if not line.endswith(tuple(doubts))]
-    say_lines(_lines(seen, doubts))
+        doubts += [line for line in heard.lines if not line.endswith(tuple(doubts))]
+    said = [*noise.channel_lines(), *bands.chosen_by] if noise is not None else []
+    say_lines(_lines(seen, doubts, said))
     places = []
     if args.page is not None:
         with working("drawing the page"):
-            places.append(str(write_page(Path(args.page), log_page(seen, doubts, []))))
+            places.append(str(write_page(Path(args.page), log_page(seen, doubts, [], bands))))
     if args.pictures is not None:
         with progress("drawing pictures") as bar:
-            written = write_files(Path(args.pictures), log_pictures(seen), bar)
+            written = write_files(Path(args.pictures), log_pictures(seen, bands), bar)
         places.append(f"{len(written)} files in {args.pictures}")
     if places:
         say(f"written: {', '.join(places)}")
-    return seen.to_json() | {"doubts": doubts}
+    return nulled(seen.to_json() | {"doubts": doubts, "bands": bands})
 
 
-def _lines(seen: LogInspection, doubts: Sequence[str]) -> list[str]:
+def _lines(seen: LogInspection, doubts: Sequence[str], noise: Sequence[str]) -> list[str]:
     lines = [f"{seen.name}: {seen.rows} rows"]
     lines += [
         f"  {stream.name}  {stream.kind}, {stream.rows} messages{', the clock' * stream.clock}"
@@ -69,7 +82,7 @@ def _lines(seen: LogInspection, doubts: Sequence[str]) -> list[str]:
         for *cells, remarks in channel_rows(seen)
     ]
     lines += ["", *(line.rstrip() for line in aligned(rows, (0, 1, 6))), ""]
-    lines += [f"note: {note}" for note in seen.notes]
+    lines += [*noise, *(f"note: {note}" for note in seen.notes)]
     lines += [f"doubt: {doubt}" for doubt in doubts] or ["no doubts"]
     if seen.suggested:
         told = "a mapping to start from, a guess: paste it into the robot file, or --map FILE.toml"
@@ -79,16 +92,17 @@ def _lines(seen: LogInspection, doubts: Sequence[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class Heard:
-    """What a fit says: relative error, infinite without fit; doubts; if it is usable."""
+    """What a fit says: relative error, infinite without fit; doubts; if it is usable; its data."""
 
     error: float
     lines: tuple[str, ...]
     usable: bool = False
+    report: DataReport | None = None
 
 
-def doubts_of_fit(
+def heard_of_fit(
     compiled: CompiledModel, place: str, mapping: LogMap, seen: LogInspection
-) -> tuple[tuple[str, ...], bool]:
+) -> tuple[Heard, bool]:
     """What contradicts the robot; and whether the log fits without what ranges say of positions.
 
     A guess by range is believed if it halves the error of the log as it stands, or alone is
@@ -96,12 +110,12 @@ def doubts_of_fit(
     """
     plain = _heard(compiled, place, _mapped(seen.plain, mapping), seen)
     if seen.suggested == seen.plain:
-        return plain.lines, False
+        return plain, False
     guessed = _heard(compiled, place, _mapped(seen.suggested, mapping), seen)
     better = guessed.error < _BETTER * plain.error and guessed.usable >= plain.usable
     if better or (guessed.usable and not plain.usable):
-        return guessed.lines, False
-    return plain.lines, plain.usable
+        return guessed, False
+    return plain, plain.usable
 
 
 def _mapped(text: str, mapping: LogMap) -> LogMap:
@@ -126,7 +140,8 @@ def _heard(compiled: CompiledModel, place: str, mapping: LogMap, seen: LogInspec
                      "torque unexplained")  # fmt: skip
     fresh = [line for line in dict.fromkeys(lines) if not line.endswith(seen.notes)]
     longer = [line for line in fresh if not any(o != line and o.endswith(line) for o in fresh)]
-    return Heard(result.relative_error, tuple(longer), verdict is not None and verdict.usable)
+    usable = verdict is not None and verdict.usable
+    return Heard(result.relative_error, tuple(longer), usable, observation.report)
 
 
 def _fitted(compiled: CompiledModel, place: str, mapping: LogMap) -> tuple[Observation, FitResult]:

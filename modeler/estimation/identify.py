@@ -259,6 +259,7 @@ def result_of(
         loads=every[count:],
         sentences=sentences,
         processing=observation.report.processing,
+        bands=observation.report.bands,
         essential=None if reduced is None else reduced_model(essential, reduced, dict(labels)),
         **further,
     )

@@ -14,7 +14,7 @@ from modeler.core.result import Presented
 from modeler.core.table import POOLED, errors_by_unit, percent, text_by_unit
 from modeler.estimation.essential import Reduced
 from modeler.estimation.parameter import ParameterEstimate, parameter_lines, read_all, read_back
-from modeler.observation import Processing, processing_from_json
+from modeler.observation import Bands, Processing, processing_from_json
 
 # The energy model beside the torque model of the same data: figures, and what they come to.
 
@@ -328,6 +328,7 @@ class FitResult(Presented):
         singular_values: that tell the gains apart, descending; 1 is noise (see `mixed_tls`).
         reading: of long logs: passes, chunks, rows, windows, rows_in_windows; empty of others.
         by_load: the joints on the "bare" and on the "loaded" logs; empty without payloads.
+        bands: the cut-offs, what chose them, the noise of the motion; None in files that lack it.
     """
 
     robot: str
@@ -355,6 +356,7 @@ class FitResult(Presented):
     singular_values: tuple[float, ...] = ()
     reading: Mapping[str, int] = field(default_factory=dict)
     by_load: Mapping[str, tuple[JointFit, ...]] = field(default_factory=dict)
+    bands: Bands | None = None
 
     @property
     def beta(self) -> np.ndarray:
@@ -422,6 +424,7 @@ class FitResult(Presented):
             "directions": self.directions,
             "model": "torque" if self.energy is None else "energy",
             "energy": self.energy,
+            "bands": self.bands,
             "usable": None if verdict is None else verdict.usable,
             "usable_for": None if verdict is None else verdict.usable_for,
             "verdict": None if verdict is None else verdict.line,

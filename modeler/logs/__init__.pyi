@@ -6,7 +6,12 @@ from .blocks import (
 )
 from .columns import Columns as Columns
 from .guess import template_of as template_of
-from .inspect import Clock as Clock, LogInspection as LogInspection, inspect_log as inspect_log
+from .inspect import (
+    Clock as Clock,
+    LogInspection as LogInspection,
+    Positions as Positions,
+    inspect_log as inspect_log,
+)
 from .log_table import LogTable as LogTable
 from .mapping import (
     LogMap as LogMap,

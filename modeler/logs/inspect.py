@@ -13,9 +13,17 @@ from modeler.core.manifest import JointSpec
 from modeler.core.result import Presented
 from modeler.core.table import percent
 from modeler.logs.columns import Stream
-from modeler.logs.guess import Guess, absent_roles, guesses, log_text, speeds_by_position, unlike_si
+from modeler.logs.guess import (
+    Guess,
+    absent_roles,
+    guesses,
+    log_text,
+    slides_of,
+    speeds_by_position,
+    unlike_si,
+)
 from modeler.logs.log_table import LogTable
-from modeler.logs.mapping import LogMap, unit_named
+from modeler.logs.mapping import LENGTH, LogMap, find_unit, unit_named
 from modeler.logs.rates import moves, on_grid, rate_doubts, repeats_line
 from modeler.numerics.held import repeated_rows
 
@@ -84,6 +92,23 @@ class Channel:
 
 
 @dataclass(frozen=True, eq=False)
+class Positions:
+    """What looks like the positions of joints, in the rows that are looked at.
+
+    Attributes:
+        names: of the channels, as the user knows them.
+        units: "rad" or "m"; "counts" of an encoder whose counts a turn nobody said.
+        time: (n,) s.
+        values: (n, J) in these units.
+    """
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    time: np.ndarray
+    values: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class LogInspection(Presented):
     """All that a log shows by itself.
 
@@ -101,6 +126,7 @@ class LogInspection(Presented):
         time: (n,) s, or row numbers without a clock; of a long log at the extremes of each block.
         steps: (2, m) times, and steps of the clock up to them, s; of a long log the extremes.
         values: (n,) of every channel, in its unit.
+        positions: None without a clock, or without any.
     """
 
     name: str
@@ -117,6 +143,7 @@ class LogInspection(Presented):
     time: np.ndarray
     steps: np.ndarray
     values: Mapping[str, np.ndarray]
+    positions: Positions | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Plain data, without the values; a number that is not there is null."""
@@ -209,7 +236,28 @@ def inspect_log(
     return LogInspection(
         table.path.name, rows, clock, tuple(channels), table.found.streams, notes, tuple(doubts),
         suggested, plain, ranged, *drawn,
+        None if clock is None else _positions(table, values, found, joints, time),
     )  # fmt: skip
+
+
+def _positions(
+    table: LogTable, values: Mapping[str, np.ndarray], found: Sequence[Guess],
+    joints: Sequence[JointSpec], time: np.ndarray,
+) -> Positions | None:  # fmt: skip
+    one = next((one for one in found if one.own == "q"), None)
+    if one is None:
+        return None
+    units, columns = list[str](), list[np.ndarray]()
+    linear = slides_of(one.labels, joints)
+    for name, guessed, slides in zip(one.columns, one.units, linear, strict=True):
+        text = table.unit(name) or guessed
+        known = find_unit(text) if text else None
+        slides = slides if known is None else known.powers == LENGTH
+        units.append("counts" if text and known is None else "m" if slides else "rad")
+        factor = 1.0 if known is None or table.unit(name) else known.factor  # else it is SI already
+        columns.append(values[name] * factor)
+    names = tuple(map(table.called, one.columns))
+    return Positions(names, tuple(units), time, np.column_stack(columns))
 
 
 def _repeats(

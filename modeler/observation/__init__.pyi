@@ -48,6 +48,7 @@ from .prepare import (
     LogRepair as LogRepair,
     Prepared as Prepared,
     nearest_closed as nearest_closed,
+    noise_of_positions as noise_of_positions,
     prepare as prepare,
 )
 from .read import (
@@ -65,7 +66,13 @@ from .reduce import (
     triangles as triangles,
     with_stretch as with_stretch,
 )
-from .report import DataReport as DataReport, LogReport as LogReport
+from .report import (
+    Bands as Bands,
+    ChannelNoise as ChannelNoise,
+    DataReport as DataReport,
+    LogReport as LogReport,
+    bands_of as bands_of,
+)
 from .segments import runs as runs
 from .settings import Processing as Processing, processing_from_json as processing_from_json
 from .stretch import Stretch as Stretch

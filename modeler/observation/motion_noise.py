@@ -83,10 +83,15 @@ class JointNoise(Brief):
 
     def words(self, rate: float) -> str:
         """Its noise in words, at a rate of samples in Hz."""
-        size = 1e3 * self.deviation(rate)
-        unit = f"m{self.unit}" + ("", "/s", "/s2")[2 - self.order]
+        size, unit = self.milli(self.deviation(rate))
+        unit += ("", "/s", "/s2")[2 - self.order]
         coloured = f", growing as f^-{self.colour:.1f}" if self.colour else ""
         return f"joint {self.name} {size:.2g} {unit} above {self.meets:.2g} Hz{coloured}"
+
+    def milli(self, size: float) -> tuple[float, str]:
+        """A size and its unit: mrad or mm if it is small; counts stay counts."""
+        small = size < 0.1 and self.unit in ("rad", "m")
+        return (1e3 * size, f"m{self.unit}") if small else (size, self.unit)
 
     def acceleration_density(self, frequency: float) -> float:
         """Its noise as that of the acceleration: (2 pi f)^(2 order) N, (unit/s^2)^2/Hz."""
@@ -146,6 +151,21 @@ class MotionNoise(Brief):
         """
         own = [max(joint.speed_deviation(cutoff), joint.step * cutoff) for joint in self.joints]
         return float(np.linalg.norm(np.asarray(coefficients) * own))
+
+    @property
+    def measured(self) -> str:
+        """What is differentiated to the acceleration: "positions", "speeds", "accelerations"."""
+        return _QUANTITY[self.order].removeprefix("logged ")
+
+    def channel_lines(self) -> list[str]:
+        """A line of each channel: its noise, from where on it hides the motion, its resolution."""
+        told = []
+        for joint in self.joints:
+            size, unit = joint.milli(joint.step)
+            step = f", in steps of {size:.3g} {unit}" if joint.step else ""
+            noise = joint.words(self.rate) if joint.moves else f"joint {joint.name} rests"
+            told.append(f"noise of the {_QUANTITY[self.order]}: {noise}{step}")
+        return told
 
     def lines(self) -> list[str]:
         """One line: of each joint that moves, how large its noise is and where it begins."""

@@ -228,6 +228,7 @@ def observed(
         choices=prepared.choices,
         noise=prepared.noise,
         band=prepared.band,
+        lowered=prepared.lowered,
         logs=tuple(reports),
         joints=joint_reports(model.spec.joints, parts, floors, tallies),
     )

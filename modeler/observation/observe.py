@@ -5,19 +5,20 @@ drives, and that the torque of the model does not tremble more than the measured
 """
 
 import dataclasses
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import Brief
+from modeler.core.json import entries
 from modeler.numerics.filters import BANDWIDTH, SPREAD
 from modeler.numerics.least_squares import scaled_least_squares
 from modeler.observation.log import Log
 from modeler.observation.low_speed import floors_of, shafts
-from modeler.observation.motion import Segment, segment_of
+from modeler.observation.motion import HIGHEST, Segment, segment_of
 from modeler.observation.motion_noise import MotionNoise
 from modeler.observation.observation import Observation, observed, stacked
 from modeler.observation.prepare import (
@@ -28,7 +29,7 @@ from modeler.observation.prepare import (
     prepare,
     two_digits,
 )
-from modeler.observation.report import DataReport
+from modeler.observation.report import DataReport, bands_of
 from modeler.observation.segments import Piece
 from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.observation.stretch import stretch
@@ -42,6 +43,9 @@ LEAST_CUTOFF = 0.5
 
 TREMBLES = 4.0
 """Times as much as the measured torque a model's may tremble: beyond, its motion is noise."""
+
+ANSWERED = 0.5
+"""Share of the trembling of a model's torque that the measured one has, if it is a motion."""
 
 LOWER = 0.7
 """Factor by which a cut-off is lowered."""
@@ -127,20 +131,17 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
         prepared: the logs, with the widest cut-offs.
         given: position cut-off of the user, Hz; None: chosen.
     """
+    prepared = farther(model, prepared, given)
     noise, wide = prepared.noise, prepared.processing
-    look = Look(model, wide, tuple(piece for own in prepared.pieces for piece in own))
-    least = min(max(LEAST_BANDS * noise.band, LEAST_CUTOFF), wide.parallel_cutoff)
+    look = Look.of(model, prepared)
     position, parallel = wide.position_cutoff, wide.parallel_cutoff
-    while least < parallel and not determined(look.fit(max(noise.cutoff, 2.0 * least), least)):
-        least = min(least / LOWER, parallel)
-    met, by = meeting_cutoff(look, noise, position, (least, parallel))
-    narrow = look.fit(max(min(noise.cutoff, position), 2.0 * least), least)
-    beta = narrow.solution[0] if narrow is not None else None
+    least, beta = look.narrow(noise)
+    met = meeting_cutoff(look, noise, position, (least, parallel))
     shaken, first = trembling(look.fit(position, parallel), beta), (0.0, 0)
     while shaken[0] > TREMBLES and parallel > least:
         first = max(first, shaken)
-        if parallel > met:
-            parallel = max(met, LOWER * parallel)
+        if parallel > met.cutoff:
+            parallel = max(met.cutoff, LOWER * parallel)
         elif given is None and position > APART * parallel:
             position *= LOWER
         else:
@@ -148,22 +149,57 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
             position = position if given is not None else LOWER * position
         shaken = trembling(look.fit(position, parallel), beta)
     if position < wide.position_cutoff:
-        met, by = meeting_cutoff(look, noise, position, (least, parallel))
-    parallel = two_digits(min(met, parallel))
+        met = meeting_cutoff(look, noise, position, (least, parallel))
+    parallel = two_digits(min(met.cutoff, parallel))
     if given is None:
         position = two_digits(max(min(noise.cutoff, position), 2.0 * parallel))
     chosen = dataclasses.replace(wide, position_cutoff=position, parallel_cutoff=parallel)
-    said = _sentences(prepared, chosen, given is None, by, first)
-    return dataclasses.replace(filtered_again(prepared, chosen), choices=said)
+    said = _sentences(prepared, chosen, given is None, met, first)
+    by = first[1] if first[0] else met.joint
+    bands = bands_of(
+        noise,
+        chosen,
+        met.torques,
+        widest=entries(wide, "position_cutoff parallel_cutoff"),
+        chosen_by=said,
+        limited_by=None if by is None else noise.joints[by].name,
+        trembling=first[0],
+    )
+    choices = (*prepared.choices, *said)
+    return dataclasses.replace(filtered_again(prepared, chosen), choices=choices, lowered=bands)
+
+
+def farther(model: CompiledModel, prepared: Prepared, given: float | None) -> Prepared:
+    """The logs with later floors of the noise, where the torques answer to what lies before them.
+
+    What a controller leaves of a motion may be flat for octaves before it falls, and so may the
+    noise of a slow sensor: positions do not tell which it is, torques do.
+
+    Args:
+        model: the compiled robot.
+        prepared: the logs, with the first floors.
+        given: position cut-off of the user, Hz; None: chosen.
+    """
+    later, wide = prepared.noise.of_last_floors(), prepared.processing
+    if later.cutoff <= prepared.noise.cutoff:
+        return prepared
+    look = Look.of(model, prepared)
+    _, beta = look.narrow(prepared.noise)
+    position = wide.position_cutoff if given is not None else later.cutoff
+    position = min(position, HIGHEST / max(piece.step for piece in look.pieces))
+    if answer(look.fit(position, wide.parallel_cutoff), beta) < ANSWERED:
+        return prepared
+    chosen = dataclasses.replace(wide, position_cutoff=two_digits(position))
+    return dataclasses.replace(prepared, noise=later, processing=chosen)
 
 
 def _sentences(
-    prepared: Prepared, chosen: ChosenProcessing, own: bool, by: int | None,
+    prepared: Prepared, chosen: ChosenProcessing, own: bool, met: "Meeting",
     shaken: tuple[float, int],
 ) -> tuple[str, ...]:  # fmt: skip
     """What was chosen, and why."""
     noise, wide, f = prepared.noise, prepared.processing, chosen.parallel_cutoff
-    said = [*prepared.choices]
+    said = []
     if own:
         said.append(
             f"position filter {chosen.position_cutoff:g} Hz: "
@@ -171,13 +207,20 @@ def _sentences(
         )
     if shaken[0]:
         why = "with more, the model's torque trembles and the measured one does not"
-    elif by is None:
+    elif met.joint is None:
         why = "the widest that the motion asks for; the noise of the torques is larger up to there"
+    elif met.answered:
+        why = (
+            "above, a drive that answers the noise of its encoder could bend the inertias, most by "
+            f"joint {noise.joints[met.joint].name}"
+        )
     else:
         why = (
             f"there the noise of the {noise.quantity} makes as much torque on joint "
-            f"{noise.joints[by].name} as is left of it"
+            f"{noise.joints[met.joint].name} as is left of it"
         )
+    if met.bounded and not shaken[0]:
+        why += "; it would be lower, but for the motion band"
     said.append(f"parallel filter {f:g} Hz: {why}")
     if shaken[0]:
         name = noise.joints[shaken[1]].name
@@ -205,6 +248,21 @@ class Look(Brief):
     model: CompiledModel
     processing: ChosenProcessing
     pieces: tuple[Piece, ...]
+
+    @classmethod
+    def of(cls, model: CompiledModel, prepared: Prepared) -> "Look":
+        """At prepared logs."""
+        pieces = tuple(piece for own in prepared.pieces for piece in own)
+        return cls(model, prepared.processing, pieces)
+
+    def narrow(self, noise: MotionNoise) -> tuple[float, np.ndarray | None]:
+        """The lowest parallel cut-off that leaves rows enough, Hz, and beta (c,) of its fit."""
+        highest = self.processing.parallel_cutoff
+        least = min(max(LEAST_BANDS * noise.band, LEAST_CUTOFF), highest)
+        own = min(noise.cutoff, self.processing.position_cutoff)
+        while not determined(fit := self.fit(max(own, 2.0 * least), least)) and least < highest:
+            least = min(least / LOWER, highest)
+        return least, None if fit is None else fit.solution[0]
 
     @cached_property
     def _filtered(self) -> dict[float, tuple[Segment, ...]]:
@@ -244,9 +302,9 @@ def _part(segment: Segment, place: slice) -> Segment:
     if place == slice(0, segment.samples):
         return segment
     arrays: dict[str, Any] = {
-        field.name: x[place]
-        for field in dataclasses.fields(segment)
-        if isinstance(x := getattr(segment, field.name), np.ndarray)
+        own.name: x[place]
+        for own in dataclasses.fields(segment)
+        if isinstance(x := getattr(segment, own.name), np.ndarray)
     }
     extra = {name: x[place] for name, x in segment.extra.items()}
     return dataclasses.replace(segment, **arrays, extra=extra)
@@ -337,24 +395,49 @@ def trembling(fit: WeightedFit | None, beta: np.ndarray | None) -> tuple[float, 
     Root mean square of the second differences from row to row, over that of the torque itself, of
     the model's over that of the measured: a gain of the channel leaves it as it is.
     """
+    most = 0.0, 0
+    for j, (measured, model), sizes in bends(fit, beta):
+        if measured.any() and sizes.all():
+            own = np.linalg.norm([measured, model], axis=1) / sizes
+            most = max(most, (float(own[1] / own[0]), j))
+    return most
+
+
+def answer(fit: WeightedFit | None, beta: np.ndarray | None) -> float:
+    """The share of the trembling of the torque of beta (c,) that the measured one has.
+
+    sum of b m over the sum of m^2, b and m second differences of the measured and of the model's
+    torque, each joint in units of its torque: 1 of a motion, 0 of noise of its sensor.
+    """
+    product = square = 0.0
+    for _, (measured, model), sizes in bends(fit, beta):
+        unit = max(float(sizes[0]), 1e-300) ** 2
+        product += float(measured @ model) / unit
+        square += float(model @ model) / unit
+    return product / square if square > 0.0 else 0.0
+
+
+def bends(
+    fit: WeightedFit | None, beta: np.ndarray | None
+) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
+    """Second differences from row to row, measured and of beta, and the torques' sizes, by joint.
+
+    Args:
+        fit: whose rows count; None: nothing.
+        beta: (c,); None: nothing.
+    """
     if fit is None or beta is None:
-        return 0.0, 0
+        return
     rows = fit.rows
     near = np.diff(rows.segment) == 0
-    near, most = near[1:] & near[:-1], (0.0, 0)
+    near = near[1:] & near[:-1]
     for j in fit.driven:
         used = rows.used[:, j]
         kept = near & used[2:] & used[1:-1] & used[:-2]
         if kept.sum() < _FEW:
             continue
-        own = rows.torque[:, j], rows.columns[:, j] @ beta
-        measured, model = (
-            np.sqrt(np.mean(np.diff(x, 2)[kept] ** 2) / max(np.mean(x[used] ** 2), 1e-300))
-            for x in own
-        )
-        if measured > 0.0:
-            most = max(most, (float(model / measured), j))
-    return most
+        both = np.stack([rows.torque[:, j], rows.columns[:, j] @ beta])
+        yield j, np.diff(both, 2)[:, kept], np.sqrt(np.mean(both[:, used] ** 2, axis=1))
 
 
 _EXACT = 1e-6  # of a torque's rms: a residual that is less is none
@@ -364,10 +447,30 @@ _POSTURES = 50
 _FEW = 10  # rows
 
 
+@dataclass(frozen=True)
+class Meeting(Brief):
+    """Where the noise of the motion, as torque, meets that of the drives.
+
+    Attributes:
+        cutoff: Hz.
+        joint: it does so on; None at the highest cut-off, where it has not yet.
+        torques: by driven joint, torque of the noise of the motion at 1 Hz and noise of the torque
+            itself, (N m)^2/Hz.
+        answered: True where it is lower, for drives that may answer the noise.
+        bounded: True where it would be lower, but may not.
+    """
+
+    cutoff: float
+    joint: int | None = None
+    torques: Mapping[int, tuple[float, float]] = field(default_factory=dict)
+    answered: bool = False
+    bounded: bool = False
+
+
 def meeting_cutoff(
     look: Look, noise: MotionNoise, position: float, span: tuple[float, float]
-) -> tuple[float, int | None]:
-    """Hz where the noise of the motion, as torque, meets that of the drives; the joint it does on.
+) -> Meeting:
+    """Where the noise of the motion, as torque, meets that of the drives.
 
     And no more than where a drive that answers the same noise could bend the inertias by one
     standard deviation: there the share P_n / P_s of it in the torque of inertia is 1 / n, n rows.
@@ -379,27 +482,26 @@ def meeting_cutoff(
         look: at the logs.
         noise: of the motion.
         position: highest cut-off of the position filter, Hz.
-        span: Hz that the answer lies between; None as the joint at its end.
+        span: Hz that the answer lies between.
     """
     least, highest = span
     power = 2 * noise.order
     at, own = least, min(noise.cutoff, position)
-    found: list[tuple[float, int]] = []
+    torques = dict[int, tuple[float, float]]()
     for _ in range(ROUNDS):
         fit = look.fit(max(own, 2.0 * at), at)
         if fit is None:
-            return highest, None
+            return Meeting(highest)
         _, sigma = fit.solution
         spread = at / (2.0 * np.pi * SPREAD)
         # mean of f^power over the squared gain exp(-f^2 / spread^2) of the filter
         inside = spread**power * (1.0, 0.5, 0.75)[noise.order]
-        densities = fit.propagated(noise)
-        found = []
-        for j, density in densities.items() if power else ():
+        for j, density in fit.propagated(noise).items():
             T = sigma[j] ** 2 / (BANDWIDTH * at)
-            T = max(T - density * inside, _LEAST_SHARE * T)
-            found.append(((T / max(density, 1e-300)) ** (1.0 / power), j))
-        shares = {j: A * inside * BANDWIDTH * at / sigma[j] ** 2 for j, A in densities.items()}
+            torques[j] = density, max(T - density * inside, _LEAST_SHARE * T)
+        meets = torques.items() if power else ()
+        found = [((T / max(A, 1e-300)) ** (1.0 / power), j) for j, (A, T) in meets]
+        shares = {j: A * inside * BANDWIDTH * at / sigma[j] ** 2 for j, (A, _) in torques.items()}
         inertial = sum(own / sigma[j] ** 2 for j, own in fit.inertial().items())
         rows = len(fit.rows.time) * sum(shares.values())
         answered = at * (inertial / max(rows, 1e-300)) ** (1.0 / (power + 2))
@@ -408,7 +510,9 @@ def meeting_cutoff(
         if abs(new - at) < _SAME * at:
             break
         at = new
-    return at, None if not found or at >= highest else min(found)[1]
+    limit, by = min(found)
+    joint = None if at >= highest else by
+    return Meeting(at, joint, torques, limit == answered, at <= least > limit)
 
 
 _LEAST_SHARE = 0.1  # of the residual's variance that is taken for the torque's own noise

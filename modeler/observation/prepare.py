@@ -9,7 +9,8 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, LoopError
-from modeler.core.manifest import ModuleSpec
+from modeler.core.manifest import JointSpec, ModuleSpec
+from modeler.logs import Positions
 from modeler.numerics.least_squares import weighted_median
 from modeler.numerics.spectra import MotionSpectrum, motion_spectrum
 from modeler.observation.consistency import Consistency, consistency, quieter, without_late
@@ -18,6 +19,7 @@ from modeler.observation.log import Log
 from modeler.observation.motion import CAUSES, HIGHEST, OPEN, Segment, edge_of, segment_of
 from modeler.observation.motion_noise import MotionNoise, motion_bands, motion_noise
 from modeler.observation.outliers import ChannelScales, Defects, defects
+from modeler.observation.report import Bands
 from modeler.observation.segments import Piece, SplitReport, split
 from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.runtime import CompiledModel
@@ -47,6 +49,7 @@ class Prepared:
         noise: of the motion.
         band: Hz of the motion of the fastest joint, or what pieces of that length can show.
         usual: what is usual in the channels, by log.
+        lowered: cut-offs and what chose them; None where a parallel cut-off was given.
     """
 
     processing: ChosenProcessing
@@ -62,6 +65,7 @@ class Prepared:
     noise: MotionNoise
     band: float
     usual: tuple[ChannelScales, ...]
+    lowered: Bands | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -288,6 +292,30 @@ def joint_bands(pieces: Sequence[Piece], spectra: Sequence[MotionSpectrum]) -> n
         if moved.any():
             bands[j] = weighted_median(own[moved], lengths[moved])
     return bands
+
+
+def noise_of_positions(seen: Positions | None) -> MotionNoise | None:
+    """The noise of the positions of a log whose robot is not known; None without motion.
+
+    Args:
+        seen: as logged; rows whose time repeats or goes back are left out.
+    """
+    if seen is None:
+        return None
+    known = np.isfinite(seen.time) & np.isfinite(seen.values).all(axis=1)
+    time, values = seen.time[known], seen.values[known]
+    rises = np.diff(np.maximum.accumulate(time), prepend=-np.inf) > 0.0
+    if rises.sum() < 2:
+        return None
+    joints = [
+        JointSpec(name, "prismatic" if unit == "m" else "revolute", unit, "", True, None)
+        for name, unit in zip(seen.names, seen.units, strict=True)
+    ]
+    q = values[rises]
+    pieces, _ = split(Log("", seen.names, time[rises], q, np.zeros_like(q)), 0, False)
+    if not pieces:
+        return None
+    return motion_noise(joints, pieces, joint_bands(pieces, spectra_of(pieces)))
 
 
 def shown_band(band: float, pieces: Sequence[Piece]) -> float:

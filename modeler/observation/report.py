@@ -2,6 +2,9 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.result import Presented
@@ -176,6 +179,105 @@ class JointReport(Brief):
 
 
 @dataclass(frozen=True)
+class ChannelNoise(Brief):
+    """What is known of a channel of the motion, as plain data.
+
+    Attributes:
+        joint: name.
+        unit: of its position.
+        of: what was measured of it: "positions", "speeds", "accelerations".
+        moves: False at rest.
+        density: one-sided power density of its noise, unit^2/Hz; of speeds (unit/s)^2/Hz.
+        deviation: standard deviation of white noise of that density.
+        hides_above_hz: where the noise hides the motion; None if there is too little to tell.
+        step: resolution of the position.
+        colour: noise grows as f^-colour towards low frequencies; 0 for white.
+        band_hz: of its motion.
+        frequency, spectrum: (m,) Hz, and density of what was measured, means over third octaves.
+        torque_of_noise: of the noise at 1 Hz, (N m)^2/Hz; it grows as f^4 (positions) or f^2
+            (speeds). None where no fit said it.
+        torque_noise: of the torque itself, (N m)^2/Hz.
+    """
+
+    joint: str
+    unit: str
+    of: str
+    moves: bool
+    density: float
+    deviation: float
+    hides_above_hz: float | None
+    step: float
+    colour: float
+    band_hz: float
+    frequency: tuple[float, ...]
+    spectrum: tuple[float, ...]
+    torque_of_noise: float | None = None
+    torque_noise: float | None = None
+
+
+@dataclass(frozen=True)
+class Bands(Brief):
+    """The cut-offs, what chose them, and the noise of the motion, as plain data.
+
+    Attributes:
+        position_cutoff, parallel_cutoff: Hz; None if there was no fit.
+        noise: of every channel of the motion.
+        widest: Hz of both filters, as the motion alone asks for; empty where one was given.
+        chosen_by: sentences.
+        limited_by: joint that they were lowered for; None if the parallel filter is the widest.
+        trembling: how many times as much as the measured torque that of the model trembles behind
+            the first filters of which it is too much; 0 if behind none.
+    """
+
+    position_cutoff: float | None
+    parallel_cutoff: float | None
+    noise: tuple[ChannelNoise, ...]
+    widest: Mapping[str, float] = field(default_factory=dict)
+    chosen_by: tuple[str, ...] = ()
+    limited_by: str | None = None
+    trembling: float = 0.0
+
+
+def bands_of(
+    noise: MotionNoise | None, processing: ChosenProcessing | None = None,
+    torques: Mapping[int, tuple[float, float]] | None = None, **further: Any,
+) -> Bands:  # fmt: skip
+    """What is known of the noise of the motion, and of the cut-offs if there are any.
+
+    Args:
+        noise: of the motion.
+        processing: with the cut-offs.
+        torques: by index of the joint, `torque_of_noise` and `torque_noise` of its channel.
+        **further: fields of the result.
+    """
+    return Bands(
+        None if processing is None else processing.position_cutoff,
+        None if processing is None else processing.parallel_cutoff,
+        tuple(
+            _channel(noise, j, *(torques or {}).get(j, ())) for j in range(len(noise.joints))
+        ) if noise is not None else (),
+        **further,
+    )  # fmt: skip
+
+
+def _channel(noise: MotionNoise, j: int, *torques: float) -> ChannelNoise:
+    joint, seen = noise.joints[j], noise.spectra
+    pairs = [] if seen is None else zip(seen.frequency, seen.density[:, j], strict=True)
+    known = [(_rounded(f), _rounded(S)) for f, S in pairs if np.isfinite(S)]
+    return ChannelNoise(
+        joint.name, joint.unit, noise.measured, joint.moves, joint.floor,
+        joint.deviation(noise.rate), joint.meets if np.isfinite(joint.meets) else None,
+        joint.step, joint.colour, joint.band, tuple(f for f, _ in known),
+        tuple(S for _, S in known), *torques,
+    )  # fmt: skip
+
+
+def _rounded(value: float) -> float:
+    """To four digits, as pictures need it."""
+    return float(f"{value:.4g}")
+
+
+@dataclass(frozen=True)
 class DataReport(Presented):
     """All of it.
 
@@ -186,6 +288,7 @@ class DataReport(Presented):
         joints: in the order of the manifest.
         noise: of the motion; None where the rows are a part of a log.
         band: Hz of the motion.
+        lowered: cut-offs and what chose them; None where a parallel cut-off was given.
     """
 
     processing: ChosenProcessing
@@ -194,6 +297,12 @@ class DataReport(Presented):
     joints: tuple[JointReport, ...]
     noise: MotionNoise | None = None
     band: float = 0.0
+    lowered: Bands | None = None
+
+    @property
+    def bands(self) -> Bands:
+        """The cut-offs and the noise of the motion as plain data."""
+        return self.lowered or bands_of(self.noise, self.processing)
 
     def doubts(self) -> list[str]:
         """What is wrong with the measurements of all logs, one sentence each."""

@@ -13,6 +13,7 @@ from modeler.report.blocks import Items, JudgedLine, PageTable, Verdict
 from modeler.report.estimators import remarks_of, table_of, values_of
 from modeler.report.figures import parameters_figure, picture_figure
 from modeler.report.history import step_name, waterfall_picture
+from modeler.report.noise import noise_blocks, noise_picture
 from modeler.report.page import Origin, Page, Section, after_fit
 from modeler.report.values import joints_table, values_table
 
@@ -59,7 +60,9 @@ def _errors(fit: FitResult) -> Table:
 
 
 def _fit_figures(fit: FitResult) -> Figures:
-    return {"parameters": lambda: parameters_figure(fit)}
+    picture = noise_picture(fit.bands)
+    noise = {} if picture is None else {"noise": partial(picture_figure, picture)}
+    return {"parameters": lambda: parameters_figure(fit), **noise}
 
 
 def _model_summary(model: IdentifiedModel) -> str:
@@ -189,6 +192,8 @@ def _sections(model: IdentifiedModel) -> list[Section]:
     for title, others in (("Loads", fit.loads), ("Drive gains", fit.gains)):
         if others:
             found.append(Section(title, [values_table(others)]))
+    if noise := noise_blocks(fit.bands):
+        found.append(Section("Noise of the motion", noise))
     pairs = correlated_pairs(model)
     if pairs:
         table = PageTable(

@@ -12,9 +12,10 @@ from modeler.core.table import Cell, Table, percent
 from modeler.core.thinning import thin_points
 from modeler.excitation import Exciting
 from modeler.logs import Clock, LogInspection, template_of
-from modeler.observation import DataReport, Log, Observation
+from modeler.observation import Bands, DataReport, Log, Observation, bands_of, noise_of_positions
 from modeler.report.blocks import Code, Figure, Items, PageTable, Paragraph
 from modeler.report.figures import curves, log_figure, picture_figure
+from modeler.report.noise import noise_blocks, noise_picture
 from modeler.report.page import Origin, Page, Section
 from modeler.simulation import SimulatedLog
 
@@ -22,13 +23,17 @@ _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remar
 _LIMIT = 600  # points of one curve
 
 
-def log_page(look: LogInspection, doubts: Sequence[str], provenance: Sequence[str]) -> Page:
+def log_page(
+    look: LogInspection, doubts: Sequence[str], provenance: Sequence[str],
+    bands: Bands | None = None,
+) -> Page:  # fmt: skip
     """The page of a log.
 
     Args:
         look: what is in the log.
         doubts: about it, those of a fit too.
         provenance: lines on how it was read.
+        bands: of its fit; None: the noise of its positions alone.
     """
     head, *rows = channel_rows(look)
     table = PageTable(head, rows, kinds=dict.fromkeys(("unit", "remarks"), "text"))
@@ -37,6 +42,9 @@ def log_page(look: LogInspection, doubts: Sequence[str], provenance: Sequence[st
         Section("Doubts", [listed]),
         Section("Channels", [table, *map(Figure, channel_pictures(look))]),
     ]
+    noise = noise_blocks(bands or bands_of(noise_of_positions(look.positions)))
+    if noise:
+        sections.append(Section("Noise of the motion", noise))
     picture = clock_picture(look)
     if look.clock is not None and picture is not None:
         sections.append(Section("Clock", [Paragraph(clock_line(look.clock)), Figure(picture)]))
@@ -92,10 +100,10 @@ def channel_rows(look: LogInspection) -> list[list[str]]:
     return rows
 
 
-def log_pictures(look: LogInspection) -> list[Picture]:
-    """All pictures of a log."""
-    clock = clock_picture(look)
-    return [*channel_pictures(look), *([clock] if clock is not None else [])]
+def log_pictures(look: LogInspection, bands: Bands | None = None) -> list[Picture]:
+    """All pictures of a log; `bands` as of `log_page`."""
+    noise = noise_picture(bands or bands_of(noise_of_positions(look.positions)))
+    return [*channel_pictures(look), *(p for p in (noise, clock_picture(look)) if p is not None)]
 
 
 def channel_pictures(look: LogInspection) -> list[Picture]:

@@ -235,6 +235,9 @@ def test_a_long_log_is_looked_at_in_blocks(log, place, chunked, tmp_path, monkey
     assert found["clock"]["gaps"] == 2 and found["clock"]["at"] == whole["clock"]["at"] == 5.115
     del found["notes"], whole["notes"]
     assert all(any(c[what] for c in whole["channels"]) for what in ("limits", "missing"))
+    noises = [one.pop("bands")["noise"] for one in (found, whole)]
+    for some, every in zip(*noises, strict=True):  # of the windows
+        assert some["deviation"] == pytest.approx(every["deviation"], rel=0.5)
     limits = [[c.pop("limits") for c in one["channels"]] for one in (found, whole)]
     agree(flat(limits[0]), flat(limits[1]), rel=0.03)  # a few rows where a run ends with its block
     agree(flat(found), flat(whole), rel=1e-6, least=1e-9)

@@ -1,0 +1,158 @@
+"""The noise of the motion as it is told and drawn: `modeler log`, pages, JSON, model files."""
+
+import json
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from modeler.cli import main
+from modeler.core.figure import Curve
+from modeler.estimation.model_file import load_model
+from modeler.estimation.result import fit_from_json
+from modeler.logs.inspect import inspect_log
+from modeler.logs.log_table import LogTable
+from modeler.logs.mapping import LogMap, map_from_words
+from modeler.observation.prepare import noise_of_positions
+from modeler.report.log import log_page, log_pictures
+from modeler.report.noise import noise_picture
+from tests.logs.writers import parquet
+
+SIZE = 1e-3  # rad, of white noise
+RATE = 500.0
+
+
+@pytest.fixture(scope="module")
+def noisy(tmp_path_factory):
+    """A fit and a look at a log whose positions have white noise; both as JSON and as pages."""
+    folder = tmp_path_factory.mktemp("noise")
+    run = folder / "fine.parquet"
+    argv = ["simulate", "two-link", "--duration", "12", "--rate", f"{RATE:g}", "--seed", "4"]
+    assert main([*argv, "--out", str(run)]) == 0
+    table = pq.read_table(run).to_pydict()
+    draw = np.random.default_rng(8)
+    for name in ("q1", "q2"):
+        table[name] = np.array(table[name]) + draw.normal(0.0, SIZE, len(table[name]))
+    pq.write_table(pa.table(table), folder / "run.parquet")
+    for command, more in (("fit two-link", "--out model.json --report"),
+                          ("log", "--page"), ("log", "--robot two-link --page")):  # fmt: skip
+        name = f"{command.split()[0]}{'_robot' * ('--robot' in more)}"
+        words = [*command.split(), str(folder / "run.parquet"), *more.split()]
+        words = [str(folder / word) if word == "model.json" else word for word in words]
+        places = [str(folder / f"{name}.html"), "--json", str(folder / f"{name}.json")]
+        assert main([*words, *places]) == 0
+    return folder
+
+
+def bands(folder, name):
+    return json.loads((folder / f"{name}.json").read_text())["bands"]
+
+
+def test_the_json_tells_cut_offs_and_noise(noisy):
+    found = bands(noisy, "fit")
+    assert found["widest"]["parallel_cutoff"] > found["parallel_cutoff"]
+    assert found["position_cutoff"] >= 2.0 * found["parallel_cutoff"]
+    assert found["limited_by"] in ("1", "2") and len(found["chosen_by"]) >= 2
+    assert [own["joint"] for own in found["noise"]] == ["1", "2"]
+    for own in found["noise"]:
+        assert (own["unit"], own["of"], own["moves"]) == ("rad", "positions", True)
+        assert own["density"] == pytest.approx(2.0 * SIZE**2 / RATE, rel=0.4)
+        assert own["deviation"] == pytest.approx(SIZE, rel=0.2)
+        assert own["band_hz"] < own["hides_above_hz"] < 30.0
+        assert len(own["frequency"]) == len(own["spectrum"]) > 10
+    # no joint's noise makes more torque at the parallel filter than is left of it
+    crossings = [(own["torque_noise"] / own["torque_of_noise"]) ** 0.25 for own in found["noise"]]
+    assert found["parallel_cutoff"] <= 1.1 * min(crossings)
+
+
+def test_a_log_tells_the_same_with_its_robot_and_the_noise_without(noisy):
+    assert bands(noisy, "log_robot") == bands(noisy, "fit")
+    alone = bands(noisy, "log")
+    assert alone["parallel_cutoff"] is None and alone["chosen_by"] == []
+    densities = [[own["density"] for own in found["noise"]]
+                 for found in (alone, bands(noisy, "fit"))]  # fmt: skip
+    assert densities[0] == pytest.approx(densities[1], rel=1e-3)
+
+
+def test_a_model_file_keeps_them_and_old_ones_load(noisy):
+    model = load_model(noisy / "model.json")
+    raw = json.loads((noisy / "model.json").read_text())["fit"]
+    assert json.loads(json.dumps(model.fit.to_json()["bands"])) == bands(noisy, "fit")
+    old = fit_from_json({k: v for k, v in raw.items() if k != "bands"}, model.fit.covariance)
+    assert old.bands is None and noise_picture(old.bands) is None
+
+
+def test_a_line_for_every_channel(noisy, capsys):
+    assert main(["log", str(noisy / "run.parquet")]) == 0
+    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith("noise of")]
+    assert [line.split()[5] for line in lines] == ["q1", "q2"]
+    assert all("mrad above" in line and "Hz" in line for line in lines)
+
+
+@pytest.mark.parametrize(("name", "columns"), [("fit", 2), ("log_robot", 2), ("log", 1)])
+def test_pages_draw_it(noisy, name, columns):
+    page = (noisy / f"{name}.html").read_text()
+    assert "Noise of the motion" in page and "Noise_of_the_motion".lower() in page
+    assert ("torque of that noise" in page) == (columns == 2)
+
+
+def test_the_picture_crosses_where_the_numbers_say(noisy):
+    model = load_model(noisy / "model.json")
+    picture = noise_picture(model.fit.bands)
+    assert [len(row) for row in picture.panels] == [2, 2]
+    for row, own in zip(picture.panels, model.fit.bands.noise, strict=True):
+        curves = {s.label: s for s in row[1].series if isinstance(s, Curve)}
+        noise, torque = curves["torque of that noise"], curves["noise of the torque"].y[0]
+        cross = np.exp(np.interp(np.log(torque), np.log(noise.y), np.log(noise.x)))
+        assert cross == pytest.approx((own.torque_noise / own.torque_of_noise) ** 0.25, rel=1e-6)
+        assert curves["parallel filter"].x[0] == model.fit.bands.parallel_cutoff
+    limits = [row[1].title for row in picture.panels if "limits" in row[1].title]
+    assert limits == [f"Joint {model.fit.bands.limited_by}: torques, which limits"]
+
+
+TIME = np.arange(2000) / 200.0
+SWING = np.sin(TIME) + 0.2 * np.sin(4.0 * TIME)
+WHITE = np.random.default_rng(2).normal(0.0, 1e-3, len(TIME))
+
+
+def looked_at(tmp_path, columns, words=()):
+    path = parquet(tmp_path / "a.parquet", columns)
+    mapping = map_from_words(words) if words else LogMap()
+    return inspect_log(LogTable(path, mapping), mapping)
+
+
+@pytest.mark.parametrize(("factor", "unit"), [("deg", np.pi / 180.0), ("mm", 1e-3), ("", 1.0)])
+def test_units_that_are_stated_are_taken(tmp_path, factor, unit):
+    columns = {"t": TIME, "x": (SWING + WHITE) / unit}
+    seen = looked_at(tmp_path, columns, ["time=t", f"q1=x{':' * bool(factor)}{factor}"])
+    found = noise_of_positions(seen.positions).joints[0]
+    assert found.unit == ("m" if factor == "mm" else "rad")
+    assert found.deviation(200.0) == pytest.approx(1e-3, rel=0.25)
+
+
+def test_counts_of_an_encoder_stay_counts(tmp_path):
+    counts = np.round(1e5 * (SWING + WHITE))
+    seen = looked_at(tmp_path, {"time": TIME, "enc1": counts})
+    (line,) = noise_of_positions(seen.positions).channel_lines()
+    assert "1e+02 counts above" in line and "in steps of 1 counts" in line
+
+
+@pytest.mark.parametrize(
+    "columns",
+    [
+        {"time": TIME, "tau1": SWING},
+        {"q1": SWING},
+        {"time": TIME, "q1": np.full(len(TIME), np.nan)},
+        {"time": TIME[:12], "q1": np.where(np.arange(12) < 11, np.nan, 1.0)},
+        {"time": TIME, "q1": np.zeros(len(TIME))},
+        {"time": np.zeros(len(TIME)), "q1": SWING},
+    ],
+    ids=["no position", "no clock", "no value", "one value", "at rest", "no time"],
+)
+def test_where_nothing_can_be_told_nothing_is_drawn(tmp_path, columns):
+    seen = looked_at(tmp_path, columns)
+    noise = noise_of_positions(seen.positions)
+    assert noise is None or [line.endswith("rests") for line in noise.channel_lines()] == [True]
+    assert not any(picture.name == "noise_of_the_motion" for picture in log_pictures(seen))
+    assert "Noise of the motion" not in [own.title for own in log_page(seen, [], []).sections]
