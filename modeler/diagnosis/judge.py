@@ -31,6 +31,10 @@ NEARLY = 0.95
 """Share of the best fall with which a simpler effect is preferred, if the data do not tell."""
 
 
+PLAIN = ("coulomb", "viscous")
+"""Friction that all other friction refines."""
+
+
 @dataclass(frozen=True, eq=False)
 class Judged(Brief):
     """One effect on one joint at its best shapes.
@@ -190,11 +194,29 @@ def decide(state: State, judged: list[Judged]) -> Judgement:
     for place, item in enumerate(judged):
         if not item.significant:
             continue
+        stem = _stem(item, judged)
+        if stem is not None:
+            return Judgement(tuple(judged), stem)
         if item.candidate.effect.timing and not confirmed(state, item.candidate, item.values):
             judged[place] = dataclasses.replace(item, confirmed=False)
             continue
         return Judgement(tuple(judged), _simplest(state, item, judged))
     return Judgement(tuple(judged), None)
+
+
+STEM = 0.75
+"""Share of what finer friction explains with which the plain one that is absent goes before it."""
+
+
+def _stem(best: Judged, judged: Sequence[Judged]) -> Judged | None:
+    """Dry or viscous friction of a joint that has none, before what refines it."""
+    if best.candidate.effect.family != "friction" or best.candidate.effect.id in PLAIN:
+        return None
+    return next((
+        j for j in judged
+        if j.candidate.effect.id in PLAIN and j.candidate.joint == best.candidate.joint
+        and j.significant and j.share > STEM * best.share
+    ), None)  # fmt: skip
 
 
 def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:

@@ -10,8 +10,10 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
+from modeler.core.table import percent
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.cross_checks import CrossCheck, Key
+from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
@@ -73,6 +75,61 @@ def _share(
     return explained / (explained + left) if explained > 0.0 else 0.0
 
 
+# Is an effect named? One rule, of `diagnose`, `add` and `auto`.
+
+
+SMALL = 0.1
+"""Least fall of the error of the joints that an effect touches, as a share of it; less only where
+nothing systematic is left with it."""
+
+MOST_LEFT = 0.6
+"""Error with the effect from which on a model says too little of its joints to name anything."""
+
+SIGMAS = 2.0
+"""Standard deviations that one parameter is from zero, at least."""
+
+ABOVE = 3.0
+"""Times the band of the motion, above which a joint that gives may ring: below, all moves along."""
+
+KEEPS = 0.02
+"""Least fall of the residual variance in another band."""
+
+
+def doubt(
+    pick: Candidate, errors: tuple[float, float], ratio: float, band: float, objection: str = "",
+    closed: float | None = None, looks: Sequence[CrossCheck] = (),
+) -> str:  # fmt: skip
+    """Why an effect is perhaps missing and no more; empty if it is named.
+
+    Args:
+        pick: the effect, with its shapes.
+        errors: relative errors of its joints without and with it, on unseen motion.
+        ratio: of its best-known parameter to its standard deviation.
+        band: Hz of the motion.
+        objection: why its values cannot be; a drive gain may be in another unit.
+        closed: share of what is systematic that it explains.
+        looks: what others say of it.
+    """
+    before, after = errors
+    reasons = []
+    if objection and not is_gain(pick):
+        reasons.append(objection)
+    if after > MOST_LEFT:
+        reasons.append(f"with it the error is {percent(after)} still")
+    if after > (1.0 - SMALL) * before and not (closed is not None and closed >= CLOSED):
+        reasons.append(f"the error falls by less than {percent(SMALL)} of itself")
+    if pick.effect.rings and pick.shapes["f"] < ABOVE * band:
+        reasons.append(f"its {pick.shapes['f']:.2g} Hz lie within the motion of {band:.2g} Hz")
+    if ratio < SIGMAS:
+        reasons.append(f"its value is {ratio:.1f} standard deviations from zero")
+    for look in looks:
+        if not look.agrees and look.leads is not None:
+            reasons.append(f"{look.leads[0]} explains its joint better {look.what}")
+        if look.gain < KEEPS and look.other_band and not is_gain(pick):
+            reasons.append(f"it explains nothing {look.what}")
+    return "; ".join(reasons)
+
+
 FELT = 0.005
 """Of the torque's rms: what is systematic below is not worth a word."""
 
@@ -117,7 +174,9 @@ class Finding(Brief):
         refines: True if it refines a law of the model, or an effect named before on its joint.
         objection: why its values cannot be those of this robot; empty if they can.
         intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
-        looks: what other logs and other cut-offs say of it; empty for contacts and play.
+        looks: what other logs and another band say of it; empty for contacts and play.
+        doubt: why it is no more than a perhaps; empty if it is named.
+        first: True if nothing was named before it.
         pick: what `modeler add` puts in; None for contacts and play.
         event: True if it came once.
     """
@@ -138,6 +197,8 @@ class Finding(Brief):
     looks: tuple[CrossCheck, ...] = ()
     pick: Pick | None = field(default=None, repr=False, compare=False)
     event: bool = False
+    doubt: str = ""
+    first: bool = True
 
     @property
     def stands(self) -> bool:
@@ -148,11 +209,14 @@ class Finding(Brief):
     def stated(self) -> bool:
         """True if it is the cause, or one of those that these data do not tell apart."""
         closed = self.closure is None or self.closure >= CLOSED
-        return closed and self.stands and not self.objection and not math.isnan(self.gain)
+        sure = not self.doubt and not self.objection and not math.isnan(self.gain)
+        return closed and sure and self.first
 
     @property
     def status(self) -> str:
-        """Either "fact", what is stated as missing, or "named"; a tie is no fact."""
+        """What is stated as missing is a "fact", else "named" or "perhaps"; a tie is no fact."""
+        if self.doubt:
+            return "perhaps"
         return "fact" if self.stated and not self.refines and not self.ties else "named"
 
     @property
@@ -167,7 +231,7 @@ class Finding(Brief):
             **entries(self, "effect joint status gain error_before error_after parameters sigmas"),
             **entries(self, "intervals units"),
             "ties": [{"effect": effect, "joint": joint} for effect, joint in self.ties],
-            **entries(self, "evidence closure objection"),
+            **entries(self, "evidence closure objection doubt"),
             "looks": [look.to_json() for look in self.looks],
         }
 

@@ -304,6 +304,7 @@ class Search(Brief):
         last: the judgement that ended it.
         vetoed: effects that would have raised the error on held-out logs, when they led.
         without: what the user ruled out.
+        given: effects put in before, in another look; the start has them.
     """
 
     start: State
@@ -312,6 +313,7 @@ class Search(Brief):
     last: Judgement
     vetoed: tuple[Judged, ...] = ()
     without: tuple[str, ...] = ()
+    given: tuple[Step, ...] = ()
 
     @property
     def spec(self) -> ModuleSpec:
@@ -336,6 +338,7 @@ def search(
     most: int = MOST,
     veto: Veto | None = None,
     tick: Tick = lambda: None,
+    given: Sequence[Step] = (),
 ) -> Search:
     """Effects that the model lacks, one by one.
 
@@ -346,11 +349,12 @@ def search(
         most: effects to name at most; with 0 nothing is judged.
         veto: looks at held-out logs.
         tick: called whenever something is done.
+        given: effects that another look has put in.
     """
-    start = state = about_itself(state_of(data, (), beta))
+    start = state = about_itself(state_of(data, [step.pick for step in given], beta))
     steps, refused, every = list[Step](), list[Judged](), list[Judged]()
     if not most:
-        return Search(start, (), state, Judgement((), None), (), tuple(without))
+        return Search(start, (), state, Judgement((), None), (), tuple(without), tuple(given))
     survey = scan_catalogue(state, without)
     judgement = survey.judged((), tick)
     while judgement.best is not None and len(steps) < most and len(every) < ASKED:
@@ -367,8 +371,9 @@ def search(
         ties = (*alternatives(best, rivals, after), *doubted)
         steps.append(Step(best, rivals, state, ties))
         state, judgement = later, after
-    kept, state = _backward(state, steps, tick)
-    return Search(start, tuple(kept), state, judgement, tuple(every), tuple(without))
+    kept, state = _backward(state, steps, start.picks, tick)
+    looked = judgement, tuple(every), tuple(without), tuple(given)
+    return Search(start, tuple(kept), state, *looked)
 
 
 def _doubted(refused: Sequence[Judged], best: Judged) -> list[Judged]:
@@ -454,30 +459,34 @@ def about_itself(state: State) -> State:
     return state_of(state.data, state.picks, state.beta if about is None else about)
 
 
-def _backward(state: State, steps: Sequence[Step], tick: Tick) -> tuple[list[Step], State]:
-    """Drops effects that the others made unnecessary, the weakest first.
+def _backward(
+    state: State, steps: Sequence[Step], given: Sequence[Candidate], tick: Tick
+) -> tuple[list[Step], State]:
+    """Drops effects that the others made unnecessary, the weakest first; those given stay.
 
     What the others gain is judged again then, beside those that are left.
     """
     kept = list(steps)
-    while len(kept) > 1:
+    while kept and len(kept) + len(given) > 1:
         judged = []
         for step in kept:
-            judged.append(_beside(state, kept, step))
+            judged.append(_beside(state, given, kept, step))
             tick()
         weakest = int(np.argmin([j.gain for j in judged]))
         if judged[weakest].significant:
             break
         del kept[weakest]
-        state = state_of(state.data, [s.pick for s in kept], state.beta)
+        state = state_of(state.data, [*given, *(s.pick for s in kept)], state.beta)
     if len(kept) < len(steps):
-        kept = [dataclasses.replace(s, judged=_beside(state, kept, s)) for s in kept]
+        kept = [dataclasses.replace(s, judged=_beside(state, given, kept, s)) for s in kept]
     return kept, state
 
 
-def _beside(state: State, kept: Sequence[Step], step: Step) -> Judged:
+def _beside(
+    state: State, given: Sequence[Candidate], kept: Sequence[Step], step: Step
+) -> Judged:
     """One of the effects, judged in the model with the others."""
-    others = [s.pick for s in kept if s is not step]
+    others = [*given, *(s.pick for s in kept if s is not step)]
     return _judged_again(state_of(state.data, others, state.beta), step.pick)
 
 

@@ -196,10 +196,11 @@ def _effect_line(finding: Finding) -> str:
     if finding.closure is None:
         return f"{where(finding.joint)}: {finding.effect} ({values}): {finding.evidence}"
     tail = f"; these data do not tell it from {tie_names(finding)}" if finding.ties else ""
-    for doubt in (finding.objection, other_names(finding)):
-        tail += f"; {doubt}" if doubt else ""
+    for why in dict.fromkeys((finding.doubt, finding.objection)):
+        tail += f"; {why}" if why else ""
     change = " -> ".join(printed(finding.error_before, finding.error_after))
-    return f"{where(finding.joint)}: {finding.effect} ({values}): error {change}{tail}"
+    what = f"perhaps {finding.effect}" if finding.doubt else finding.effect
+    return f"{where(finding.joint)}: {what} ({values}): error {change}{tail}"
 
 
 def _spread(finding: Finding, name: str) -> str:

@@ -41,10 +41,17 @@ from .observation import (
     observed_alike as observed_alike,
     stacked as stacked,
 )
-from .observe import observe as observe
+from .observe import (
+    APART as APART,
+    LOWER as LOWER,
+    TREMBLES as TREMBLES,
+    observe as observe,
+)
 from .prepare import (
     LogRepair as LogRepair,
     Prepared as Prepared,
+    choose_cutoffs as choose_cutoffs,
+    filtered_again as filtered_again,
     nearest_closed as nearest_closed,
     prepare as prepare,
 )
@@ -65,7 +72,11 @@ from .reduce import (
 )
 from .report import DataReport as DataReport, LogReport as LogReport
 from .segments import runs as runs
-from .settings import Processing as Processing, processing_from_json as processing_from_json
+from .settings import (
+    ChosenProcessing as ChosenProcessing,
+    Processing as Processing,
+    processing_from_json as processing_from_json,
+)
 from .stretch import Stretch as Stretch
 from .survey import (
     WINDOW as WINDOW,
