@@ -191,15 +191,15 @@ def _finding(
     ties = [*(tie.key for tie in step.ties), *_same(pick, found)]
     ratio = float(np.max(np.abs(values) / np.maximum(deviations, 1e-300)))
     against = objection(end, pick, parameters)
+    sigmas = named.deviation | ({} if along is None else along.shape_deviations())
     errors = (change.before, change.after)
-    band = before.data.observation.report.band
     return Finding(
         effect=pick.effect.id,
         joint=pick.joint,
         error_before=change.before,
         error_after=change.after,
         parameters=parameters,
-        sigmas=named.deviation | ({} if along is None else along.shape_deviations()),
+        sigmas=sigmas,
         intervals={} if along is None else named_intervals(along, named),
         units=named.unit | shape_units(end, pick),
         ties=tuple(dict.fromkeys(ties)),
@@ -208,7 +208,7 @@ def _finding(
         refines=_refines(found, k),
         objection=against,
         looks=looks,
-        doubt=doubt(pick, errors, ratio, band, against, closed, looks),
+        doubt=doubt(pick, errors, ratio, against, sigmas, closed, looks, ties),
         first=first,
         pick=Pick(pick, values, end, visible),
     )

@@ -14,7 +14,7 @@ from typing import Any
 
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.generate import generate_candidates, ruled_out
-from modeler.diagnosis.judge import Judged, decide, numbers, tied
+from modeler.diagnosis.judge import Judged, decide, numbers, refines, tied
 from modeler.diagnosis.search import Search, Step, Tick, about_itself, scan_candidates
 from modeler.diagnosis.state import SearchData, State, state_of
 
@@ -111,6 +111,8 @@ def _observe_otherwise(what: str, data: SearchData, found: Search, place: int) -
     if best is None:
         return CrossCheck(what, None, True, gain, wide)
     alike = {best.key, *(j.key for j in tied(best, judged))}
+    if refines(best.candidate, step.pick):
+        alike.add(step.pick.key)
     return CrossCheck(what, best.key, step.pick.key in alike, gain, wide)
 
 

@@ -204,18 +204,21 @@ def decide(state: State, judged: list[Judged]) -> Judgement:
     return Judgement(tuple(judged), None)
 
 
-STEM = 0.75
+STEM = 0.5
 """Share of what finer friction explains with which the plain one that is absent goes before it."""
+
+
+def refines(finer: Candidate, plain: Candidate) -> bool:
+    """True for friction of a joint beside the dry or viscous friction that it refines."""
+    friction = finer.effect.family == "friction" and finer.effect.id not in PLAIN
+    return friction and plain.effect.id in PLAIN and finer.joint == plain.joint
 
 
 def _stem(best: Judged, judged: Sequence[Judged]) -> Judged | None:
     """Dry or viscous friction of a joint that has none, before what refines it."""
-    if best.candidate.effect.family != "friction" or best.candidate.effect.id in PLAIN:
-        return None
     return next((
         j for j in judged
-        if j.candidate.effect.id in PLAIN and j.candidate.joint == best.candidate.joint
-        and j.significant and j.share > STEM * best.share
+        if refines(best.candidate, j.candidate) and j.significant and j.share > STEM * best.share
     ), None)  # fmt: skip
 
 

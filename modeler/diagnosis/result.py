@@ -86,18 +86,22 @@ MOST_LEFT = 0.6
 """Error with the effect from which on a model says too little of its joints to name anything."""
 
 SIGMAS = 2.0
-"""Standard deviations that one parameter is from zero, at least."""
+"""Standard deviations that its best-known parameter is from zero, at least."""
 
-ABOVE = 3.0
-"""Times the band of the motion, above which a joint that gives may ring: below, all moves along."""
+COUNTED = 3.0
+"""Standard deviations from a whole number of waves per turn from which on they are no teeth."""
 
 KEEPS = 0.02
 """Least fall of the residual variance in another band."""
 
 
+_NONE: Mapping[str, float] = {}
+
+
 def doubt(
-    pick: Candidate, errors: tuple[float, float], ratio: float, band: float, objection: str = "",
-    closed: float | None = None, looks: Sequence[CrossCheck] = (),
+    pick: Candidate, errors: tuple[float, float], ratio: float, objection: str = "",
+    sigmas: Mapping[str, float] = _NONE, closed: float | None = None,
+    looks: Sequence[CrossCheck] = (), ties: Sequence[Key] = (),
 ) -> str:  # fmt: skip
     """Why an effect is perhaps missing and no more; empty if it is named.
 
@@ -105,10 +109,11 @@ def doubt(
         pick: the effect, with its shapes.
         errors: relative errors of its joints without and with it, on unseen motion.
         ratio: of its best-known parameter to its standard deviation.
-        band: Hz of the motion.
         objection: why its values cannot be; a drive gain may be in another unit.
+        sigmas: standard deviations of its shapes, by name, where they are known.
         closed: share of what is systematic that it explains.
         looks: what others say of it.
+        ties: effects that these data do not tell from it.
     """
     before, after = errors
     reasons = []
@@ -118,10 +123,16 @@ def doubt(
         reasons.append(f"with it the error is {percent(after)} still")
     if after > (1.0 - SMALL) * before and not (closed is not None and closed >= CLOSED):
         reasons.append(f"the error falls by less than {percent(SMALL)} of itself")
-    if pick.effect.rings and pick.shapes["f"] < ABOVE * band:
-        reasons.append(f"its {pick.shapes['f']:.2g} Hz lie within the motion of {band:.2g} Hz")
     if ratio < SIGMAS:
         reasons.append(f"its value is {ratio:.1f} standard deviations from zero")
+    if pick.effect.orders and pick.effect.orders[1] < math.inf:
+        spread = COUNTED * max((sigmas.get(shape.name, math.inf) for shape in pick.form.shapes))
+        if abs(pick.order - round(pick.order)) > spread:
+            reasons.append(f"{pick.order:.1f} waves a turn are no number of teeth or poles")
+    if pick.joint is not None and not is_gain(pick):
+        elsewhere = {joint for _, joint in ties} - {None, pick.joint}
+        if elsewhere:
+            reasons.append(f"it may as well be one of joint {', '.join(sorted(elsewhere))}")
     for look in looks:
         if not look.agrees and look.leads is not None:
             reasons.append(f"{look.leads[0]} explains its joint better {look.what}")

@@ -15,7 +15,7 @@ from modeler.core.brief import Brief
 from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis.candidates import Candidate, coded, over_grid
 from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled_parameters
-from modeler.diagnosis.generate import generate_candidates, ruled_out
+from modeler.diagnosis.generate import generate_candidates, ruled_out, slowest_ringing
 from modeler.diagnosis.judge import (
     NEARLY,
     Judged,
@@ -64,6 +64,8 @@ def refined(state: State, candidate: Candidate) -> Candidate:
             np.array([coded(shape, scale.value(shape, shape.limits[k])) for shape in smooth])
             for k in (0, 1)
         )
+        if candidate.effect.rings:
+            low = np.maximum(low, [_lowest(state, shape) for shape in smooth])
 
     def lost(x: np.ndarray) -> float:
         return -_explained(state, candidate.moved(smooth, np.clip(x, low, high)))
@@ -88,6 +90,11 @@ def refined(state: State, candidate: Candidate) -> Candidate:
         x, score = found.x, float(found.fun)
     better = score < lost(start)
     return candidate.moved(smooth, np.clip(x, low, high)) if better else candidate
+
+
+def _lowest(state: State, shape: Shape) -> float:
+    """Coded; of a frequency the least at which a joint rings."""
+    return coded(shape, slowest_ringing(state)) if shape.scale == "hertz" else -np.inf
 
 
 def _reach(state: State, candidate: Candidate, shape: Shape) -> float:

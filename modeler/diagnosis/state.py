@@ -431,7 +431,8 @@ def quieted(
         elif position > APART * parallel:
             position = max(LOWER * position, APART * parallel)
         else:
-            parallel, position = LOWER * parallel, LOWER * position
+            least *= LOWER
+            parallel = least
     return seen
 
 
