@@ -189,6 +189,7 @@ def _finding(
     named = values_of(end, pick, values, deviations)
     parameters = named.value | dict(pick.shapes)
     ties = [*(tie.key for tie in step.ties), *_same(pick, found)]
+    refines = _refines(found, k)
     ratio = float(np.max(np.abs(values) / np.maximum(deviations, 1e-300)))
     against = objection(end, pick, parameters)
     sigmas = named.deviation | ({} if along is None else along.shape_deviations())
@@ -205,10 +206,10 @@ def _finding(
         ties=tuple(dict.fromkeys(ties)),
         evidence=evidence(step, change.before, change.after),
         closure=closed,
-        refines=_refines(found, k),
+        refines=refines,
         objection=against,
         looks=looks,
-        doubt=doubt(pick, errors, ratio, against, sigmas, closed, looks, ties),
+        doubt=doubt(pick, errors, against, ratio, sigmas, closed, looks, ties, refines),
         first=first,
         pick=Pick(pick, values, end, visible),
     )

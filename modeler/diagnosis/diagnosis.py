@@ -16,15 +16,7 @@ from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact
 from modeler.diagnosis.judge import vetoing
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.search import MOST, Search, Step, search
-from modeler.diagnosis.state import (
-    BAND,
-    SearchData,
-    again,
-    analysed,
-    bands_line,
-    cutoff,
-    state_of,
-)
+from modeler.diagnosis.state import BAND, SearchData, again, analysed, bands_line, cutoff, state_of
 from modeler.diagnosis.timing import logger_shift
 from modeler.effects import Acts, Effect, effect_named
 from modeler.estimation import IdentifiedModel
@@ -145,10 +137,8 @@ WIDER = 1.3
 """Ratio of two cut-offs from which on one shows what the other does not."""
 
 
-def _other_band(
-    data: SearchData, model: IdentifiedModel, mending: LogRepair
-) -> SearchData | None:
-    """The same logs in a band that is wider, or else in that of the motion; None if none differs."""
+def _other_band(data: SearchData, model: IdentifiedModel, mending: LogRepair) -> SearchData | None:
+    """The same logs in a wider band, or else in that of the motion; None if none differs."""
     for band in (0.8 * BAND, 0.0):
         seen = analysed(data.compiled, mending.logs, model.processing, band, mending=mending)
         other = dataclasses.replace(data, observation=seen)

@@ -99,41 +99,41 @@ _NONE: Mapping[str, float] = {}
 
 
 def doubt(
-    pick: Candidate, errors: tuple[float, float], ratio: float, objection: str = "",
+    pick: Candidate, errors: tuple[float, float], objection: str = "", ratio: float = math.inf,
     sigmas: Mapping[str, float] = _NONE, closed: float | None = None,
-    looks: Sequence[CrossCheck] = (), ties: Sequence[Key] = (),
+    looks: Sequence[CrossCheck] = (), ties: Sequence[Key] = (), refines: bool = False,
 ) -> str:  # fmt: skip
     """Why an effect is perhaps missing and no more; empty if it is named.
 
     Args:
         pick: the effect, with its shapes.
         errors: relative errors of its joints without and with it, on unseen motion.
-        ratio: of its best-known parameter to its standard deviation.
         objection: why its values cannot be; a drive gain may be in another unit.
+        ratio: of its best-known parameter to its standard deviation.
         sigmas: standard deviations of its shapes, by name, where they are known.
         closed: share of what is systematic that it explains.
         looks: what others say of it.
         ties: effects that these data do not tell from it.
+        refines: True for what mends a law of the model, which may be small.
     """
     before, after = errors
-    reasons = []
-    if objection and not is_gain(pick):
-        reasons.append(objection)
+    reasons = [objection] if objection and not is_gain(pick) else []
     if after > MOST_LEFT:
         reasons.append(f"with it the error is {percent(after)} still")
-    if after > (1.0 - SMALL) * before and not (closed is not None and closed >= CLOSED):
+    small = not refines and (closed is None or closed < CLOSED)
+    if small and after > (1.0 - SMALL) * before:
         reasons.append(f"the error falls by less than {percent(SMALL)} of itself")
     if ratio < SIGMAS:
         reasons.append(f"its value is {ratio:.1f} standard deviations from zero")
     if pick.effect.orders and pick.effect.orders[1] < math.inf:
-        spread = COUNTED * max((sigmas.get(shape.name, math.inf) for shape in pick.form.shapes))
+        spread = COUNTED * max(sigmas.get(shape.name, math.inf) for shape in pick.form.shapes)
         if abs(pick.order - round(pick.order)) > spread:
             reasons.append(f"{pick.order:.1f} waves a turn are no number of teeth or poles")
-    if pick.joint is not None and not is_gain(pick):
-        elsewhere = {joint for _, joint in ties} - {None, pick.joint}
-        if elsewhere:
-            reasons.append(f"it may as well be one of joint {', '.join(sorted(elsewhere))}")
-    for look in looks:
+    elsewhere = sorted({joint for _, joint in ties if joint not in (None, pick.joint)})
+    if elsewhere and pick.joint is not None and not is_gain(pick):
+        reasons.append(f"it may as well be one of joint {', '.join(elsewhere)}")
+    unit = bool(objection) and is_gain(pick)  # it bends what every look weighs the joints by
+    for look in () if unit else looks:
         if not look.agrees and look.leads is not None:
             reasons.append(f"{look.leads[0]} explains its joint better {look.what}")
         if look.gain < KEEPS and look.other_band and not is_gain(pick):

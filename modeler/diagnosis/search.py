@@ -402,6 +402,8 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
         return dataclasses.replace(best, possible=False, why=DRIVES), None
     if veto is not None and veto(state, later, best):
         return best, None
+    if is_gain(best.candidate):  # of all, the likeliest; a unit or a sign is told with it
+        return best, later
     pick, values = later.picks[-1], later.values[-1]
     named = values_of(later, pick, values, np.zeros(len(values)))
     why = objection(later, pick, named.value | dict(pick.shapes))
@@ -489,9 +491,7 @@ def _backward(
     return kept, state
 
 
-def _beside(
-    state: State, given: Sequence[Candidate], kept: Sequence[Step], step: Step
-) -> Judged:
+def _beside(state: State, given: Sequence[Candidate], kept: Sequence[Step], step: Step) -> Judged:
     """One of the effects, judged in the model with the others."""
     others = [*given, *(s.pick for s in kept if s is not step)]
     return _judged_again(state_of(state.data, others, state.beta), step.pick)

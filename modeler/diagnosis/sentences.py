@@ -127,10 +127,11 @@ def _headline(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict == "missing" and first is not None:
         return f"missing: {_named(first, diagnosis)}{tied(first)}"
     if diagnosis.verdict == "closest description" and first is not None:
-        reason = first.objection or other_names(first) or _PART
+        perhaps = "perhaps " if first.doubt else ""
+        reason = first.doubt or first.objection or other_names(first) or _PART
         return (
-            f"closest description: {_named(first, diagnosis)}{tied(first)}; {reason}, so the cause "
-            "may be outside the catalogue"
+            f"closest description: {perhaps}{_named(first, diagnosis)}{tied(first)}; {reason}, so "
+            "the cause may be outside the catalogue"
         )
     if diagnosis.verdict == "unexplained":
         return "unexplained: the error is systematic, and nothing in the catalogue describes it"

@@ -405,6 +405,7 @@ def analysed(
         position = 1.25 * parallel if band else wide.position_cutoff
     position = given or min(position, highest)
     wide = dataclasses.replace(wide, position_cutoff=position, parallel_cutoff=parallel)
+
     def filtered(chosen: ChosenProcessing) -> Prepared:
         """Logged speeds are checked in the band of the rows."""
         if any(check is not None for check in prepared.checks):
