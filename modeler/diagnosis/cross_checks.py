@@ -8,7 +8,7 @@ effect: if it would have been named instead, the effect stands in for it.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -36,14 +36,14 @@ class CrossCheck:
         agrees: True if that is the effect, if the data there do not tell it from the effect, or if
             nothing is sure there.
         gain: fall of the residual variance of its joints there, cross-validated; NaN if unknown.
-        other_band: True if it is at the same logs in another band.
+        least: of it, below which the effect is a matter of the band.
     """
 
     what: str
     leads: Key | None
     agrees: bool
     gain: float = math.nan
-    other_band: bool = False
+    least: float = -math.inf
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -53,22 +53,36 @@ class CrossCheck:
         return {"what": self.what, "leads": leads, "agrees": self.agrees, "gain": self.gain}
 
 
+@dataclass(frozen=True, eq=False)
+class OtherLook:
+    """Another look.
+
+    Attributes:
+        what: which, in words.
+        data: the logs in it.
+        least: fall of the residual variance that an effect must show there.
+    """
+
+    what: str
+    data: SearchData
+    least: float = -math.inf
+
+
 def recheck_effects(
-    found: Search, looks: Iterable[tuple[str, SearchData]], tick: Tick = lambda: None
+    found: Search, looks: Sequence[OtherLook], tick: Tick = lambda: None
 ) -> list[tuple[CrossCheck, ...]]:
     """What the other looks say of every effect that was put in, in order.
 
     Args:
         found: the search in the first look.
-        looks: others, one after the other: each is let go before the next is made.
+        looks: others.
         tick: called after each.
     """
     said: list[list[CrossCheck]] = [[] for _ in found.steps]
-    for what, data in looks if found.steps else ():
+    for look in looks:
         for place, own in enumerate(said):
-            own.append(_observe_otherwise(what, data, found, place))
+            own.append(_observe_otherwise(look, found, place))
             tick()
-        del data
     return [(*own, *_ruled_out(found, s)) for own, s in zip(said, found.steps, strict=True)]
 
 
@@ -94,26 +108,25 @@ def _ruled_out(found: Search, step: Step) -> list[CrossCheck]:
     return [CrossCheck("ruled out", best.key, False)]
 
 
-def _observe_otherwise(what: str, data: SearchData, found: Search, place: int) -> CrossCheck:
-    step = found.steps[place]
+def _observe_otherwise(look: OtherLook, found: Search, place: int) -> CrossCheck:
+    what, data, step = look.what, look.data, found.steps[place]
     picks = [*found.start.picks, *(s.pick for s in found.steps[: place + 1])]
     if not all(_logged(data, pick) for pick in picks):
         return CrossCheck(what, None, True)
     # the state in which the effect was chosen, from other data
     state = about_itself(state_of(data, picks[:-1], step.before.beta))
     judged = _recheck(state, step, found)
-    wide = data.observation.report.processing != found.start.data.observation.report.processing
     own = [j.gain for j in judged if j.key == step.pick.key]
     gain = own[0] if own else 0.0
     joint = step.pick.joint
     near = [j for j in judged if joint is None or j.key[1] in (None, joint)]
     best = decide(state, near).best
     if best is None:
-        return CrossCheck(what, None, True, gain, wide)
+        return CrossCheck(what, None, True, gain, look.least)
     alike = {best.key, *(j.key for j in tied(best, judged))}
     if refines(best.candidate, step.pick):
         alike.add(step.pick.key)
-    return CrossCheck(what, best.key, step.pick.key in alike, gain, wide)
+    return CrossCheck(what, best.key, step.pick.key in alike, gain, look.least)
 
 
 def _logged(data: SearchData, candidate: Candidate) -> bool:

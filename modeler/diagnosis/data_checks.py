@@ -8,9 +8,10 @@ import numpy as np
 
 from modeler.core.manifest import JointSpec
 from modeler.core.table import percent
+from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.drive_gains import with_gains
 from modeler.diagnosis.events import Window
-from modeler.diagnosis.plausible import has_friction, largest_friction
+from modeler.diagnosis.plausible import friction_share
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import SearchData, State, state_of, trembling
 from modeler.diagnosis.timing import CONVENTION
@@ -20,11 +21,18 @@ from modeler.observation import TREMBLES, Fault, faults, suspects
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""
 
+SMOOTH = 0.035
+"""Friction over torque, rms, median over the joints: the least of a machine seen is 0.11."""
+
+COMPUTED = frozenset(
+    {"time_delay", "encoder_offset", "offset", "base_tilt", "payload", "link_inertia"}
+)
+"""What a torque that was computed may lack."""
+
 _STILL = {"rad": 1e-3, "m": 1e-4}  # stroke below which a joint does not move
 _ONE_WAY = 0.98  # of the moving rows
 _ONE_SPEED = 1.3  # ratio of the 90 % and 10 % quantiles of the speed
 _SLOW = 0.01  # of a joint's torque that inertia makes
-_SMOOTH = 0.01  # of a joint's torque that friction makes
 
 
 def length(state: State) -> float:
@@ -48,7 +56,7 @@ def data_lines(state: State) -> tuple[str, ...]:
     for j, joint in driven.items():
         lines += _motion(state, j, joint)
     felt = {j: joint for j, joint in driven.items() if state.rows.y[j].size}
-    return (*lines, *_slow(state, felt), *_noisy(state), *_smooth(state, felt))
+    return (*lines, *_slow(state, felt), *_noisy(state), *_computed(state))
 
 
 def _motion(state: State, j: int, joint: JointSpec) -> list[str]:
@@ -106,18 +114,27 @@ def _slow(state: State, joints: Mapping[int, JointSpec]) -> list[str]:
     ]
 
 
-def _smooth(state: State, joints: Mapping[int, JointSpec]) -> list[str]:
-    """Torques of a robot none of whose joints rubs."""
-    shares = [
-        largest_friction(state, j) / max(_rms(state.rows.y[j]), 1e-300)
-        for j in joints if has_friction(state, j)
-    ]  # fmt: skip
-    if not shares or max(shares) > _SMOOTH:
+def _computed(state: State) -> list[str]:
+    if {effect.id for effect in state.data.known.catalogue} - COMPUTED:
         return []
     return [
-        f"no joint rubs: friction is at most {percent(max(shares))} of the torque; a robot "
-        "with gears does: were these torques computed from the motion, and not measured?"
+        "no joint rubs: friction is less than "
+        f"{percent(SMOOTH)} of the torque, which it is on no robot with gears: these torques were "
+        "computed from the motion, and not measured; only "
+        f"{', '.join(sorted(COMPUTED))} are looked for"
     ]
+
+
+def without_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None:
+    """What may be missing where torques were computed, and not measured; None where they rub.
+
+    No robot with gears is without friction: a torque that is was computed from the motion by some
+    model, and differs from this one by what `COMPUTED` names.
+    """
+    if friction_share(state_of(data, (), beta)) > SMOOTH:
+        return None
+    kept = tuple(effect for effect in data.known.catalogue if effect.id in COMPUTED)
+    return dataclasses.replace(data.known, catalogue=kept)
 
 
 def _noisy(state: State) -> list[str]:

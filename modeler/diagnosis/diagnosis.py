@@ -10,8 +10,8 @@ from threadpoolctl import threadpool_limits
 from modeler.core.errors import DataError
 from modeler.diagnosis.assemble import BandSearch, assembled, band_search
 from modeler.diagnosis.candidates import StatedEffects
-from modeler.diagnosis.cross_checks import recheck_effects
-from modeler.diagnosis.data_checks import channel_faults
+from modeler.diagnosis.cross_checks import OtherLook, recheck_effects
+from modeler.diagnosis.data_checks import channel_faults, without_friction
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
 from modeler.diagnosis.judge import vetoing
 from modeler.diagnosis.result import Diagnosis
@@ -87,7 +87,10 @@ def diagnose(
     data = SearchData(
         compiled, seen, kept_parameters(model, compiled, logs, seen), known or StatedEffects()
     )
-    without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
+    without = _ids(without, data.known.catalogue)
+    if (fewer := without_friction(data, model.beta)) is not None:
+        data = dataclasses.replace(data, known=fewer)
+    other = _held_out(data, holdout)
     beyond = _other_band(data, model, mending)
     doubted = channel_faults(model, data, other, beyond)
     limit = 0 if any(fault.certain for fault in doubted) else most
@@ -106,8 +109,10 @@ def diagnose(
                 continue
             found = searched(own, held, made[0].named if made else ())
             second = data if made else beyond
-            around = [] if held is None else [("in the held-out logs", held)]
-            around += [] if second is None else [(f"up to {cutoff(second):.2g} Hz", second)]
+            around = [] if held is None else [OtherLook("in the held-out logs", held)]
+            if second is not None:
+                least = KEEPS if made or far is not None else -KEEPS
+                around.append(OtherLook(f"up to {cutoff(second):.2g} Hz", second, least))
             looks = recheck_effects(found, around, meter.tick)
             made.append(band_search(found, held, looks, meter.tick))
         return made
@@ -132,6 +137,10 @@ def diagnose(
     line = bands_line(model.processing, data.observation.report.processing)
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
+
+KEEPS = 0.02
+"""Fall of the residual variance that an effect must show in a wider band, and what was found in
+that in the narrower one; else it may not rise by more there."""
 
 WIDER = 1.3
 """Ratio of two cut-offs from which on one shows what the other does not."""

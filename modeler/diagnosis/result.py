@@ -91,9 +91,6 @@ SIGMAS = 2.0
 COUNTED = 3.0
 """Standard deviations from a whole number of waves per turn from which on they are no teeth."""
 
-KEEPS = 0.02
-"""Least fall of the residual variance in another band."""
-
 
 _NONE: Mapping[str, float] = {}
 
@@ -136,7 +133,7 @@ def doubt(
     for look in () if unit else looks:
         if not look.agrees and look.leads is not None:
             reasons.append(f"{look.leads[0]} explains its joint better {look.what}")
-        if look.gain < KEEPS and look.other_band and not is_gain(pick):
+        if look.gain < look.least and not is_gain(pick):
             reasons.append(f"it explains nothing {look.what}")
     return "; ".join(reasons)
 

@@ -422,8 +422,8 @@ def quieted(
     """The logs with cut-offs lowered until the torque of the model does not tremble."""
     position, parallel = chosen.position_cutoff, chosen.parallel_cutoff
     for _ in range(_LOWERED):
-        cut = {"position_cutoff": position, "parallel_cutoff": parallel}
-        prepared = filtered(dataclasses.replace(chosen, **cut))
+        lower = dataclasses.replace(chosen, position_cutoff=position, parallel_cutoff=parallel)
+        prepared = filtered(lower)
         seen = _whole(observed(compiled, logs, prepared, every_joint=True))
         if max(trembling(_free(compiled, seen)).values(), default=0.0) <= TREMBLES:
             break
