@@ -300,8 +300,50 @@ def halves(
             if z.max() > farthest:
                 farthest, in_rows = float(z.max()), (R[0][j] != 0.0).any(axis=0)[:-1]
                 worst = int(kept[np.where(in_rows, z, 0.0).argmax()]), j, name, farthest
+    beside = beside_reversals(observation, compressed, counted, estimate, sigma)
+    added = np.maximum(added, beside)
     square = np.where(sigma > 0.0, sigma, 1.0) ** 2
     return Halves(np.sqrt(1.0 + added / square), worst)
+
+
+_DOUBTED = 2.0  # standard deviations of a difference, that are chance
+_ALSO = 0.1  # of a variance, that a difference has beside the noise it is expected to have
+
+
+def beside_reversals(
+    observation: Observation,
+    compressed: Callable[[np.ndarray], Compressed],
+    counted: np.ndarray,
+    estimate: Estimate,
+    sigma: np.ndarray,
+) -> np.ndarray:
+    """(c,) variances that what lies near reversals adds: noise of the speed bends friction there.
+
+    Without those rows beta is d off. Of noise alone d has the variance u = V_w - V (Hausman 1978);
+    what d^2 is more than 4 (u + 0.1 V) is a bias that no residual shows.
+
+    Args:
+        observation: that knows which rows are far from reversals.
+        compressed: of some rows (rows,), the equations.
+        counted: (rows,) that were fitted.
+        estimate: its joint weights and kept columns are taken.
+        sigma: (c,) standard deviations so far.
+    """
+    added = np.zeros(len(sigma))
+    if observation.steady is None:
+        return added
+    kept, steady = np.array(estimate.rank.kept, dtype=int), observation.steady[observation.used]
+    (whole, var), (far, far_var) = (
+        _solved([*(compressed(rows).triangles / estimate.sigma[:, None, None])[:, :, [*kept, -1]]])
+        for rows in (counted, counted & steady)
+    )
+    if whole is None or far is None:
+        return added
+    raised = np.maximum(sigma[kept] ** 2 / var, 1.0)
+    noise = raised * (np.abs(far_var - var) + _ALSO * var)
+    d = (far - whole) ** 2
+    added[kept] = np.maximum(d - _DOUBTED**2 * noise, 0.0)
+    return added
 
 
 def _solved(blocks: list[np.ndarray]) -> tuple[np.ndarray | None, np.ndarray]:

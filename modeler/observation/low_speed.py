@@ -7,7 +7,8 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import ModuleSpec, SignalSpec
-from modeler.observation.motion import Segment
+from modeler.observation.motion import Segment, near
+from modeler.observation.motion_noise import MotionNoise
 from modeler.observation.settings import ChosenProcessing
 from modeler.runtime import CompiledModel
 
@@ -110,26 +111,71 @@ def floors_of(
     `low_speed` times the shaft's top speed over all logs, which is its 98 % quantile: a short
     transient (an axis that slams into its first position) must not mask the motion after it.
     """
-    floors: dict[str, float] = {}
+    tops = top_speeds(parts, segments)
+    return {
+        part.name: processing.speed_floors.get(
+            part.name, processing.low_speed * tops[part.name] or float("inf")
+        )
+        for part in parts
+    }
+
+
+def top_speeds(parts: Sequence[FrictionShaft], segments: Sequence[Segment]) -> dict[str, float]:
+    """98 % quantile of the speed of each shaft; 0 of one that stands still."""
+    tops: dict[str, float] = {}
     for part in parts:
-        if part.name in processing.speed_floors:
-            floors[part.name] = processing.speed_floors[part.name]
-            continue
         speeds = np.concatenate([np.abs(part.speed(s.qd[s.whole])) for s in segments])
         travel = np.concatenate([part.speed(s.q[s.whole]) for s in segments])
         idle = not travel.size or np.ptp(travel) < IDLE_TRAVEL[part.unit]
-        top = float(np.quantile(speeds, TOP)) if speeds.size else 0.0
-        floors[part.name] = float("inf") if idle else processing.low_speed * top
+        tops[part.name] = 0.0 if idle else float(np.quantile(speeds, TOP))
+    return tops
+
+
+WIDE = 0.05
+"""Share of its top speed below which a shaft is near a reversal ..."""
+
+WIDE_SIGMAS = 5.0
+"""... or so many deviations of the noise of its speed ..."""
+
+WIDEST = 0.2
+"""... but no more of its top speed."""
+
+PERIODS = 0.7
+"""Periods of the position filter over which a reversal is smeared."""
+
+
+def wide_floors(
+    processing: ChosenProcessing, parts: Sequence[FrictionShaft], segments: Sequence[Segment],
+    noise: MotionNoise,
+) -> dict[str, float]:  # fmt: skip
+    """Speed of each shaft below which it is near a reversal.
+
+    Whoever leaves that out must find the same parameters; a position filter smears the reversal
+    itself over `PERIODS` of its cut-off.
+    """
+    floors, cutoff = {}, processing.position_cutoff
+    for part, top in zip(parts, top_speeds(parts, segments).values(), strict=True):
+        doubtful = WIDE_SIGMAS * noise.doubtful_speed(part.coefficients, cutoff)
+        floors[part.name] = min(max(WIDE * top, doubtful), WIDEST * top) or float("inf")
     return floors
 
 
 def moving(
-    segment: Segment, parts: Sequence[FrictionShaft], floors: Mapping[str, float]
-) -> np.ndarray:
-    """(n, joints) False where a shaft that acts on the joint is slower than its floor."""
+    segment: Segment, parts: Sequence[FrictionShaft], floors: Mapping[str, float],
+    margin: float = 0.0,
+) -> np.ndarray:  # fmt: skip
+    """(n, joints) False where a shaft that acts on the joint is slower than its floor.
+
+    With a margin, s, also so near to such a sample or to a reversal.
+    """
     fast = np.ones(segment.qd.shape, dtype=bool)
+    reach = round(margin / segment.step)
     for part in parts:
-        slow = np.abs(part.speed(segment.qd)) < floors[part.name]
+        speed = part.speed(segment.qd)
+        slow = np.abs(speed) < floors[part.name]
+        if reach:
+            slow[1:] |= np.diff(np.sign(speed)) != 0.0
+            slow = near(slow, reach)
         fast[np.ix_(slow, list(part.joints))] = False
     return fast
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 
 from modeler.core.brief import Brief
 from modeler.numerics.filters import forwards_and_backwards
@@ -119,26 +120,26 @@ def _causes(
     The bend of a bridge, or of a wrong velocity, reaches as far as the start-up of the filter; a
     few missing samples that take less than 0.4 periods of the cut-off leave no bend.
     """
-
-    def near(flags: np.ndarray) -> np.ndarray:
-        if not edge or not flags.any():
-            return flags[:, None]
-        reached = np.convolve(flags, np.ones(2 * edge + 1), mode="full")[edge:-edge] > 0.5
-        return np.asarray(reached[:, None])
-
     few = min(SHORT, int(_SHORT_PERIODS / (cutoff * piece.step)) - 1) if cutoff else 0
     bent = longer_runs(piece.bridged, few) if few > 0 else piece.bridged
     flags = {
         EDGE: ~whole[:, None],
         MISSING: piece.bridged[:, None] | ~piece.valid,
-        BRIDGES: near(bent),
-        CONTRADICTED: near(piece.contradicted),
+        BRIDGES: near(bent, edge)[:, None],
+        CONTRADICTED: near(piece.contradicted, edge)[:, None],
         SATURATED: piece.clipped & (not keep_saturated),
     }
     cause = np.full(piece.valid.shape, -1, dtype=np.int8)
     for name, flagged in flags.items():
         cause[(cause < 0) & flagged] = CAUSES.index(name)
     return cause
+
+
+def near(flags: np.ndarray, reach: int) -> np.ndarray:
+    """(n,) True within so many samples of a flagged one."""
+    if not reach or not flags.any():
+        return flags
+    return np.asarray(maximum_filter1d(flags.view(np.uint8), 2 * reach + 1) > 0)
 
 
 def edge_of(piece: Piece, processing: Processing) -> int:

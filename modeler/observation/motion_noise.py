@@ -126,6 +126,16 @@ class MotionNoise(Brief):
         every = [max(joint.cutoff, LEAST_BANDS * self.band) for joint in self.moving]
         return float(np.exp(np.mean(np.log(every)))) if every else HIGHEST_CUTOFF
 
+    def doubtful_speed(self, coefficients: Sequence[float], cutoff: float) -> float:
+        """Standard deviation of the noise of a shaft's speed below a cut-off, Hz, or D f if more.
+
+        Args:
+            coefficients: (J,) of the joints' speeds in that of the shaft.
+            cutoff: of the position filter.
+        """
+        own = [max(joint.speed_deviation(cutoff), joint.step * cutoff) for joint in self.joints]
+        return float(np.linalg.norm(np.asarray(coefficients) * own))
+
     def lines(self) -> list[str]:
         """One line: of each joint that moves, how large its noise is and where it begins."""
         if not self.moving:

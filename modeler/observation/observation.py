@@ -11,9 +11,18 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.core.result import Presented
+from modeler.numerics.filters import LEAST_WEIGHT
 from modeler.observation.chunk import whole_log
 from modeler.observation.log import Log
-from modeler.observation.low_speed import floors_of, shafts, signals_of, with_every_joint
+from modeler.observation.low_speed import (
+    PERIODS,
+    floors_of,
+    moving,
+    shafts,
+    signals_of,
+    wide_floors,
+    with_every_joint,
+)
 from modeler.observation.motion import (
     BRIDGES,
     CAUSES,
@@ -52,6 +61,7 @@ class Observation(Presented):
         stretches: full-rate data, for further columns.
         regressor: (b, n, c) at full rate, for the b samples of a segment in a window.
         report: what was done.
+        steady: (s, n) rows that count and lie far from reversals; None where nothing rubs.
     """
 
     robot: str
@@ -70,6 +80,7 @@ class Observation(Presented):
     stretches: tuple[Stretch, ...]
     regressor: Callable[[Segment, slice], np.ndarray]
     report: DataReport
+    steady: np.ndarray | None = None
 
     @cached_property
     def columns(self) -> np.ndarray:
@@ -195,7 +206,8 @@ def observed(
     """
     prepared, open_times = without_open(model, logs, prepared)
     parts = with_every_joint(model) if every_joint else shafts(model)
-    floors = floors_of(prepared.processing, parts, prepared.segments)
+    seen = prepared.processing, parts, prepared.segments
+    floors = floors_of(*seen)
     chosen = dataclasses.replace(prepared.processing, speed_floors=floors)
     stretches = tuple(stretch(segment, parts, chosen) for segment in prepared.segments)
     tallies, reports = [], []
@@ -221,7 +233,15 @@ def observed(
     )
     if not any(part.used.any() for part in stretches):
         raise no_row_left(report, [f"{log.name}: {note}" for log in logs for note in log.notes])
-    return stacked(model, [log.name for log in logs], stretches, report)
+    rows = stacked(model, [log.name for log in logs], stretches, report)
+    if every_joint or not parts:
+        return rows
+    wide, far = wide_floors(*seen, prepared.noise), []
+    margin = PERIODS / chosen.position_cutoff if chosen.position_cutoff else 0.0
+    for part in stretches:
+        usable = part.segment.valid & moving(part.segment, parts, wide, margin)
+        far.append(part.used & (part.rows.share(usable) >= LEAST_WEIGHT))
+    return dataclasses.replace(rows, steady=np.concatenate(far))
 
 
 def no_row_left(report: DataReport, notes: Sequence[str] = ()) -> DataError:

@@ -134,7 +134,9 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
     while least < parallel and not determined(look.fit(max(noise.cutoff, 2.0 * least), least)):
         least = min(least / LOWER, parallel)
     met, by = meeting_cutoff(look, noise, position, (least, parallel))
-    shaken, first = trembling(look.fit(position, parallel)), (0.0, 0)
+    narrow = look.fit(max(min(noise.cutoff, position), 2.0 * least), least)
+    beta = narrow.solution[0] if narrow is not None else None
+    shaken, first = trembling(look.fit(position, parallel), beta), (0.0, 0)
     while shaken[0] > TREMBLES and parallel > least:
         first = max(first, shaken)
         if parallel > met:
@@ -144,7 +146,7 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
         else:
             parallel = max(least, LOWER * parallel)
             position = position if given is not None else LOWER * position
-        shaken = trembling(look.fit(position, parallel))
+        shaken = trembling(look.fit(position, parallel), beta)
     if position < wide.position_cutoff:
         met, by = meeting_cutoff(look, noise, position, (least, parallel))
     parallel = two_digits(min(met, parallel))
@@ -318,15 +320,15 @@ def determined(fit: WeightedFit | None) -> bool:
     return count >= ROWS_EACH * len(fit.rows.names)
 
 
-def trembling(fit: WeightedFit | None) -> tuple[float, int]:
-    """How much more the model's torque trembles than the measured one; joint where most.
+def trembling(fit: WeightedFit | None, beta: np.ndarray | None) -> tuple[float, int]:
+    """How much more the torque of beta (c,) trembles than the measured one; joint where most.
 
     Root mean square of the second differences from row to row, over that of the torque itself, of
     the model's over that of the measured: a gain of the channel leaves it as it is.
     """
-    if fit is None:
+    if fit is None or beta is None:
         return 0.0, 0
-    rows, (beta, _) = fit.rows, fit.solution
+    rows = fit.rows
     near = np.diff(rows.segment) == 0
     near, most = near[1:] & near[:-1], (0.0, 0)
     for j in fit.driven:
@@ -366,7 +368,7 @@ def meeting_cutoff(
     power = 2 * noise.order
     if power == 0:
         return highest, None
-    at, own = float(np.clip(0.5 * noise.cutoff, least, highest)), min(noise.cutoff, position)
+    at, own = least, min(noise.cutoff, position)
     found: list[tuple[float, int]] = []
     for _ in range(ROUNDS):
         fit = look.fit(max(own, 2.0 * at), at)
