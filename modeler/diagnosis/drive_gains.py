@@ -29,7 +29,7 @@ _LEAST = 1e-6  # of a joint's torque: it leaves no less
 _CLOSE = 1e-3  # what is moved less than this at the end is used still
 _STEP = 0.5  # largest change of a g at once, as a share of it
 _FARTHEST = 1e3  # a g is sought from there on
-_GRID = tuple(np.geomspace(1e-3, 1e3, 19))
+_GRID = tuple(np.geomspace(1e-3, 1e3, 37))
 _RIDGE = 1e-10
 _SAME = 0.01  # weights that change by less are settled
 _SCALES = frozenset({"torque"})
@@ -178,7 +178,8 @@ class _GainProblem:
         for column, j in self.had.items():
             beta[column] = 1.0 - g[j]
         left = self._left(g, values)
-        return _Solution(beta, g, left, self._score(left))
+        wrong = np.log(np.maximum(np.abs(g), 1.0 / _FARTHEST))  # of equals, those that are least so
+        return _Solution(beta, g, left, self._score(left) + float(wrong @ wrong))
 
     def _score(self, left: np.ndarray) -> float:
         """Minus twice the log likelihood of what is left, each joint with its own sigma."""

@@ -132,7 +132,7 @@ def doubt(
     unit = bool(objection) and is_gain(pick)  # it bends what every look weighs the joints by
     for look in () if unit else looks:
         if not look.agrees and look.leads is not None:
-            reasons.append(f"{look.leads[0]} explains its joint better {look.what}")
+            reasons.append(f"{look.leads[0]} explains its joint better ({look.what})")
         if look.gain < look.least and not is_gain(pick):
             reasons.append(f"it explains nothing {look.what}")
     return "; ".join(reasons)
@@ -207,11 +207,6 @@ class Finding(Brief):
     event: bool = False
     doubt: str = ""
     first: bool = True
-
-    @property
-    def stands(self) -> bool:
-        """True if no other look surely names another effect in its place."""
-        return all(look.agrees for look in self.looks)
 
     @property
     def stated(self) -> bool:

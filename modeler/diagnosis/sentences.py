@@ -128,7 +128,7 @@ def _headline(diagnosis: Diagnosis) -> str:
         return f"missing: {_named(first, diagnosis)}{tied(first)}"
     if diagnosis.verdict == "closest description" and first is not None:
         perhaps = "perhaps " if first.doubt else ""
-        reason = first.doubt or first.objection or other_names(first) or _PART
+        reason = first.doubt or first.objection or _PART
         return (
             f"closest description: {perhaps}{_named(first, diagnosis)}{tied(first)}; {reason}, so "
             "the cause may be outside the catalogue"
@@ -158,19 +158,6 @@ def tie_names(finding: Finding) -> str:
 def tied(finding: Finding) -> str:
     """Behind its name: what it may be as well."""
     return f", or {tie_names(finding)} (these data do not tell which)" if finding.ties else ""
-
-
-def other_names(finding: Finding) -> str:
-    """Which other looks name something else."""
-    others = [
-        f"{look.leads[0]} on {where(look.leads[1])} ({look.what})"
-        for look in finding.looks
-        if not look.agrees and look.leads is not None
-    ]
-    if not others:
-        return ""
-    count = f"{len(finding.looks) - len(others)} of {len(finding.looks)}"
-    return f"it leads in {count} other looks only, not before {', '.join(others)}"
 
 
 def _refinement(finding: Finding, diagnosis: Diagnosis) -> str:
