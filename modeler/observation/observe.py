@@ -303,13 +303,24 @@ class WeightedFit(Brief):
             }
         return beta, sigma
 
-    def propagated(self, noise: MotionNoise) -> dict[int, float]:
-        """Torque of the noise of the motion at 1 Hz, as density, (N m)^2/Hz, by driven joint."""
+    @cached_property
+    def _inertias(self) -> tuple[np.ndarray, np.ndarray]:
+        """(k, n, n) matrices at some of the rows, and (k, n) accelerations there."""
         beta, _ = self.solution
         q = np.concatenate([part.segment.q[part.rows.centres] for part in self.rows.stretches])
-        M = self.model.inertia_matrix(q[:: max(1, len(q) // _POSTURES)], beta)
-        squares = np.mean(M**2, axis=0) @ [j.acceleration_density(1.0) for j in noise.joints]
+        every = max(1, len(q) // _POSTURES)
+        return self.model.inertia_matrix(q[::every], beta), self.rows.qdd[::every]
+
+    def propagated(self, noise: MotionNoise) -> dict[int, float]:
+        """Torque of the noise of the motion at 1 Hz, as density, (N m)^2/Hz, by driven joint."""
+        densities = [joint.acceleration_density(1.0) for joint in noise.joints]
+        squares = np.mean(self._inertias[0] ** 2, axis=0) @ densities
         return {j: float(squares[j]) for j in self.driven}
+
+    def inertial(self) -> dict[int, float]:
+        """Mean square of the torque of inertia, (N m)^2, by driven joint."""
+        torque = np.einsum("kij,kj->ki", *self._inertias)
+        return {j: float(np.mean(torque[:, j] ** 2)) for j in self.driven}
 
 
 def determined(fit: WeightedFit | None) -> bool:
@@ -358,6 +369,11 @@ def meeting_cutoff(
 ) -> tuple[float, int | None]:
     """Hz where the noise of the motion, as torque, meets that of the drives; the joint it does on.
 
+    And no more than where a drive that answers the same noise could bend the inertias by one
+    standard deviation: there the share P_n / P_s of it in the torque of inertia is 1 / n, n rows.
+    (Of noise in W of power P_n, and noise of variance V in y that is wholly correlated with it, the
+    relative bias is sqrt(P_n V) / P_s, and the relative standard deviation sqrt(V / n P_s).)
+
     Args:
         look: at the logs.
         noise: of the motion.
@@ -378,12 +394,18 @@ def meeting_cutoff(
         spread = at / (2.0 * np.pi * SPREAD)
         # mean of f^power over the squared gain exp(-f^2 / spread^2) of the filter
         inside = spread**power * (0.75 if power == 4 else 0.5)
+        densities = fit.propagated(noise)
         found = []
-        for j, density in fit.propagated(noise).items():
+        for j, density in densities.items():
             T = sigma[j] ** 2 / (_BANDWIDTH * at)
             T = max(T - density * inside, _LEAST_SHARE * T)
             found.append(((T / max(density, 1e-300)) ** (1.0 / power), j))
-        new = float(np.clip(min(found)[0], least, highest)) if found else highest
+        shares = {j: A * inside * _BANDWIDTH * at / sigma[j] ** 2 for j, A in densities.items()}
+        inertial = sum(own / sigma[j] ** 2 for j, own in fit.inertial().items())
+        rows = len(fit.rows.time) * sum(shares.values())
+        answered = at * (inertial / max(rows, 1e-300)) ** (1.0 / (power + 2))
+        found.append((answered, max(shares, key=lambda j: shares[j], default=0)))
+        new = float(np.clip(min(found)[0], least, highest))
         if abs(new - at) < _SAME * at:
             break
         at = new
