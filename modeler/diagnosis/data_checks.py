@@ -15,6 +15,7 @@ from modeler.diagnosis.plausible import friction_share
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import SearchData, State, state_of, trembling
 from modeler.diagnosis.timing import CONVENTION
+from modeler.effects import Acts, Effect
 from modeler.estimation import IdentifiedModel
 from modeler.observation import TREMBLES, Fault, faults, suspects
 
@@ -23,11 +24,6 @@ SHORT = 5.0
 
 SMOOTH = 0.035
 """Friction over torque, rms, median over the joints: the least of a machine seen is 0.11."""
-
-COMPUTED = frozenset(
-    {"time_delay", "encoder_offset", "offset", "base_tilt", "payload", "link_inertia"}
-)
-"""What a torque that was computed may lack."""
 
 _STILL = {"rad": 1e-3, "m": 1e-4}  # stroke below which a joint does not move
 _ONE_WAY = 0.98  # of the moving rows
@@ -115,25 +111,32 @@ def _slow(state: State, joints: Mapping[int, JointSpec]) -> list[str]:
 
 
 def _computed(state: State) -> list[str]:
-    if {effect.id for effect in state.data.known.catalogue} - COMPUTED:
+    catalogue = state.data.known.catalogue
+    if not all(map(_of_the_computer, catalogue)):
         return []
     return [
         "no joint rubs: friction is less than "
         f"{percent(SMOOTH)} of the torque, which it is on no robot with gears: these torques were "
         "computed from the motion, and not measured; only "
-        f"{', '.join(sorted(COMPUTED))} are looked for"
+        f"{', '.join(effect.id for effect in catalogue)} are looked for"
     ]
+
+
+def _of_the_computer(effect: Effect) -> bool:
+    """True for what the model that torques were computed by may have otherwise."""
+    whole = effect.acts in (Acts.TORQUE, Acts.GRAVITY, Acts.LINK) or effect.whole_axis
+    return whole or effect.id == "offset"
 
 
 def without_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None:
     """What may be missing where torques were computed, and not measured; None where they rub.
 
     No robot with gears is without friction: a torque that is was computed from the motion by some
-    model, and differs from this one by what `COMPUTED` names.
+    model, and differs from this one by delays, offsets, a tilt, a load.
     """
     if friction_share(state_of(data, (), beta)) > SMOOTH:
         return None
-    kept = tuple(effect for effect in data.known.catalogue if effect.id in COMPUTED)
+    kept = tuple(effect for effect in data.known.catalogue if _of_the_computer(effect))
     return dataclasses.replace(data.known, catalogue=kept)
 
 

@@ -142,7 +142,7 @@ def test_what_is_added_is_stored_and_told_with_it(arm, tmp_path):
     step = better.history[-1]
     assert list(step.shape_intervals["d"]) == [1.0, 2.0]
     told = added(better)
-    assert told[0].startswith("Fst2 = ") and " to " in told[0]
+    assert told[0].startswith("Fst2 = ") and (" to " in told[0] or "+-" in told[0])
     assert "d = " in told[-1] and "(1 to 2)" in told[-1]
     save_model(tmp_path / "m.json", better)
     again = load_model(tmp_path / "m.json")
