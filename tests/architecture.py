@@ -22,7 +22,7 @@ STAGES: dict[str, set[str]] = {
     "core": set(),
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
-    "logs": {"core"},
+    "logs": {"core", "numerics"},
     "diagnosis": {"core", "effects", *SOUTH[: SOUTH.index("diagnosis")]},
     "fleet": {"core", "effects", *SOUTH[: SOUTH.index("fleet")]},
     "excitation": {"core", "effects", "numerics", "runtime", "observation", "diagnosis"},
@@ -78,8 +78,8 @@ ONLY_IN = {
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
-MOST_MODULES = 311  # observation/observe.py: cut-offs by what the torques answer to
-MOST_CODE_LINES = 51_900  # the noise of the motion
+MOST_MODULES = 312  # observe.py: what torques answer to; held.py: values that stand still
+MOST_CODE_LINES = 52_300  # the noise of the motion; faults of logs
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.

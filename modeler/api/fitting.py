@@ -15,7 +15,7 @@ from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
 from modeler.core.manifest import Emitted
 from modeler.numerics.least_squares import Compressed
-from modeler.observation import Log, Observation, Processing, check_apart, findings_of_fit, observe
+from modeler.observation import Log, Observation, Processing, check_apart, observe
 from modeler.robot import Robot, joint_directions, near, robot_from_text, with_drive_gains
 from modeler.runtime import CompiledModel
 
@@ -113,7 +113,7 @@ def judged(
         way: how.
         data: all rows that were fitted, where the observation has a part of them only.
     """
-    told = [*way.told, *findings_of_fit(compiled, observation, way.result.beta)]
+    told = [*way.told, *estimation.findings_of_fit(compiled, observation)]
     return estimation.with_verdict(
         compiled, observation, way.result, told, way.equations, way.refit, data
     )

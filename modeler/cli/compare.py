@@ -12,8 +12,13 @@ from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, 
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
-from modeler.estimation import IdentifiedModel, load_model, with_essential_only
-from modeler.observation import Fault, Observation, check_apart, findings_of_prediction
+from modeler.estimation import (
+    IdentifiedModel,
+    findings_of_prediction,
+    load_model,
+    with_essential_only,
+)
+from modeler.observation import Fault, Observation, check_apart
 from modeler.report import Origin, after_compare, comparison as pages
 from modeler.runtime import CompiledModel
 

@@ -15,9 +15,9 @@ from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.lists import read_robot_with_notes
 from modeler.core.errors import ModelerError
 from modeler.core.table import aligned, percent
-from modeler.estimation import FitResult, identify, stream
+from modeler.estimation import FitResult, findings_of_fit, identify, stream
 from modeler.logs import LogInspection, LogMap, map_from_table, map_from_words
-from modeler.observation import Observation, WholeLogNeeded, findings_of_fit, source_of
+from modeler.observation import Observation, WholeLogNeeded, source_of
 from modeler.report import channel_rows, clock_line, log_page, log_pictures, write_files, write_page
 from modeler.runtime import CompiledModel
 
@@ -42,7 +42,7 @@ def run_log(args: argparse.Namespace) -> Json:
         if stands:  # it fits as it is: a range alone is no doubt
             doubts = [line for line in doubts if line not in seen.ranged]
             seen = dataclasses.replace(seen, suggested=seen.plain)
-        doubts += [line for line in heard if line not in doubts]
+        doubts += [line for line in heard if not line.endswith(tuple(doubts))]
     say_lines(_lines(seen, doubts))
     places = []
     if args.page is not None:
@@ -113,12 +113,12 @@ def _heard(compiled: CompiledModel, place: str, mapping: LogMap, seen: LogInspec
     try:
         with working("fitting"):
             observation, result = _fitted(compiled, place, mapping)
-            found = findings_of_fit(compiled, observation, result.beta)
+            found = findings_of_fit(compiled, observation)
     except ModelerError as error:
         line = f"as a log of {compiled.spec.robot} it cannot be fitted: {error}"
         return Heard(float("inf"), (line,))
     verdict = result.verdict
-    lines = [*observation.report.logs[0].notes, *(fault.line for fault in found)]
+    lines = [*observation.report.logs[0].notes, *(f.line for f in found if not f.unseen)]
     if verdict is not None and not verdict.usable:
         lines += [*verdict.doubts, f"a fit of {observation.robot} is {verdict.line}"]
     elif result.relative_error > _POOR:

@@ -284,12 +284,14 @@ class Verdict(Brief):
             motion), "like motion" (torques of motion like that of its logs), "nothing".
         line: for people: usable or not, why, what to do.
         doubts: all that speaks against it.
+        unseen: faults that logs may have and these would not show, in words.
     """
 
     usable: bool
     usable_for: str
     line: str
     doubts: tuple[str, ...]
+    unseen: tuple[str, ...] = ()
 
     def warning(self) -> list[str]:
         """A line for whoever uses a model that is not usable; none for one that is."""
@@ -397,7 +399,8 @@ class FitResult(Presented):
         lines += self.energy.lines() if self.energy is not None else []
         if self.verdict is not None:
             others = (line for line in self.verdict.doubts if line not in self.verdict.line)
-            lines += [*(f"doubt: {line}" for line in others), self.verdict.line]
+            lines += [*(f"doubt: {line}" for line in others), *self.verdict.unseen]
+            lines.append(self.verdict.line)
         return lines
 
     def to_json(self) -> dict[str, Any]:
@@ -423,6 +426,7 @@ class FitResult(Presented):
             "usable_for": None if verdict is None else verdict.usable_for,
             "verdict": None if verdict is None else verdict.line,
             "doubts": [] if verdict is None else verdict.doubts,
+            **({"unseen": verdict.unseen} if verdict is not None and verdict.unseen else {}),
             **({"reading": dict(self.reading)} if self.reading else {}),
         })  # fmt: skip
 
@@ -487,7 +491,8 @@ def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
         return None
     if not (isinstance(usable, bool) and isinstance(line, str) and isinstance(doubts, list)):
         raise ValueError("its verdict is not as saved")
-    return Verdict(usable, str(raw["usable_for"]), line, tuple(map(str, doubts)))
+    unseen = tuple(map(str, raw.get("unseen", ())))
+    return Verdict(usable, str(raw["usable_for"]), line, tuple(map(str, doubts)), unseen)
 
 
 def bodies_text(standard: Mapping[str, float]) -> list[str]:

@@ -25,7 +25,7 @@ from modeler.estimation.least_squares import solve_by_qr
 from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
 from modeler.estimation.result import FitResult, JointFit, Verdict, friction_by_direction
 from modeler.numerics.least_squares import Compressed, independent_columns, triangle
-from modeler.observation import Observation
+from modeler.observation import Fault, Observation
 from modeler.runtime import CompiledModel
 
 # Is the time of the logs in seconds? The clock that a robot carries with it is gravity.
@@ -36,6 +36,9 @@ SLOW = 0.2
 
 ABSURD = 100.0
 """Length of the pendulum that a joint and its links swing like, over the reach of the robot."""
+
+HEAVY = 3000.0
+"""kg/m^3: mass of the links over the cube of the robot's reach; that of robots is 5 to 500."""
 
 LOADED = 0.1
 """Gravity over torque of a joint, from which on it swings."""
@@ -67,7 +70,14 @@ def time_doubts(model: CompiledModel, observation: Observation, result: FitResul
             )
             line = f"{log.name}: median time step {step:.3g} s, {what}: {_unit(step)}"
             found.append(Doubt(line, certain=step > SLOW, values=step <= SLOW))
-    ratio = _pendulum(model, observation, result)
+    ratio, density = _pendulum(model, observation, result)
+    if density > HEAVY:
+        line = (
+            f"the links would weigh {density:.2g} kg for every cubic metre within the robot's "
+            "reach: the torques look like mN m, or the lengths of the table are not in metres; "
+            "give N m and metres"
+        )
+        found.append(Doubt(line, certain=True))
     if not found and ratio > ABSURD:
         found.append(
             Doubt(
@@ -92,15 +102,20 @@ def _unit(step: float) -> str:
     return "is the column time in seconds, or a count of rows? give seconds"
 
 
-def _pendulum(model: CompiledModel, observation: Observation, result: FitResult) -> float:
-    """Least J g / m over the reach, over the joints that turn and that gravity loads; 0 if none."""
+def _pendulum(
+    model: CompiledModel, observation: Observation, result: FitResult
+) -> tuple[float, float]:
+    """Least J g / m over the reach, over the joints that turn and that gravity loads; 0 if none.
+
+    And the mass that makes the largest inertia, over the cube of the reach, kg/m^3.
+    """
     q = observation.q[:: max(1, len(observation.q) // _POSES)]
     if model.spec.closure is not None:
         q = np.array([pose for pose in q if _closes(model, pose)]).reshape(-1, q.shape[1])
     kinds = np.array([base.kind for base in model.spec.base])
     links = np.where(kinds == "inertial", result.beta, 0.0)
     if not len(q):
-        return 0.0
+        return 0.0, 0.0
     origins = model.forward_kinematics(q)[..., 3]
     reach = float(np.linalg.norm(origins[:, :, None] - origins[:, None], axis=-1).max())  # m
     weight = np.abs(model.gravity(q, links)).max(axis=0)
@@ -110,9 +125,15 @@ def _pendulum(model: CompiledModel, observation: Observation, result: FitResult)
     torque = np.sqrt(np.mean(observation.torque**2, axis=0))
     turns = np.array([joint.unit == "rad" and joint.actuated for joint in model.spec.joints])
     loaded = turns & (weight > LOADED * torque) & (weight > 0.0)
-    if reach == 0.0 or not loaded.any():
-        return 0.0
-    return float(np.min(inertia[loaded] * _GRAVITY / weight[loaded]) / reach)
+    if reach == 0.0:
+        return 0.0, 0.0
+    turning = np.array([joint.unit == "rad" for joint in model.spec.joints])
+    mass = np.maximum(inertia / np.where(turning, reach**2, 1.0), 0.0)
+    mass = np.maximum(mass, weight / np.where(turning, reach, 1.0) / _GRAVITY)
+    density = float(mass.max() / reach**3)
+    if not loaded.any():
+        return 0.0, density
+    return float(np.min(inertia[loaded] * _GRAVITY / weight[loaded]) / reach), density
 
 
 def _closes(model: CompiledModel, pose: np.ndarray) -> bool:
@@ -159,7 +180,8 @@ def with_verdict(
     rows = alive_rows(observation)
     part, data = data is not None, data or equations.compressed(rows)
     seen = crossed(equations, rows, np.array([joint.sigma for joint in result.joints]), refit)
-    found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
+    unseen = tuple(i.line for i in told if isinstance(i, Fault) and i.unseen)
+    found = _doubts_of(told)
     found += time_doubts(model, observation, result)
     found = _with_poor(found, [*doubts.scarce(result, seen), *doubts.undescribed(result)])
     if part:
@@ -169,7 +191,16 @@ def with_verdict(
     found += [*_impossible(model.spec, result, data), *doubts.negative(model.spec, result)]
     verdict = _verdict(found, _predicts(equations, rows, result, seen))
     directions = friction_by_direction(model.spec, result)
+    verdict = dataclasses.replace(verdict, unseen=unseen)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
+
+
+def _doubts_of(told: Sequence[LogFinding]) -> list[Doubt]:
+    """What is told of logs, as doubts."""
+    return [
+        i if isinstance(i, Doubt) else Doubt(i.line, i.certain, explains=i.certain)
+        for i in told if isinstance(i, Doubt) or not i.unseen
+    ]  # fmt: skip
 
 
 def _predicts(
@@ -222,9 +253,8 @@ def contradictions(
         data: all rows that were fitted; None: those of the observation.
     """
     data = data or all_rows(observation)
-    found = [i if isinstance(i, Doubt) else Doubt(i.line, i.certain) for i in told]
     found = _with_poor(
-        [*found, *time_doubts(model, observation, result)], doubts.undescribed(result)
+        [*_doubts_of(told), *time_doubts(model, observation, result)], doubts.undescribed(result)
     )
     found += _impossible(model.spec, result, data)
     return list(dict.fromkeys(doubt.line for doubt in found if doubt.certain))

@@ -11,6 +11,7 @@ from modeler.core.manifest import Emitted
 from modeler.estimation import (
     contradictions,
     dead_joints,
+    faults_of_fit,
     identify,
     least_squares,
     remembered,
@@ -19,15 +20,7 @@ from modeler.estimation import (
 from modeler.fleet.naming import Named
 from modeler.logs import LogMap
 from modeler.numerics.least_squares import Compressed, compress
-from modeler.observation import (
-    Log,
-    Observation,
-    Processing,
-    faults_of_fit,
-    observe,
-    read_log,
-    window,
-)
+from modeler.observation import Log, Observation, Processing, observe, read_log, window
 from modeler.runtime import CompiledModel, compiled_once
 
 TEMPERATURE = "temperature"
@@ -124,7 +117,7 @@ def summary(
     free = [j for j, each in enumerate(observation.joints) if not each.actuated]
     data = compress(W, y, joint, len(observation.joints), observation.names, free)
     result = identify(observation, "weighted", model)
-    faults = faults_of_fit(model, observation, result.beta)
+    faults = faults_of_fit(model, observation)
     against = contradictions(model, observation, result, faults, data)
     if against:  # certainly not usable: its deviations would say anything
         raise DataError(f"{named.place}: does not fit {model.spec.robot}: {against[0]}")

@@ -13,3 +13,8 @@ from .mapping import (
     map_from_table as map_from_table,
     map_from_words as map_from_words,
 )
+from .rates import (
+    clock_line as clock_line,
+    common_factor as common_factor,
+    repeats_line as repeats_line,
+)

@@ -16,7 +16,8 @@ from modeler.logs.columns import Stream
 from modeler.logs.guess import Guess, absent_roles, guesses, log_text, speeds_by_position, unlike_si
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap, unit_named
-from modeler.logs.rates import moves, on_grid, rate_doubts
+from modeler.logs.rates import moves, on_grid, rate_doubts, repeats_line
+from modeler.numerics.held import repeated_rows
 
 _GAP = 1.5  # of the median step
 _HELD = 3  # rows in a row at the extreme value that make it a limit
@@ -195,6 +196,7 @@ def inspect_log(
     doubts = [*_of_clock(clock), *absent_roles(found), *unlike_si(found)]
     rest = {speed for position, speed in pairs if not moves(values[position])}
     doubts += rate_doubts(pairs, values, time)
+    doubts += _repeats(found, values, rows, clock)
     doubts += [
         f"{channel.name} never changes: is it connected?"
         for channel, name in zip(channels, shown, strict=True)
@@ -208,6 +210,21 @@ def inspect_log(
         table.path.name, rows, clock, tuple(channels), table.found.streams, notes, tuple(doubts),
         suggested, plain, ranged, *drawn,
     )  # fmt: skip
+
+
+def _repeats(
+    found: Sequence[Guess], values: Mapping[str, np.ndarray], rows: int, clock: Clock | None
+) -> list[str]:
+    """Rows that a recorder wrote again; by the rows of the windows of a long log."""
+    q, others = (
+        [values[name] for one in found if one.own in own for name in one.columns]
+        for own in (("q",), ("tau", "current", "qd", "qdd"))
+    )
+    if clock is None or not q or not others:
+        return []
+    again = repeated_rows(np.column_stack(q), np.column_stack(others))
+    count = round(float(again.mean()) * rows)
+    return [repeats_line(count, rows, clock.rate)] if count else []
 
 
 def _within(

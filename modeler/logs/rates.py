@@ -6,6 +6,8 @@ from itertools import permutations
 
 import numpy as np
 
+from modeler.core.table import percent
+
 RATES: Mapping[str, float] = {
     "rad/s": 1.0, "deg/s": np.pi / 180.0, "rpm": np.pi / 30.0, "rev/s": 2.0 * np.pi,
 }  # fmt: skip
@@ -92,12 +94,64 @@ def rate_doubts(
     """Speeds that are not the derivative of their position, of the joints that move."""
     names = [(q, qd) for q, qd in names if moves(values[q])]
     slopes = {q: slope_of(values[q], time) for q, _ in names}
-    lines = []
-    for pair in pairs_of(names, values, time):
+    lines, found = list[str](), pairs_of(names, values, time)
+    factor = common_factor([pair.ratio for pair in found])
+    steps = np.diff(time[np.isfinite(time)])
+    if factor is not None and len(found) > 1 and steps.size:
+        return [clock_line(factor, 1.0 / float(np.median(steps)))]
+    for pair in found:
         speed = values[pair.speed]
         line = _ratio_doubt(pair) if np.isfinite(pair.ratio) else _unlike(pair, slopes, speed)
         lines += [line] if line else []
     return lines
+
+
+def common_factor(ratios: Sequence[float]) -> float | None:
+    """By what all speeds are off the derivatives of their positions; None if by 1, or not alike.
+
+    Args:
+        ratios: of speeds to derivatives, of the joints that move.
+    """
+    known = np.array([ratio for ratio in ratios if np.isfinite(ratio)])
+    if not known.size or known.size < len(ratios) or not (known > 0.0).all():
+        return None
+    factor = float(np.median(known))
+    alike = np.all(np.abs(known / factor - 1.0) < _NEAR) and abs(factor - 1.0) > 2.0 * _NEAR
+    return factor if alike else None
+
+
+def clock_line(factor: float, rate: float) -> str:
+    """What one factor on all joints means.
+
+    Args:
+        factor: of the speeds to the derivatives.
+        rate: of the rows, Hz.
+    """
+    units, unit = units_of(factor), ""
+    if units is not None and any(units):
+        unit = f", or positions are in {units[0]} and speeds in {units[1]}"
+    return (
+        f"the logged speeds of all joints are {factor:.3g} times the derivatives of their "
+        "positions: the clock seems to be wrong by that factor, and the rows to come at "
+        f"{rate * factor:.4g} Hz, not at {rate:.4g}{unit}; check the time column, then the units "
+        "of the speeds"
+    )
+
+
+def repeats_line(repeated: int, rows: int, rate: float) -> str:
+    """What rows that repeat the one before them in all channels mean.
+
+    Args:
+        repeated: rows.
+        rows: in all.
+        rate: of them, Hz.
+    """
+    return (
+        f"all channels: {repeated} rows ({percent(repeated / rows)}) repeat the row before them: "
+        "the recorder is faster than the robot, which gave about "
+        f"{rate * (1.0 - repeated / rows):.3g} rows a second; repeats are left out; record at the "
+        "rate of the robot"
+    )
 
 
 def _unlike(pair: Pair, slopes: Mapping[str, np.ndarray], speed: np.ndarray) -> str:

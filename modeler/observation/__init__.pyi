@@ -1,15 +1,17 @@
-from .channels import Fault as Fault, faults as faults, suspects as suspects
+from .channels import (
+    Fault as Fault,
+    ThinnedRows as ThinnedRows,
+    Turn as Turn,
+    thinned as thinned,
+    turns as turns,
+    zeros as zeros,
+)
 from .chunk import (
     Chunk as Chunk,
     chunks as chunks,
     chunks_between as chunks_between,
     read_part as read_part,
     window as window,
-)
-from .findings import (
-    faults_of_fit as faults_of_fit,
-    findings_of_fit as findings_of_fit,
-    findings_of_prediction as findings_of_prediction,
 )
 from .log import (
     FINGER as FINGER,

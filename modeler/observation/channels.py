@@ -1,175 +1,182 @@
-"""Channels that contradict the model: signs, units, exchanges, before any physics is blamed."""
+"""Rows of logs as they would be with other channels: turned, in other units, at other times."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import block_diag, csr_array, diags_array
 
-from modeler.observation.observation import Observation, model_torque
+from modeler.numerics.filters import only
+from modeler.observation.low_speed import signals_of
+from modeler.observation.motion import Segment
+from modeler.observation.observation import Observation
+from modeler.observation.prepare import nearest_closed
+from modeler.observation.reduce import columns_at
 from modeler.runtime import CompiledModel
 
-WRONG = 0.5
-"""Relative error of a joint from which on its channels are suspected."""
+MOST = 1200
+"""Rows: enough for any fit, and quick with every change that is tried."""
 
-ALIKE = 0.9
-"""Correlation with the prediction of another joint from which on two channels look exchanged."""
-
-SCALE = 5.0
-"""A torque that is off by this factor is a matter of units, not of a drive gain or a load."""
-
-_ROWS = 20  # least
+_CELLS = 8000  # joints times rows, at most: many joints make many pairs to exchange
+_TAPS = 16  # samples of each row, of the many over which the parallel filter takes its mean
 
 
 @dataclass(frozen=True)
 class Fault:
-    """A doubt about a channel.
+    """A doubt about a log.
 
     Attributes:
         line: where, what, and what to do.
         certain: True if no physics can look like it: then nothing can be said of physics.
         joint: index of the joint whose torque has another scale; -1 for other doubts.
+        unseen: True if it is no doubt, but tells which faults these logs would not show.
     """
 
     line: str
     certain: bool
     joint: int = -1
+    unseen: bool = False
 
 
-def faults(
-    compiled: CompiledModel,
-    observation: Observation,
-    beta: np.ndarray,
-    gains: np.ndarray | None = None,
-) -> tuple[Fault, ...]:
-    """Channels with a wrong sign or unit, or in the place of another, by the model's prediction.
+@dataclass(frozen=True, eq=False)
+class ThinnedRows:
+    """Some rows of an observation, and some of the samples that those reach, of all stretches.
 
-    Only joints whose torque the model misses by more than half are suspected. A torque is tried
-    with another scale, and as that of another joint; then positions are tried in other units,
-    reversed and exchanged, and believed if that alone halves the error of the robot.
-
-    Args:
-        compiled: the robot.
-        observation: of the logs.
-        beta: (c,) base parameters of the model as it was fitted.
-        gains: (J,) what the torques of the model are multiplied by, if drive gains are wrong.
+    Attributes:
+        W: (m, n, c).
+        tau: (m, n).
+        used: (m, n) that count.
+        means: by joint, (m, samples) weights of the samples in each row; they sum to one.
+        samples: by stretch, its segment and places in it.
+        read: (samples, k) other inputs of the model; None without any.
     """
-    predicted = model_torque(observation, compiled, beta)
-    if gains is not None:
-        predicted = predicted * gains
-    errors = _errors(observation, predicted)
-    wrong = [j for j, error in enumerate(errors) if error > WRONG]
-    if not wrong:
-        return ()
-    found = {j: _torque(observation, predicted, j) for j in wrong}
-    if any(fault is None for fault in found.values()):
-        motion = _motion(compiled, observation, beta, errors)
-        if motion is not None:
-            return (motion,)
-    return tuple(fault for fault in found.values() if fault is not None)
+
+    W: np.ndarray
+    tau: np.ndarray
+    used: np.ndarray
+    means: tuple[csr_array, ...]
+    samples: tuple[tuple[Segment, np.ndarray], ...]
+    read: np.ndarray | None
+
+    def turned(self, compiled: CompiledModel, turn: "Turn") -> np.ndarray:
+        """(m, n, c) columns of the motion with other positions."""
+        every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
+        q, qd, qdd = np.concatenate(every, axis=1) @ turn.motion
+        return self._columns(compiled, q + turn.offset, qd, qdd)
+
+    def timed(self, compiled: CompiledModel, factor: float) -> np.ndarray:
+        """(m, n, c) columns of the motion by a clock that is slower by a factor."""
+        every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
+        q, qd, qdd = np.concatenate(every, axis=1)
+        return self._columns(compiled, q, factor * qd, factor**2 * qdd)
+
+    def shifted(self, compiled: CompiledModel, shift: np.ndarray) -> np.ndarray:
+        """(m, n, c) columns of the motion of each joint, shift (n,) s later."""
+        found = []
+        for s, k in self.samples:
+            place = (s.time[k, None] + shift - s.time[0]) / s.step
+            below = np.clip(place.astype(int), 0, s.samples - 2)
+            above = np.clip(place - below, 0.0, 1.0)
+            joint = np.arange(len(shift))
+            found.append(np.stack([
+                x[below, joint] * (1.0 - above) + x[below + 1, joint] * above
+                for x in (s.q, s.qd, s.qdd)
+            ]))  # fmt: skip
+        return self._columns(compiled, *np.concatenate(found, axis=1))
+
+    def _columns(
+        self, compiled: CompiledModel, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray
+    ) -> np.ndarray:
+        """(m, n, c) filtered columns of a motion of the samples."""
+        nearest = nearest_closed(compiled, q)  # a motion that was changed may leave what closes
+        if nearest is not None:
+            q = np.ascontiguousarray(q[nearest])
+        values = compiled.base_regressor(q, qd, qdd, self.read)
+        return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
 
 
-def suspects(compiled: CompiledModel, observation: Observation, beta: np.ndarray) -> list[int]:
-    """Indices of the joints whose torque the model misses by more than half."""
-    errors = _errors(observation, model_torque(observation, compiled, beta))
-    return [j for j, error in enumerate(errors) if error > WRONG]
-
-
-def _errors(
-    observation: Observation, predicted: np.ndarray, order: np.ndarray | None = None
-) -> np.ndarray:
-    """(J,) relative error of every joint; 0 where there is nothing to compare.
-
-    Args:
-        observation: of the logs.
-        predicted: (s, J).
-        order: (J,) column in which the torque of each joint is; each in its own if not given.
-    """
-    errors = np.zeros(len(observation.joints))
-    for j, measured in enumerate(range(len(errors)) if order is None else order):
-        used = observation.used[:, measured]
-        y = observation.torque[used, measured]
-        size = float(np.linalg.norm(y))
-        if y.size >= _ROWS and size > 0.0:
-            errors[j] = float(np.linalg.norm(y - predicted[used, j])) / size
-    return errors
-
-
-def _torque(observation: Observation, predicted: np.ndarray, j: int) -> Fault | None:
-    """What another scale, or the prediction of another joint, explains."""
-    names = [joint.name for joint in observation.joints]
-    used = observation.used[:, j]
-    y, p = observation.torque[used, j], predicted[used, j]
-    gain = float(p @ y) / max(float(p @ p), 1e-300)
-    if np.linalg.norm(y - gain * p) < WRONG * np.linalg.norm(y):
-        sign = "has the other sign of" if gain < 0.0 else f"is {gain:.3g} times"
-        return Fault(
-            f"joint {names[j]}: the measured torque {sign} the predicted one; check sign, unit "
-            "and drive gain of that channel",
-            not 1.0 / SCALE < gain < SCALE,
-            j,
-        )
-    for k in range(len(names)):
-        other = predicted[used, k]
-        if k == j or other.std() == 0.0 or y.std() == 0.0:
+def thinned(compiled: CompiledModel, observation: Observation, most: int = MOST) -> ThinnedRows:
+    """At most so many of the rows of the observation, evenly; fewer of many joints."""
+    most = max(1, min(most, _CELLS // len(observation.joints)))
+    every = max(1, -(-len(observation.time) // most))
+    means: list[list[csr_array]] = [[] for _ in observation.joints]
+    samples, read, chosen, at = [], [], [], 0
+    for part in observation.stretches:
+        rows = np.arange(-at % every, len(part.used), every)
+        chosen.append(at + rows)
+        at += len(part.used)
+        if not rows.size:
             continue
-        if abs(float(np.corrcoef(y, other)[0, 1])) > ALIKE:
-            return Fault(
-                f"joint {names[j]}: its measured torque looks like that of joint {names[k]}; are "
-                "the channels exchanged?",
-                True,
-            )
-    return None
-
-
-def _motion(
-    compiled: CompiledModel, observation: Observation, beta: np.ndarray, errors: np.ndarray
-) -> Fault | None:
-    """What positions in other units, reversed or exchanged explain."""
-    if compiled.spec.closure is not None:
-        return None  # positions that do not close the loops have no torque
-    best, size = None, 0.5 * float(np.linalg.norm(errors))
-    for turn in turns(observation):
-        predicted = model_torque(observation, compiled, beta, turn.motion)
-        left = _errors(observation, predicted, turn.torque)
-        if float(np.linalg.norm(left)) < size and left.max() < WRONG:
-            best, size = Fault(turn.line, True), float(np.linalg.norm(left))
-    return best
+        weights = part.rows.weights[rows]
+        width = max(1, int(np.max(np.diff(weights.indptr))))
+        reached = np.unique(weights.indices)
+        reached = reached[reached % max(1, width // _TAPS) == 0]
+        weights = weights[:, reached]
+        for own, usable in zip(means, part.usable[reached].T, strict=True):
+            masked = only(weights, usable)
+            total = masked.sum(axis=1)
+            own.append(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ masked)
+        samples.append((part.segment, reached))
+        signals = signals_of(compiled.spec, part.segment)
+        read += [] if signals is None else [signals[reached]]
+    place = np.concatenate(chosen)
+    return ThinnedRows(
+        W=columns_at(observation, place),
+        tau=observation.torque[place],
+        used=observation.used[place],
+        means=tuple(block_diag(own, format="csr") for own in means),
+        samples=tuple(samples),
+        read=np.concatenate(read) if read else None,
+    )
 
 
 @dataclass(frozen=True)
 class Turn:
-    """What may be wrong with channels, and what mends it.
+    """What may be wrong with positions, and what mends it.
 
     Attributes:
         line: what, and what to do.
-        motion: (J, J) q = measured motion.
+        motion: (J, J) q = measured q motion + offset, and its derivatives alike.
+        offset: (J,) rad or m.
         torque: (J,) tau_j = measured tau[torque[j]].
     """
 
     line: str
     motion: np.ndarray
+    offset: np.ndarray
     torque: np.ndarray
+
+
+def zeros(observation: Observation, degrees: Sequence[int] = (90, -90, 180)) -> Iterator[Turn]:
+    """Positions of joints that turn, counted from another zero."""
+    joints = observation.joints
+    for j, joint in enumerate(joints):
+        for angle in degrees if joint.unit == "rad" else ():
+            line = (
+                f"joint {joint.name}: its zero seems to be off by {angle} degrees, by gravity and "
+                "the other joints; check the zero of that encoder against the table"
+            )
+            offset = -np.deg2rad(angle) * np.eye(len(joints))[j]
+            yield Turn(line, np.eye(len(joints)), offset, np.arange(len(joints)))
 
 
 def turns(observation: Observation) -> Iterator[Turn]:
     """Positions in other units, reversed, exchanged, and exchanged together with the torques."""
-    joints = observation.joints
-    names = [joint.name for joint in joints]
-    small = np.array([np.pi / 180.0 if joint.unit == "rad" else 1e-3 for joint in joints])
-    units = ["degrees" if joint.unit == "rad" else "mm" for joint in joints]
+    joints, names = observation.joints, [joint.name for joint in observation.joints]
+    same, none = np.arange(len(joints)), np.zeros(len(joints))
     expected = "expected rad and m; convert the position, and the speeds if they are logged"
-    same = np.arange(len(joints))
-    line = f"the positions look like {' or '.join(dict.fromkeys(units))}; {expected}"
-    yield Turn(line, np.diag(small), same)
+    for rad, metre in ((("degrees", np.pi / 180.0), ("mm", 1e-3)),
+                       (("turns", 2.0 * np.pi), ("cm", 1e-2))):  # fmt: skip
+        units = [rad if joint.unit == "rad" else metre for joint in joints]
+        factors = np.array([factor for _, factor in units])
+        told = " or ".join(dict.fromkeys(unit for unit, _ in units))
+        yield Turn(f"the positions look like {told}; {expected}", np.diag(factors), none, same)
+        for j, (unit, factor) in enumerate(units):
+            line = f"joint {names[j]}: its position looks like {unit}; {expected}"
+            yield Turn(line, np.diag(np.where(same == j, factor, 1.0)), none, same)
     for j in range(len(joints)):
-        one = np.ones(len(joints))
-        one[j] = small[j]
-        line = f"joint {names[j]}: its position looks like {units[j]}; {expected}"
-        yield Turn(line, np.diag(one), same)
-        one = one.copy()
-        one[j] = -1.0
         line = f"joint {names[j]}: its position seems to be counted the other way; check its sign"
-        yield Turn(line, np.diag(one), same)
+        yield Turn(line, np.diag(np.where(same == j, -1.0, 1.0)), none, same)
         for k in range(j):
             order = same.copy()
             order[[j, k]] = order[[k, j]]
@@ -179,4 +186,4 @@ def turns(observation: Observation) -> Iterator[Turn]:
                     f"joints {names[k]} and {names[j]}: their {what} look exchanged; check the "
                     "order of the columns"
                 )
-                yield Turn(line, swap, torque)
+                yield Turn(line, swap, none, torque)

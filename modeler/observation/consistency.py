@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.logs import clock_line, common_factor
 from modeler.numerics.least_squares import weighted_median
 from modeler.numerics.noise import resolution, robust_deviation, white_noise
 from modeler.observation.log import Log
@@ -321,6 +322,8 @@ def consistency(
         found_late, delay = lateness(pieces, log.joints, column, lower, parallel_cutoff)
         late += found_late
         windows = [windows_of(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
+        if refuse and column == "qd":
+            _refuse_clock(log, windows)
         for j, joint in enumerate(log.joints):
             step = resolution(getattr(log, lower)[:, j])
             noises = [white_noise(getattr(piece, lower)[:, j]) for piece in pieces]
@@ -370,6 +373,31 @@ def _contradicted(
     return flags, max(SHARE * size, random)
 
 
+def _refuse_clock(log: Log, windows: Sequence[Windows]) -> None:
+    """Raises DataError if all speeds are off their positions' derivatives by one factor."""
+    quotients, logged = (
+        np.concatenate([getattr(part, name) for part in windows]) for name in ("quotient", "logged")
+    )
+    size = size_of(quotients)
+    gains = {j: _gain(logged[:, j], quotients[:, j]) for j in map(int, np.flatnonzero(size))}
+    like = [
+        gain for j, gain in gains.items()
+        if gain > 0.0 and _misfit(logged[:, j] / gain, quotients[:, j], size[j]) < WRONG
+    ]  # fmt: skip
+    factor = common_factor(like) if len(like) > max(1.0, 0.5 * len(gains)) else None
+    if factor is not None and abs(factor - 1.0) > WRONG:
+        raise DataError(
+            f"{log.name}: {clock_line(factor, 1.0 / log.step)}; or fit with --derivatives "
+            "position, which believes the clock"
+        )
+
+
+def _gain(logged: np.ndarray, quotient: np.ndarray) -> float:
+    """What a logged derivative is times the difference quotient."""
+    there = quotient != 0.0
+    return weighted_median(logged[there] / quotient[there], np.abs(quotient[there]))
+
+
 def _refuse_wrong(
     log: Log, levels: tuple[Column, str], j: int, windows: Sequence[Windows], noise: float
 ) -> None:
@@ -389,8 +417,7 @@ def _refuse_wrong(
     if misfits[j] <= WRONG:
         return
     own = quotients[:, j]
-    there = own != 0.0
-    gain = weighted_median(logged[there] / own[there], np.abs(own[there]))
+    gain = _gain(logged, own)
     other = int(np.argmin(misfits))
     if other != j and misfits[other] < 0.5 * WRONG:
         guess = f"it is that of {lower}{joints[other]}: are columns exchanged?"

@@ -13,6 +13,9 @@ from modeler.core.result import Presented
 
 _NONE: Mapping = MappingProxyType({})
 
+GAP = 5.0
+"""A step longer than this many median steps ends a piece of motion."""
+
 _FINE = 1e-7  # of a step; over the rows of a block, less than a row
 
 
@@ -54,6 +57,8 @@ class Log(Presented):
         notes: doubtful but usable things seen while reading, one sentence each.
         content: fingerprint of the whole file's measurements, whatever its name; a piece of the
             log keeps it. Empty if the log came from no file.
+        robot_steps: usual and longest step, s, of the rows that are left where a recorder wrote
+            some again; else None.
     """
 
     name: str
@@ -70,6 +75,7 @@ class Log(Presented):
     missing: Mapping[str, int] = field(default_factory=lambda: _NONE)
     notes: tuple[str, ...] = ()
     content: str = ""
+    robot_steps: tuple[float, float] | None = None
 
     @property
     def rows(self) -> int:
@@ -95,12 +101,19 @@ class Log(Presented):
         Large times are coarse: seconds since 1970 come in steps of 2.4e-7 s. Where the median is
         such a step, it is the mean of those that differ from it by no more than that.
         """
+        if self.robot_steps is not None:
+            return self.robot_steps[0]
         steps = np.diff(self.time)
         step = float(np.median(steps))
         resolution = float(np.spacing(np.abs(self.time).max()))
         if resolution < _FINE * step:
             return step
         return float(np.mean(steps[np.abs(steps - step) <= 1.5 * resolution]))
+
+    @property
+    def gap(self) -> float:
+        """s; a longer step ends a piece of motion."""
+        return max(GAP * self.step, *(self.robot_steps or (0.0,)))
 
 
 FINGER = 32_768

@@ -111,23 +111,22 @@ def floors_of(
     `low_speed` times the shaft's top speed over all logs, which is its 98 % quantile: a short
     transient (an axis that slams into its first position) must not mask the motion after it.
     """
-    tops = top_speeds(parts, segments)
     return {
         part.name: processing.speed_floors.get(
-            part.name, processing.low_speed * tops[part.name] or float("inf")
+            part.name, processing.low_speed * top or float("inf")
         )
-        for part in parts
+        for part, top in zip(parts, top_speeds(parts, segments), strict=True)
     }
 
 
-def top_speeds(parts: Sequence[FrictionShaft], segments: Sequence[Segment]) -> dict[str, float]:
+def top_speeds(parts: Sequence[FrictionShaft], segments: Sequence[Segment]) -> list[float]:
     """98 % quantile of the speed of each shaft; 0 of one that stands still."""
-    tops: dict[str, float] = {}
+    tops = []
     for part in parts:
         speeds = np.concatenate([np.abs(part.speed(s.qd[s.whole])) for s in segments])
         travel = np.concatenate([part.speed(s.q[s.whole]) for s in segments])
         idle = not travel.size or np.ptp(travel) < IDLE_TRAVEL[part.unit]
-        tops[part.name] = 0.0 if idle else float(np.quantile(speeds, TOP))
+        tops.append(0.0 if idle else float(np.quantile(speeds, TOP)))
     return tops
 
 
@@ -154,7 +153,7 @@ def wide_floors(
     itself over `PERIODS` of its cut-off.
     """
     floors, cutoff = {}, processing.position_cutoff
-    for part, top in zip(parts, top_speeds(parts, segments).values(), strict=True):
+    for part, top in zip(parts, top_speeds(parts, segments), strict=True):
         doubtful = WIDE_SIGMAS * noise.doubtful_speed(part.coefficients, cutoff)
         floors[part.name] = min(max(WIDE * top, doubtful), WIDEST * top) or float("inf")
     return floors

@@ -8,6 +8,8 @@ import numpy as np
 
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
+from modeler.logs import repeats_line
+from modeler.numerics.held import RESTS, Clip, clips_of, frozen_runs, longest_usual, repeated_rows
 from modeler.numerics.noise import (
     LEAST,
     NEAR,
@@ -22,7 +24,8 @@ from modeler.numerics.noise import (
     threshold,
 )
 from modeler.observation.log import Log
-from modeler.observation.segments import GAP
+from modeler.observation.read import cut
+from modeler.observation.segments import runs
 from modeler.observation.spikes import (
     Defect,
     Kind,
@@ -41,6 +44,7 @@ SPIKE = 10
 FROZEN = 3
 """Equal samples before a leap, at least, that look like a logger that stood still."""
 
+_WITHIN = 0.8  # quantile of the steps between rows that a recorder did not repeat
 _TURN = 2.0 * np.pi
 _TOP = 0.98  # quantile of the steps that is the top speed's
 _RUNS_OUT = 0.1  # of a leap: what is left of it in the steps beside it, at most
@@ -253,9 +257,9 @@ class Damage:
     """One kind of defect of one channel of a log.
 
     Attributes:
-        column: of the log, "q2".
-        joint: its name.
-        kind: "wrap", "spike", "frozen", "zero" or "lost".
+        column: of the log, "q2"; "all channels" of repeated rows.
+        joint: its name; "" of repeated rows.
+        kind: of `Defect`.
         times: when each begins, s.
         samples: that are not used for it.
         size: the largest, in `unit`.
@@ -274,7 +278,7 @@ class Damage:
 
 
 Defects = dict[str, list[list[Defect]]]
-"""By channel, "q", "tau", "qd" or "qdd", and joint."""
+"""By channel, "q", "tau", "qd" or "qdd", and joint; of "rows", repeated ones, one list for all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -286,42 +290,103 @@ class ChannelScales:
         leaps: (J,) what a step must have too much to be a leap.
         torque: of the torques; None where none is measured.
         rates: (J,) departure below which no value is a spike, of logged "qd" and "qdd".
+        repeats: True if rows repeat, as the recorder is faster than the robot.
+        clips: (J,) ends of the range at which each position is cut off.
+        held: (J,) samples for which each torque may stay the same.
     """
 
     steps: np.ndarray
     leaps: np.ndarray
     torque: TorqueNoise | None
     rates: Mapping[str, np.ndarray]
+    repeats: bool
+    clips: tuple[tuple[Clip, ...], ...]
+    held: tuple[int, ...]
 
 
 def defects(
     log: Log, spec: ModuleSpec, usual: ChannelScales | None = None
 ) -> tuple[Log, Defects, ChannelScales]:
-    """The log without the values that no robot can have made; these; and what is usual in it.
+    """The log without what no robot can have made; what that is; and what is usual in the log.
 
-    Wraps are counted on, and positions that begin to count from another zero are joined to the
-    longest stretch. Spikes and repeated values become missing ones. Where rows are missing and the
-    clock ran on, a new piece begins.
+    Rows that repeat the one before them in all channels are dropped, so that the rate of what is
+    left is the robot's. Wraps are counted on, and positions that begin to count from another zero
+    are joined to the longest stretch. Spikes, frozen and clipped values become missing ones. Where
+    rows are missing and the clock ran on, a new piece begins.
 
     Args:
         log: as it was read, or some consecutive rows of one.
         spec: the robot's manifest; it names the joints.
         usual: in the whole log of which this is a part; None: it is all of it.
     """
-    q, segment, leaps, steps, least = _positions(log, spec, usual)
-    torques, noise = _torques(log, None if usual is None else usual.torque)
-    rates, levels = _rates(log, {} if usual is None else usual.rates)
+    again = _repeats(log, usual)
+    kept = np.flatnonzero(~again)
+    fresh = log
+    if again.any():
+        steps = np.diff(log.time[kept])
+        longest = 1.5 * log.step + float(steps[steps <= RESTS * np.median(steps)].max())
+        rate = float(np.quantile(steps, _WITHIN)), longest
+        fresh = dataclasses.replace(cut(log, kept), robot_steps=rate)
+    clips = tuple(clips_of(own) for own in fresh.q.T) if usual is None else usual.clips
+    clipped = [_clipped(own, ends) for own, ends in zip(fresh.q.T, clips, strict=True)]
+    q, segment, leaps, steps, least = _positions(
+        dataclasses.replace(fresh, q=_without(fresh.q, clipped)), spec, usual
+    )
+    torques, noise = _torques(fresh, None if usual is None else usual.torque)
+    held = tuple(map(longest_usual, fresh.tau.T)) if usual is None else usual.held
+    torques = torques or [[] for _ in spec.joints]
+    for own, stuck in zip(torques, _frozen(fresh, held), strict=True):
+        own += stuck
+    rates, levels = _rates(fresh, {} if usual is None else usual.rates)
+    positions = [both[0] + both[1] for both in zip(clipped, leaps, strict=True)]
     others = {"tau": torques, **rates}
-    new = segment if (segment != log.piece_number).any() else log.segment
+    new = segment if (segment != fresh.piece_number).any() else fresh.segment
     mended = dataclasses.replace(
-        log,
+        fresh,
         q=q,
         segment=new,
-        tau=_without(log.tau, others["tau"]),
-        qd=None if log.qd is None else _without(log.qd, others["qd"]),
-        qdd=None if log.qdd is None else _without(log.qdd, others["qdd"]),
+        tau=_without(fresh.tau, others["tau"]),
+        qd=None if fresh.qd is None else _without(fresh.qd, others["qd"]),
+        qdd=None if fresh.qdd is None else _without(fresh.qdd, others["qdd"]),
     )
-    return mended, {"q": leaps, **others}, usual or ChannelScales(steps, least, noise, levels)
+    found = {
+        name: [[_at(one, kept, log) for one in own] for own in by_joint]
+        for name, by_joint in {"q": positions, **others}.items()
+    }
+    if again.any():
+        every = [Defect("repeated", *run, 0.0, float(log.time[run[0]])) for run in runs(again)]
+        found["rows"] = [every]
+    scales = ChannelScales(steps, least, noise, levels, bool(again.any()), clips, held)
+    return mended, found, usual or scales
+
+
+def _repeats(log: Log, usual: ChannelScales | None) -> np.ndarray:
+    """(n,) True at rows that a recorder wrote again."""
+    if usual is not None and not usual.repeats:
+        return np.zeros(log.rows, dtype=bool)
+    others = [values for values in (log.tau, log.qd, log.qdd) if values is not None]
+    return repeated_rows(log.q, np.column_stack(others), always=usual is not None)
+
+
+def _clipped(values: np.ndarray, ends: Sequence[Clip]) -> list[Defect]:
+    """Stays at the ends of the range at which a position is cut off; none where it goes beyond."""
+    found = []
+    for end in ends:
+        beyond = values > end.value if end.upper else values < end.value
+        if not beyond.any():
+            found += [Defect("clipped", *run, end.value) for run in runs(values == end.value)]
+    return sorted(found, key=lambda one: one.start)
+
+
+def _frozen(log: Log, held: Sequence[int]) -> list[list[Defect]]:
+    """Torques that repeat a value while their joint moves, by joint."""
+    found: list[list[Defect]] = []
+    for j, (tau, q) in enumerate(zip(log.tau.T, log.q.T, strict=True)):
+        rows = np.flatnonzero(np.isfinite(tau) & np.isfinite(q))
+        stuck = frozen_runs(tau[rows], q[rows], held[j]) if rows.size else []
+        every = [Defect("frozen", *run, 0.0) for run in stuck]
+        found.append([_at(one, rows, log) for one in every])
+    return found
 
 
 def _positions(
@@ -344,6 +409,8 @@ def _positions(
     for rows, walk in long:
         for j in range(len(spec.joints)):
             leaps = leaps_of(walk, log.time[rows], j, least[j])
+            if log.robot_steps is not None:  # rows of such a log come when they come
+                leaps = [leap for leap in leaps if leap.kind != "lost"]
             q[rows, j] = _mended(walk, j, leaps)
             positions[j] += [_at(leap, rows, log) for leap in leaps]
             for leap in leaps:
@@ -355,7 +422,7 @@ def _positions(
 def _stretches(log: Log, there: np.ndarray) -> Iterator[np.ndarray]:
     """Rows (k,) of each stretch without a gap among those that are there (n,)."""
     rows = np.flatnonzero(there)
-    cut = (np.diff(log.time[rows]) > GAP * log.step) | (np.diff(log.piece_number[rows]) != 0)
+    cut = (np.diff(log.time[rows]) > log.gap) | (np.diff(log.piece_number[rows]) != 0)
     yield from np.split(rows, np.flatnonzero(cut) + 1)
 
 
@@ -437,8 +504,10 @@ def damages(log: Log, rows: int, spec: ModuleSpec, found: Defects) -> tuple[Dama
         spec: the robot's manifest.
         found: in all rows.
     """
-    told = []
+    told = [_recorded_again(log, rows, own) for own in found.get("rows", ()) if own]
     for name, by_joint in found.items():
+        if name == "rows":
+            continue
         for joint, own in zip(spec.joints, by_joint, strict=bool(by_joint)):
             column, unit = f"{name}{joint.name}", joint.effort_unit
             if name in _PER:
@@ -463,6 +532,14 @@ def damages(log: Log, rows: int, spec: ModuleSpec, found: Defects) -> tuple[Dama
     return tuple(told)
 
 
+def _recorded_again(log: Log, rows: int, found: Sequence[Defect]) -> Damage:
+    """Rows that were recorded more than once."""
+    count = sum(one.stop - one.start for one in found)
+    times, rate = tuple(one.time for one in found[:1]), 1.0 / log.step
+    line = repeats_line(count, rows, rate)
+    return Damage("all channels", "", "repeated", times, count, rate, "Hz", line)
+
+
 _PER = {"q": "", "qd": "/s", "qdd": "/s^2"}
 _WORDS: Mapping[str, str] = {
     "wrap": "leaps by whole turns of 2 pi rad {when}; counted on from the longest stretch between "
@@ -474,6 +551,8 @@ _WORDS: Mapping[str, str] = {
     "{unused}; check the wiring of that channel",
     "frozen": "repeats an old value while the joint moves, {when}; {unused}; the logger or the bus "
     "was late: log fewer columns, or slower",
+    "clipped": "stays at an end of its range, {size}, {when}, though the joint moves on: the "
+    "position is clipped; {unused}; check the range of the sensor and of the logger",
     "zero": "leaps by {size} {when} and goes on from there: the encoder found another zero; joined "
     "to the longest stretch between two leaps, whose zero is kept; if another is right, use that "
     "part alone, as in {part}",

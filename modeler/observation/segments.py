@@ -7,9 +7,6 @@ import numpy as np
 
 from modeler.observation.log import Log
 
-GAP = 5.0
-"""A step longer than this many median steps ends a segment."""
-
 JITTER = 0.01
 """Time stamps off the uniform grid by more than this share of a step are resampled."""
 
@@ -63,10 +60,10 @@ class SplitReport:
     """Where splitting cut one log.
 
     Attributes:
-        gaps: (g,) rows that a time gap of more than 5 steps ends at.
+        gaps: (g,) s, of the rows that a time gap of more than 5 steps ends at.
         widths: (g,) of those gaps, s.
         jitter: largest deviation of a step from the median step, as a share of it, gaps apart.
-        short: (k,) rows in pieces too short to differentiate, left out.
+        short: (k,) s, of rows in pieces too short to differentiate, left out.
     """
 
     gaps: np.ndarray
@@ -101,17 +98,17 @@ def split(
         [saturated(tau, end) for tau, end in zip(log.tau.T, ends, strict=True)]
     )
     steps, stamps = np.diff(log.time[rows]), np.diff(log.time)
-    cut = gap = steps > GAP * log.step
-    inside = stamps[stamps <= GAP * log.step]
+    cut = gap = steps > log.gap
+    inside = stamps[stamps <= log.gap]
     if log.segment is not None:
         cut = cut | (np.diff(log.segment[rows]) != 0)
     groups = np.split(rows, np.flatnonzero(cut) + 1)
     kept = [group for group in groups if len(group) >= _LEAST]
     report = SplitReport(
-        gaps=rows[1:][gap],
+        gaps=log.time[rows[1:][gap]],
         widths=steps[gap],
         jitter=float(np.max(np.abs(inside / log.step - 1.0))) if inside.size else 0.0,
-        short=np.setdiff1d(rows, np.concatenate([rows[:0], *kept])),
+        short=log.time[np.setdiff1d(rows, np.concatenate([rows[:0], *kept]))],
     )
     return tuple(_piece(log, run, group, clipped, logged_motion) for group in kept), report
 
@@ -126,7 +123,9 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     if not uniform:
         near = np.searchsorted(measured, time).clip(1, len(measured) - 1)
         near -= time - measured[near - 1] < measured[near] - time
-    bridged = np.abs(time - measured[near]) > _NEAR * step
+    # Rows that a recorder did not repeat come when they come: what lies between them is no bridge.
+    beside = max(_NEAR * step, 0.5 * (log.robot_steps or (0.0, 0.0))[1])
+    bridged = np.abs(time - measured[near]) > beside
     short = bridged & ~longer_runs(bridged, SHORT)
 
     def on_grid(values: np.ndarray) -> np.ndarray:
@@ -135,7 +134,7 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     def smooth(values: np.ndarray | None, wanted: bool) -> np.ndarray | None:
         return on_grid(values) if values is not None and wanted else None
 
-    tau, valid = _bridge(time, measured, log.tau[rows], bridged, step)
+    tau, valid = _bridge(time, measured, log.tau[rows], bridged, beside)
     asked = log.commanded
     return Piece(
         run=run,
@@ -176,7 +175,7 @@ def longer_runs(flags: np.ndarray, length: int) -> np.ndarray:
 
 
 def _bridge(
-    time: np.ndarray, measured: np.ndarray, tau: np.ndarray, bridged: np.ndarray, step: float
+    time: np.ndarray, measured: np.ndarray, tau: np.ndarray, bridged: np.ndarray, beside: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Torque on the grid, missing entries bridged linearly; and where it and all else is measured.
 
@@ -185,7 +184,7 @@ def _bridge(
         measured: (m,) time stamps.
         tau: (m, joints) as measured.
         bridged: (n,) True where no row was measured near.
-        step: of the grid, s.
+        beside: s, within which a measured value stands for one of the grid.
     """
     values = np.zeros((len(time), tau.shape[1]))
     valid = np.repeat(~bridged[:, None], tau.shape[1], axis=1)
@@ -200,7 +199,7 @@ def _bridge(
             right = np.searchsorted(stamps, time).clip(0, len(stamps) - 1)
             left = (right - 1).clip(0)
             distance = np.minimum(np.abs(time - stamps[left]), np.abs(time - stamps[right]))
-            valid[:, j] &= distance <= _NEAR * step
+            valid[:, j] &= distance <= beside
     return values, valid
 
 

@@ -39,7 +39,7 @@ _STARTS = 2.0  # times the changes just before: something began
 _SLOW = 0.05  # of the top speed: at a reversal and at rest, friction makes peaks of its own
 _FEW = 0.02  # of the values that may be spikes, or all are looked at
 
-Kind = Literal["wrap", "spike", "frozen", "zero", "lost"]
+Kind = Literal["wrap", "spike", "frozen", "zero", "lost", "clipped", "repeated"]
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,8 @@ class Defect:
 
     Attributes:
         kind: "wrap" (by whole turns), "spike" (there and back), "frozen" (a value repeated while
-            the joint moved), "zero" (for good), "lost" (rows are missing, and the clock ran on).
+            the joint moved), "zero" (for good), "lost" (rows are missing, and the clock ran on),
+            "clipped" (at an end of the range), "repeated" (rows that were recorded again).
         start: first sample after it; of a spike or frozen values the first bad one.
         stop: sample after the last bad one; `start` if none is bad.
         size: in the channel's unit, with its sign; of a spike the largest departure.

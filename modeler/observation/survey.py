@@ -21,6 +21,7 @@ from modeler.observation.read import Ranges, Source, cut, joined, windows_joined
 from modeler.observation.report import DataReport, LogReport
 from modeler.observation.segments import Piece, split
 from modeler.observation.settings import ChosenProcessing, Processing
+from modeler.observation.spikes import Defect
 from modeler.observation.stretch import Stretch, row_centres, stretch
 from modeler.observation.tally import Facts, joint_reports, log_report, tally
 from modeler.runtime import CompiledModel
@@ -158,11 +159,14 @@ def survey(
                 "out"
             )
         ranges, beside = Ranges.of(log), margin(chosen, log.step)
+        fresh = (s.step for s in prepared.segments if k in looked and s.run == at)
         every.append(
             LogChoices(
                 run=k,
                 processing=chosen,
-                decimation=spacing(log.step, chosen.parallel_cutoff, chosen.decimation),
+                decimation=spacing(
+                    next(fresh, log.step), chosen.parallel_cutoff, chosen.decimation
+                ),
                 logged=prepared.checks[at] is not None,
                 usual=prepared.usual[at],
                 extremes=known.extremes.get(k) or ranges.torques,
@@ -274,7 +278,7 @@ def rows_of_chunk(
     return stretches, Facts(
         tally=tally(chunk, pieces, cuts, stretches, left_out, check),
         defects={
-            name: [[one for one in some if chunk.has(one.start)] for some in by_joint]
+            name: [_own(chunk, some, name == "rows") for some in by_joint]
             for name, by_joint in found.items()
         },
         contradictions=tuple(
@@ -292,6 +296,15 @@ def rows_of_chunk(
         ),
         span=(float(own.time[0]), float(own.time[-1])),
     )
+
+
+def _own(chunk: Chunk, found: Sequence[Defect], together: bool) -> list[Defect]:
+    """What was found in the chunk's own rows; together: as one, of as many rows."""
+    own = [one for one in found if chunk.has(one.start)]
+    if not together or not own:
+        return own
+    rows = sum(one.stop - one.start for one in own)
+    return [dataclasses.replace(own[0], stop=own[0].start + rows)]
 
 
 def _centres(segment: Segment, chunk: Chunk, chosen: LogChoices) -> np.ndarray:

@@ -68,8 +68,8 @@ def tally(
     begun = [piece for piece, rows in zip(pieces, own, strict=True) if rows[0]]
     clipped = [piece.clipped[rows].sum(axis=0) for piece, rows in zip(pieces, own, strict=True)]
     bad = () if check is None else check.bad
-    widths = cuts.widths[chunk.has(cuts.gaps)]
-    short = chunk.has(cuts.short).sum() + sum(chunk.holds(p.time).sum() for p in left_out)
+    widths = cuts.widths[chunk.holds(cuts.gaps)]
+    short = chunk.holds(cuts.short).sum() + sum(chunk.holds(p.time).sum() for p in left_out)
     sums: dict[str, Any] = {
         "chunks": 1,
         "rows": chunk.rows,

@@ -113,15 +113,15 @@ CONTRADICT: dict[str, tuple[Callable[[Table], Table], str]] = {
     "one in degrees": (degrees(2), "joint 2: its position looks like degrees"),
     "current": (
         lambda t: t | {"tau2": t["tau2"] / 37.0},
-        "joint 2: the measured torque is 0.027 times the predicted one; check sign, unit and",
+        "joint 2: the measured torque is 0.027 times what it should be; check unit and",
     ),
     "torques exchanged": (
         lambda t: t | {"tau1": t["tau2"], "tau2": t["tau1"]},
-        "joint 1: its measured torque looks like that of joint 2; are the channels exchanged?",
+        "joints 1 and 2: their torques look exchanged; check the order of the columns",
     ),
     "torque reversed": (
         lambda t: t | {"tau3": -t["tau3"]},
-        "joint 3: the measured torque has the other sign of the predicted one; check sign",
+        "joint 3: the measured torque has the other sign of what a machine that can be built",
     ),
     "position reversed": (
         lambda t: t | {"q2": -t["q2"]},

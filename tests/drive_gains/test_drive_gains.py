@@ -157,7 +157,8 @@ def test_one_wrong_gain_is_told_although_the_weight_may_agree(arm):
     gains = np.array([1.0, 1.0, 1.05])
     told = known_doubts(arm.compiled, arm.seen(gains), [arm.payload()], currents=True)
     line = next(d.line for d in told if "not those of the robot file" in d.line)
-    assert "joint 3 1.05" in line and "joint 1" not in line and "joint 2" not in line
+    assert re.search(r"joint 3 1\.0(4[5-9]|5[0-4]?)", line)
+    assert "joint 1" not in line and "joint 2" not in line
 
 
 @pytest.mark.parametrize("seed", range(1, 3))

@@ -11,7 +11,7 @@ from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
 from modeler.estimation.verdict import with_verdict
 from modeler.observation import reduce as passing, stretch
-from modeler.observation.findings import thinned
+from modeler.observation.channels import thinned
 from modeler.observation.log import Log
 from modeler.observation.observation import Evaluated, Observation
 from modeler.observation.observe import observe

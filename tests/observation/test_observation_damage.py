@@ -102,10 +102,20 @@ def frozen(random, log, j, k, size):
     log.q[k : k + random.integers(5, 25), j] = log.q[k, j]
 
 
+def stuck(random, log, j, k, size):
+    log.tau[k : k + round(0.3 / log.step), j] = log.tau[k, j]
+
+
+def clipped(random, log, j, k, size):
+    share = random.uniform(0.02, 0.08)
+    np.clip(log.q[:, j], *np.quantile(log.q[:, j], [share, 1.0 - share]), out=log.q[:, j])
+
+
 DEFECTS = {
     "zero": leap, "spike": spike, "turn": turn, "wrap": wrap, "glitch": glitch, "frozen": frozen,
+    "stuck": stuck, "clipped": clipped,
 }  # fmt: skip
-NAMED = {"turn": {"wrap"}, "glitch": {"spike"}, "zero": {"zero", "lost"}}
+NAMED = {"turn": {"wrap"}, "stuck": {"frozen"}, "glitch": {"spike"}, "zero": {"zero", "lost"}}
 
 
 def damaged(random, defect, name):
@@ -118,7 +128,11 @@ def damaged(random, defect, name):
         return None
     if defect == "frozen" and abs(log.q[k + 4, j] - log.q[k, j]) < 2.5 * top:
         return None  # it hardly moved: what was repeated was true
+    if defect == "stuck" and abs(log.q[k + 40, j] - log.q[k, j]) < 0.02:
+        return None
     DEFECTS[defect](random, log, j, k, size)
+    if defect == "clipped":
+        k = int(np.flatnonzero(log.q[:, j] == log.q[:, j].max())[0])
     if defect == "wrap":  # wherever it comes by: the first time counts, if it is not the start
         k = int(np.flatnonzero(np.abs(np.diff(log.q[:, j])) > 3.0)[0]) + 1
     return log, log.joints[j], log.time[k]
@@ -145,6 +159,24 @@ def test_defects_drawn_at_random_are_named_with_joint_and_time(defect):
         assert len(found) == len(right), [one.line for one in found]
         seen[bool(right)] += 1
     assert seen[True] >= 20
+
+
+@pytest.mark.parametrize("each", [1.25, 3, 8])
+def test_rows_that_a_recorder_repeats_are_left_out(each):
+    """The robot gives 125 rows a second, the recorder writes `each` times as many."""
+    random = np.random.default_rng(round(10 * each))
+    for name in ARMS:
+        log, _ = drawn(random, name, 125, 1e-3)
+        rows = (np.arange(int(each * log.rows)) / each).astype(int)
+        again = dataclasses.replace(
+            log, time=np.arange(len(rows)) / (125.0 * each), q=log.q[rows], tau=log.tau[rows]
+        )
+        mended, found = repaired(again, ARMS[name].spec)
+        assert [one.kind for one in found] == ["repeated"]
+        assert "gave about 125 rows a second" in found[0].line
+        assert mended.rows == len(set(rows)) == len(rows) - found[0].samples
+        seen = observe(ARMS[name], [again])
+        assert not any("rings" in line for line in seen.report.doubts())
 
 
 def sample(defect, name="planar", joint=1, row=3000, size=0.5):
@@ -253,7 +285,10 @@ LOOKED_AT = {
 
 @pytest.mark.measured
 def test_nothing_is_found_in_measured_logs(measured_folder):
-    """Each was looked at: none has such a defect. Kicks, sticking and stops they do have."""
+    """Each was looked at: that of panda repeats rows, none has another defect.
+
+    Kicks, sticking and stops they do have.
+    """
     count = 0
     for path in sorted(measured_folder.glob("*/*.parquet")):
         if "static_map" in path.name or path.name == "log_motor.parquet":
@@ -263,6 +298,7 @@ def test_nothing_is_found_in_measured_logs(measured_folder):
         folder = path.parent.name
         columns = pq.read_schema(path).names
         spec = stranger([str(j) for j in range(1, 10) if f"q{j}" in columns], folder)
-        assert repaired(read_log(path, spec), spec)[1] == (), path.name
+        found = repaired(read_log(path, spec), spec)[1]
+        assert [one.kind for one in found] == ["repeated"] * (folder == "panda"), path.name
         count += 1
     assert count >= 30

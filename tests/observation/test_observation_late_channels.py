@@ -5,13 +5,17 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.observation.findings import late_channels
+from modeler.estimation.findings import faults_of_fit
 from modeler.observation.observe import observe
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
 from tests.modules import compiled, module
 
 RATE = 200.0
+
+
+def late_channels(machine, observation):
+    return [found.line for found in faults_of_fit(machine, observation) if "late" in found.line]
 
 
 def observed(folder, name, seed, hidden=(), **late):
@@ -62,4 +66,4 @@ MORE = ("stribeck", "presliding", "load_friction", "asymmetric_viscous", "payloa
 def test_physics_is_not_late(name, hidden, tmp_path):
     rng = np.random.default_rng([9, *name.encode(), *hidden.encode()])
     seen = observed(tmp_path, name, int(rng.integers(1000)), hidden=[hidden] if hidden else [])
-    assert late_channels(compiled(name), seen) == ()
+    assert late_channels(compiled(name), seen) == []

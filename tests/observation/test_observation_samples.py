@@ -46,11 +46,13 @@ def test_pieces_end_at_gaps_and_segment_changes():
     time = np.concatenate([np.arange(100), 200 + np.arange(50)]) * 0.01
     pieces, report = split(log_of(time), 0, False)
     assert [len(p.time) for p in pieces] == [100, 50]
-    assert report.gaps.tolist() == [100] and report.widths == pytest.approx([1.01])
+    assert report.gaps == pytest.approx([2.0]) and report.widths == pytest.approx([1.01])
     assert not any(p.resampled for p in pieces) and report.jitter < 1e-9
     marked = log_of(np.arange(100) * 0.01, segment=np.repeat([0, 1, 2], [40, 57, 3]))
     pieces, report = split(marked, 0, False)
-    assert [len(p.time) for p in pieces] == [40, 57] and report.short.tolist() == [97, 98, 99]
+    assert [len(p.time) for p in pieces] == [40, 57] and report.short == pytest.approx(
+        [0.97, 0.98, 0.99]
+    )
 
 
 def test_short_losses_are_bridged_and_marked_long_ones_cut():

@@ -1,0 +1,666 @@
+"""Faults of logs: one rule decides what is wrong with channels, before any physics is blamed.
+
+A fault is a hypothesis: undo it, and what a machine leaves of the torques of joint j,
+
+    e_j = ||tau_j - W_j beta|| / ||tau_j||,
+
+falls. beta is that of the nearest machine that could be built to a fit in which every joint weighs
+1 / e_j^2, so that sum_j log e_j is least, or that of a model whose torques are compared. A fault
+is told if it lowers that sum by log 3 or more, halves the error of a joint, and does so as well as
+any other. What it would be seen by can be computed beforehand: made of the torques of the machine
+itself, a fault that raises the sum by no more is one that these logs cannot show.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from itertools import combinations
+
+import numpy as np
+
+from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
+from modeler.numerics.least_squares import whitening
+from modeler.observation import (
+    Fault,
+    Observation,
+    ThinnedRows,
+    Turn,
+    model_torque,
+    thinned,
+    turns,
+    zeros,
+)
+from modeler.runtime import CompiledModel
+
+HALF = 0.5
+"""Share of its error that a fault, undone, leaves of a joint: physics that a model lacks
+(elasticity, friction that lags) looks like a fault for a part of the torque only."""
+
+ALSO = 1.3
+"""Times the least that another fault may leave and still explain the logs as well."""
+
+FLOOR = 0.005
+"""Relative error below which all are alike."""
+
+SUSPECT = 0.1
+"""Relative error of a joint from which on its channels may be those of another, or another's."""
+
+WRONG = 0.5
+"""Relative error of a joint from which on a prediction of its torque is no matter of physics."""
+
+ENOUGH = float(np.log(3.0))
+"""What a fault adds to the sum of the logarithms of the errors, at least: physics that a model
+lacks, and noise of the motion, look like a delay by up to 1."""
+
+GAIN = 1.4
+"""A torque is wrong by more than this factor, or a drive gain is not known better."""
+
+SCALE = 5.0
+"""A torque that is off by this factor is a matter of units, not of a drive gain or a load."""
+
+_CLOCKS = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # they are off by
+_MILLI = 1e-3  # N m in mN m
+_UNITS = 1e9  # units are no farther apart
+_LEAST_ROWS = 20  # of a joint whose torque is exchanged
+_FOR_EACH = 3  # rows for every parameter, at least: fewer are described by anything
+_FEW = 400  # rows for a motion that is changed
+_TOLD = 1e-11  # eigenvalue over the largest
+_TURNS = 4  # of weights; they settle by a digit each time
+_SUBSETS = 8  # joints of which every subset is tried
+_MACHINES = 8  # subsets of which the machine is asked for
+
+
+@dataclass(frozen=True, eq=False)
+class Products:
+    """Of the rows of k joints, torques of length one: all that a fit of them needs.
+
+    Attributes:
+        gram: (k, c, c) X_j^T X_j.
+        cross: (k, c) X_j^T y_j.
+    """
+
+    gram: np.ndarray
+    cross: np.ndarray
+
+    def scaled(self, gains: np.ndarray) -> "Products":
+        """Of torques that are multiplied by gains (k,)."""
+        return Products(self.gram / gains[:, None, None] ** 2, self.cross / gains[:, None])
+
+    def left(self, beta: np.ndarray) -> np.ndarray:
+        """(k,) relative error of each joint."""
+        square = 1.0 - 2.0 * self.cross @ beta + np.einsum("c,kcd,d->k", beta, self.gram, beta)
+        return np.asarray(np.sqrt(np.maximum(square, 0.0)))
+
+
+def _products(W: np.ndarray, tau: np.ndarray, used: np.ndarray, joints: Sequence[int]) -> Products:
+    """Of rows W (m, n, c), tau (m, n), used (m, n)."""
+    grams, crosses = [], []
+    for j in joints:
+        X, y = W[used[:, j], j], tau[used[:, j], j]
+        size = max(float(np.linalg.norm(y)), 1e-300)
+        grams.append(X.T @ X / size**2)
+        crosses.append(X.T @ y / size**2)
+    return Products(np.stack(grams), np.stack(crosses))
+
+
+@dataclass(frozen=True, eq=False)
+class Judge:
+    """What a machine leaves of torques.
+
+    Attributes:
+        machine: that can be built.
+        beta: (c,) of a model that predicts; None: each time it is fitted.
+    """
+
+    machine: Machine
+    beta: np.ndarray | None = None
+
+    def solved(self, data: Products) -> tuple[np.ndarray, np.ndarray]:
+        """beta (c,) and weights (k,) that make the sum of the logarithms of the errors least."""
+        weights = np.ones(len(data.gram))
+        if self.beta is not None:
+            return self.beta, weights
+        for _ in range(_TURNS):
+            beta = _fitted(data, weights)
+            weights = 1.0 / np.maximum(data.left(beta), FLOOR) ** 2
+        return beta, weights
+
+    def errors(self, data: Products, possible: bool = True) -> np.ndarray:
+        """(k,) relative errors, of a machine that can be built if asked for."""
+        beta, weights = self.solved(data)
+        if possible and self.beta is None:
+            beta = self.possible(data, beta, weights)
+        return data.left(beta)
+
+    def possible(self, data: Products, beta: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        """(c,) the nearest machine that can be built; the fit itself where none is found."""
+        values, vectors = np.linalg.eigh(np.tensordot(weights, data.gram, 1))
+        root = np.sqrt(np.maximum(values, 0.0))[:, None] * vectors.T
+        nearest = nearest_possible(self.machine, beta, root)
+        return beta if nearest is None else nearest.beta
+
+
+def _fitted(data: Products, weights: np.ndarray) -> np.ndarray:
+    # Many fits of a few digits: normal equations, without what the data cannot tell.
+    turn = whitening(np.tensordot(weights, data.gram, 1), _TOLD)
+    return np.asarray(turn @ (turn.T @ (weights @ data.cross)))
+
+
+def _score(errors: np.ndarray) -> float:
+    return float(np.sum(np.log(np.maximum(errors, FLOOR))))
+
+
+def _evidence_for(without: np.ndarray, with_it: np.ndarray) -> float:
+    """What a fault adds to the sum of logarithms; 0 if it doubles the error of no joint."""
+    doubles = np.maximum(without, FLOOR) <= HALF * np.maximum(with_it, FLOOR)
+    return _score(with_it) - _score(without) if doubles.any() else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """A fault that a log may have.
+
+    Attributes:
+        fault: in words.
+        data: of the log with the fault undone.
+        touches: joints that it concerns; empty: all.
+    """
+
+    fault: Fault
+    data: Products
+    touches: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """Some rows of logs, and who judges them.
+
+    Attributes:
+        compiled: the robot.
+        observation: of the logs.
+        judge: of their torques.
+        rows: some of them.
+        joints: with a motor and a torque; none of too few rows.
+    """
+
+    compiled: CompiledModel
+    observation: Observation
+    judge: Judge
+    rows: ThinnedRows
+    joints: tuple[int, ...]
+
+    @cached_property
+    def few(self) -> ThinnedRows:
+        """Fewer rows, for motions that are changed."""
+        return thinned(self.compiled, self.observation, _FEW)
+
+    @cached_property
+    def data(self) -> Products:
+        """Of the log as it is."""
+        return _products(self.rows.W, self.rows.tau, self.rows.used, self.joints)
+
+    @cached_property
+    def few_data(self) -> Products:
+        """The same of fewer rows."""
+        return _products(self.few.W, self.few.tau, self.few.used, self.joints)
+
+    @cached_property
+    def errors(self) -> np.ndarray:
+        """(k,) of the log as it is."""
+        return self.judge.errors(self.data)
+
+    @property
+    def tree(self) -> bool:
+        """True if joints move on their own: positions that do not close loops have no torque."""
+        return self.compiled.spec.closure is None
+
+    def name(self, place: int) -> str:
+        """Of one of the joints."""
+        return self.observation.joints[self.joints[place]].name
+
+
+def _evidence(
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray | None = None,
+    gains: np.ndarray | None = None,
+) -> Evidence:  # fmt: skip
+    rows = thinned(compiled, observation)
+    if gains is not None:
+        rows = replace(rows, tau=rows.tau / gains)
+    joints = [j for j, joint in enumerate(observation.joints) if joint.actuated]
+    joints = [j for j in joints if rows.tau[rows.used[:, j], j].any()]
+    enough = bool(joints) and rows.used[:, joints].sum() >= _FOR_EACH * rows.W.shape[2]
+    judge = Judge(machine_of(compiled.spec), beta)
+    return Evidence(compiled, observation, judge, rows, tuple(joints if enough else ()))
+
+
+# What contradicts.
+
+
+def findings_of_fit(compiled: CompiledModel, observation: Observation) -> tuple[Fault, ...]:
+    """Doubts about the channels and the samples of logs that a model was fitted to.
+
+    Args:
+        compiled: the robot.
+        observation: that was fitted.
+    """
+    found = faults_of_fit(compiled, observation)
+    return (*found, *(Fault(line, False) for line in observation.report.doubts()))
+
+
+def findings_of_prediction(
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray
+) -> tuple[Fault, ...]:
+    """Doubts about the channels and the samples of logs whose torque a model predicts.
+
+    Where the prediction blames none, those of a fit to the same logs are asked for.
+
+    Args:
+        compiled: the robot.
+        observation: of the logs.
+        beta: (c,) base parameters of the model.
+    """
+    found = faults(compiled, observation, beta) or faults_of_fit(compiled, observation)
+    doubts = (Fault(line, False) for line in observation.report.doubts())
+    return (*(one for one in found if not one.unseen), *doubts)
+
+
+def faults_of_fit(compiled: CompiledModel, observation: Observation) -> tuple[Fault, ...]:
+    """The one fault of logs that explains most; or which of them could not be seen in any case.
+
+    Args:
+        compiled: the robot.
+        observation: that was fitted.
+    """
+    seen = _evidence(compiled, observation)
+    if not seen.joints:
+        return ()
+    told = _explained(seen) if seen.errors.max() > FLOOR / HALF else None
+    return _unseen(seen) if told is None else (told.fault,)
+
+
+def faults(
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray,
+    gains: np.ndarray | None = None,
+) -> tuple[Fault, ...]:  # fmt: skip
+    """Faults of logs by the prediction of a model; of joints that it misses by more than half.
+
+    Args:
+        compiled: the robot.
+        observation: of the logs.
+        beta: (c,) base parameters of the model.
+        gains: (J,) what the torques of the model are multiplied by, if drive gains are wrong.
+    """
+    seen, found = _evidence(compiled, observation, beta, gains), list[Fault]()
+    while seen.joints and seen.errors.max() > WRONG:
+        told = _explained(seen)
+        if told is None:
+            break
+        found.append(told.fault)
+        rest = [j for j in seen.joints if told.touches and j not in told.touches]
+        seen = replace(seen, joints=tuple(rest))
+    return tuple(found)
+
+
+def suspects(compiled: CompiledModel, observation: Observation, beta: np.ndarray) -> list[int]:
+    """Indices of the joints whose torque the model misses by more than half."""
+    predicted, found = model_torque(observation, compiled, beta), []
+    for j, (y, p) in enumerate(zip(observation.torque.T, predicted.T, strict=True)):
+        used = observation.used[:, j]
+        size = float(np.linalg.norm(y[used]))
+        if used.sum() >= _LEAST_ROWS and np.linalg.norm((y - p)[used]) > WRONG * size > 0.0:
+            found.append(j)
+    return found
+
+
+def _explained(seen: Evidence) -> Hypothesis | None:
+    """The hypothesis that explains most, with those that do as well in its words."""
+    before, few = seen.errors, seen.judge.errors(seen.few_data)
+    found = [
+        (score, one)
+        for hypotheses, base in ((_torques(seen), before), (_motions(seen), few))
+        for one in hypotheses
+        if (score := _lowered(seen, base, one.data)) >= ENOUGH
+    ]
+    if not found:
+        return None
+    most = max(score for score, _ in found)
+    likely = sorted((x for x in found if x[0] >= most - np.log(ALSO)), key=lambda x: -x[0])
+    best = likely[0][1]
+    if len(likely) == 1:
+        return best
+    line = "; or: ".join(dict.fromkeys(one.fault.line for _, one in likely[:3]))
+    certain = all(one.fault.certain for _, one in likely)
+    touches = {j for _, one in likely for j in one.touches}
+    return Hypothesis(replace(best.fault, line=line, certain=certain), best.data, tuple(touches))
+
+
+def _lowered(seen: Evidence, before: np.ndarray, data: Products) -> float:
+    """By how much a hypothesis lowers the sum of logarithms; minus infinity if it is none."""
+    none, score = -float("inf"), 0.0
+    for possible in (False, True):  # machines that can be built leave more, and take longer
+        errors = seen.judge.errors(data, possible)
+        score = _evidence_for(errors, before)
+        if score < ENOUGH or errors.max() > WRONG:
+            return none
+    return score
+
+
+# Hypotheses about torques.
+
+
+def _torques(seen: Evidence) -> Iterator[Hypothesis]:
+    """Torques of another scale or sign, and exchanged ones."""
+    every = range(len(seen.joints))
+    for place in every if len(seen.joints) > 1 or seen.judge.beta is not None else ():
+        for gain in (_gain(seen, place), _MILLI):
+            if not 1.0 / _UNITS < gain < _UNITS or 1.0 / GAIN < gain < GAIN:
+                continue
+            unit = " (is it in mN m?)" if abs(_MILLI / gain - 1.0) < 0.1 else ""
+            line = (
+                f"joint {seen.name(place)}: the measured torque is {1.0 / gain:.3g} times what it "
+                f"should be{unit}; check unit and drive gain of that channel"
+            )
+            j = seen.joints[place]
+            fault = Fault(line, not 1.0 / SCALE < gain < SCALE, j)
+            yield Hypothesis(fault, _with_gain(seen, place, gain), (j,))
+    yield from _signs(seen)
+    if seen.errors.max() <= SUSPECT:
+        return
+    rows, J = seen.rows, len(seen.observation.joints)
+    for a, b in combinations(every, 2):
+        order, (j, k) = np.arange(J), (seen.joints[a], seen.joints[b])
+        order[[j, k]] = order[[k, j]]
+        both = rows.used & rows.used[:, order]
+        if both[:, [j, k]].sum(axis=0).min() >= _LEAST_ROWS:
+            line = (
+                f"joints {seen.name(a)} and {seen.name(b)}: their torques look exchanged; check "
+                "the order of the columns"
+            )
+            data = _products(rows.W, rows.tau[:, order], both, seen.joints)
+            yield Hypothesis(Fault(line, True), data, (j, k))
+
+
+def _gain(seen: Evidence, place: int) -> float:
+    """What the torque of a joint is to be multiplied by, from the torques of the others.
+
+    X_j beta - gain y_j = 0 beside X_k beta = y_k: linear in beta and the gain.
+    """
+    data, weights, gain = seen.data, np.ones(len(seen.joints)), 0.0
+    if seen.judge.beta is not None:
+        return float(data.cross[place] @ seen.judge.beta)
+    for _ in range(_TURNS):
+        own, side = weights[place], -weights[place] * data.cross[place]
+        gram = np.tensordot(weights, data.gram, 1)
+        whole = np.block([[gram, side[:, None]], [side[None], np.array([[own]])]])
+        turn = whitening(whole, _TOLD)
+        solved = turn @ (turn.T @ np.append(weights @ data.cross + side, 0.0))
+        gain = float(solved[-1])
+        if not 1.0 / _UNITS < abs(gain) < _UNITS:
+            break
+        weights = 1.0 / np.maximum(_with_gain(seen, place, gain).left(solved[:-1]), FLOOR) ** 2
+        weights[place] /= gain**2
+    return gain
+
+
+def _with_gain(seen: Evidence, place: int, gain: float) -> Products:
+    """Of the log with the torque of a joint multiplied by a gain."""
+    return seen.data.scaled(np.where(np.arange(len(seen.joints)) == place, gain, 1.0))
+
+
+def _signs(seen: Evidence) -> Iterator[Hypothesis]:
+    """Some torques of the other sign: every subset of a few joints, all and single ones of many.
+
+    A subset and the rest leave the same without a machine: friction and inertia tell them apart.
+    """
+    count = len(seen.joints)
+    sizes = range(1, count + 1) if count <= _SUBSETS else (1, count)
+    tried = [own for size in sizes for own in combinations(range(count), size)]
+    least = _score(seen.errors) + np.log(HALF)
+    found, scores = [], dict[tuple[int, ...], float]()
+    for own in tried:
+        rest = tuple(k for k in range(count) if k not in own)
+        if seen.judge.beta is not None or rest not in scores:
+            data = _signed(seen.data, own)
+            scores[own] = _score(seen.judge.errors(data, possible=False))
+        else:
+            scores[own] = scores[rest]
+        if scores[own] <= least:
+            found.append(own)
+    for own in sorted(found, key=lambda own: (round(scores[own], 1), len(own)))[:_MACHINES]:
+        names, s = ", ".join(seen.name(k) for k in own), "s" * (len(own) > 1)
+        whose = f"joint{s} {names}: the measured torque{s} ha{'ve' if s else 's'}"
+        if len(own) == count > 1:
+            whose = "all measured torques have"
+        line = f"{whose} the other sign of what a machine that can be built needs; check the sign"
+        j = tuple(seen.joints[k] for k in own)
+        yield Hypothesis(Fault(line, True), _signed(seen.data, own), j)
+
+
+def _signed(data: Products, own: Sequence[int]) -> Products:
+    return data.scaled(np.where(np.isin(np.arange(len(data.gram)), own), -1.0, 1.0))
+
+
+# Hypotheses about positions and times.
+
+
+def _motions(seen: Evidence) -> Iterator[Hypothesis]:
+    """Positions in other units, reversed, exchanged, from another zero; what comes late."""
+    for factor in _CLOCKS if seen.errors.max() > SUSPECT else ():
+        line = (
+            f"the clock seems to be wrong: with all motion {factor:g} times as fast, torques are "
+            "those of a machine; check the time column, its unit and rate"
+        )
+        W = seen.few.timed(seen.compiled, factor)
+        data = _products(W, seen.few.tau, seen.few.used, seen.joints)
+        yield Hypothesis(Fault(line, True), data)
+    if seen.tree:
+        grave = turns(seen.observation) if seen.errors.max() > SUSPECT else ()
+        for turn in (*grave, *zeros(seen.observation)):
+            data = _turned(seen, turn)
+            if data is not None:
+                yield Hypothesis(Fault(turn.line, True), data)
+    if seen.judge.beta is None:
+        yield from _late(seen)
+
+
+def _turned(seen: Evidence, turn: Turn) -> Products | None:
+    """Of other positions; None where too few rows count."""
+    used = seen.few.used & seen.few.used[:, turn.torque]
+    if used[:, list(seen.joints)].sum(axis=0).min() < _LEAST_ROWS:
+        return None
+    W, tau = seen.few.turned(seen.compiled, turn), seen.few.tau[:, turn.torque]
+    return _products(W, tau, used, seen.joints)
+
+
+LONGEST = 0.15
+"""s, the largest delay that is looked for: beyond it, channels do not look late but wrong."""
+
+_STARTS = (-0.1, -0.05, 0.05, 0.1)  # s; a step along the slope goes astray from farther away
+_NEAR = 5e-3  # s between the motions of which a slope is taken
+_STEPS = 4  # of Gauss and Newton
+_HINT = 0.2  # of the sum of logarithms; what a small part of a shift explains at least
+Columns = Callable[[float], np.ndarray]
+"""(m, n, c) columns with a channel taken some seconds later."""
+
+
+@dataclass(frozen=True)
+class _Channel:
+    """What may be late.
+
+    Attributes:
+        what: it comes.
+        other: what would then be early.
+        sign: of its lateness, by the shift of the motion.
+        columns: with the motion that many seconds later.
+    """
+
+    what: str
+    other: str
+    sign: float
+    columns: Columns
+
+
+def _late(seen: Evidence) -> Iterator[Hypothesis]:
+    """Channels of another time: all torques, and of one joint torque, position, or both.
+
+    W(t + d) beta = tau(t) is fitted for a shift d of the motion of all joints, for the rows of a
+    joint alone (its torque is late), and of the motion of a joint alone (its position is late), by
+    Gauss and Newton.
+    """
+    step = float(np.median([part.segment.step for part in seen.observation.stretches]))
+    for channel in _channels(seen):
+        shift, data = _best_shift(seen, channel.columns)
+        way, back = ("late", "early") if channel.sign * shift > 0.0 else ("early", "late")
+        line = (
+            f"{channel.what} {1e3 * abs(shift):.0f} ms {way}, by a fit at other times (or "
+            f"{channel.other} {back}); check the clocks of the channels, and shift the column"
+        )
+        if abs(shift) > 0.5 * step:
+            yield Hypothesis(Fault(line, False), data)
+
+
+def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
+    """The shift of a channel that leaves least, s, and what it leaves that of.
+
+    A channel whose shift, to first order, does not help is given up; where torques are missed by
+    far, a long delay is looked for too.
+    """
+    few, judge = seen.few, seen.judge
+
+    def data_of(W: np.ndarray) -> Products:
+        return _products(W, few.tau, few.used, seen.joints)
+
+    def left(data: Products) -> float:
+        return _score(judge.errors(data, possible=False))
+
+    tried = [(left(seen.few_data), 0.0, few.W)]
+    if seen.errors.max() > SUSPECT:
+        tried += [(left(data_of(W := columns(start))), start, W) for start in _STARTS]
+    least, shift, W = min(tried, key=lambda one: one[0])
+    for _ in range(_STEPS):
+        beta, _ = judge.solved(data_of(W))
+        near = 0.5 * _NEAR  # both sides alike: columns of other times have samples of their own
+        slope = (columns(shift + near) - columns(shift - near)) @ beta / _NEAR
+        both = data_of(np.concatenate([W, slope[..., None]], axis=2))
+        found, _ = judge.solved(both)
+        if shift == 0.0 and _score(both.left(found)) > least - _HINT:
+            break
+        further = float(np.clip(shift + found[-1], -LONGEST, LONGEST))
+        closer = columns(further)
+        reached = left(data_of(closer))
+        if reached >= least:
+            break
+        shift, W, least = further, closer, reached
+    return shift, data_of(W)
+
+
+def _channels(seen: Evidence) -> list[_Channel]:
+    """What may be late."""
+    n = len(seen.observation.joints)
+    compiled, few = seen.compiled, seen.few
+    kept: dict[float, np.ndarray] = {}
+
+    def all_later(shift: float) -> np.ndarray:
+        if shift not in kept:
+            kept[shift] = few.shifted(compiled, np.full(n, shift))
+        return kept[shift]
+
+    def torque_earlier(j: int, shift: float) -> np.ndarray:
+        W = few.W.copy()
+        W[:, j] = all_later(shift)[:, j]
+        return W
+
+    def one_later(j: int, shift: float) -> np.ndarray:
+        return few.shifted(compiled, shift * np.eye(n)[j])
+
+    def both_later(j: int, shift: float) -> np.ndarray:
+        W = one_later(j, shift)
+        W[:, j] = few.shifted(compiled, shift * (np.eye(n)[j] - 1.0))[:, j]
+        return W
+
+    found = [_Channel("all torques come", "the positions", -1.0, all_later)]
+    if not seen.tree or len(seen.joints) == 1:
+        return found  # positions that are not of one time do not close the loops
+    for place, j in enumerate(seen.joints):
+        name, rest = f"joint {seen.name(place)}:", "all the others"
+        found += [
+            _Channel(f"{name} its torque comes", rest, -1.0, partial(torque_earlier, j)),
+            _Channel(f"{name} its position comes", rest, 1.0, partial(one_later, j)),
+            _Channel(f"{name} its position and torque come", rest, 1.0, partial(both_later, j)),
+        ]
+    return found
+
+
+# What could not be seen in any case.
+
+
+SURELY = 1.5
+"""Times the evidence that is told, below which a fault would not be seen for sure."""
+
+_DELAY = 0.01  # s; a shorter one is not asked for
+_SHOWN = 0.02  # s; from what it does that of others is taken: it grows with the delay
+
+
+def _unseen(seen: Evidence) -> tuple[Fault, ...]:
+    """Faults that torques of the machine itself would not show, beside what is left of them."""
+    if seen.errors.max() > WRONG:
+        return ()
+    beta = seen.judge.possible(seen.data, *seen.judge.solved(seen.data))
+    every = range(len(seen.joints))
+    made = _machine_data(seen, seen.rows, seen.rows.W, beta)
+    told = []
+    for what, gain in (("a torque twice as large", 0.5), ("a torque of the other sign", -1.0)):
+        scaled = (made.scaled(np.where(np.arange(len(every)) == k, gain, 1.0)) for k in every)
+        hidden = [seen.name(k) for k, data in zip(every, scaled, strict=True) if _hides(seen, data)]
+        told += [f"{what} of joint {', '.join(hidden)}"] if hidden else []
+    if seen.tree:
+        told += _unseen_motions(seen, beta)
+    if not told:
+        return ()
+    return (Fault(f"could not be seen in these logs: {'; '.join(told)}", False, unseen=True),)
+
+
+def _unseen_motions(seen: Evidence, beta: np.ndarray) -> list[str]:
+    """Another zero, and delays."""
+    driven = [seen.observation.joints[j] for j in seen.joints]
+    turning = [place for place, joint in enumerate(driven) if joint.unit == "rad"]
+    every = {joint.name: turn for joint, turn in zip(
+        (joint for joint in seen.observation.joints if joint.unit == "rad"),
+        zeros(seen.observation, (90,)), strict=True)}  # fmt: skip
+    hidden, told, short = list[str](), list[str](), list[str]()
+    for place in turning:
+        W = seen.few.turned(seen.compiled, every[seen.name(place)])
+        if _hides(seen, _machine_data(seen, seen.few, W, beta)):
+            hidden.append(seen.name(place))
+    if hidden:
+        told.append(f"a zero that is off by 90 degrees of joint {', '.join(hidden)}")
+    for place, j in enumerate(seen.joints) if len(seen.joints) > 1 else ():
+        shift = _SHOWN * np.eye(len(seen.observation.joints))[j]
+        data = _machine_data(seen, seen.few, seen.few.shifted(seen.compiled, shift), beta)
+        least = _least_delay(seen, seen.judge.errors(data, possible=False))
+        if least > _DELAY:
+            short.append(f"{1e3 * least:.0f} ms of joint {seen.name(place)}")
+    return [*told, f"a delay below {', '.join(short)}"] if short else told
+
+
+def _least_delay(seen: Evidence, errors: np.ndarray) -> float:
+    """s that would be seen, by the errors (k,) that `_SHOWN` makes; `LONGEST` at most."""
+    for delay in np.geomspace(_DELAY, LONGEST, 20):
+        made = np.hypot(errors * delay / _SHOWN, seen.errors)
+        if _evidence_for(seen.errors, made) >= SURELY * ENOUGH:
+            return float(delay)
+    return LONGEST
+
+
+def _hides(seen: Evidence, data: Products) -> bool:
+    """True if a fault, made of the torques of the machine, adds too little to what is left now."""
+    for possible in (False, True):  # what shows without a machine that can be built shows with it
+        made = np.hypot(seen.judge.errors(data, possible), seen.errors)
+        if _evidence_for(seen.errors, made) >= SURELY * ENOUGH:
+            return False
+    return True
+
+
+def _machine_data(seen: Evidence, rows: ThinnedRows, W: np.ndarray, beta: np.ndarray) -> Products:
+    """Of columns W and the torques that a machine makes in the logs as they are."""
+    return _products(W, rows.W @ beta, rows.used, seen.joints)
