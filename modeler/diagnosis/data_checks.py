@@ -15,14 +15,9 @@ from modeler.diagnosis.plausible import friction_share
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import SearchData, State, state_of, trembling
 from modeler.diagnosis.timing import CONVENTION
-<<<<<<< HEAD
 from modeler.effects import Acts, Effect
-from modeler.estimation import IdentifiedModel
-from modeler.observation import TREMBLES, Fault, faults, suspects
-=======
 from modeler.estimation import IdentifiedModel, faults, suspects
-from modeler.observation import Fault, LogRepair
->>>>>>> main
+from modeler.observation import TREMBLES, Fault
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""
