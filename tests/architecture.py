@@ -79,7 +79,7 @@ ONLY_IN = {
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
 MOST_MODULES = 312  # observe.py: what torques answer to; held.py: values that stand still
-MOST_CODE_LINES = 52_300  # the noise of the motion; faults of logs
+MOST_CODE_LINES = 52_520  # the noise of the motion; faults of logs; the rule that names
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.
