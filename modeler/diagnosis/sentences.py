@@ -212,7 +212,7 @@ def lines(diagnosis: Diagnosis) -> list[str]:
     source = "held out" if diagnosis.held_out else "cross-validated"
     found.append("")
     found.append(f"{'joint':<6}{'error':>9}{'with effects':>14}  ({source}, up to "
-                 f"{diagnosis.band:g} Hz)")  # fmt: skip
+                 f"{diagnosis.band:.3g} Hz)")  # fmt: skip
     for name, joint in diagnosis.joints.items():
         before, after = printed(joint.error_before, joint.error_after)
         found.append(f"{name:<6}{before:>9}{after:>14}")
