@@ -456,9 +456,9 @@ def _motions(seen: Evidence) -> Iterator[Hypothesis]:
     if seen.tree:
         grave = turns(seen.observation) if seen.errors.max() > SUSPECT else ()
         for turn in (*grave, *zeros(seen.observation)):
-            data = _turned(seen, turn)
-            if data is not None:
-                yield Hypothesis(Fault(turn.line, True), data)
+            turned = _turned(seen, turn)
+            if turned is not None:
+                yield Hypothesis(Fault(turn.line, True), turned)
     if seen.judge.beta is None:
         yield from _late(seen)
 
