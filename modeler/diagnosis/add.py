@@ -25,7 +25,9 @@ from modeler.diagnosis.candidates import Candidate, StatedEffects, links_of, pas
 from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.effect_columns import body_parameters
-from modeler.diagnosis.result import Pick
+from modeler.diagnosis.plausible import objection
+from modeler.diagnosis.profile import values_of
+from modeler.diagnosis.result import Pick, doubt
 from modeler.diagnosis.score import Residuals, Score, error_changes, errors_of, rms_error, scored
 from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
@@ -175,8 +177,22 @@ def add_effect(
         model, name, joint, robot_from_text(model.robot_text, "robot").catalogue
     )
     before = _Fitted(model, rows_of(compiled, logs, model.processing))
-    after, _ = _judged(before, _found(before, effect, joint))
-    return _finished(after)
+    pick = _found(before, effect, joint)
+    after, score = _judged(before, pick)
+    *steps, last = after.model.history
+    last = dataclasses.replace(last, doubt=_why_perhaps(pick, score))
+    return _finished(after.with_history((*steps, last)))
+
+
+def _why_perhaps(pick: Pick, score: Score) -> str:
+    """Why an effect that was asked for is no more than a perhaps; empty if it may be named."""
+    candidate, whole = pick.candidate, score.whole
+    errors = score.errors.get(candidate.joint or "", (whole.before, whole.after))
+    against = ""
+    if candidate in pick.state.picks:
+        named = values_of(pick.state, candidate, pick.values, np.zeros(len(pick.values)))
+        against = objection(pick.state, candidate, named.value | dict(candidate.shapes))
+    return doubt(candidate, errors, against)
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")
@@ -185,12 +201,17 @@ def add_findings(
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
     """The model with the effects of a diagnosis that lower the error; why others are left out.
 
-    One after the other; each is judged beside those that were put in before it, by `scored`. Drive
-    gains come first and are judged together where that lowers the error: one of two wrong gains
-    alone may spoil other joints. A reason is one line that names the effect and its joint.
+    What a diagnosis says with a doubt is left out. One after the other; each is judged beside those
+    that were put in before it, by `scored`. Drive gains come first and are judged together where
+    that lowers the error: one of two wrong gains alone may spoil other joints. A reason is one line
+    that names the effect and its joint.
     """
-    left, best = [], _Fitted(model, rows_of(compiled, logs, model.processing))
-    best, findings = _with_gains(best, findings)
+    left = [
+        f"left out: {f.effect}, {where(f.joint)} (perhaps and no more: {f.doubt})"
+        for f in findings if f.doubt
+    ]  # fmt: skip
+    best = _Fitted(model, rows_of(compiled, logs, model.processing))
+    best, findings = _with_gains(best, [f for f in findings if not f.doubt])
     for finding in findings:
         try:
             catalogue = robot_from_text(best.model.robot_text, "robot").catalogue

@@ -291,7 +291,8 @@ def notes(model: IdentifiedModel, since: int = -1) -> list[str]:
 def _change(name: str, step: Addition) -> str:
     change = error_changes(step.joints, step.changed)
     if step.falls:
-        return f"{name}: the error falls: {change}"
+        doubt = f"; it is perhaps missing and no more: {step.doubt}" if step.doubt else ""
+        return f"{name}: the error falls: {change}{doubt}"
     return (
         f"{name}: the error does not fall ({change}); `modeler add MODEL undo` takes the effect "
         "out again"

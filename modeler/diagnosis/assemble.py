@@ -3,9 +3,11 @@
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.cross_checks import CrossCheck
 from modeler.diagnosis.data_checks import SHORT, doubts, length, one_speed
@@ -24,11 +26,12 @@ from modeler.diagnosis.result import (
     JointState,
     Key,
     Pick,
+    doubt,
     explained_fraction,
     mean_square,
 )
 from modeler.diagnosis.score import Change, Residuals, Score, errors_of
-from modeler.diagnosis.search import Search, Tick, extended
+from modeler.diagnosis.search import Search, Step, Tick, extended
 from modeler.diagnosis.sentences import evidence, sentences
 from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import instrumental
@@ -44,49 +47,89 @@ SAME_WAVES = 0.1
 """Orders that differ by less than this share are one."""
 
 
+@dataclass(frozen=True, eq=False)
+class BandSearch(Brief):
+    """A search in one band, and what is made of it.
+
+    Attributes:
+        found: of the training logs.
+        other: held-out ones in that band.
+        seen: what the states of the search leave of these.
+        shares: systematic share of what the last leaves, by joint.
+        findings: its effects.
+    """
+
+    found: Search
+    other: SearchData | None
+    seen: Sequence[Residuals]
+    shares: Sequence[float]
+    findings: Sequence[Finding]
+
+    @property
+    def named(self) -> tuple[Step, ...]:
+        """The steps whose effects are named."""
+        named = {(f.effect, f.joint) for f in self.findings if not f.doubt}
+        return tuple(step for step in self.found.steps if step.pick.key in named)
+
+
+def band_search(
+    found: Search, other: SearchData | None, looks: Sequence[tuple[CrossCheck, ...]], tick: Tick
+) -> BandSearch:
+    """The findings of a search.
+
+    Args:
+        found: of the training logs.
+        other: held-out ones in the same band.
+        looks: what other looks say of every effect, in order.
+        tick: called whenever something is done.
+    """
+    picks, beta = [*found.start.picks, *(step.pick for step in found.steps)], found.end.beta
+    ends = range(len(found.start.picks) + 1, len(picks))
+    middle = (state_of(found.start.data, picks[:k], beta) for k in ends)
+    chain = [found.start, *middle, *([found.end] if found.steps else [])]
+    shares, findings = [], list[Finding]()
+    for j in range(found.end.rows.joints):
+        tick()
+        shares.append(systematic_share(found.end, j))
+    seen = [holdout_residuals(state, other) for state in chain]
+    squares = [np.array([mean_square(left) for left in residuals.residual]) for residuals in seen]
+    for k, step in enumerate(found.steps):
+        touched = touched_joints(step.judged, *chain[k : k + 2])
+        score = compared(seen[k], seen[k + 1], touched, found.end)
+        if score.better and score.whole.after <= LOST:
+            closed = explained_fraction(chain[k:], touched, shares, squares[k:] if other else None)
+            findings.append(_finding(found, k, touched, score.whole, closed, looks[k]))
+        tick()
+    return BandSearch(found, other, seen, shares, findings)
+
+
 def assembled(
-    model: IdentifiedModel, found: Search, other: SearchData | None, window: Window | None,
-    looks: Sequence[tuple[CrossCheck, ...]] = (), faults: Sequence[Fault] = (),
-    tick: Tick = lambda: None,
+    model: IdentifiedModel, bands: Sequence[BandSearch], window: Window | None,
+    faults: Sequence[Fault] = (),
 ) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
     Args:
         model: as given.
-        found: of the training logs.
-        other: held-out ones.
+        bands: the search in the band of the diagnosis; then, if there is one, that in a wider band.
         window: of a contact that was masked.
-        looks: what other looks say of every effect, in order.
         faults: channels that contradict the model; if one is certain, nothing is named.
-        tick: called whenever something is done.
     """
-    picks, shares = [step.pick for step in found.steps], []
-    middle = (state_of(found.start.data, picks[:k], found.end.beta) for k in range(1, len(picks)))
-    chain = [found.start, *middle, *([found.end] if picks else [])]
-    for j in range(found.end.rows.joints):
-        tick()
-        shares.append(systematic_share(found.end, j))
-    seen = [holdout_residuals(state, other) for state in chain]
+    first, last = bands[0], bands[-1]
+    found, other = first.found, first.other
     contradicted = any(fault.certain for fault in faults)
-    every: list[Finding] = []
-    squares = [np.array([mean_square(left) for left in own.residual]) for own in seen]
-    for k, step in enumerate(() if contradicted else found.steps):
-        touched = touched_joints(step.judged, *chain[k : k + 2])
-        score = compared(seen[k], seen[k + 1], touched, found.end)
-        if score.better and score.whole.after <= LOST:
-            closed = explained_fraction(chain[k:], touched, shares, squares[k:] if other else None)
-            finding = _finding(found, k, touched, score.whole, closed)
-            every.append(dataclasses.replace(finding, looks=looks[k] if looks else ()))
-        tick()
 
     def falls(candidate: Candidate) -> Score:
-        after = holdout_residuals(extended(found.end, candidate), other)
-        return compared(seen[-1], after, [candidate.index], found.end)
+        after = holdout_residuals(extended(last.found.end, candidate), last.other)
+        return compared(last.seen[-1], after, [candidate.index], last.found.end)
 
+    every: list[Finding] = []
     if not contradicted:
-        every = detected(found, window, errors_of(seen[-1]), falls, every)
-    joints = _joints(found, seen, shares)
+        every = _once([finding for band in bands for finding in band.findings])
+        every = detected(last.found, window, errors_of(last.seen[-1]), falls, every)
+    joints = _joints(found, first.seen, first.shares)
     every = [_doubted(finding, joints) for finding in every]
+    every.sort(key=lambda finding: finding.status == "perhaps")
     effects, refinements = (tuple(f for f in every if f.refines is r) for r in (False, True))
     diagnosis = Diagnosis(
         robot=model.spec.robot,
@@ -106,6 +149,17 @@ def assembled(
     return sentences(diagnosis)
 
 
+def _once(findings: Sequence[Finding]) -> list[Finding]:
+    """What two bands say of an effect: as it is named, if it is, or as it was seen first."""
+    found: dict[tuple[object, ...], Finding] = {}
+    for k, finding in enumerate(findings):
+        several = finding.pick is not None and finding.pick.candidate.effect.several
+        key = (finding.effect, finding.joint, k if several else 0)
+        if key not in found or (found[key].doubt and not finding.doubt):
+            found[key] = finding
+    return list(found.values())
+
+
 def _doubted(finding: Finding, joints: Mapping[str, JointState]) -> Finding:
     """An event, where something acts all the time: what stood out of it may be none."""
     if not finding.event or finding.objection or not any(j.unexplained for j in joints.values()):
@@ -114,10 +168,12 @@ def _doubted(finding: Finding, joints: Mapping[str, JointState]) -> Finding:
 
 
 def _finding(
-    found: Search, k: int, touched: Sequence[int], change: Change, closed: float
-) -> Finding:
+    found: Search, k: int, touched: Sequence[int], change: Change, closed: float,
+    looks: tuple[CrossCheck, ...],
+) -> Finding:  # fmt: skip
     """What the k-th step put in."""
-    step, end = found.steps[k], found.end
+    step, end, first = found.steps[k], found.end, k == 0 and not found.given
+    k += len(found.given)
     judged, pick, before = step.judged, step.pick, step.before
     left = [end.residual[j] / before.sigma[j] for j in touched]
     values = end.values[k]
@@ -133,20 +189,28 @@ def _finding(
     named = values_of(end, pick, values, deviations)
     parameters = named.value | dict(pick.shapes)
     ties = [*(tie.key for tie in step.ties), *_same(pick, found)]
+    refines = _refines(found, k)
+    ratio = float(np.max(np.abs(values) / np.maximum(deviations, 1e-300)))
+    against = objection(end, pick, parameters)
+    sigmas = named.deviation | ({} if along is None else along.shape_deviations())
+    errors = (change.before, change.after)
     return Finding(
         effect=pick.effect.id,
         joint=pick.joint,
         error_before=change.before,
         error_after=change.after,
         parameters=parameters,
-        sigmas=named.deviation | ({} if along is None else along.shape_deviations()),
+        sigmas=sigmas,
         intervals={} if along is None else named_intervals(along, named),
         units=named.unit | shape_units(end, pick),
         ties=tuple(dict.fromkeys(ties)),
         evidence=evidence(step, change.before, change.after),
         closure=closed,
-        refines=_refines(found, k),
-        objection=objection(end, pick, parameters),
+        refines=refines,
+        objection=against,
+        looks=looks,
+        doubt=doubt(pick, errors, against, ratio, sigmas, closed, looks, ties, refines),
+        first=first,
         pick=Pick(pick, values, end, visible),
     )
 
@@ -164,12 +228,13 @@ def _refines(found: Search, k: int) -> bool:
 
     Those are smaller than what they mend. What moves the links is felt next to its joint too.
     """
+    steps = (*found.given, *found.steps)[: k + 1]
     mends = [
         step.pick.effect.mends(float(values[0]))
-        for step, values in zip(found.steps[: k + 1], found.end.values, strict=False)
+        for step, values in zip(steps, found.end.values, strict=False)
     ]
-    step = found.steps[k]
-    for i, earlier in enumerate(found.steps[:k]):
+    step = steps[k]
+    for i, earlier in enumerate(steps[:k]):
         first, later = earlier.pick, step.pick
         if mends[i]:
             continue

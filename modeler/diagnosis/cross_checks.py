@@ -1,28 +1,22 @@
-"""Other looks at the same machine: what names an effect must lead in all of them.
+"""Other looks at the same machine: what names an effect must hold in all of them.
 
 The first look is at the training logs, in the band of the diagnosis. The others change what has
-nothing to do with the robot: the held-out logs take the place of the training logs, and the filters
-cut off at `FACTORS` times the frequency. What leads in one and not in the other is a matter of the
-look, so it is not stated as fact. Diagnoses of one machine with training and held-out logs
-exchanged, or with such another cut-off, then state two names only where the one is not among the
-nearest rivals of the other: each looks at what the other was made from. And what the user ruled
-out is asked beside every effect: if it would have been named instead, the effect stands in for it.
+nothing to do with the robot: the held-out logs take the place of the training logs, and the band is
+another, wide or narrow. An effect that another one on its joint surely beats there, or that no
+longer explains anything, is a matter of the look. And what the user ruled out is asked beside every
+effect: if it would have been named instead, the effect stands in for it.
 """
 
-import dataclasses
-from collections.abc import Iterable, Iterator
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.generate import generate_candidates, ruled_out
-from modeler.diagnosis.judge import Judged, decide, numbers, tied
+from modeler.diagnosis.judge import Judged, decide, numbers, refines, tied
 from modeler.diagnosis.search import Search, Step, Tick, about_itself, scan_candidates
-from modeler.diagnosis.state import SearchData, State, analysed, state_of
-from modeler.observation import HIGHEST, LogRepair, Observation
-
-FACTORS = (0.7, 1.4)
-"""Cut-offs of the other looks, over those of the diagnosis."""
+from modeler.diagnosis.state import SearchData, State, state_of
 
 RIVALS = 8
 """Effects that are asked again in the other looks: those that came nearest."""
@@ -38,70 +32,57 @@ class CrossCheck:
 
     Attributes:
         what: which look, in words.
-        leads: effect and joint that lead there; None if nothing surely does.
+        leads: effect and joint that lead there on its joint; None if nothing surely does.
         agrees: True if that is the effect, if the data there do not tell it from the effect, or if
             nothing is sure there.
+        gain: fall of the residual variance of its joints there, cross-validated; NaN if unknown.
+        least: of it, below which the effect is a matter of the band.
     """
 
     what: str
     leads: Key | None
     agrees: bool
+    gain: float = math.nan
+    least: float = -math.inf
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         leads = (
             None if self.leads is None else dict(zip(("effect", "joint"), self.leads, strict=True))
         )
-        return {"what": self.what, "leads": leads, "agrees": self.agrees}
+        return {"what": self.what, "leads": leads, "agrees": self.agrees, "gain": self.gain}
 
 
-def other_observations(
-    data: SearchData, mending: LogRepair, other: SearchData | None
-) -> Iterator[tuple[str, SearchData]]:
-    """The same robot's data, looked at otherwise.
+@dataclass(frozen=True, eq=False)
+class OtherLook:
+    """Another look.
 
-    Args:
-        data: the training logs.
-        mending: of them.
-        other: held-out logs in the same band.
+    Attributes:
+        what: which, in words.
+        data: the logs in it.
+        least: fall of the residual variance that an effect must show there.
     """
-    if other is not None:
-        yield "the held-out logs", other
-    for factor, seen in cut_off_otherwise(data, mending):
-        yield f"cut-offs x {factor:g}", dataclasses.replace(data, observation=seen)
-        del seen  # or it would live beside the next
 
-
-def cut_off_otherwise(data: SearchData, mending: LogRepair) -> Iterator[tuple[float, Observation]]:
-    """The training logs with the filters elsewhere, by `FACTORS`."""
-    processing, logs = data.observation.report.processing, mending.logs
-    highest = HIGHEST / max(log.step for log in logs)
-    for factor in FACTORS:
-        cut = {
-            name: min(factor * value, highest)
-            for name in ("position_cutoff", "parallel_cutoff")
-            if (value := getattr(processing, name))
-        }
-        changed = dataclasses.replace(processing, **cut, decimation=None, edge=None)
-        yield factor, analysed(data.compiled, logs, changed, chosen=True, mending=mending)
+    what: str
+    data: SearchData
+    least: float = -math.inf
 
 
 def recheck_effects(
-    found: Search, looks: Iterable[tuple[str, SearchData]], tick: Tick = lambda: None
+    found: Search, looks: Sequence[OtherLook], tick: Tick = lambda: None
 ) -> list[tuple[CrossCheck, ...]]:
     """What the other looks say of every effect that was put in, in order.
 
     Args:
         found: the search in the first look.
-        looks: others, one after the other: each is let go before the next is made.
+        looks: others.
         tick: called after each.
     """
     said: list[list[CrossCheck]] = [[] for _ in found.steps]
-    for what, data in looks if found.steps else ():
+    for look in looks:
         for place, own in enumerate(said):
-            own.append(_observe_otherwise(what, data, found, place))
+            own.append(_observe_otherwise(look, found, place))
             tick()
-        del data
     return [(*own, *_ruled_out(found, s)) for own, s in zip(said, found.steps, strict=True)]
 
 
@@ -127,19 +108,25 @@ def _ruled_out(found: Search, step: Step) -> list[CrossCheck]:
     return [CrossCheck("ruled out", best.key, False)]
 
 
-def _observe_otherwise(what: str, data: SearchData, found: Search, place: int) -> CrossCheck:
-    step = found.steps[place]
-    picks = [s.pick for s in found.steps[: place + 1]]
+def _observe_otherwise(look: OtherLook, found: Search, place: int) -> CrossCheck:
+    what, data, step = look.what, look.data, found.steps[place]
+    picks = [*found.start.picks, *(s.pick for s in found.steps[: place + 1])]
     if not all(_logged(data, pick) for pick in picks):
         return CrossCheck(what, None, True)
     # the state in which the effect was chosen, from other data
     state = about_itself(state_of(data, picks[:-1], step.before.beta))
     judged = _recheck(state, step, found)
-    best = decide(state, judged).best
+    own = [j.gain for j in judged if j.key == step.pick.key]
+    gain = own[0] if own else 0.0
+    joint = step.pick.joint
+    near = [j for j in judged if joint is None or j.key[1] in (None, joint)]
+    best = decide(state, near).best
     if best is None:
-        return CrossCheck(what, None, True)
+        return CrossCheck(what, None, True, gain, look.least)
     alike = {best.key, *(j.key for j in tied(best, judged))}
-    return CrossCheck(what, best.key, step.pick.key in alike)
+    if refines(best.candidate, step.pick):
+        alike.add(step.pick.key)
+    return CrossCheck(what, best.key, step.pick.key in alike, gain, look.least)
 
 
 def _logged(data: SearchData, candidate: Candidate) -> bool:

@@ -8,25 +8,27 @@ import numpy as np
 
 from modeler.core.manifest import JointSpec
 from modeler.core.table import percent
-from modeler.diagnosis.cross_checks import cut_off_otherwise
+from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.drive_gains import with_gains
 from modeler.diagnosis.events import Window
-from modeler.diagnosis.plausible import has_friction, largest_friction
+from modeler.diagnosis.plausible import friction_share
 from modeler.diagnosis.search import Search
-from modeler.diagnosis.state import SearchData, State, state_of
+from modeler.diagnosis.state import SearchData, State, state_of, trembling
 from modeler.diagnosis.timing import CONVENTION
+from modeler.effects import Acts, Effect
 from modeler.estimation import IdentifiedModel, faults, suspects
-from modeler.observation import Fault, LogRepair
+from modeler.observation import TREMBLES, Fault
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""
+
+SMOOTH = 0.035
+"""Friction over torque, rms, median over the joints: the least of a machine seen is 0.11."""
 
 _STILL = {"rad": 1e-3, "m": 1e-4}  # stroke below which a joint does not move
 _ONE_WAY = 0.98  # of the moving rows
 _ONE_SPEED = 1.3  # ratio of the 90 % and 10 % quantiles of the speed
 _SLOW = 0.01  # of a joint's torque that inertia makes
-_SMOOTH = 0.01  # of a joint's torque that friction makes
-_TREMBLES = 4.0  # times the measured torque: no torque that was measured, but noise of the motion
 
 
 def length(state: State) -> float:
@@ -50,7 +52,7 @@ def data_lines(state: State) -> tuple[str, ...]:
     for j, joint in driven.items():
         lines += _motion(state, j, joint)
     felt = {j: joint for j, joint in driven.items() if state.rows.y[j].size}
-    return (*lines, *_slow(state, felt), *_noisy(state), *_smooth(state, felt))
+    return (*lines, *_slow(state, felt), *_noisy(state), *_computed(state))
 
 
 def _motion(state: State, j: int, joint: JointSpec) -> list[str]:
@@ -108,46 +110,47 @@ def _slow(state: State, joints: Mapping[int, JointSpec]) -> list[str]:
     ]
 
 
-def _smooth(state: State, joints: Mapping[int, JointSpec]) -> list[str]:
-    """Torques of a robot none of whose joints rubs."""
-    shares = [
-        largest_friction(state, j) / max(_rms(state.rows.y[j]), 1e-300)
-        for j in joints if has_friction(state, j)
-    ]  # fmt: skip
-    if not shares or max(shares) > _SMOOTH:
+def _computed(state: State) -> list[str]:
+    catalogue = state.data.known.catalogue
+    if not all(map(_of_the_computer, catalogue)):
         return []
     return [
-        f"no joint rubs: friction is at most {percent(max(shares))} of the torque; a robot "
-        "with gears does: were these torques computed from the motion, and not measured?"
+        "no joint rubs: friction is less than "
+        f"{percent(SMOOTH)} of the torque, which it is on no robot with gears: these torques were "
+        "computed from the motion, and not measured; only "
+        f"{', '.join(effect.id for effect in catalogue)} are looked for"
     ]
+
+
+def _of_the_computer(effect: Effect) -> bool:
+    """True for what the model that torques were computed by may have otherwise."""
+    whole = effect.acts in (Acts.TORQUE, Acts.GRAVITY, Acts.LINK) or effect.whole_axis
+    return whole or effect.id == "offset"
+
+
+def without_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None:
+    """What may be missing where torques were computed, and not measured; None where they rub.
+
+    No robot with gears is without friction: a torque that is was computed from the motion by some
+    model, and differs from this one by delays, offsets, a tilt, a load.
+    """
+    if friction_share(state_of(data, (), beta)) > SMOOTH:
+        return None
+    kept = tuple(effect for effect in data.known.catalogue if _of_the_computer(effect))
+    return dataclasses.replace(data.known, catalogue=kept)
 
 
 def _noisy(state: State) -> list[str]:
     """Joints whose model trembles from row to row, and whose torque does not."""
-    found = {}
-    for j, (name, y) in enumerate(zip(state.names, state.rows.y, strict=True)):
-        measured, model = (_trembling(state, j, x) for x in (y, y - state.residual[j]))
-        if model > _TREMBLES * measured > 0.0:
-            found[name] = model / measured
+    found = {name: ratio for name, ratio in trembling(state).items() if ratio > TREMBLES}
     if not found:
         return []
     cutoff = state.data.observation.report.processing.position_cutoff
     return [
         f"joint{'s' if len(found) > 1 else ''} {', '.join(found)}: the model's torque trembles up "
         f"to {max(found.values()):.0f} times as much as the measured one: noise of the positions; "
-        f"fit again with a --cutoff below {cutoff:g} Hz"
+        f"fit again with a --cutoff below {cutoff:.3g} Hz"
     ]
-
-
-def _trembling(state: State, j: int, values: np.ndarray) -> float:
-    """Rms of the second differences of values (rows_j,) between neighbouring rows."""
-    time, segment = state.rows.time[j], state.rows.segment[j]
-    if len(time) < 3:
-        return 0.0
-    step = np.diff(time)
-    near = (step < 1.5 * np.median(step)) & (np.diff(segment) == 0)
-    bends = np.diff(values, 2)[near[1:] & near[:-1]]
-    return _rms(bends) if bends.size else 0.0
 
 
 # All that may be wrong with the logs of a diagnosis, the gravest first.
@@ -302,7 +305,7 @@ def sensor_delay_lines(found: Search) -> list[str]:
 
 
 def channel_faults(
-    model: IdentifiedModel, data: SearchData, other: SearchData | None, mending: LogRepair
+    model: IdentifiedModel, data: SearchData, other: SearchData | None, beyond: SearchData | None
 ) -> tuple[Fault, ...]:
     """Of the logs, then of the held-out ones.
 
@@ -310,12 +313,12 @@ def channel_faults(
         model: as fitted.
         data: training logs.
         other: held-out ones.
-        mending: of the training logs.
+        beyond: the training logs in another band.
     """
     beta, gains = _allowed(model, data, other)
     found = faults(data.compiled, data.observation, beta, gains)
-    if any(f.joint >= 0 and not f.certain for f in found):
-        stable = _stable(data, mending, beta, gains)
+    if beyond is not None and any(f.joint >= 0 and not f.certain for f in found):
+        stable = {f.joint for f in faults(beyond.compiled, beyond.observation, beta, gains)}
         found = tuple(f for f in found if f.certain or f.joint in (-1, *stable))
     if other is None:
         return found
@@ -338,14 +341,3 @@ def _allowed(
         return model.beta, None
     found = with_gains(state_of(data, (), model.beta), sorted(doubted))
     return (model.beta, None) if found is None else found
-
-
-def _stable(
-    data: SearchData, mending: LogRepair, beta: np.ndarray, gains: np.ndarray | None
-) -> set[int]:
-    """Joints whose torque has another scale with other cut-offs too."""
-    joints = [
-        {f.joint for f in faults(data.compiled, seen, beta, gains)}
-        for _, seen in cut_off_otherwise(data, mending)
-    ]
-    return set.intersection(*joints)

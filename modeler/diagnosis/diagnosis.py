@@ -1,22 +1,22 @@
 """Which physical effect is missing: from a model and logs to a diagnosis."""
 
 import dataclasses
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from modeler.core.errors import DataError
-from modeler.diagnosis.assemble import assembled
+from modeler.diagnosis.assemble import BandSearch, assembled, band_search
 from modeler.diagnosis.candidates import StatedEffects
-from modeler.diagnosis.cross_checks import other_observations, recheck_effects
-from modeler.diagnosis.data_checks import channel_faults
+from modeler.diagnosis.cross_checks import OtherLook, recheck_effects
+from modeler.diagnosis.data_checks import channel_faults, without_friction
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
 from modeler.diagnosis.judge import vetoing
 from modeler.diagnosis.result import Diagnosis
-from modeler.diagnosis.search import MOST, Search, search
-from modeler.diagnosis.state import SearchData, analysed, bands_line, state_of
+from modeler.diagnosis.search import MOST, Search, Step, search
+from modeler.diagnosis.state import BAND, SearchData, again, analysed, bands_line, cutoff, state_of
 from modeler.diagnosis.timing import logger_shift
 from modeler.effects import Acts, Effect, effect_named
 from modeler.estimation import IdentifiedModel
@@ -87,27 +87,50 @@ def diagnose(
     data = SearchData(
         compiled, seen, kept_parameters(model, compiled, logs, seen), known or StatedEffects()
     )
-    without, other = _ids(without, data.known.catalogue), _held_out(data, holdout)
-    doubted = channel_faults(model, data, other, mending)
+    without = _ids(without, data.known.catalogue)
+    if (fewer := without_friction(data, model.beta)) is not None:
+        data = dataclasses.replace(data, known=fewer)
+    other = _held_out(data, holdout)
+    beyond = _other_band(data, model, mending)
+    doubted = channel_faults(model, data, other, beyond)
     limit = 0 if any(fault.certain for fault in doubted) else most
 
-    def searched(data: SearchData, other: SearchData | None) -> Search:
+    def searched(data: SearchData, other: SearchData | None, given: Sequence[Step] = ()) -> Search:
         meter.stage(_SEARCHED)
-        return search(data, model.beta, without, limit, vetoing(other), meter.tick)
+        most = limit - len(given) if limit else 0
+        return search(data, model.beta, without, most, vetoing(other), meter.tick, given)
 
-    found = searched(data, other)
-    aligned = _aligned(data, found, model, mending)
+    def bands() -> list[BandSearch]:
+        """The search in the band of the diagnosis, and that in a wider one, with what is named."""
+        made: list[BandSearch] = []
+        far = beyond if beyond is not None and cutoff(beyond) > cutoff(data) else None
+        for own, held in ((data, other), (far, None if far is None else _held_out(far, holdout))):
+            if own is None:
+                continue
+            found = searched(own, held, made[0].named if made else ())
+            second = data if made else beyond
+            around = [] if held is None else [OtherLook("in the held-out logs", held)]
+            if second is not None:
+                least = KEEPS if made or far is not None else -KEEPS
+                around.append(OtherLook(f"up to {cutoff(second):.2g} Hz", second, least))
+            looks = recheck_effects(found, around, meter.tick)
+            made.append(band_search(found, held, looks, meter.tick))
+        return made
+
+    found = bands()
+    aligned = _aligned(data, found[0].found, model, mending)
     if aligned is not None:
         data, other = aligned, _held_out(aligned, holdout)
-        found = searched(data, other)
+        beyond = _other_band(data, model, mending)
+        found = bands()
     may_push = [e for e in data.known.catalogue if e.acts is Acts.WINDOW and e.id not in without]
-    window = _push(data, found) if may_push else None
+    window = _push(found[-1].found) if may_push else None
     if window is not None:
-        found = searched(_masked(data, window), other)
-    meter.stage(_LOOKED)
-    looks = recheck_effects(found, _other_observations(data, mending, other, window), meter.tick)
+        data = _masked(data, window)
+        beyond = None if beyond is None else _masked(beyond, window)
+        found = bands()
     meter.stage(1.0)
-    diagnosis = assembled(model, found, other, window, looks, doubted, meter.tick)
+    diagnosis = assembled(model, found, window, doubted)
     if progress is not None:
         progress(1.0)
 
@@ -115,13 +138,22 @@ def diagnose(
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
 
-def _other_observations(
-    data: SearchData, mending: LogRepair, other: SearchData | None, window: Window | None
-) -> Iterator[tuple[str, SearchData]]:
-    """Other looks, those at the training logs without the rows of a push."""
-    for what, look in other_observations(data, mending, other):
-        yield what, look if window is None or look is other else _masked(look, window)
-        del look  # or it would live beside the next
+KEEPS = 0.02
+"""Fall of the residual variance that an effect must show in a wider band, and what was found in
+that in the narrower one; else it may not rise by more there."""
+
+WIDER = 1.3
+"""Ratio of two cut-offs from which on one shows what the other does not."""
+
+
+def _other_band(data: SearchData, model: IdentifiedModel, mending: LogRepair) -> SearchData | None:
+    """The same logs in a wider band, or else in that of the motion; None if none differs."""
+    for band in (0.8 * BAND, 0.0):
+        seen = analysed(data.compiled, mending.logs, model.processing, band, mending=mending)
+        other = dataclasses.replace(data, observation=seen)
+        if max(cutoff(other) / cutoff(data), cutoff(data) / cutoff(other)) > WIDER:
+            return other
+    return None
 
 
 def _aligned(
@@ -157,7 +189,7 @@ def _held_out(data: SearchData, holdout: Sequence[Log]) -> SearchData | None:
     if not holdout:
         return None
     processing = data.observation.report.processing
-    seen = analysed(data.compiled, holdout, processing, chosen=True)
+    seen = again(data.compiled, holdout, processing)
     return dataclasses.replace(data, observation=seen)
 
 
@@ -176,9 +208,9 @@ def kept_parameters(
     return model.beta if given > CHANGED * fitted else None
 
 
-def _push(data: SearchData, found: Search) -> Window | None:
+def _push(found: Search) -> Window | None:
     """When something pushed; with its first part left out of the fit, more of it may show."""
-    end = found.end
+    end, data = found.end, found.start.data
     # a gear may have so much play that one of its knocks looks like a push
     rattles = any(burst_ratio(end, j) > BURST for j in range(end.rows.joints))
     window = more = None if rattles or not found.last.ranked else contact_window(end)

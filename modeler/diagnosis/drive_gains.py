@@ -28,8 +28,8 @@ _WEIGHINGS = 5
 _LEAST = 1e-6  # of a joint's torque: it leaves no less
 _CLOSE = 1e-3  # what is moved less than this at the end is used still
 _STEP = 0.5  # largest change of a g at once, as a share of it
-_FARTHEST = 20.0  # a g is sought from there on
-_GRID = tuple(np.geomspace(0.1, 10.0, 13))
+_FARTHEST = 1e3  # a g is sought from there on
+_GRID = tuple(np.geomspace(1e-3, 1e3, 37))
 _RIDGE = 1e-10
 _SAME = 0.01  # weights that change by less are settled
 _SCALES = frozenset({"torque"})
@@ -74,14 +74,16 @@ def likeliest(state: State, candidates: Sequence[Candidate]) -> Candidate | None
     joints. None where no gain can be settled.
     """
     each = ((c, _best(_problem(state, _gains((*state.picks, c))))) for c in candidates)
-    found = [(candidate, best.order) for candidate, best in each if best is not None]
+    found = [(candidate, best.score) for candidate, best in each if best is not None]
     return min(found, key=lambda pair: pair[1])[0] if found else None
 
 
 def with_gains(state: State, joints: Sequence[int]) -> tuple[np.ndarray, np.ndarray] | None:
-    """Base parameters (c,) and g (J,) with the gains of these joints; None if none make sense."""
+    """Base parameters (c,) and g (J,) with the gains of these joints; None if one is a unit."""
     found = _best(_problem(state, joints))
-    return None if found is None or found.order[0] else (found.beta, found.g)
+    if found is None or not np.all((found.g > 1.0 / TENFOLD) & (found.g < TENFOLD)):
+        return None
+    return found.beta, found.g
 
 
 def _best(problem: "_GainProblem") -> "_Solution | None":
@@ -89,7 +91,7 @@ def _best(problem: "_GainProblem") -> "_Solution | None":
     level = problem.reweighed(problem.torque)  # every joint weighs by its torque: no model bent it
     every = [p.weighed(start) for p in (problem, level) for start in p.starts()]
     found = [f for f in every if f is not None]
-    return min(found, key=lambda f: f.order) if found else None
+    return min(found, key=lambda f: f.score) if found else None
 
 
 def gain_deviations(state: State, place: int) -> np.ndarray:
@@ -114,11 +116,6 @@ class _Solution:
     g: np.ndarray  # (J,)
     left: np.ndarray  # (J,) squares, in units of sigma
     score: float  # the less, the likelier
-
-    @property
-    def order(self) -> tuple[bool, float]:
-        """The likelier, the less; a sign or a unit is a matter of channels, and comes last."""
-        return not bool(np.all((self.g > 1.0 / TENFOLD) & (self.g < TENFOLD))), self.score
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +178,8 @@ class _GainProblem:
         for column, j in self.had.items():
             beta[column] = 1.0 - g[j]
         left = self._left(g, values)
-        return _Solution(beta, g, left, self._score(left))
+        wrong = np.log(np.maximum(np.abs(g), 1.0 / _FARTHEST))  # of equals, those that are least so
+        return _Solution(beta, g, left, self._score(left) + float(wrong @ wrong))
 
     def _score(self, left: np.ndarray) -> float:
         """Minus twice the log likelihood of what is left, each joint with its own sigma."""

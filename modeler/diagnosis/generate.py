@@ -35,6 +35,8 @@ def generate_candidates(
 
     found = candidates(spec, state.scales, temperature, present, known, allowed)
     span = float(np.ptp(state.data.observation.time))
+    slowest = slowest_ringing(state)
+    found = [c for c in found if not c.effect.rings or c.shapes["f"] >= slowest]
     found = [c for c in found if only is not None or _lasts(span, c)]
     if waving := {effect.id for effect in known.catalogue if effect.orders}:
         waves = None if keys is None else {joint for effect, joint in keys if effect in waving}
@@ -52,6 +54,15 @@ def generate_candidates(
 def ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool:
     """True if the user rules out the effect, everywhere or on that joint."""
     return effect in without or f"{effect}@{joint}" in without
+
+
+ABOVE = 3.0
+"""Times the band of the motion, below which all parts of a joint move along."""
+
+
+def slowest_ringing(state: State) -> float:
+    """Hz from which on an elastic joint may ring."""
+    return ABOVE * state.data.observation.report.band
 
 
 def _lasts(span: float, candidate: Candidate) -> bool:

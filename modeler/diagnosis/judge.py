@@ -31,6 +31,10 @@ NEARLY = 0.95
 """Share of the best fall with which a simpler effect is preferred, if the data do not tell."""
 
 
+PLAIN = ("coulomb", "viscous")
+"""Friction that all other friction refines."""
+
+
 @dataclass(frozen=True, eq=False)
 class Judged(Brief):
     """One effect on one joint at its best shapes.
@@ -190,11 +194,32 @@ def decide(state: State, judged: list[Judged]) -> Judgement:
     for place, item in enumerate(judged):
         if not item.significant:
             continue
+        stem = _stem(item, judged)
+        if stem is not None:
+            return Judgement(tuple(judged), stem)
         if item.candidate.effect.timing and not confirmed(state, item.candidate, item.values):
             judged[place] = dataclasses.replace(item, confirmed=False)
             continue
         return Judgement(tuple(judged), _simplest(state, item, judged))
     return Judgement(tuple(judged), None)
+
+
+STEM = 0.5
+"""Share of what finer friction explains with which the plain one that is absent goes before it."""
+
+
+def refines(finer: Candidate, plain: Candidate) -> bool:
+    """True for friction of a joint beside the dry or viscous friction that it refines."""
+    friction = finer.effect.family == "friction" and finer.effect.id not in PLAIN
+    return friction and plain.effect.id in PLAIN and finer.joint == plain.joint
+
+
+def _stem(best: Judged, judged: Sequence[Judged]) -> Judged | None:
+    """Dry or viscous friction of a joint that has none, before what refines it."""
+    return next((
+        j for j in judged
+        if refines(best.candidate, j.candidate) and j.significant and j.share > STEM * best.share
+    ), None)  # fmt: skip
 
 
 def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:

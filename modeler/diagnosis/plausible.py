@@ -7,7 +7,8 @@ import numpy as np
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.drive_gains import TENFOLD
 from modeler.diagnosis.effect_columns import body_parameters, dense
-from modeler.diagnosis.state import State, columns_of
+from modeler.diagnosis.judge import PLAIN
+from modeler.diagnosis.state import State, columns_of, state_of, visible
 from modeler.effects import Needs
 from modeler.estimation import body, nearest_possible
 
@@ -67,6 +68,27 @@ def largest_friction(state: State, j: int) -> float:
     """The largest friction torque of joint j on its rows, but for one in fifty, N m or N."""
     torque = np.abs(_friction(state, j, _braking(state, j)))
     return float(np.quantile(torque, 0.98)) if torque.size else 0.0
+
+
+def friction_share(state: State) -> float:
+    """Median over the joints of the rms of Coulomb and viscous friction over that of the torque.
+
+    Those that the model lacks are fitted beside it.
+    """
+    present = {(p.effect, p.joint) for p in state.spec.standard}
+    plain = [e for e in state.data.known.catalogue if e.id in PLAIN]
+    moved = [j for j, joint in enumerate(state.spec.joints) if joint.actuated and state.y[j].size]
+    picks = [
+        Candidate(effect, effect.forms[0], name, j) for j in moved for effect in plain
+        if (effect.id, name := state.names[j]) not in present
+    ]  # fmt: skip
+    shown = [p for p in picks if visible(columns_of(state.rows, p))]
+    full = state_of(state.data, [*state.picks, *shown], state.beta)
+    shares = [
+        float(np.sqrt(np.mean(_friction(full, j, _braking(full, j)) ** 2) / np.mean(y**2)))
+        for j in moved if (y := state.y[j]).any()
+    ]  # fmt: skip
+    return float(np.median(shares)) if shares else 1.0
 
 
 def _driving(state: State, j: int, picks: Sequence[int]) -> float:

@@ -10,8 +10,10 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
+from modeler.core.table import percent
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.cross_checks import CrossCheck, Key
+from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
@@ -73,6 +75,69 @@ def _share(
     return explained / (explained + left) if explained > 0.0 else 0.0
 
 
+# Is an effect named? One rule, of `diagnose`, `add` and `auto`.
+
+
+SMALL = 0.1
+"""Least fall of the error of the joints that an effect touches, as a share of it; less only where
+nothing systematic is left with it."""
+
+MOST_LEFT = 0.6
+"""Error with the effect from which on a model says too little of its joints to name anything."""
+
+SIGMAS = 2.0
+"""Standard deviations that its best-known parameter is from zero, at least."""
+
+COUNTED = 3.0
+"""Standard deviations from a whole number of waves per turn from which on they are no teeth."""
+
+
+_NONE: Mapping[str, float] = {}
+
+
+def doubt(
+    pick: Candidate, errors: tuple[float, float], objection: str = "", ratio: float = math.inf,
+    sigmas: Mapping[str, float] = _NONE, closed: float | None = None,
+    looks: Sequence[CrossCheck] = (), ties: Sequence[Key] = (), refines: bool = False,
+) -> str:  # fmt: skip
+    """Why an effect is perhaps missing and no more; empty if it is named.
+
+    Args:
+        pick: the effect, with its shapes.
+        errors: relative errors of its joints without and with it, on unseen motion.
+        objection: why its values cannot be; a drive gain may be in another unit.
+        ratio: of its best-known parameter to its standard deviation.
+        sigmas: standard deviations of its shapes, by name, where they are known.
+        closed: share of what is systematic that it explains.
+        looks: what others say of it.
+        ties: effects that these data do not tell from it.
+        refines: True for what mends a law of the model, which may be small.
+    """
+    before, after = errors
+    reasons = [objection] if objection and not is_gain(pick) else []
+    if after > MOST_LEFT:
+        reasons.append(f"with it the error is {percent(after)} still")
+    small = not refines and (closed is None or closed < CLOSED)
+    if small and after > (1.0 - SMALL) * before:
+        reasons.append(f"the error falls by less than {percent(SMALL)} of itself")
+    if ratio < SIGMAS:
+        reasons.append(f"its value is {ratio:.1f} standard deviations from zero")
+    if pick.effect.orders and pick.effect.orders[1] < math.inf:
+        spread = COUNTED * max(sigmas.get(shape.name, math.inf) for shape in pick.form.shapes)
+        if abs(pick.order - round(pick.order)) > spread:
+            reasons.append(f"{pick.order:.1f} waves a turn are no number of teeth or poles")
+    elsewhere = sorted({joint for _, joint in ties if joint not in (None, pick.joint)})
+    if elsewhere and pick.joint is not None and not is_gain(pick):
+        reasons.append(f"it may as well be one of joint {', '.join(elsewhere)}")
+    unit = bool(objection) and is_gain(pick)  # it bends what every look weighs the joints by
+    for look in () if unit else looks:
+        if not look.agrees and look.leads is not None:
+            reasons.append(f"{look.leads[0]} explains its joint better ({look.what})")
+        if look.gain < look.least and not is_gain(pick):
+            reasons.append(f"it explains nothing {look.what}")
+    return "; ".join(reasons)
+
+
 FELT = 0.005
 """Of the torque's rms: what is systematic below is not worth a word."""
 
@@ -117,7 +182,9 @@ class Finding(Brief):
         refines: True if it refines a law of the model, or an effect named before on its joint.
         objection: why its values cannot be those of this robot; empty if they can.
         intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
-        looks: what other logs and other cut-offs say of it; empty for contacts and play.
+        looks: what other logs and another band say of it; empty for contacts and play.
+        doubt: why it is no more than a perhaps; empty if it is named.
+        first: True if nothing was named before it.
         pick: what `modeler add` puts in; None for contacts and play.
         event: True if it came once.
     """
@@ -138,21 +205,21 @@ class Finding(Brief):
     looks: tuple[CrossCheck, ...] = ()
     pick: Pick | None = field(default=None, repr=False, compare=False)
     event: bool = False
-
-    @property
-    def stands(self) -> bool:
-        """True if no other look surely names another effect in its place."""
-        return all(look.agrees for look in self.looks)
+    doubt: str = ""
+    first: bool = True
 
     @property
     def stated(self) -> bool:
         """True if it is the cause, or one of those that these data do not tell apart."""
         closed = self.closure is None or self.closure >= CLOSED
-        return closed and self.stands and not self.objection and not math.isnan(self.gain)
+        sure = not self.doubt and not self.objection and not math.isnan(self.gain)
+        return closed and sure and self.first
 
     @property
     def status(self) -> str:
-        """Either "fact", what is stated as missing, or "named"; a tie is no fact."""
+        """What is stated as missing is a "fact", else "named" or "perhaps"; a tie is no fact."""
+        if self.doubt:
+            return "perhaps"
         return "fact" if self.stated and not self.refines and not self.ties else "named"
 
     @property
@@ -167,7 +234,7 @@ class Finding(Brief):
             **entries(self, "effect joint status gain error_before error_after parameters sigmas"),
             **entries(self, "intervals units"),
             "ties": [{"effect": effect, "joint": joint} for effect, joint in self.ties],
-            **entries(self, "evidence closure objection"),
+            **entries(self, "evidence closure objection doubt"),
             "looks": [look.to_json() for look in self.looks],
         }
 

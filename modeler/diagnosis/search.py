@@ -15,7 +15,7 @@ from modeler.core.brief import Brief
 from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis.candidates import Candidate, coded, over_grid
 from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled_parameters
-from modeler.diagnosis.generate import generate_candidates, ruled_out
+from modeler.diagnosis.generate import generate_candidates, ruled_out, slowest_ringing
 from modeler.diagnosis.judge import (
     NEARLY,
     Judged,
@@ -64,6 +64,8 @@ def refined(state: State, candidate: Candidate) -> Candidate:
             np.array([coded(shape, scale.value(shape, shape.limits[k])) for shape in smooth])
             for k in (0, 1)
         )
+        if candidate.effect.rings:
+            low = np.maximum(low, [_lowest(state, shape) for shape in smooth])
 
     def lost(x: np.ndarray) -> float:
         return -_explained(state, candidate.moved(smooth, np.clip(x, low, high)))
@@ -88,6 +90,11 @@ def refined(state: State, candidate: Candidate) -> Candidate:
         x, score = found.x, float(found.fun)
     better = score < lost(start)
     return candidate.moved(smooth, np.clip(x, low, high)) if better else candidate
+
+
+def _lowest(state: State, shape: Shape) -> float:
+    """Coded; of a frequency the least at which a joint rings."""
+    return coded(shape, slowest_ringing(state)) if shape.scale == "hertz" else -np.inf
 
 
 def _reach(state: State, candidate: Candidate, shape: Shape) -> float:
@@ -304,6 +311,7 @@ class Search(Brief):
         last: the judgement that ended it.
         vetoed: effects that would have raised the error on held-out logs, when they led.
         without: what the user ruled out.
+        given: effects put in before, in another look; the start has them.
     """
 
     start: State
@@ -312,6 +320,7 @@ class Search(Brief):
     last: Judgement
     vetoed: tuple[Judged, ...] = ()
     without: tuple[str, ...] = ()
+    given: tuple[Step, ...] = ()
 
     @property
     def spec(self) -> ModuleSpec:
@@ -336,6 +345,7 @@ def search(
     most: int = MOST,
     veto: Veto | None = None,
     tick: Tick = lambda: None,
+    given: Sequence[Step] = (),
 ) -> Search:
     """Effects that the model lacks, one by one.
 
@@ -346,11 +356,12 @@ def search(
         most: effects to name at most; with 0 nothing is judged.
         veto: looks at held-out logs.
         tick: called whenever something is done.
+        given: effects that another look has put in.
     """
-    start = state = about_itself(state_of(data, (), beta))
+    start = state = about_itself(state_of(data, [step.pick for step in given], beta))
     steps, refused, every = list[Step](), list[Judged](), list[Judged]()
     if not most:
-        return Search(start, (), state, Judgement((), None), (), tuple(without))
+        return Search(start, (), state, Judgement((), None), (), tuple(without), tuple(given))
     survey = scan_catalogue(state, without)
     judgement = survey.judged((), tick)
     while judgement.best is not None and len(steps) < most and len(every) < ASKED:
@@ -367,8 +378,9 @@ def search(
         ties = (*alternatives(best, rivals, after), *doubted)
         steps.append(Step(best, rivals, state, ties))
         state, judgement = later, after
-    kept, state = _backward(state, steps, tick)
-    return Search(start, tuple(kept), state, judgement, tuple(every), tuple(without))
+    kept, state = _backward(state, steps, start.picks, tick)
+    looked = judgement, tuple(every), tuple(without), tuple(given)
+    return Search(start, tuple(kept), state, *looked)
 
 
 def _doubted(refused: Sequence[Judged], best: Judged) -> list[Judged]:
@@ -390,6 +402,8 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
         return dataclasses.replace(best, possible=False, why=DRIVES), None
     if veto is not None and veto(state, later, best):
         return best, None
+    if is_gain(best.candidate):  # of all, the likeliest; a unit or a sign is told with it
+        return best, later
     pick, values = later.picks[-1], later.values[-1]
     named = values_of(later, pick, values, np.zeros(len(values)))
     why = objection(later, pick, named.value | dict(pick.shapes))
@@ -454,30 +468,32 @@ def about_itself(state: State) -> State:
     return state_of(state.data, state.picks, state.beta if about is None else about)
 
 
-def _backward(state: State, steps: Sequence[Step], tick: Tick) -> tuple[list[Step], State]:
-    """Drops effects that the others made unnecessary, the weakest first.
+def _backward(
+    state: State, steps: Sequence[Step], given: Sequence[Candidate], tick: Tick
+) -> tuple[list[Step], State]:
+    """Drops effects that the others made unnecessary, the weakest first; those given stay.
 
     What the others gain is judged again then, beside those that are left.
     """
     kept = list(steps)
-    while len(kept) > 1:
+    while kept and len(kept) + len(given) > 1:
         judged = []
         for step in kept:
-            judged.append(_beside(state, kept, step))
+            judged.append(_beside(state, given, kept, step))
             tick()
         weakest = int(np.argmin([j.gain for j in judged]))
         if judged[weakest].significant:
             break
         del kept[weakest]
-        state = state_of(state.data, [s.pick for s in kept], state.beta)
+        state = state_of(state.data, [*given, *(s.pick for s in kept)], state.beta)
     if len(kept) < len(steps):
-        kept = [dataclasses.replace(s, judged=_beside(state, kept, s)) for s in kept]
+        kept = [dataclasses.replace(s, judged=_beside(state, given, kept, s)) for s in kept]
     return kept, state
 
 
-def _beside(state: State, kept: Sequence[Step], step: Step) -> Judged:
+def _beside(state: State, given: Sequence[Candidate], kept: Sequence[Step], step: Step) -> Judged:
     """One of the effects, judged in the model with the others."""
-    others = [s.pick for s in kept if s is not step]
+    others = [*given, *(s.pick for s in kept if s is not step)]
     return _judged_again(state_of(state.data, others, state.beta), step.pick)
 
 

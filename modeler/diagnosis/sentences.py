@@ -127,10 +127,11 @@ def _headline(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict == "missing" and first is not None:
         return f"missing: {_named(first, diagnosis)}{tied(first)}"
     if diagnosis.verdict == "closest description" and first is not None:
-        reason = first.objection or other_names(first) or _PART
+        perhaps = "perhaps " if first.doubt else ""
+        reason = first.doubt or first.objection or _PART
         return (
-            f"closest description: {_named(first, diagnosis)}{tied(first)}; {reason}, so the cause "
-            "may be outside the catalogue"
+            f"closest description: {perhaps}{_named(first, diagnosis)}{tied(first)}; {reason}, so "
+            "the cause may be outside the catalogue"
         )
     if diagnosis.verdict == "unexplained":
         return "unexplained: the error is systematic, and nothing in the catalogue describes it"
@@ -159,19 +160,6 @@ def tied(finding: Finding) -> str:
     return f", or {tie_names(finding)} (these data do not tell which)" if finding.ties else ""
 
 
-def other_names(finding: Finding) -> str:
-    """Which other looks name something else."""
-    others = [
-        f"{look.leads[0]} on {where(look.leads[1])} ({look.what})"
-        for look in finding.looks
-        if not look.agrees and look.leads is not None
-    ]
-    if not others:
-        return ""
-    count = f"{len(finding.looks) - len(others)} of {len(finding.looks)}"
-    return f"it leads in {count} other looks only, not before {', '.join(others)}"
-
-
 def _refinement(finding: Finding, diagnosis: Diagnosis) -> str:
     line = f"refinement on {where(finding.joint)}: {finding.effect}, gain {percent(finding.gain)}"
     effect = effect_named(finding.effect, diagnosis.search.start.data.known.catalogue)
@@ -196,10 +184,11 @@ def _effect_line(finding: Finding) -> str:
     if finding.closure is None:
         return f"{where(finding.joint)}: {finding.effect} ({values}): {finding.evidence}"
     tail = f"; these data do not tell it from {tie_names(finding)}" if finding.ties else ""
-    for doubt in (finding.objection, other_names(finding)):
-        tail += f"; {doubt}" if doubt else ""
+    for why in dict.fromkeys((finding.doubt, finding.objection)):
+        tail += f"; {why}" if why else ""
     change = " -> ".join(printed(finding.error_before, finding.error_after))
-    return f"{where(finding.joint)}: {finding.effect} ({values}): error {change}{tail}"
+    what = f"perhaps {finding.effect}" if finding.doubt else finding.effect
+    return f"{where(finding.joint)}: {what} ({values}): error {change}{tail}"
 
 
 def _spread(finding: Finding, name: str) -> str:
@@ -223,7 +212,7 @@ def lines(diagnosis: Diagnosis) -> list[str]:
     source = "held out" if diagnosis.held_out else "cross-validated"
     found.append("")
     found.append(f"{'joint':<6}{'error':>9}{'with effects':>14}  ({source}, up to "
-                 f"{diagnosis.band:g} Hz)")  # fmt: skip
+                 f"{diagnosis.band:.3g} Hz)")  # fmt: skip
     for name, joint in diagnosis.joints.items():
         before, after = printed(joint.error_before, joint.error_after)
         found.append(f"{name:<6}{before:>9}{after:>14}")

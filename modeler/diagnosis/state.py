@@ -1,7 +1,7 @@
 """The analysis at one point of the search: what is in the model so far, and what it leaves."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -27,7 +27,23 @@ from modeler.diagnosis.ranking import (
 from modeler.diagnosis.signals import SignalReference, frame_slopes, tilt_weights
 from modeler.effects import Acts
 from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
-from modeler.observation import Log, LogRepair, Observation, Prepared, Processing, observe, observed
+from modeler.observation import (
+    APART,
+    HIGHEST,
+    LOWER,
+    TREMBLES,
+    ChosenProcessing,
+    Log,
+    LogRepair,
+    Observation,
+    Prepared,
+    Processing,
+    choose_cutoffs,
+    filtered_again,
+    observe,
+    observed,
+    prepare,
+)
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -339,26 +355,131 @@ def _references(observation: Observation) -> tuple[float, Mapping[str, float]]:
     return float(np.min(observation.time)), temperature
 
 
-# The logs as a diagnosis sees them: the model's processing in a wider band.
+# The logs as a diagnosis sees them: as far up as positions are more than noise, and quiet.
 
 
 BAND = 30.0
-"""Hz: cut-off of the parallel filter of a diagnosis, if the position filter leaves that much.
-
-Fits use a narrow band, where torque noise is least; ripple, elasticity, delays and reversals show
-above it."""
+"""Hz: highest cut-off of the parallel filter. Fits use a narrow band, where torque noise is least;
+ripple, elasticity, delays and reversals show above it."""
 
 COMPLETE = 0.95
 """Least share of a row's weights on usable samples."""
 
 
-def analysis_processing(fitted: Processing) -> Processing:
-    """That of the fit with the wider band; a parallel filter that was given rules both."""
-    position = fitted.position_cutoff or BAND
-    cutoff = fitted.parallel_cutoff or 0.0
-    if "parallel_cutoff" in fitted.chosen:
-        cutoff = max(cutoff, min(BAND, 0.8 * position))
-    return dataclasses.replace(fitted, parallel_cutoff=cutoff, decimation=None)
+def analysed(
+    compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None = None,
+    prepared: Prepared | None = None, mending: LogRepair | None = None,
+) -> Observation:  # fmt: skip
+    """The observation of a diagnosis.
+
+    With f0 where the positions drown in their noise, and c the parallel cut-off that the motion
+    asks for, the parallel filter is at f0/2 within c and `BAND`, that of the positions at f0 and at
+    least twice as high. Then, while the model's torque trembles more than `TREMBLES` times as much
+    as the measured one, the parallel filter is lowered down to that of the fit, the position filter
+    to `APART` times that, and both. What the user gave stays.
+
+    Args:
+        compiled: the robot.
+        logs: to look at.
+        fitted: processing of the fit.
+        band: Hz of the parallel filter to begin with; None: as above; 0: c.
+        prepared: the logs as `fitted` prepares them; None: they are.
+        mending: of the same logs, where it is shared.
+    """
+    prepared = prepared or prepare(compiled.spec, logs, fitted, mending)
+    if "parallel_cutoff" not in fitted.chosen or not prepared.noise.moving:
+        return _whole(observed(compiled, logs, prepared, every_joint=True))
+    pieces = [piece for own in prepared.pieces for piece in own]
+    given = None if "position_cutoff" in fitted.chosen else fitted.position_cutoff
+    asked = dataclasses.replace(
+        fitted, position_cutoff=given, parallel_cutoff=None, decimation=None, edge=None
+    )
+    wide, _ = choose_cutoffs(asked, pieces, prepared.noise)
+    least = wide.parallel_cutoff
+    highest = given or HIGHEST / max(piece.step for piece in pieces)
+    if band is None:
+        parallel = max(least, min(BAND, 0.5 * highest, 0.5 * prepared.noise.cutoff))
+        position = max(wide.position_cutoff, 2.0 * parallel)
+    else:
+        parallel = max(least, min(band, 0.8 * highest))
+        position = 1.25 * parallel if band else wide.position_cutoff
+    position = given or min(position, highest)
+    wide = dataclasses.replace(wide, position_cutoff=position, parallel_cutoff=parallel)
+
+    def filtered(chosen: ChosenProcessing) -> Prepared:
+        """Logged speeds are checked in the band of the rows."""
+        if any(check is not None for check in prepared.checks):
+            return prepare(compiled.spec, logs, chosen, mending)
+        return filtered_again(prepared, chosen)
+
+    return quieted(compiled, logs, filtered, wide, least)
+
+
+def quieted(
+    compiled: "CompiledModel", logs: Sequence[Log],
+    filtered: Callable[[ChosenProcessing], Prepared], chosen: ChosenProcessing, least: float,
+) -> Observation:  # fmt: skip
+    """The logs with cut-offs lowered until the torque of the model does not tremble."""
+    position, parallel = chosen.position_cutoff, chosen.parallel_cutoff
+    for _ in range(_LOWERED):
+        lower = dataclasses.replace(chosen, position_cutoff=position, parallel_cutoff=parallel)
+        prepared = filtered(lower)
+        seen = _whole(observed(compiled, logs, prepared, every_joint=True))
+        if max(trembling(_free(compiled, seen)).values(), default=0.0) <= TREMBLES:
+            break
+        if parallel > least:
+            parallel = max(least, LOWER * parallel)
+        elif position > APART * parallel:
+            position = max(LOWER * position, APART * parallel)
+        else:
+            least *= LOWER
+            parallel = least
+    return seen
+
+
+def _free(compiled: "CompiledModel", seen: Observation) -> State:
+    """The model fitted to an observation."""
+    return state_of(SearchData(compiled, seen), (), np.zeros(len(compiled.spec.base)))
+
+
+_LOWERED = 16  # times, from 100 Hz to less than 1 Hz
+
+
+def trembling(state: State) -> dict[str, float]:
+    """How much more the model's torque trembles than the measured one, by joint.
+
+    Root mean square of the second differences from row to row, over that of the measured torque.
+    """
+    found = {}
+    for j, (name, y) in enumerate(zip(state.names, state.rows.y, strict=True)):
+        measured, model = (_bends(state, j, x) for x in (y, y - state.residual[j]))
+        if measured > 0.0:
+            found[name] = model / measured
+    return found
+
+
+def _bends(state: State, j: int, values: np.ndarray) -> float:
+    """Rms of the second differences of values (rows_j,) between neighbouring rows."""
+    time, segment = state.rows.time[j], state.rows.segment[j]
+    if len(time) < 3:
+        return 0.0
+    step = np.diff(time)
+    near = (step < 1.5 * np.median(step)) & (np.diff(segment) == 0)
+    bends = np.diff(values, 2)[near[1:] & near[:-1]]
+    return float(np.sqrt(np.mean(bends**2))) if bends.size else 0.0
+
+
+def again(
+    compiled: "CompiledModel", logs: Sequence[Log], processing: Processing,
+    mending: LogRepair | None = None,
+) -> Observation:  # fmt: skip
+    """Other logs in the band of a diagnosis."""
+    return _whole(observe(compiled, logs, processing, True, mending))
+
+
+def cutoff(data: SearchData) -> float:
+    """Hz of the parallel filter."""
+    return data.observation.report.processing.parallel_cutoff or 0.0
 
 
 def bands_line(fitted: Processing, seen: Processing) -> list[str]:
@@ -366,35 +487,11 @@ def bands_line(fitted: Processing, seen: Processing) -> list[str]:
     if seen.parallel_cutoff == fitted.parallel_cutoff:
         return []
     return [
-        f"errors and values are those up to {seen.parallel_cutoff:g} Hz, beside all effects "
+        f"errors and values are those up to {seen.parallel_cutoff:.3g} Hz, beside all effects "
         f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: ripple, "
         "elasticity, delays and reversals show above; fit with --parallel-cutoff "
         f"{fitted.parallel_cutoff:g} to have both alike"
     ]
-
-
-def analysed(
-    compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, chosen: bool = False,
-    prepared: Prepared | None = None, mending: LogRepair | None = None,
-) -> Observation:  # fmt: skip
-    """The observation of a diagnosis.
-
-    Args:
-        compiled: the robot.
-        logs: to look at.
-        fitted: processing of the fit.
-        chosen: True if `fitted` is that of a diagnosis already.
-        prepared: the logs as `fitted` prepares them; the motion is the same in the wider band,
-            unless derivatives were logged, which are checked in the band of the rows.
-        mending: of the same logs, where it is shared.
-    """
-    processing = fitted if chosen else analysis_processing(fitted)
-    if prepared is not None and all(check is None for check in prepared.checks):
-        band, every = processing.parallel_cutoff or 0.0, processing.decimation
-        wide = dataclasses.replace(prepared.processing, parallel_cutoff=band, decimation=every)
-        wider = dataclasses.replace(prepared, processing=wide)
-        return _whole(observed(compiled, logs, wider, every_joint=True))
-    return _whole(observe(compiled, logs, processing, True, mending))
 
 
 def _whole(observation: Observation) -> Observation:

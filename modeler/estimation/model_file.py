@@ -91,6 +91,7 @@ class Addition(Presented):
         joints: relative error before and with it, by joint, on the logs of `error`.
         changed: joints whose error surely changed.
         falls: True if the error surely falls, and no joint is spoilt (see `diagnosis.score`).
+        doubt: why a diagnosis would call it no more than a perhaps; empty if it would name it.
     """
 
     effect: str
@@ -106,6 +107,7 @@ class Addition(Presented):
     joints: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     changed: tuple[str, ...] = ()
     falls: bool = True
+    doubt: str = ""
 
     def to_json(self) -> dict[str, Any]:
         """Plain data, without the robot file."""
@@ -118,7 +120,7 @@ class Addition(Presented):
             "held_out": list(self.held_out),
             "joints": {j: {"before": a, "after": b} for j, (a, b) in self.joints.items()},
             "changed": list(self.changed),
-            "falls": self.falls,
+            **entries(self, "falls doubt"),
         }
 
 

@@ -43,10 +43,12 @@ from .observation import (
     observed_alike as observed_alike,
     stacked as stacked,
 )
-from .observe import observe as observe
+from .observe import APART as APART, LOWER as LOWER, TREMBLES as TREMBLES, observe as observe
 from .prepare import (
     LogRepair as LogRepair,
     Prepared as Prepared,
+    choose_cutoffs as choose_cutoffs,
+    filtered_again as filtered_again,
     nearest_closed as nearest_closed,
     noise_of_positions as noise_of_positions,
     prepare as prepare,
@@ -74,7 +76,11 @@ from .report import (
     bands_of as bands_of,
 )
 from .segments import runs as runs
-from .settings import Processing as Processing, processing_from_json as processing_from_json
+from .settings import (
+    ChosenProcessing as ChosenProcessing,
+    Processing as Processing,
+    processing_from_json as processing_from_json,
+)
 from .stretch import Stretch as Stretch
 from .survey import (
     WINDOW as WINDOW,

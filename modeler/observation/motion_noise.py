@@ -7,7 +7,7 @@ masks, sigmas, doubts and the diagnosis read it.
 
 import dataclasses
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -114,7 +114,7 @@ class MotionNoise(Brief):
 
     joints: tuple[JointNoise, ...]
     rate: float
-    spectra: BandSpectrum | None = None
+    spectra: BandSpectrum | None = field(default=None, compare=False)
 
     @property
     def moving(self) -> tuple[JointNoise, ...]:

@@ -162,14 +162,16 @@ def _row(finding: Finding, drawn: bool) -> list[str | PageCell]:
         + unit(finding, name)
         for name, value in finding.parameters.items()
     )
-    name = finding.effect + (" (refinement)" if finding.refines else "")
+    status = "refinement" if finding.refines else finding.status
     return [
-        PageCell(name, link=_id(finding.effect, finding.joint) if drawn else ""),
+        PageCell(
+            f"{finding.effect} ({status})", link=_id(finding.effect, finding.joint) if drawn else ""
+        ),
         finding.joint or "all",
         values,
         *printed(finding.error_before, finding.error_after),
         PageCell(percent(finding.gain), max(0.0, finding.gain)),
-        finding.evidence,
+        "; ".join(text for text in (finding.evidence, finding.doubt) if text),
     ]
 
 

@@ -118,7 +118,7 @@ def _diagnosis_tables(diagnosis: Diagnosis) -> Tables:
 
 
 def _effects(diagnosis: Diagnosis) -> Table:
-    rows = [_finding(f, "missing" if f.status == "fact" else "named") for f in diagnosis.effects]
+    rows = [_finding(f, "missing" if f.status == "fact" else f.status) for f in diagnosis.effects]
     rows += [_finding(f, "refines the model") for f in diagnosis.refinements]
     return Table.of(
         f"{diagnosis.robot}: {diagnosis.verdict}",

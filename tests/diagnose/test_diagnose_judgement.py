@@ -14,10 +14,10 @@ from modeler.diagnosis.candidates import Candidate, StatedEffects, candidates, s
 from modeler.diagnosis.cross_checks import CrossCheck
 from modeler.diagnosis.judge import Judged, decide, possible
 from modeler.diagnosis.plausible import DRIVES
-from modeler.diagnosis.result import Finding
+from modeler.diagnosis.result import Finding, doubt
 from modeler.diagnosis.score import Change, Score
 from modeler.diagnosis.search import HypothesisScan
-from modeler.diagnosis.sentences import other_names, refused_lines
+from modeler.diagnosis.sentences import refused_lines
 from modeler.effects.catalogue import effect_named
 from modeler.observation.channels import Fault
 from tests.diagnose.conftest import Case
@@ -131,17 +131,47 @@ def test_what_does_not_lower_the_error_is_no_fact() -> None:
     assert raw["status"] == "named"
 
 
-@pytest.mark.parametrize(("agrees", "said"), [(True, "missing"), (False, "closest description")])
-def test_a_name_that_another_look_does_not_give_is_no_fact(agrees: bool, said: str) -> None:
-    looks = (
-        CrossCheck("held out", ("spring", "2"), True),
-        CrossCheck("low", ("stribeck", "1"), agrees),
+LED = CrossCheck("up to 9 Hz", ("stribeck", "2"), False, 0.3, 0.02)
+FAINT = CrossCheck("up to 9 Hz", None, True, 0.01, 0.02)
+
+
+@pytest.mark.parametrize(
+    ("name", "after", "others", "why"),
+    [
+        ("spring", 0.1, {}, ""),
+        ("spring", 0.185, {}, "falls by less than 10 %"),
+        ("spring", 0.185, {"closed": 0.96}, ""),
+        ("spring", 0.185, {"refines": True}, ""),
+        ("spring", 0.65, {}, "the error is 65 % still"),
+        ("spring", 0.1, {"objection": "too heavy"}, "too heavy"),
+        ("spring", 0.1, {"ratio": 1.9}, "1.9 standard deviations"),
+        ("spring", 0.1, {"ties": (("spring", "3"),)}, "one of joint 3"),
+        ("spring", 0.1, {"ties": (("counterbalance", "1"), ("base_tilt", None))}, ""),
+        ("spring", 0.1, {"looks": (LED,)}, "stribeck explains its joint better (up to 9 Hz)"),
+        ("spring", 0.1, {"looks": (FAINT,)}, "explains nothing up to 9 Hz"),
+        ("drive_gain", 0.1, {"objection": "1000 times", "looks": (LED, FAINT)}, ""),
+        ("joint_ripple", 0.1, {"sigmas": {"m": 0.01}}, "no number of teeth"),
+    ],
+)
+def test_one_rule_says_in_words_why_an_effect_is_perhaps_and_no_more(
+    name: str, after: float, others: dict[str, object], why: str
+) -> None:
+    said = doubt(candidate(name), (0.2 if after < 0.2 else 0.9, after), **others)  # type: ignore[arg-type]
+    assert why in said and bool(said) is bool(why)
+    first = finding(name, "2", doubt=said)
+    assert first.status == ("perhaps" if why else "fact")
+    assert verdict((first,), joint_left(0.1), None) == (  # type: ignore[arg-type]
+        "closest description" if why else "missing"
     )
-    first = finding("spring", "2", looks=looks)
-    assert verdict((first,), joint_left(0.1), None) == said  # type: ignore[arg-type]
-    assert (other_names(first) == "") is agrees
-    if not agrees:
-        assert "1 of 2 other looks only, not before stribeck on joint 1 (low)" in other_names(first)
+
+
+@pytest.mark.parametrize(("share", "goes_first"), [(0.6, True), (0.4, False)])
+def test_plain_friction_goes_before_what_refines_it(share: float, goes_first: bool) -> None:
+    drop = np.random.default_rng(2).uniform(0.5, 1.5, 40)
+    finer = at_its_best("position_friction", 0.9, drop=drop)
+    plain = at_its_best("coulomb", 0.9 * share, drop=share * drop)
+    best = decide(None, [finer, plain]).best  # type: ignore[arg-type]
+    assert best is (plain if goes_first else finer)
 
 
 def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -159,7 +189,8 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(search, "put_in", refused)
     monkeypatch.setattr(search, "_named", lambda state, best, vetoed, without: best)
     monkeypatch.setattr(search, "scan_catalogue", lambda state, without: Endless())
-    monkeypatch.setattr(search, "state_of", lambda data, picks, beta: None)
+    nothing = SimpleNamespace(picks=())
+    monkeypatch.setattr(search, "state_of", lambda data, picks, beta: nothing)
     monkeypatch.setattr(search, "about_itself", lambda state: state)
     found = search.search(None, None)  # type: ignore[arg-type]
     assert len(found.vetoed) == len(asked) == search.ASKED

@@ -3,38 +3,42 @@
 import dataclasses
 
 import numpy as np
-import pytest
 
+from modeler.api import fit, observe
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.state import analysis_processing, bands_line
+from modeler.diagnosis.state import analysed, bands_line
 from modeler.observation.log import Log
 from modeler.observation.settings import Processing
 from tests.diagnose.conftest import Case, motion
 
 
-def test_noise_of_the_positions_is_told_with_what_helps(case: Case) -> None:
-    def shaking(log: Log) -> Log:
-        q = log.q + np.random.default_rng(6).normal(0.0, 5e-4, log.q.shape)
-        return dataclasses.replace(log, q=q, qd=None, qdd=None)
+def shaking(log: Log) -> Log:
+    q = log.q + np.random.default_rng(6).normal(0.0, 5e-4, log.q.shape)
+    return dataclasses.replace(log, q=q, qd=None, qdd=None)
 
-    for log, told in ((shaking(case.train), 1), (case.train, 0)):
-        diagnosis = diagnose(case.fitted(log), case.compiled, [log], most=0)
-        lines = [line for line in diagnosis.data if "trembles" in line]
+
+def test_a_band_in_which_the_model_trembles_is_lowered_or_told(case: Case) -> None:
+    """Where the user gave the cut-offs, they stay."""
+    log, given = shaking(case.train), Processing(position_cutoff=60.0, parallel_cutoff=25.0)
+    for processing, told in ((given, 1), (Processing(), 0)):
+        observation = observe(case.compiled, [log], processing)
+        model = fit(case.derivation, case.emitted, observation)
+        found = diagnose(model, case.compiled, [log], most=0)
+        lines = [line for line in found.data if "trembles" in line]
         assert len(lines) == told
         assert all("noise of the positions" in x and "--cutoff below" in x for x in lines)
+        assert (found.band == 25.0) if told else (found.band < 15.0)
 
 
-def test_a_parallel_filter_that_was_given_rules_the_diagnosis():
-    given = Processing(position_cutoff=30.0, parallel_cutoff=5.0, decimation=3)
-    automatic = dataclasses.replace(given, chosen=("position_cutoff", "parallel_cutoff"))
-    for fitted, band, lines in ((given, 5.0, 0), (automatic, 24.0, 1)):
-        seen = analysis_processing(fitted)
-        assert (seen.parallel_cutoff, seen.decimation) == (pytest.approx(band), None)
-        said = bands_line(fitted, seen)
-        assert len(said) == lines
-        assert all("up to 24 Hz" in line and "fit up to 5 Hz" in line for line in said)
-    low = dataclasses.replace(automatic, position_cutoff=10.0)
-    assert analysis_processing(low).parallel_cutoff == pytest.approx(8.0)
+def test_positions_that_are_exact_are_looked_at_far_above_the_motion(case: Case) -> None:
+    model = case.fitted(case.train)
+    seen = analysed(case.compiled, [case.train], model.processing)
+    narrow = analysed(case.compiled, [case.train], model.processing, 0.0)
+    wide, low = (own.report.processing for own in (seen, narrow))
+    assert wide.parallel_cutoff > 1.5 * low.parallel_cutoff
+    assert wide.position_cutoff >= 2.0 * wide.parallel_cutoff
+    assert len(bands_line(model.processing, wide)) == 1
+    assert bands_line(wide, wide) == []
 
 
 def test_torques_without_any_friction_are_doubted(case: Case) -> None:
@@ -48,5 +52,7 @@ def test_torques_without_any_friction_are_doubted(case: Case) -> None:
 
     for hidden, told in ((smooth, 1), (lambda log: np.zeros_like(log.tau), 0)):
         fitted, train, _ = case.hidden(hidden)
-        lines = diagnose(fitted, case.compiled, [train], most=0).data
-        assert sum("no joint rubs" in line for line in lines) == told
+        found = diagnose(fitted, case.compiled, [train], most=0)
+        assert sum("no joint rubs" in line for line in found.data) == told
+        ids = {effect.id for effect in found.search.catalogue}
+        assert ("load_friction" not in ids) is bool(told) and "time_delay" in ids

@@ -139,16 +139,16 @@ def test_play_that_a_weak_column_hides_goes_ahead_of_it(monkeypatch, gain, first
 def test_a_gear_that_rattles_is_no_push(monkeypatch):
     window = SimpleNamespace(with_part=lambda later: None)
     state = SimpleNamespace(rows=SimpleNamespace(joints=1), picks=(), beta=None)
-    found = SimpleNamespace(end=state, last=SimpleNamespace(ranked=(1,)))
+    start = SimpleNamespace(data=SimpleNamespace(observation=None))
+    found = SimpleNamespace(start=start, end=state, last=SimpleNamespace(ranked=(1,)))
     monkeypatch.setattr(diagnosis, "contact_window", lambda state: window)
     monkeypatch.setattr(diagnosis, "explained", lambda window, state, data: window)
     monkeypatch.setattr(diagnosis, "_masked", lambda data, window: data)
     monkeypatch.setattr(diagnosis, "state_of", lambda *a: state)
     monkeypatch.setattr(diagnosis.dataclasses, "replace", lambda data, **changes: data)
-    data = SimpleNamespace(observation=None)
     for ratio, push in ((12.0, None), (5.0, window)):
         monkeypatch.setattr(diagnosis, "burst_ratio", lambda state, j, ratio=ratio: ratio)
-        assert diagnosis._push(data, found) is push
+        assert diagnosis._push(found) is push
 
 
 def test_play_is_found_beside_a_spring_in_simulated_runs(case: Case, tmp_path: Path) -> None:

@@ -84,8 +84,8 @@ def test_the_truth_is_where_the_interval_says(arm, tmp_path, effect):
         z += list((along.told.values - truth) / along.deviations())
         inside += list((low <= truth) & (truth <= high))
         blind += list(np.abs(along.told.values - truth) < 1.96 * along.told.deviations)
-    assert np.sum(np.logical_not(inside)) <= len(inside) / 6
-    assert 0.3 < np.sqrt(np.mean(np.square(z))) < 1.6
+    assert np.sum(np.logical_not(inside)) <= max(1.0, len(inside) / 6)
+    assert 0.2 < np.sqrt(np.mean(np.square(z))) < 1.6
     assert np.mean(inside) >= np.mean(blind)
 
 
@@ -142,7 +142,7 @@ def test_what_is_added_is_stored_and_told_with_it(arm, tmp_path):
     step = better.history[-1]
     assert list(step.shape_intervals["d"]) == [1.0, 2.0]
     told = added(better)
-    assert told[0].startswith("Fst2 = ") and " to " in told[0]
+    assert told[0].startswith("Fst2 = ") and (" to " in told[0] or "+-" in told[0])
     assert "d = " in told[-1] and "(1 to 2)" in told[-1]
     save_model(tmp_path / "m.json", better)
     again = load_model(tmp_path / "m.json")

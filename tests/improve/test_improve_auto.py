@@ -86,6 +86,18 @@ def test_what_cannot_be_added_is_left_out_with_its_reason(case: Case, sprung: Fo
     assert line.startswith("left out: elasticity, joint 2 (elasticity: cannot be added (the joint")
 
 
+def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(
+    case: Case, sprung: Found, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = dataclasses.replace(sprung.diagnosis.effects[0], doubt="it may be another")
+    same, (line,) = add_findings(sprung.model, case.compiled, [first], sprung.logs)
+    assert same is sprung.model and line.endswith("(perhaps and no more: it may be another)")
+    monkeypatch.setattr(module, "doubt", lambda *found: "the error falls by little")
+    step = add_effect(sprung.model, case.compiled, "spring", "3", sprung.logs)
+    assert "it is perhaps missing and no more: the error falls by little" in notes(step)[0]
+    assert step.history[-1].to_json()["doubt"] == "the error falls by little"
+
+
 @pytest.mark.parametrize("refitted", [True, False], ids=["spring", "payload"])
 def test_without_held_out_logs_parts_are_left_out_in_turn(case: Case, refitted: bool) -> None:
     model, train, _ = case.hidden(spring)

@@ -33,7 +33,7 @@ def faults(found: Diagnosis) -> tuple[str, ...]:
     lines = []
     for finding in (*found.effects, *found.refinements):
         name = finding.effect + (f"@{finding.joint}" if finding.joint else "")
-        way = "fact" if found.verdict == "missing" and finding.stands else "hedged"
+        way = "fact" if finding.status == "fact" else "hedged"
         wrong = list(gain_faults(finding.to_json()))
         if not finding.objection:
             wrong += [*value_faults(finding.parameters), *_friction_faults(found, finding)]
