@@ -25,9 +25,9 @@ motion falls far more steeply, and may come back in lines."""
 
 OCTAVES = 2.0
 
-HIGHEST_CUTOFF = 100.0
-"""Hz; no arm has more to say, and joints whose positions are exact would ask for the Nyquist
-frequency."""
+HIGHEST_CUTOFF = 80.0
+"""Hz, of the position filter: more than twice the 30 Hz that a diagnosis looks at; joints whose
+positions are exact would ask for the Nyquist frequency."""
 
 LEAST_BANDS = 5.0
 """Bands of the motion that a position filter leaves at least: closer to it, it damps the

@@ -53,8 +53,8 @@ LOWER = 0.7
 APART = 2.5
 """Times the parallel cut-off, down to which that of the positions is lowered by itself."""
 
-ROWS_EACH = 3
-"""Rows for every parameter, at least: of fewer a fit leaves less than their noise."""
+ROWS_EACH = 10
+"""Rows for every parameter, at least: a fit of fewer, which repeat each other, leaves less than noise."""
 
 ROUNDS = 4
 """Fits by which the parallel cut-off is found."""
