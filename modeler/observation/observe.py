@@ -54,7 +54,7 @@ APART = 2.5
 """Times the parallel cut-off, down to which that of the positions is lowered by itself."""
 
 ROWS_EACH = 10
-"""Rows for every parameter, at least: a fit of fewer, which repeat each other, leaves less than noise."""
+"""Rows for every parameter, at least: a fit of fewer leaves less than their noise."""
 
 ROUNDS = 4
 """Fits by which the parallel cut-off is found."""

@@ -350,7 +350,7 @@ def choose_cutoffs(
     """The processing with the widest cut-offs that the motion asks for, and what it was chosen by.
 
     Parallel filter: 4 times the motion band of the fastest joint, at least 5 Hz. Position filter:
-    where the spectrum of the positions meets their noise, at most 100 Hz, never less than 5 bands
+    where the spectrum of the positions meets their noise, at most 80 Hz, never less than 5 bands
     or twice the parallel filter; at most 0.4 of the sampling rate. `observe` then lowers both where
     the noise of the positions is more than that of the torques.
 
