@@ -48,6 +48,7 @@ from .payload import (
     identify_with_payloads as identify_with_payloads,
     loaded_equations as loaded_equations,
 )
+from .prior import Prior as Prior, prior_of as prior_of, refuse_prior as refuse_prior
 from .result import (
     FitResult as FitResult,
     ParameterEstimate as ParameterEstimate,
