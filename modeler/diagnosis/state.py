@@ -26,6 +26,7 @@ from modeler.diagnosis.ranking import (
 )
 from modeler.diagnosis.signals import SignalReference, frame_slopes, tilt_weights
 from modeler.effects import Acts
+from modeler.estimation import Prior, prior_of, remembered
 from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
 from modeler.observation import Log, LogRepair, Observation, Prepared, Processing, observe, observed
 
@@ -103,6 +104,11 @@ class SearchData(Brief):
         return reduction([w[:, self.free] for w in self.rows.W], self.y)
 
     @cached_property
+    def prior(self) -> Prior | None:
+        """What is known beforehand of the base parameters; None where they are kept."""
+        return prior_of(self.spec) if self.kept is None else None
+
+    @cached_property
     def numbers(self) -> tuple[np.ndarray, ...]:
         """(rows_j,) by joint, number of the block of time."""
         used = self.observation.used
@@ -166,7 +172,7 @@ class State(Brief):
     def base(self) -> Base:
         """Of the model so far."""
         numbers, fold = self.data.numbers, self.data.blocks.fold
-        return base_of(self.W, self.y, self.sigma, numbers, fold, self.turn)
+        return base_of(self.W, self.y, self.sigma, numbers, fold, self.turn, self.prior)
 
     @cached_property
     def folded(self) -> Base:
@@ -179,26 +185,61 @@ class State(Brief):
         return self.data.reduction.beside(self.extra)
 
     @cached_property
+    def prior(self) -> np.ndarray:
+        """(k, f + extra + 1) rows of what is known beforehand, beside rows that repeat each other.
+
+        Rows of the logs count as if they were independent, and the prior as much more instead: by
+        the largest sum of the autocorrelation of a joint's residual, 1 + 2 sum_k r(k).
+        """
+        columns = self.reduced.W[0].shape[1]
+        if self.data.prior is None:
+            return np.zeros((0, columns + 1))
+        lengths = np.sqrt(
+            sum(np.sum((w / s) ** 2, axis=0)
+                for w, s in zip(self.reduced.W, sigma_of(self.reduced), strict=True))
+        )  # fmt: skip
+        rows = self.data.prior.beside(lengths)
+        residual, observation = self._left_by(rows), self.data.observation
+        repeats = 1.0
+        for j, left in enumerate(residual):
+            if left.any():
+                sample = np.flatnonzero(observation.used[:, j])
+                r = remembered(observation, left, sample)
+                repeats = max(repeats, 2.0 * float(r.sum()) - 1.0)
+        return rows * repeats**0.5
+
+    @cached_property
     def sigma(self) -> np.ndarray:
         """(J,) rms residual of each joint."""
-        return sigma_of(self.reduced)
+        return sigma_of(self.reduced, prior=self.prior)
 
     @cached_property
     def turn(self) -> np.ndarray:
         """(f + extra, r) to orthonormal weighted columns."""
-        return turn_of(self.reduced.W, self.sigma)
+        return turn_of([*self.reduced.W, self.prior[:, :-1]], np.append(self.sigma, 1.0))
 
     @cached_property
     def solution(self) -> np.ndarray:
         """(f + extra,) parameters on all rows, SI; first the base parameters that are fitted."""
-        few = self.reduced
-        if not self.turn.shape[1]:
-            return np.zeros(len(self.turn))
-        G, u = 1e-12 * np.eye(self.turn.shape[1]), np.zeros(self.turn.shape[1])
-        for w, y, s in zip(few.W, few.y, self.sigma, strict=True):
-            columns = w @ (self.turn / s)
+        return self._solved(self.turn, self.sigma, self.prior)
+
+    def _solved(self, turn: np.ndarray, sigma: np.ndarray, prior: np.ndarray) -> np.ndarray:
+        if not turn.shape[1]:
+            return np.zeros(len(turn))
+        G, u = 1e-12 * np.eye(turn.shape[1]), np.zeros(turn.shape[1])
+        every = [*zip(self.reduced.W, self.reduced.y, sigma, strict=True),
+                 (prior[:, :-1], prior[:, -1], 1.0)]  # fmt: skip
+        for w, y, s in every:
+            columns = w @ (turn / s)
             G, u = G + columns.T @ columns, u + columns.T @ (y / s)
-        return np.asarray(self.turn @ np.linalg.solve(G, u))
+        return np.asarray(turn @ np.linalg.solve(G, u))
+
+    def _left_by(self, prior: np.ndarray) -> tuple[np.ndarray, ...]:
+        """(rows_j,) by joint: what a fit beside such rows of a prior leaves."""
+        sigma = sigma_of(self.reduced, prior=prior)
+        turn = turn_of([*self.reduced.W, prior[:, :-1]], np.append(sigma, 1.0))
+        found = self._solved(turn, sigma, prior)
+        return tuple(y - w @ found for y, w in zip(self.y, self.W, strict=True))
 
     @cached_property
     def beta(self) -> np.ndarray:
