@@ -117,6 +117,14 @@ class SearchData(Brief):
 
 _FREE = ("friction", "offset")
 
+UNLIKELY = 1e-3
+"""Chance below which no body of the prior lies where the logs would have it."""
+
+LIKELY = 0.5
+"""Chance with which one that did is held near its prior."""
+
+_STRONGER = 12  # times four
+
 _REMEMBERED = 3  # references: that of a state, and those of the next
 
 
@@ -135,6 +143,7 @@ class State(Brief):
         reference: where effects are linearised.
         rows: motion, torque, base columns.
         extra: columns of the picks.
+        weighed: sigma and prior of another state, which are taken; None: its own.
     """
 
     data: SearchData
@@ -142,6 +151,7 @@ class State(Brief):
     reference: SignalReference
     rows: Rows
     extra: tuple[Columns, ...]
+    weighed: tuple[np.ndarray, np.ndarray] | None = None
 
     @property
     def spec(self) -> ModuleSpec:
@@ -184,34 +194,46 @@ class State(Brief):
         """The rows of the model so far, reduced to few."""
         return self.data.reduction.beside(self.extra)
 
+    def weighed_as(self, later: "State") -> "State":
+        """The same beside the residuals and the prior of a state with more effects."""
+        first = self.prior.shape[1] - 1
+        prior = later.prior[:, [*range(first), -1]]
+        return dataclasses.replace(self, weighed=(later.sigma, prior))
+
     @cached_property
     def prior(self) -> np.ndarray:
         """(k, f + extra + 1) rows of what is known beforehand, beside rows that repeat each other.
 
         Rows of the logs count as if they were independent, and the prior as much more instead: by
-        the largest sum of the autocorrelation of a joint's residual, 1 + 2 sum_k r(k).
+        the largest sum of the autocorrelation of a joint's residual, 1 + 2 sum_k r(k). Where the
+        logs would have a body that the prior excludes, what is missing is another effect, which
+        the body would stand in for: the prior counts more, until the body is a likely one.
         """
-        columns = self.reduced.W[0].shape[1]
-        if self.data.prior is None:
+        if self.weighed is not None:
+            return self.weighed[1]
+        columns, known = self.reduced.W[0].shape[1], self.data.prior
+        if known is None:
             return np.zeros((0, columns + 1))
-        lengths = np.sqrt(
-            sum(np.sum((w / s) ** 2, axis=0)
-                for w, s in zip(self.reduced.W, sigma_of(self.reduced), strict=True))
-        )  # fmt: skip
-        rows = self.data.prior.beside(lengths)
-        residual, observation = self._left_by(rows), self.data.observation
-        repeats = 1.0
-        for j, left in enumerate(residual):
-            if left.any():
-                sample = np.flatnonzero(observation.used[:, j])
-                r = remembered(observation, left, sample)
+        every = zip(self.reduced.W, sigma_of(self.reduced), strict=True)
+        rows = known.beside(np.sqrt(sum(np.sum((w / s) ** 2, axis=0) for w, s in every)))
+        found, observation, repeats = self._beside(rows), self.data.observation, 1.0
+        for j, (y, w) in enumerate(zip(self.y, self.W, strict=True)):
+            if y.any():
+                r = remembered(observation, y - w @ found, np.flatnonzero(observation.used[:, j]))
                 repeats = max(repeats, 2.0 * float(r.sum()) - 1.0)
+        excluded: set[str] = set()
+        for _ in range(_STRONGER):
+            chances = known.chances(self._beside(rows * repeats**0.5)[: len(self.data.free)])
+            excluded |= {name for name, chance in chances.items() if chance < UNLIKELY}
+            if all(chances[name] > LIKELY for name in excluded):
+                break
+            repeats *= 4.0
         return rows * repeats**0.5
 
     @cached_property
     def sigma(self) -> np.ndarray:
         """(J,) rms residual of each joint."""
-        return sigma_of(self.reduced, prior=self.prior)
+        return sigma_of(self.reduced, prior=self.prior) if not self.weighed else self.weighed[0]
 
     @cached_property
     def turn(self) -> np.ndarray:
@@ -234,12 +256,11 @@ class State(Brief):
             G, u = G + columns.T @ columns, u + columns.T @ (y / s)
         return np.asarray(turn @ np.linalg.solve(G, u))
 
-    def _left_by(self, prior: np.ndarray) -> tuple[np.ndarray, ...]:
-        """(rows_j,) by joint: what a fit beside such rows of a prior leaves."""
+    def _beside(self, prior: np.ndarray) -> np.ndarray:
+        """The solution beside such rows of a prior."""
         sigma = sigma_of(self.reduced, prior=prior)
         turn = turn_of([*self.reduced.W, prior[:, :-1]], np.append(sigma, 1.0))
-        found = self._solved(turn, sigma, prior)
-        return tuple(y - w @ found for y, w in zip(self.y, self.W, strict=True))
+        return self._solved(turn, sigma, prior)
 
     @cached_property
     def beta(self) -> np.ndarray:

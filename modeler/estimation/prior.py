@@ -105,6 +105,20 @@ class Prior:
         found[:, [*range(len(self.names)), -1]] = own
         return found
 
+    def chances(self, beta: np.ndarray) -> dict[str, float]:
+        """With which each group lies as far off as the likeliest chi that has this beta (c,)."""
+        every = [i for own in self.groups.values() for i in own]
+        N, mean, cov = self.known(np.eye(len(beta)))
+        size = np.sqrt(np.maximum(np.diag(cov), 1e-300))
+        apart = np.linalg.lstsq(cov / np.outer(size, size), (N @ beta - mean) / size, rcond=1e-9)[0]
+        pull = (N @ self.K[:, every]).T @ (apart / size)
+        full = np.zeros(len(self.mean))
+        full[every] = pull
+        return {
+            name: float(chdtrc(len(own), full[own] @ self.S[np.ix_(own, own)] @ full[own]))
+            for name, own in self.groups.items()
+        }
+
     def contradictions(self, M: np.ndarray, value: np.ndarray, covariance: np.ndarray) -> list[str]:
         """A line for each body or value that the data contradict.
 
