@@ -283,7 +283,6 @@ def found_with_gains(
     will: all that is told of the fit is told of those torques. `check` refuses logs, bare and
     loaded, that do not belong together; None: those that share rows.
     """
-
     estimation.refuse_prior(compiled.spec, f"fit: method {GAIN_METHOD}")
 
     def observed(

@@ -239,8 +239,10 @@ class ModuleSpec(Brief):
             del entries["fitted"]
         if self.precision == "double":
             del entries["precision"]
-        for entry, name in [(entries, "inertial_uncertainty"),
-                            *((parameter, "deviation") for parameter in entries["standard"])]:
+        for entry, name in [
+            (entries, "inertial_uncertainty"),
+            *((parameter, "deviation") for parameter in entries["standard"]),
+        ]:
             if entry[name] is None:
                 del entry[name]
         return json.dumps(entries, indent=1) + "\n"

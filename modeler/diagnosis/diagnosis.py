@@ -13,7 +13,9 @@ from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.cross_checks import other_observations, recheck_effects
 from modeler.diagnosis.data_checks import channel_faults
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
+from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.judge import vetoing
+from modeler.diagnosis.plausible import gravity_like
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.search import MOST, Search, search
 from modeler.diagnosis.state import SearchData, analysed, bands_line, state_of
@@ -112,7 +114,29 @@ def diagnose(
         progress(1.0)
 
     line = bands_line(model.processing, data.observation.report.processing)
+    line += _like_gravity(diagnosis, found, without)
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
+
+
+BALANCING = ("counterbalance", "constant_force_spring", "spring")
+"""What balances gravity."""
+
+
+def _like_gravity(diagnosis: Diagnosis, found: Search, without: Sequence[str]) -> list[str]:
+    """A line on joints where free inertias stand in for a spring that balances gravity."""
+    start, prior = found.start, found.start.data.prior
+    bodies = prior is not None and prior.has_bodies
+    if diagnosis.contradicted or start.data.kept is not None or bodies:
+        return []
+    named = {effect.joint for effect in diagnosis.effects if effect.effect in BALANCING}
+    joints = gravity_like(start, generate_candidates(start, BALANCING[0], without))
+    return [
+        f"a counterbalance on joint {joint} cannot be told from gravity: give link data "
+        "([parameters] with an uncertainty), or a motion that turns this joint over more of its "
+        "range, and the joints before it fast"
+        for joint in joints
+        if joint not in named
+    ]
 
 
 def _other_observations(

@@ -94,7 +94,7 @@ class ProfileProblem:
 
     @cached_property
     def base(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
-        """Weighted columns of all else by joint, orthonormal beside the prior, and (c, r): W turn."""
+        """Weighted columns of all else by joint, with the prior orthonormal, and (c, r): W turn."""
         turn = turn_of([*self.others, self.prior[:, :-1]], np.append(self.sigma, 1.0))
         every = zip(self.others, self.sigma, strict=True)
         return tuple(w @ (turn / s) for w, s in every), turn

@@ -42,7 +42,7 @@ from .model_file import (
     with_essential_only as with_essential_only,
 )
 from .nearest_body import body as body, nearest_possible as nearest_possible
-from .parameter import spread_text as spread_text
+from .parameter import prior_text as prior_text, spread_text as spread_text
 from .payload import (
     Payload as Payload,
     identify_with_payloads as identify_with_payloads,

@@ -70,8 +70,7 @@ def read_all(kind: type[T], raw: Mapping[str, Any], name: str) -> tuple[T, ...]:
 def parameter_lines(
     parameters: Sequence[ParameterEstimate], reduced: Sequence[ParameterEstimate] = ()
 ) -> list[str]:
-    """A table: name, value, sigma, %sigma, unit; the value of a reduced model and the share of a
-    prior if there is one."""
+    """A table: name, value, sigma, %sigma, unit; values of a reduced model, shares of a prior."""
     alone = {parameter.name: f"{parameter.value:.6g}" for parameter in reduced}
     width = max([9, *(len(parameter.name) for parameter in parameters)])
     known = any(parameter.prior is not None for parameter in parameters)

@@ -16,7 +16,7 @@ nothing is said are free: whatever they may be, only what is left of beta withou
 """
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,6 +66,16 @@ class Prior:
     held: tuple[str, ...]
     without: Mapping[str, str]
 
+    @property
+    def has_bodies(self) -> bool:
+        """True if something is known of the mass of a link."""
+        return any(len(own) > 1 for own in self.groups.values())
+
+    def but(self, names: Sequence[str]) -> "Prior":
+        """The same without some groups."""
+        groups = {name: own for name, own in self.groups.items() if name not in names}
+        return dataclasses.replace(self, groups=groups)
+
     def known(self, M: np.ndarray, but: str = "") -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """What is known of M beta: N (r, k), N M K chi_0 (r,), and its covariance (r, r).
 
@@ -99,7 +109,7 @@ class Prior:
         return np.column_stack([turn.T @ N * scale, turn.T @ mean])
 
     def beside(self, lengths: np.ndarray) -> np.ndarray:
-        """(r, k + 1) `rows` of all k columns of a fit, of which the base parameters are the first."""
+        """(r, k + 1) `rows` of the k columns of a fit, first of which are the base parameters."""
         own = self.rows(lengths[: len(self.names)])
         found = np.zeros((len(own), len(lengths) + 1))
         found[:, [*range(len(self.names)), -1]] = own
@@ -119,7 +129,9 @@ class Prior:
             for name, own in self.groups.items()
         }
 
-    def contradictions(self, M: np.ndarray, value: np.ndarray, covariance: np.ndarray) -> list[str]:
+    def contradictions(
+        self, M: np.ndarray, value: np.ndarray, covariance: np.ndarray
+    ) -> dict[str, str]:
         """A line for each body or value that the data contradict.
 
         d = M beta_0 - value has the covariance V + M K S K^T M^T, and d^T (..)^-1 d is chi-square.
@@ -140,7 +152,7 @@ class Prior:
             return float(d / size @ apart), len(d)
 
         whole, degrees = misfit()
-        falls, lines = {}, []
+        falls, lines = {}, {}
         for name in self.groups:
             left, rest = misfit(name)
             if degrees > rest and chdtrc(degrees - rest, max(whole - left, 0.0)) < (
@@ -151,10 +163,13 @@ class Prior:
         for name, (fall, lost) in sorted(falls.items(), key=lambda item: -item[1][0]):
             if fall >= 0.5 * most:
                 limit = chdtri(lost, CHANCE / len(self.groups)) ** 0.5
-                lines.append(
+                kept = not self.S[np.ix_(self.groups[name], self.groups[name])].any()
+                lines[name] = (
                     f"{name}: the data contradict what the robot file says of it, by "
-                    f"{fall**0.5:.3g} sigmas where {limit:.2g} are chance; correct [parameters], or "
-                    "its uncertainty, or let `modeler diagnose` look for an effect that is missing"
+                    f"{fall**0.5:.3g} sigmas where {limit:.2g} are chance"
+                    f"{'' if kept else ', and it is left out of the prior'}; correct [parameters] "
+                    "or its uncertainty, or let `modeler diagnose` look for an effect that is "
+                    "missing"
                 )
         return lines
 
@@ -180,20 +195,20 @@ class Prior:
         values, vectors = np.linalg.eigh(covariance[np.ix_(kept, kept)] / np.outer(size, size))
         root = (vectors / np.sqrt(np.maximum(values, 1e-15 * values.max(initial=1.0)))).T / size
         told = np.column_stack([root @ M, root @ estimate.beta[kept]])
-        both = np.vstack([told, self.beside(np.linalg.norm(told[:, :-1], axis=0))])
+        V = covariance[np.ix_(kept, kept)]
+        against = self.contradictions(M[:, : len(self.names)], estimate.beta[kept], V)
+        left = self.but([name for name, line in against.items() if "left out" in line])
+        both = np.vstack([told, left.beside(np.linalg.norm(told[:, :-1], axis=0))])
         rank = independent_columns(both[:, :-1], data.names)
         beta, posterior = np.zeros(c), np.zeros((c, c))
         at = list(rank.kept)
         beta[at], half = solve_by_qr(both[:, at], both[:, -1])
         posterior[np.ix_(at, at)] = half @ half.T
-        before = np.zeros(c)
-        before[kept] = np.diag(covariance)[kept]
-        alone = np.where(before > 0.0, np.diag(posterior) / np.where(before > 0.0, before, 1.0), 0.0)
-        share = np.clip(1.0 - alone, 0.0, 1.0)
+        before, after = np.full(c, np.inf), np.diag(posterior)
+        before[kept] = np.diag(V)
+        share = np.clip(1.0 - after / before, 0.0, 1.0)
         noise = np.zeros((1, c + 1))
         noise[0, -1] = max(1, estimate.degrees) ** 0.5
-        base = M[:, : len(self.names)]
-        against = self.contradictions(base, estimate.beta[kept], covariance[np.ix_(kept, kept)])
         return dataclasses.replace(
             estimate,
             beta=beta,
@@ -202,8 +217,8 @@ class Prior:
             whole=triangle(np.vstack([both, noise])),
             share=share,
             held=self.held,
-            contradicted=tuple(against),
-            sentences=(*estimate.sentences, *self.sentences(share)),
+            contradicted=tuple(against.values()),
+            sentences=(*estimate.sentences, *left.sentences(share)),
         )
 
     def sentences(self, share: np.ndarray) -> list[str]:

@@ -115,7 +115,7 @@ def read_parameters(
     sure = dict(inner.table("[parameters.uncertainty] inertial = 0.10"))
     entries = [(place, table.pop("held", [])), (inner, sure.pop("held", []))]
     held = {
-        place.holding(name).text('"Ia3"'): here
+        here.at("held").holding(name).text('"Ia3"'): here
         for here, names in entries
         for name in here.at("held").holding(names).entries('held = ["Ia3"]')
     }
@@ -144,9 +144,7 @@ def read_parameters(
     return values, found | dict.fromkeys(held, 0.0)
 
 
-def _stated(
-    name: str, values: Mapping[str, float], known: Collection[str], place: Place
-) -> None:
+def _stated(name: str, values: Mapping[str, float], known: Collection[str], place: Place) -> None:
     """Refuse a name without a value."""
     if name not in known:
         raise place.error(
