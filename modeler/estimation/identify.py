@@ -148,7 +148,7 @@ def fit_equations(
         )
     problem = Problem(observation, equations.kept, equations.y, alive, equations.names, data, model)
     prior = None if model is None or noise_only else prior_of(model.spec)
-    if prior is not None and not estimator.takes_prior:
+    if prior is not None and model is not None and not estimator.takes_prior:
         refuse_prior(model.spec, f"method {method}")
     estimate = estimator.estimate(problem)
     rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
@@ -247,7 +247,7 @@ def result_of(
             sigma=float(sigma[i]) if i in told else None,
             essential=name in essential.names,
             status="held" if name in estimate.held else "estimated" if i in told else "set aside",
-            prior=None if estimate.share is None else float(estimate.share[i]),
+            prior=float(estimate.share[i]) if estimate.share is not None and i in told else None,
         )
         for i, (name, unit) in enumerate(labels)
     )

@@ -30,8 +30,8 @@ def values_table(
     """
     sums = {b.name: relation(b) for b in base}
     known = any(p.prior is not None for p in parameters)
-    rows = [
-        (
+    rows: list[list[str | PageCell]] = [
+        [
             p.name,
             "set aside" if p.sigma is None else f"{p.value:.5g}",
             "" if p.sigma is None else _bare_spread(p.value, p.sigma, p.interval) or "0",
@@ -39,7 +39,7 @@ def values_table(
             *([prior_text(p)] if known else []),
             p.unit,
             sums.get(p.name, ""),
-        )
+        ]
         for p in parameters
     ]
     prior = ("from the prior",) if known else ()
