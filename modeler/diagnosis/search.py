@@ -25,7 +25,6 @@ from modeler.diagnosis.judge import (
     decide,
     judged_at,
     leading,
-    tied,
     tried,
 )
 from modeler.diagnosis.plausible import DRIVES, drives, objection
@@ -431,8 +430,8 @@ def _beside_prior(
     """
     first = judgement.best
     assert first is not None
-    equals = [best, first, *(j for j in tied(first, judgement.ranked) if j.significant)]
-    every = {j.key: j for j in equals if not is_vetoed(j.candidate, vetoed)}
+    near = [j for j in judgement.ranked if j.significant and j.share > CLOSE * first.share]
+    every = {j.key: j for j in (best, first, *near) if not is_vetoed(j.candidate, vetoed)}
     if not best.candidate.local:
         return best
     found = {}

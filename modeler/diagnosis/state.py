@@ -120,7 +120,7 @@ _FREE = ("friction", "offset")
 UNLIKELY = 1e-3
 """Chance below which no body of the prior lies where the logs would have it."""
 
-LIKELY = 0.5
+LIKELY = 0.1
 """Chance with which one that did is held near its prior."""
 
 _STRONGER = 12  # times four

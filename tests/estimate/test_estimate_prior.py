@@ -208,9 +208,7 @@ def test_an_estimator_with_a_prior_of_its_own_refuses_another(model, seen, metho
 def test_other_ways_to_fit_refuse_a_prior(model, seen):
     robot = robot_from_text(text(NOMINAL, {"inertial": 0.1}), "stated.toml")
     for asked in (FitRequest("two-step"), FitRequest(energy=True)):
-        with pytest.raises(
-            DataError, match=r"takes no prior; got .parameters.uncertainty. or held"
-        ):
+        with pytest.raises(DataError, match=r"no prior; got .parameters.uncertainty. or held"):
             estimated(asked, robot, model, seen)
     with pytest.raises(DataError, match="method tls takes no prior"):
         fit_gains(derive(robot), [], Load(["none.csv"], 3.0))
