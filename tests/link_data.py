@@ -71,6 +71,18 @@ def drawn(share: float, rng: np.random.Generator, values: dict[str, float]) -> d
     return found
 
 
+def buildable(share: float, rng: np.random.Generator, values: dict[str, float]) -> dict[str, float]:
+    """The first drawn links that could be built."""
+    while True:
+        found = drawn(share, rng, values)
+        second = []
+        for joint in "123":
+            I, first, mass = moments(found, joint)
+            second.append(np.trace(I) / 2.0 * np.eye(3) - I - np.outer(first, first) / mass)
+        if min(np.linalg.eigvalsh(own)[0] for own in second) > 0.0:
+            return found
+
+
 def moments(values: dict[str, float], joint: str) -> tuple[np.ndarray, np.ndarray, float]:
     """Inertia about the origin, first moments, mass."""
     xx, xy, xz, yy, yz, zz, *first, mass = (
