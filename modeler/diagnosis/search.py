@@ -355,9 +355,7 @@ def search(
     judgement = survey.judged((), tick)
     while judgement.best is not None and len(steps) < most and len(every) < ASKED:
         best = _named(state, judgement.best, refused, without)
-        if state.data.prior is not None:
-            best = _beside_prior(state, best, judgement, refused)
-        best, later = put_in(state, best, veto)
+        best, later = put_in(state, _beside_prior(state, best, judgement, refused), veto)
         other = _instead(survey, refused, best, later, tick)
         if other is not None or later is None:
             refused, every = [*refused, best], [*every, best]
@@ -432,7 +430,7 @@ def _beside_prior(
     assert first is not None
     near = [j for j in judgement.ranked if j.significant and j.share > CLOSE * first.share]
     every = {j.key: j for j in (best, first, *near) if not is_vetoed(j.candidate, vetoed)}
-    if not best.candidate.local:
+    if state.data.prior is None or not best.candidate.local:
         return best
     found = {}
     for key, judged in every.items():

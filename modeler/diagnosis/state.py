@@ -123,7 +123,7 @@ UNLIKELY = 1e-3
 LIKELY = 0.1
 """Chance with which one that did is held near its prior."""
 
-_STRONGER = 12  # times four
+_STRONGER = 12  # times twice
 
 _REMEMBERED = 3  # references: that of a state, and those of the next
 
@@ -205,9 +205,9 @@ class State(Brief):
         """(k, f + extra + 1) rows of what is known beforehand, beside rows that repeat each other.
 
         Rows of the logs count as if they were independent, and the prior as much more instead: by
-        the largest sum of the autocorrelation of a joint's residual, 1 + 2 sum_k r(k). Where the
+        the sum of the autocorrelation of the residual, 1 + 2 sum_k r(k), of the middle joint. Where the
         logs would have a body that the prior excludes, what is missing is another effect, which
-        the body would stand in for: the prior counts more, until the body is a likely one.
+        the body would stand in for: its prior counts more, until the body is a likely one.
         """
         if self.weighed is not None:
             return self.weighed[1]
@@ -215,20 +215,23 @@ class State(Brief):
         if known is None:
             return np.zeros((0, columns + 1))
         every = zip(self.reduced.W, sigma_of(self.reduced), strict=True)
-        rows = known.beside(np.sqrt(sum(np.sum((w / s) ** 2, axis=0) for w, s in every)))
-        found, observation, repeats = self._beside(rows), self.data.observation, 1.0
+        lengths = np.sqrt(sum(np.sum((w / s) ** 2, axis=0) for w, s in every))
+        rows, observation = known.beside(lengths), self.data.observation
+        found, sums = self._beside(rows), [1.0]
         for j, (y, w) in enumerate(zip(self.y, self.W, strict=True)):
             if y.any():
                 r = remembered(observation, y - w @ found, np.flatnonzero(observation.used[:, j]))
-                repeats = max(repeats, 2.0 * float(r.sum()) - 1.0)
-        excluded: set[str] = set()
+                sums.append(max(1.0, 2.0 * float(r.sum()) - 1.0))
+        repeats = float(np.median(sums[1:] or sums))
+        tight: dict[str, float] = {}
         for _ in range(_STRONGER):
-            chances = known.chances(self._beside(rows * repeats**0.5)[: len(self.data.free)])
-            excluded |= {name for name, chance in chances.items() if chance < UNLIKELY}
-            if all(chances[name] > LIKELY for name in excluded):
+            rows = known.tightened(tight).beside(lengths) * repeats**0.5
+            chances = known.chances(self._beside(rows)[: len(self.data.free)])
+            nearer = [k for k, c in chances.items() if c < (LIKELY if k in tight else UNLIKELY)]
+            if not nearer:
                 break
-            repeats *= 4.0
-        return rows * repeats**0.5
+            tight |= {name: 0.5 * tight.get(name, 1.0) for name in nearer}
+        return rows
 
     @cached_property
     def sigma(self) -> np.ndarray:

@@ -18,6 +18,7 @@ nothing is said are free: whatever they may be, only what is left of beta withou
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.special import chdtrc, chdtri
@@ -76,8 +77,17 @@ class Prior:
         groups = {name: own for name, own in self.groups.items() if name not in names}
         return dataclasses.replace(self, groups=groups)
 
+    def tightened(self, factors: Mapping[str, float]) -> "Prior":
+        """The same with standard deviations of some groups so many times as large."""
+        S = self.S.copy()
+        for name, factor in factors.items():
+            own = self.groups[name]
+            S[own] *= factor
+            S[:, own] *= factor
+        return dataclasses.replace(self, S=S)
+
     def known(self, M: np.ndarray, but: str = "") -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """What is known of M beta: N (r, k), N M K chi_0 (r,), and its covariance (r, r).
+        """What is known of M beta: N (r, k), N M K chi_0 (r,), and a root (r, m) of its covariance.
 
         The rows of N are orthonormal and see nothing of parameters that are free.
 
@@ -93,7 +103,16 @@ class Prior:
         N = U[:, int(np.sum(s > _NONE * s.max(initial=1.0))) :].T
         N = N[np.abs(N @ K[:, every]).max(axis=1, initial=0.0) > _NONE * np.abs(K).max(initial=0.0)]
         part = N @ K[:, every]
-        return N, part @ self.mean[every], part @ self.S[np.ix_(every, every)] @ part.T
+        return N, part @ self.mean[every], part @ self._root[every]
+
+    @cached_property
+    def _root(self) -> np.ndarray:
+        """(m, m) S = root root^T; groups stay apart."""
+        size = np.sqrt(np.diag(self.S))
+        safe = np.where(size > 0.0, size, 1.0)
+        values, vectors = np.linalg.eigh(self.S / np.outer(safe, safe))
+        half = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T
+        return np.asarray(size[:, None] * half)
 
     def rows(self, lengths: np.ndarray) -> np.ndarray:
         """(r, c + 1) [R, R beta_0] with R^T R the information on beta.
@@ -103,9 +122,9 @@ class Prior:
                 is held is `HELD` of that.
         """
         scale = np.where(lengths > 0.0, lengths, 1.0)
-        N, mean, cov = self.known(np.diag(scale))
-        values, vectors = np.linalg.eigh(cov)
-        turn = vectors / np.sqrt(np.maximum(values, HELD**2))
+        N, mean, root = self.known(np.diag(scale))
+        vectors, values, _ = np.linalg.svd(root)
+        turn = vectors / np.maximum(np.pad(values, (0, len(vectors) - len(values))), HELD)
         return np.column_stack([turn.T @ N * scale, turn.T @ mean])
 
     def beside(self, lengths: np.ndarray) -> np.ndarray:
@@ -117,16 +136,13 @@ class Prior:
 
     def chances(self, beta: np.ndarray) -> dict[str, float]:
         """With which each group lies as far off as the likeliest chi that has this beta (c,)."""
-        every = [i for own in self.groups.values() for i in own]
-        N, mean, cov = self.known(np.eye(len(beta)))
-        size = np.sqrt(np.maximum(np.diag(cov), 1e-300))
-        apart = np.linalg.lstsq(cov / np.outer(size, size), (N @ beta - mean) / size, rcond=1e-9)[0]
-        pull = (N @ self.K[:, every]).T @ (apart / size)
-        full = np.zeros(len(self.mean))
-        full[every] = pull
+        N, mean, root = self.known(np.eye(len(beta)))
+        size = np.linalg.norm(root, axis=1)
+        size = np.where(size > _NONE * size.max(initial=0.0), size, np.inf)  # held: moves nothing
+        apart = np.linalg.lstsq(root / size[:, None], (N @ beta - mean) / size, rcond=1e-9)[0]
+        squares = apart**2
         return {
-            name: float(chdtrc(len(own), full[own] @ self.S[np.ix_(own, own)] @ full[own]))
-            for name, own in self.groups.items()
+            name: float(chdtrc(len(own), squares[own].sum())) for name, own in self.groups.items()
         }
 
     def contradictions(
@@ -145,8 +161,8 @@ class Prior:
         """
 
         def misfit(but: str = "") -> tuple[float, int]:
-            N, mean, cov = self.known(M, but)
-            d, total = mean - N @ value, cov + N @ covariance @ N.T
+            N, mean, root = self.known(M, but)
+            d, total = mean - N @ value, root @ root.T + N @ covariance @ N.T
             size = np.sqrt(np.maximum(np.diag(total), 1e-300))
             apart = np.linalg.lstsq(total / np.outer(size, size), d / size, rcond=1e-12)[0]
             return float(d / size @ apart), len(d)

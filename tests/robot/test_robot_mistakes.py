@@ -192,7 +192,7 @@ MISTAKES = [
     ("parameter inf", "ZZ1 = 0.5", "ZZ1 = nan", ["[parameters], ZZ1", "got nan", "finite"]),
     ("uncertain text", _V, f"{_V}uncertainty.Fv1 = 'a'\n", [f"{_U}, Fv1", 'got "a"', "a number"]),
     ("sigma 0", _V, f"{_V}uncertainty.Fv1 = 0\n", [f"{_U}, Fv1", "got 0", "above 0", "held"]),
-    ("uncertain name", _V, f"{_V}uncertainty.Fv9 = 1\n", [_U, 'no parameter "Fv9"', "did you mean"]),
+    ("sigma name", _V, f"{_V}uncertainty.Fv9 = 1\n", [_U, 'no parameter "Fv9"', "did you mean"]),
     ("uncertain word", _V, f"{_V}uncertainty.inertal = 1\n", [_U, 'did you mean "inertial"']),
     ("uncertain open", _V, f"{_V}uncertainty.ZZ2 = 1\n", [_U, "ZZ2 has no value", "write"]),
     ("percent", "ZZ1 = 0.5", "M2 = 3\nuncertainty.inertial = 10", [_U, "got 10", "0.10 for 10 %"]),
