@@ -205,9 +205,9 @@ class State(Brief):
         """(k, f + extra + 1) rows of what is known beforehand, beside rows that repeat each other.
 
         Rows of the logs count as if they were independent, and the prior as much more instead: by
-        the sum of the autocorrelation of the residual, 1 + 2 sum_k r(k), of the middle joint. Where the
-        logs would have a body that the prior excludes, what is missing is another effect, which
-        the body would stand in for: its prior counts more, until the body is a likely one.
+        the sum of the autocorrelation of the residual, 1 + 2 sum_k r(k), of the middle joint. Where
+        the logs would have a body that the prior excludes, what is missing is another effect,
+        which the body would stand in for: its prior counts more, until the body is a likely one.
         """
         if self.weighed is not None:
             return self.weighed[1]
