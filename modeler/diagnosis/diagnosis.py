@@ -20,7 +20,7 @@ from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.search import MOST, Search, search
 from modeler.diagnosis.state import SearchData, analysed, bands_line, state_of
 from modeler.diagnosis.timing import logger_shift
-from modeler.effects import Acts, Effect, effect_named
+from modeler.effects import Acts, Effect, Needs, effect_named
 from modeler.estimation import IdentifiedModel
 from modeler.observation import Log, LogRepair, Observation
 
@@ -118,20 +118,21 @@ def diagnose(
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
 
-BALANCING = ("counterbalance", "constant_force_spring", "spring")
-"""What balances gravity."""
-
-
 def _like_gravity(diagnosis: Diagnosis, found: Search, without: Sequence[str]) -> list[str]:
     """A line on joints where free inertias stand in for a spring that balances gravity."""
     start, prior = found.start, found.start.data.prior
     bodies = prior is not None and prior.has_bodies
     if diagnosis.contradicted or start.data.kept is not None or bodies:
         return []
-    named = {effect.joint for effect in diagnosis.effects if effect.effect in BALANCING}
-    joints = gravity_like(start, generate_candidates(start, BALANCING[0], without))
+    catalogue = start.data.known.catalogue
+    balancing = next((e for e in catalogue if Needs.GRAVITY in e.needs), None)
+    if balancing is None:
+        return []
+    family = {e.id for e in catalogue if e.family == balancing.family}
+    named = {effect.joint for effect in diagnosis.effects if effect.effect in family}
+    joints = gravity_like(start, generate_candidates(start, balancing.id, without))
     return [
-        f"a counterbalance on joint {joint} cannot be told from gravity: give link data "
+        f"a {balancing.id} on joint {joint} cannot be told from gravity: give link data "
         "([parameters] with an uncertainty), or a motion that turns this joint over more of its "
         "range, and the joints before it fast"
         for joint in joints
