@@ -75,6 +75,9 @@ def estimated(
         DataError: choices that do not go together, or what the estimator refuses.
     """
     _check(asked)
+    if asked.energy or asked.method == TWO_STEPS:
+        what = "the energy model" if asked.energy else f"method {asked.method}"
+        estimation.refuse_prior(compiled.spec, f"fit: {what}")
     method: Any = asked.method
     if asked.energy:
         energy = estimation.identify_energy(
@@ -280,6 +283,7 @@ def found_with_gains(
     will: all that is told of the fit is told of those torques. `check` refuses logs, bare and
     loaded, that do not belong together; None: those that share rows.
     """
+    estimation.refuse_prior(compiled.spec, f"fit: method {GAIN_METHOD}")
 
     def observed(
         model: CompiledModel, processing: Processing

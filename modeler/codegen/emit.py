@@ -65,6 +65,7 @@ def module_spec(
             **entries(column, "name unit kind effect nonnegative"),
             joint=robot.joints[column.row].name,
             nominal=robot.parameters.get(column.name),
+            deviation=robot.uncertainty.get(column.name),
         )
         for column in model.columns
     )
@@ -86,6 +87,7 @@ def module_spec(
             manifest.SignalSpec(signal.kind, joint, units[signal.kind], signal.value)
             for signal, joint in zip(model.signals, measured, strict=True)
         ),
+        inertial_uncertainty=robot.uncertainty.get("inertial"),
     )
 
 

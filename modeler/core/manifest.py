@@ -105,6 +105,7 @@ class ParameterSpec:
     joint: str  # row of the table it belongs to
     nominal: float | None
     nonnegative: bool = False  # physics allows no negative value
+    deviation: float | None = None  # of the nominal value; 0: it is held; None: not stated
 
 
 @dataclass(frozen=True)
@@ -193,6 +194,7 @@ class ModuleSpec(Brief):
     code: str = ""  # digest of the sources, their signature left out: see `code_digest`
     fitted: FittedSpec | None = None  # where it was generated from a model
     precision: Precision = "double"  # of all numbers of the C
+    inertial_uncertainty: float | None = None  # of every body, over its scale
 
     @property
     def nonzeros(self) -> tuple[tuple[int, int], ...]:
@@ -237,6 +239,12 @@ class ModuleSpec(Brief):
             del entries["fitted"]
         if self.precision == "double":
             del entries["precision"]
+        for entry, name in [
+            (entries, "inertial_uncertainty"),
+            *((parameter, "deviation") for parameter in entries["standard"]),
+        ]:
+            if entry[name] is None:
+                del entry[name]
         return json.dumps(entries, indent=1) + "\n"
 
     def signature(self) -> str:

@@ -393,5 +393,5 @@ def _fitted(text: str, seen: Callable[[CompiledModel], HoldoutRows]) -> _Fitted:
     derivation = derive(robot_from_text(text, "robot with the effect"))
     emitted = generate(derivation)
     rows = seen(load(emitted.spec, emitted.code))
-    fit, used = identify(rows.fitted), provenance(rows.fitted.report)
+    fit, used = identify(rows.fitted, "weighted", rows.compiled), provenance(rows.fitted.report)
     return _Fitted(IdentifiedModel(text, emitted.spec, emitted.code, fit, used), rows)

@@ -15,7 +15,7 @@ from modeler.diagnosis.sentences import where
 from modeler.diagnosis.signals import SignalReference, tilt_basis
 from modeler.diagnosis.state import SearchData, State, columns_of, state_of
 from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Acts, Effect, effect_named
-from modeler.estimation import Addition, IdentifiedModel, spread_text
+from modeler.estimation import Addition, IdentifiedModel, prior_of, spread_text
 from modeler.observation import (
     Log,
     Observation,
@@ -53,8 +53,7 @@ def with_shapes(
             continue
         state = state or state_of(SearchData(compiled, observation), (), model.beta)
         own = _own_columns(model, state, pick)
-        W = tuple(np.delete(w, own, axis=1) for w in state.rows.W)
-        along = profile(ProfileProblem.of(state, pick, W), pick) if own else None
+        along = profile(ProfileProblem.of(state, pick, own), pick) if own else None
         if along is None:
             continue
         model = _widened(model, along, own)
@@ -394,7 +393,12 @@ def left_out(
     blocks = blocks_of(observation)
     number = [blocks.number[own] for own in used]
     sigma = np.array([joint.sigma if joint.sigma > 0.0 else 1.0 for joint in model.fit.joints])
-    base = base_of(W, y, sigma, number, blocks.fold)
+    prior = prior_of(model.spec) if free is None else None
+    known = None
+    if prior is not None:
+        lengths = sum(np.sum((w / s) ** 2, axis=0) for w, s in zip(W, sigma, strict=True)) ** 0.5
+        known = prior.beside(lengths)
+    base = base_of(W, y, sigma, number, blocks.fold, prior=known)
     return _unseen_of(observation, [s * e for s, e in zip(sigma, base.left_out, strict=True)])
 
 

@@ -13,12 +13,14 @@ from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.cross_checks import OtherLook, recheck_effects
 from modeler.diagnosis.data_checks import channel_faults, without_friction
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
+from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.judge import vetoing
+from modeler.diagnosis.plausible import gravity_like
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.search import MOST, Search, Step, search
 from modeler.diagnosis.state import BAND, SearchData, again, analysed, bands_line, cutoff, state_of
 from modeler.diagnosis.timing import logger_shift
-from modeler.effects import Acts, Effect, effect_named
+from modeler.effects import Acts, Effect, Needs, effect_named
 from modeler.estimation import IdentifiedModel
 from modeler.observation import Log, LogRepair, Observation
 
@@ -135,6 +137,7 @@ def diagnose(
         progress(1.0)
 
     line = bands_line(model.processing, data.observation.report.processing)
+    line += _like_gravity(diagnosis, found[0].found, without)
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
 
@@ -154,6 +157,28 @@ def _other_band(data: SearchData, model: IdentifiedModel, mending: LogRepair) ->
         if max(cutoff(other) / cutoff(data), cutoff(data) / cutoff(other)) > WIDER:
             return other
     return None
+
+
+def _like_gravity(diagnosis: Diagnosis, found: Search, without: Sequence[str]) -> list[str]:
+    """A line on joints where free inertias stand in for a spring that balances gravity."""
+    start, prior = found.start, found.start.data.prior
+    bodies = prior is not None and prior.has_bodies
+    if diagnosis.contradicted or start.data.kept is not None or bodies:
+        return []
+    catalogue = start.data.known.catalogue
+    balancing = next((e for e in catalogue if Needs.GRAVITY in e.needs), None)
+    if balancing is None:
+        return []
+    family = {e.id for e in catalogue if e.family == balancing.family}
+    named = {e.joint for e in diagnosis.effects if e.effect in family and e.status != "perhaps"}
+    joints = gravity_like(start, generate_candidates(start, balancing.id, without))
+    return [
+        f"a {balancing.id} on joint {joint} cannot be told from gravity: give link data "
+        "([parameters] with an uncertainty), or a motion that turns this joint over more of its "
+        "range, and the joints before it fast"
+        for joint in joints
+        if joint not in named
+    ]
 
 
 def _aligned(

@@ -8,7 +8,7 @@ from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.drive_gains import TENFOLD
 from modeler.diagnosis.effect_columns import body_parameters, dense
 from modeler.diagnosis.judge import PLAIN
-from modeler.diagnosis.state import State, columns_of, state_of, visible
+from modeler.diagnosis.state import State, all_columns_of, columns_of, state_of, visible
 from modeler.effects import Needs
 from modeler.estimation import body, nearest_possible
 
@@ -124,6 +124,9 @@ LOST = 0.3
 MORE = 1.3
 """Of the whole friction of a joint, more than which no part of it is, however badly known."""
 
+ALIKE = 0.1
+"""Share of the torque of a balancing spring that is its own, below which it looks like gravity."""
+
 WEIGHTLESS = 0.02
 """Gravity over torque, rms, below which a joint has nothing to balance."""
 
@@ -196,6 +199,26 @@ def _no_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> 
         return ""
     true = f"{1.0 / (1.0 - eps):.2g} times" if eps != 1.0 else "infinitely many times"
     return f"the true gain would be {true} the given one: check sign and unit of that torque"
+
+
+def gravity_like(start: State, candidates: Sequence[Candidate]) -> list[str]:
+    """Joints on which the links' own gravity imitates what balances it, most of it at any shape.
+
+    Of most shapes, less than a tenth of the torque is left beside inertias that are free.
+
+    Args:
+        start: the model as given.
+        candidates: of such an effect.
+    """
+    found = []
+    for joint in dict.fromkeys(c.joint for c in candidates):
+        own = [c for c in candidates if c.joint == joint]
+        columns = [c for c in all_columns_of(start.rows, own) if visible(c)]
+        if joint is None or not columns or _nothing_to_balance(start, own[0], {}):
+            continue
+        if float(np.median(start.ranked(columns).visible)) < ALIKE:
+            found.append(joint)
+    return found
 
 
 def _nothing_to_balance(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:

@@ -31,7 +31,7 @@ from modeler.diagnosis.signals import tilt_basis
 from modeler.diagnosis.state import State
 from modeler.effects import Acts, Shape
 from modeler.estimation import autocorrelation, repeated
-from modeler.numerics.least_squares import orthonormal
+from modeler.numerics.least_squares import turn_of
 from modeler.observation import Observation
 
 # The fit of an effect with given shapes, beside all else that a model has.
@@ -69,6 +69,7 @@ class ProfileProblem:
         y: (rows_j,) by joint.
         sigma: (J,) rms residual with the effect in.
         scale: what is large on its joint.
+        prior: (k, c + 1) rows of what is known beforehand of all else, of weight 1.
     """
 
     rows: Rows
@@ -77,12 +78,14 @@ class ProfileProblem:
     y: Sequence[np.ndarray]
     sigma: np.ndarray
     scale: JointScale
+    prior: np.ndarray
 
     @classmethod
-    def of(cls, state: State, pick: Candidate, others: Sequence[np.ndarray]) -> "ProfileProblem":
+    def of(cls, state: State, pick: Candidate, own: slice | list[int]) -> "ProfileProblem":
         """Of an effect in a state, by all columns but its own."""
         observation, scale = state.data.observation, state.scales[pick.scaled]
-        return cls(state.rows, observation, others, state.y, state.sigma, scale)
+        *others, prior = (np.delete(w, own, axis=1) for w in (*state.W, state.prior))
+        return cls(state.rows, observation, others, state.y, state.sigma, scale, prior)
 
     @cached_property
     def block(self) -> np.ndarray:
@@ -91,15 +94,19 @@ class ProfileProblem:
 
     @cached_property
     def base(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
-        """Orthonormal weighted columns of all else by joint, and (c, r): columns = W turn."""
-        return orthonormal(self.others, self.sigma)
+        """Weighted columns of all else by joint, with the prior orthonormal, and (c, r): W turn."""
+        turn = turn_of([*self.others, self.prior[:, :-1]], np.append(self.sigma, 1.0))
+        every = zip(self.others, self.sigma, strict=True)
+        return tuple(w @ (turn / s) for w, s in every), turn
 
     @cached_property
     def target(self) -> tuple[tuple[np.ndarray, ...], np.ndarray, float]:
         """Weighted y by joint, its products with the base, and what the base leaves of y.y."""
         scaled = tuple(t / s for t, s in zip(self.y, self.sigma, strict=True))
+        known = self.prior[:, -1]
         u = sum(q.T @ t for q, t in zip(self.base[0], scaled, strict=True))
-        return scaled, np.asarray(u), float(sum(t @ t for t in scaled) - u @ u)
+        u = np.asarray(u + (self.prior[:, :-1] @ self.base[1]).T @ known)
+        return scaled, u, float(sum(t @ t for t in scaled) + known @ known - u @ u)
 
     def weighted(self, columns: Columns) -> tuple[np.ndarray, ...]:
         """(rows_j, k) by joint, divided by sigma; zeros where there are none."""
@@ -373,7 +380,9 @@ def _factors(
     parameters (White 1980, Econometrica 48(4); Arellano 1987).
     """
     own, slopes = _slopes(problem, told, smooth)
-    left = problem.off([t[:, None] for t in problem.target[0]])[:, 0] - own @ first.values
+    y, u, _ = problem.target
+    left = np.concatenate([t - q @ u for q, t in zip(problem.base[0], y, strict=True)])
+    left = left - own @ first.values
     both = np.column_stack([own, slopes])
     influence = both @ np.linalg.pinv(both.T @ both, rcond=1e-12, hermitian=True)
     white = np.sum(influence**2, axis=0)
@@ -443,8 +452,7 @@ def profile_of(state: State, place: int) -> Profile | None:
     first = state.W[0].shape[1] - sum(sizes[place:])
     own = slice(first, first + sizes[place])
     pick = state.picks[place]
-    others = tuple(np.delete(w, own, axis=1) for w in state.W)
-    return profile(ProfileProblem.of(state, pick, others), pick)
+    return profile(ProfileProblem.of(state, pick, own), pick)
 
 
 def named_intervals(along: Profile, named: EffectValues) -> dict[str, tuple[float, float]]:

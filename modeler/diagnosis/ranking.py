@@ -46,6 +46,7 @@ class Base(Brief):
         fold: (blocks,) number of the fold of each block.
         G: (blocks, r, r) Gram matrices of the columns.
         u: (blocks, r) their products with y.
+        prior: (r, r + 1) what is known beforehand, in every fold: its Gram matrix and products.
     """
 
     columns: tuple[np.ndarray, ...]
@@ -56,6 +57,7 @@ class Base(Brief):
     fold: np.ndarray
     G: np.ndarray
     u: np.ndarray
+    prior: np.ndarray
 
     @property
     def blocks(self) -> int:
@@ -72,7 +74,8 @@ class Base(Brief):
         """Fits of the base to all folds but one."""
         place = np.unique(self.fold, return_inverse=True)[1]
         count = int(place.max()) + 1
-        inverse, beta = solved(but_one(self.G, place, count), but_one(self.u, place, count))
+        u = but_one(self.u, place, count) + self.prior[:, -1]
+        inverse, beta = solved(but_one(self.G, place, count) + self.prior[:, :-1], u)
         return GramFolds(place, inverse, beta)
 
     @cached_property
@@ -120,6 +123,7 @@ def base_of(
     block: Sequence[np.ndarray],
     fold: np.ndarray,
     turn: np.ndarray | None = None,
+    prior: np.ndarray | None = None,
 ) -> Base:
     """The weighted base.
 
@@ -130,12 +134,17 @@ def base_of(
         block: (rows_j,) by joint.
         fold: (blocks,) of each block.
         turn: (c, r) of the columns, where it is known.
+        prior: (k, c + 1) rows of what is known beforehand, of weight 1; None: nothing.
     """
-    turn = turn_of(W, sigma) if turn is None else turn
+    prior = np.zeros((0, W[0].shape[1] + 1)) if prior is None else prior
+    if turn is None:
+        turn = turn_of([*W, prior[:, :-1]], np.append(sigma, 1.0))
     columns = tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True))
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
     G, u = np.zeros((len(fold), *turn.shape[1:] * 2)), np.zeros((len(fold), turn.shape[1]))
-    base = Base(columns, target, turn, sigma, tuple(block), fold, G, u)
+    known = np.column_stack([prior[:, :-1] @ turn, prior[:, -1]])
+    known = known[:, :-1].T @ known
+    base = Base(columns, target, turn, sigma, tuple(block), fold, G, u, known)
     for w, t, own in zip(columns, target, base.pieces, strict=True):
         for b, rows in own:
             G[b] += w[rows].T @ w[rows]
@@ -253,7 +262,9 @@ def _add_joint(base: Base, pool: Pool, j: int, places: np.ndarray, columns: np.n
         T[:, :, places] += own
 
 
-def sigma_of(rows: Rows | ReducedRows, beta: np.ndarray | None = None) -> np.ndarray:
+def sigma_of(
+    rows: Rows | ReducedRows, beta: np.ndarray | None = None, prior: np.ndarray | None = None
+) -> np.ndarray:
     """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
 
     Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
@@ -263,6 +274,7 @@ def sigma_of(rows: Rows | ReducedRows, beta: np.ndarray | None = None) -> np.nda
     Args:
         rows: of the analysis.
         beta: (c,) parameters that are kept; None: fitted.
+        prior: (k, c + 1) rows of what is known beforehand, of weight 1; None: nothing.
     """
     count = rows.count if isinstance(rows, ReducedRows) else np.array([len(y) for y in rows.y])
     size = np.array([_rms(y, n) if n else 1.0 for y, n in zip(rows.y, count, strict=True)])
@@ -271,14 +283,19 @@ def sigma_of(rows: Rows | ReducedRows, beta: np.ndarray | None = None) -> np.nda
     sigma = np.maximum(np.where(free, size.max(), size), floor)
     grams = [w.T @ w for w in rows.W]
     sides = [w.T @ y for w, y in zip(rows.W, rows.y, strict=True)]
+    if prior is not None:
+        grams, sides = ([*x, prior[:, :-1].T @ y] for x, y in
+                        ((grams, prior[:, :-1]), (sides, prior[:, -1])))  # fmt: skip
+    weights = np.ones(len(grams))
     for _ in range(50):
-        found = beta if beta is not None else _least_squares(grams, sides, sigma)
+        weights[: len(sigma)] = sigma
+        found = beta if beta is not None else _least_squares(grams, sides, weights)
         every = zip(rows.y, rows.W, count, strict=True)
         updated = np.array([_rms(y - w @ found, n) if n else 1.0 for y, w, n in every])
         if free.any() and not free.all():
             error = float(np.sqrt(np.mean((updated[~free] / size[~free]) ** 2)))
             parts = [
-                np.diag(gram) @ found**2 / max(n, 1) for gram, n in zip(grams, count, strict=True)
+                np.diag(gram) @ found**2 / max(n, 1) for gram, n in zip(grams, count, strict=False)
             ]
             updated = np.where(free, np.maximum(updated, error * np.sqrt(parts)), updated)
         updated = np.maximum(updated, floor)
@@ -417,6 +434,7 @@ def fall(base: Base, pool: Pool) -> np.ndarray:
     crossed = base.crossed
     at = (crossed.place, len(crossed.beta))
     grams = [but_one(gram, *at) for gram in (base.u, pool.T, pool.w, pool.D)]
+    grams[0] = grams[0] + base.prior[:, -1]
     held_out = _solve(pool, crossed.inverse, crossed.beta, grams)
     place, count = at
     if count == 1 or (len(place) == count and np.array_equal(place, np.arange(count))):
@@ -442,7 +460,8 @@ def total_falls(base: Base, pool: Pool) -> tuple[np.ndarray, list[np.ndarray]]:
 def _whole(base: Base, pool: Pool) -> "_SolvedPool":
     """Fitted to all rows."""
     G, *grams = (g.sum(axis=0)[None] for g in (base.G, base.u, pool.T, pool.w, pool.D))
-    return _solve(pool, *solved(G, grams[0]), grams)
+    grams[0] = grams[0] + base.prior[:, -1]
+    return _solve(pool, *solved(G + base.prior[:, :-1], grams[0]), grams)
 
 
 @dataclass(frozen=True, eq=False)

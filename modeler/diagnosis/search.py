@@ -365,7 +365,8 @@ def search(
     survey = scan_catalogue(state, without)
     judgement = survey.judged((), tick)
     while judgement.best is not None and len(steps) < most and len(every) < ASKED:
-        best, later = put_in(state, _named(state, judgement.best, refused, without), veto)
+        best = _named(state, judgement.best, refused, without)
+        best, later = put_in(state, _beside_prior(state, best, judgement, refused), veto)
         other = _instead(survey, refused, best, later, tick)
         if other is not None or later is None:
             refused, every = [*refused, best], [*every, best]
@@ -428,6 +429,37 @@ def _instead(
         return without
     best = without.best
     return without if best is not None and best.share > NEARLY * asked.share else None
+
+
+def _beside_prior(
+    state: State, best: Judged, judgement: Judgement, vetoed: Sequence[Judged]
+) -> Judged:
+    """The best effect; of equals on its joint, one that clearly leaves less once it is put in.
+
+    While an effect is missing, its joint says little beside the prior, and bodies stay where that
+    has them: an effect that stands in for their error looks as good as the true one, and the shapes
+    of that do so too. They are sought again with the weights that the effect leaves.
+    """
+    first = judgement.best
+    assert first is not None
+    near = [j for j in judgement.ranked if j.significant and j.share > CLOSE * first.share]
+    every = {j.key: j for j in (best, first, *near) if not is_vetoed(j.candidate, vetoed)}
+    if state.data.prior is None or not best.candidate.local:
+        return best
+    found = {}
+    for key, judged in every.items():
+        if key[1] == best.key[1] and judged.candidate.local:
+            later = extended(state, judged.candidate)
+            scan = scan_catalogue(state.weighed_as(later), (), *key)
+            least = scan.best[0]
+            again = scan.at_best(least, scan.starts(least.candidate)).candidate
+            later = extended(state, again)
+            error = float(np.linalg.norm(later.base.left_out[again.index]))
+            found[key] = error * float(later.sigma[again.index]), again
+    key = min(found, key=lambda key: found[key][0])
+    key = key if CLEAR * found[key][0] < found[best.key][0] else best.key
+    again = found[key][1]
+    return _judged_again(state, again)
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:

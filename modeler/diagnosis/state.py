@@ -26,6 +26,7 @@ from modeler.diagnosis.ranking import (
 )
 from modeler.diagnosis.signals import SignalReference, frame_slopes, tilt_weights
 from modeler.effects import Acts
+from modeler.estimation import Prior, prior_of, remembered
 from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
 from modeler.observation import (
     APART,
@@ -119,6 +120,11 @@ class SearchData(Brief):
         return reduction([w[:, self.free] for w in self.rows.W], self.y)
 
     @cached_property
+    def prior(self) -> Prior | None:
+        """What is known beforehand of the base parameters; None where they are kept."""
+        return prior_of(self.spec) if self.kept is None else None
+
+    @cached_property
     def numbers(self) -> tuple[np.ndarray, ...]:
         """(rows_j,) by joint, number of the block of time."""
         used = self.observation.used
@@ -126,6 +132,14 @@ class SearchData(Brief):
 
 
 _FREE = ("friction", "offset")
+
+UNLIKELY = 1e-3
+"""Chance below which no body of the prior lies where the logs would have it."""
+
+LIKELY = 0.1
+"""Chance with which one that did is held near its prior."""
+
+_STRONGER = 12  # times twice
 
 _REMEMBERED = 3  # references: that of a state, and those of the next
 
@@ -145,6 +159,7 @@ class State(Brief):
         reference: where effects are linearised.
         rows: motion, torque, base columns.
         extra: columns of the picks.
+        weighed: sigma and prior of another state, which are taken; None: its own.
     """
 
     data: SearchData
@@ -152,6 +167,7 @@ class State(Brief):
     reference: SignalReference
     rows: Rows
     extra: tuple[Columns, ...]
+    weighed: tuple[np.ndarray, np.ndarray] | None = None
 
     @property
     def spec(self) -> ModuleSpec:
@@ -182,7 +198,7 @@ class State(Brief):
     def base(self) -> Base:
         """Of the model so far."""
         numbers, fold = self.data.numbers, self.data.blocks.fold
-        return base_of(self.W, self.y, self.sigma, numbers, fold, self.turn)
+        return base_of(self.W, self.y, self.sigma, numbers, fold, self.turn, self.prior)
 
     @cached_property
     def folded(self) -> Base:
@@ -194,27 +210,76 @@ class State(Brief):
         """The rows of the model so far, reduced to few."""
         return self.data.reduction.beside(self.extra)
 
+    def weighed_as(self, later: "State") -> "State":
+        """The same beside the residuals and the prior of a state with more effects."""
+        first = self.prior.shape[1] - 1
+        prior = later.prior[:, [*range(first), -1]]
+        return dataclasses.replace(self, weighed=(later.sigma, prior))
+
+    @cached_property
+    def prior(self) -> np.ndarray:
+        """(k, f + extra + 1) rows of what is known beforehand, beside rows that repeat each other.
+
+        Rows of the logs count as if they were independent, and the prior as much more instead: by
+        the sum of the autocorrelation of the residual, 1 + 2 sum_k r(k), of the middle joint. Where
+        the logs would have a body that the prior excludes, what is missing is another effect,
+        which the body would stand in for: its prior counts more, until the body is a likely one.
+        """
+        if self.weighed is not None:
+            return self.weighed[1]
+        columns, known = self.reduced.W[0].shape[1], self.data.prior
+        if known is None:
+            return np.zeros((0, columns + 1))
+        every = zip(self.reduced.W, sigma_of(self.reduced), strict=True)
+        lengths = np.sqrt(sum(np.sum((w / s) ** 2, axis=0) for w, s in every))
+        rows, observation = known.beside(lengths), self.data.observation
+        found, sums = self._beside(rows), [1.0]
+        for j, (y, w) in enumerate(zip(self.y, self.W, strict=True)):
+            if y.any():
+                r = remembered(observation, y - w @ found, np.flatnonzero(observation.used[:, j]))
+                sums.append(max(1.0, 2.0 * float(r.sum()) - 1.0))
+        repeats = float(np.median(sums[1:] or sums))
+        tight: dict[str, float] = {}
+        for _ in range(_STRONGER):
+            rows = known.tightened(tight).beside(lengths) * repeats**0.5
+            chances = known.chances(self._beside(rows)[: len(self.data.free)])
+            nearer = [k for k, c in chances.items() if c < (LIKELY if k in tight else UNLIKELY)]
+            if not nearer:
+                break
+            tight |= {name: 0.5 * tight.get(name, 1.0) for name in nearer}
+        return rows
+
     @cached_property
     def sigma(self) -> np.ndarray:
         """(J,) rms residual of each joint."""
-        return sigma_of(self.reduced)
+        return sigma_of(self.reduced, prior=self.prior) if not self.weighed else self.weighed[0]
 
     @cached_property
     def turn(self) -> np.ndarray:
         """(f + extra, r) to orthonormal weighted columns."""
-        return turn_of(self.reduced.W, self.sigma)
+        return turn_of([*self.reduced.W, self.prior[:, :-1]], np.append(self.sigma, 1.0))
 
     @cached_property
     def solution(self) -> np.ndarray:
         """(f + extra,) parameters on all rows, SI; first the base parameters that are fitted."""
-        few = self.reduced
-        if not self.turn.shape[1]:
-            return np.zeros(len(self.turn))
-        G, u = 1e-12 * np.eye(self.turn.shape[1]), np.zeros(self.turn.shape[1])
-        for w, y, s in zip(few.W, few.y, self.sigma, strict=True):
-            columns = w @ (self.turn / s)
+        return self._solved(self.turn, self.sigma, self.prior)
+
+    def _solved(self, turn: np.ndarray, sigma: np.ndarray, prior: np.ndarray) -> np.ndarray:
+        if not turn.shape[1]:
+            return np.zeros(len(turn))
+        G, u = 1e-12 * np.eye(turn.shape[1]), np.zeros(turn.shape[1])
+        every = [*zip(self.reduced.W, self.reduced.y, sigma, strict=True),
+                 (prior[:, :-1], prior[:, -1], 1.0)]  # fmt: skip
+        for w, y, s in every:
+            columns = w @ (turn / s)
             G, u = G + columns.T @ columns, u + columns.T @ (y / s)
-        return np.asarray(self.turn @ np.linalg.solve(G, u))
+        return np.asarray(turn @ np.linalg.solve(G, u))
+
+    def _beside(self, prior: np.ndarray) -> np.ndarray:
+        """The solution beside such rows of a prior."""
+        sigma = sigma_of(self.reduced, prior=prior)
+        turn = turn_of([*self.reduced.W, prior[:, :-1]], np.append(sigma, 1.0))
+        return self._solved(turn, sigma, prior)
 
     @cached_property
     def beta(self) -> np.ndarray:

@@ -49,12 +49,13 @@ from .model_file import (
     with_essential_only as with_essential_only,
 )
 from .nearest_body import body as body, nearest_possible as nearest_possible
-from .parameter import spread_text as spread_text
+from .parameter import prior_text as prior_text, spread_text as spread_text
 from .payload import (
     Payload as Payload,
     identify_with_payloads as identify_with_payloads,
     loaded_equations as loaded_equations,
 )
+from .prior import Prior as Prior, prior_of as prior_of, refuse_prior as refuse_prior
 from .result import (
     FitResult as FitResult,
     ParameterEstimate as ParameterEstimate,

@@ -26,11 +26,27 @@ class Colour:
         factors: (c,) on the standard deviations, 1 and more.
         memory: (joint, s) of the joints whose residuals are not white.
         lasting: (n,) autocorrelation of their residuals over one row.
+        extra: (c, c) what it adds to the covariance of white residuals.
     """
 
     factors: np.ndarray
     memory: tuple[tuple[str, float], ...]
     lasting: np.ndarray
+    extra: np.ndarray
+
+    def raised(self, white: np.ndarray) -> np.ndarray:
+        """(c, c) the covariance with it: in no direction less than that of white residuals."""
+        at = np.flatnonzero(np.diag(white))
+        size = np.sqrt(np.diag(white)[at])
+        own, more = (x[np.ix_(at, at)] / np.outer(size, size) for x in (white, self.extra))
+        values, vectors = np.linalg.eigh(own)
+        root = vectors * np.sqrt(np.maximum(values, 1e-15 * values.max(initial=1.0)))
+        inverse = np.linalg.inv(root) if at.size else root
+        ratio, turn = np.linalg.eigh(inverse @ more @ inverse.T)
+        turned = size[:, None] * (root @ turn) * np.sqrt(1.0 + np.maximum(ratio, 0.0))
+        found = np.zeros(white.shape)
+        found[np.ix_(at, at)] = turned @ turned.T
+        return found
 
     def sentences(self) -> list[str]:
         """One, if it matters."""
@@ -82,7 +98,7 @@ def coloured(
         residual = residual_of(observation, beta)
     else:
         residual = y - W @ estimate.beta if own_way is None else own_way.residual
-    extra, memory = np.zeros(len(estimate.beta)), []  # diagonal of C (B - C^-1) C
+    extra, memory = np.zeros((len(estimate.beta),) * 2), []  # C (B - C^-1) C
     lasting, pull = np.zeros(len(observation.joints)), np.zeros(0)
     pulls = np.zeros((len(observation.joints), c, len(estimate.beta)))
     correlations = [np.ones(1) for _ in observation.joints]
@@ -107,12 +123,12 @@ def coloured(
                 if own_way is None or own_way.pull is None
                 else own_way.pull[own] * size
             )
-            extra += repeated(rows, r, sample, observation.segment)
+            extra += repeated_whole(rows, r, sample, observation.segment)
     if isinstance(W, Neighbours):
         extra = W.repeated([*pulls], correlations)
     white = np.diag(estimate.covariance)
-    ratio = 1.0 + extra / np.where(white > 0.0, white, 1.0)
-    return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory), lasting)
+    ratio = 1.0 + np.diag(extra) / np.where(white > 0.0, white, 1.0)
+    return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory), lasting, extra)
 
 
 def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> np.ndarray:

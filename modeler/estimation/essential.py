@@ -98,7 +98,7 @@ def essential_parameters(
     aside = [tangle.name for tangle in full.rank.aside]
     own = data.without([*left, *aside])
     reduced = least_squares(own, "ordinary" if method == "ordinary" else "weighted")
-    if kept and method not in ("weighted", "ordinary"):
+    if kept and (full.share is not None or method not in ("weighted", "ordinary")):
         values, root = solve_by_qr(whole[:, kept], whole[:, -1])
         reduced = dataclasses.replace(reduced, beta=values, covariance=root @ root.T)
     beta = np.zeros(len(data.names))

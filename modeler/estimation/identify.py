@@ -14,6 +14,7 @@ from modeler.estimation.essential import Essential, essential_parameters, reduce
 from modeler.estimation.least_squares import MAX_ITERATIONS, Estimate, least_sigma
 from modeler.estimation.methods import method_of
 from modeler.estimation.parameter import ParameterEstimate
+from modeler.estimation.prior import Prior, prior_of, refuse_prior
 from modeler.estimation.problem import Neighbours, Problem, kept_rows, residual_of
 from modeler.estimation.result import FitResult, JointFit
 from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
@@ -146,9 +147,11 @@ def fit_equations(
             "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
         )
     problem = Problem(observation, equations.kept, equations.y, alive, equations.names, data, model)
+    prior = None if model is None or noise_only else prior_of(model.spec)
+    if prior is not None and model is not None and not estimator.takes_prior:
+        refuse_prior(model.spec, f"method {method}")
     estimate = estimator.estimate(problem)
     rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
-    essential = essential_parameters(data, estimate, method, below)
     colour = _coloured(problem, rows, estimate, share)
     white = np.sqrt(np.diag(estimate.covariance))
     differ = Halves(np.ones(len(white)))
@@ -160,19 +163,27 @@ def fit_equations(
         )  # fmt: skip
     raised = np.sqrt(1.0 + (differ.factors**2 - 1.0) / share)
     factors = colour.factors * raised
-    at = [equations.names.index(name) for name in essential.names]
-    alone = _coloured(problem, rows, essential.reduced, share, at).factors
+    covariance = estimate.covariance * np.outer(factors, factors)
+    if prior is None:
+        essential = essential_parameters(data, estimate, method, below)
+        at = [equations.names.index(name) for name in essential.names]
+        reduced = raised[at] * _coloured(problem, rows, essential.reduced, share, at).factors
+        estimate = dataclasses.replace(estimate, covariance=covariance)
+    else:  # rows that repeat each other weigh less beside it
+        full = colour.raised(estimate.covariance)
+        more = np.maximum(np.diag(covariance) - np.diag(full), 0.0)
+        estimate = prior.applied(estimate, data, full + np.diag(more))
+        essential = essential_parameters(data, estimate, method, below)
+        reduced = np.ones(len(essential.names))
     return result_of(
-        equations, method,
-        dataclasses.replace(estimate, covariance=estimate.covariance * np.outer(factors, factors)),
-        essential,
+        equations, method, estimate, essential,
         rows=count,
         joints=joints_of(observation, data, estimate.beta, estimate.sigma),
         sentences=(*equations.sentences, *_not_connected(observation, dead), *estimate.sentences,
                    *(tangle.sentence() for tangle in estimate.rank.aside), *_unsettled(estimate),
                    essential.sentence(), *colour.sentences(),
                    *differ.sentences(equations.names, [j.name for j in observation.joints])),
-        reduced=raised[at] * alone,
+        reduced=reduced,
         standard=estimate.standard,
         own=estimate.sentences,
         by_load={
@@ -235,7 +246,8 @@ def result_of(
             value=float(estimate.beta[i]),
             sigma=float(sigma[i]) if i in told else None,
             essential=name in essential.names,
-            status="estimated" if i in told else "set aside",
+            status="held" if name in estimate.held else "estimated" if i in told else "set aside",
+            prior=float(estimate.share[i]) if estimate.share is not None and i in told else None,
         )
         for i, (name, unit) in enumerate(labels)
     )
@@ -260,6 +272,7 @@ def result_of(
         sentences=sentences,
         processing=observation.report.processing,
         bands=observation.report.bands,
+        contradicted=estimate.contradicted,
         essential=None if reduced is None else reduced_model(essential, reduced, dict(labels)),
         **further,
     )
@@ -372,6 +385,7 @@ def crossed(
     rows: np.ndarray,
     sigma: np.ndarray,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
+    prior: Prior | None = None,
 ) -> CrossValidation:
     """Cross-validation over stretches of half a swing.
 
@@ -385,6 +399,7 @@ def crossed(
         sigma: (n,) standard deviation of a row of each joint.
         refit: beta without the samples (s,) that are held out; None: least squares of the
             other rows.
+        prior: beside those of least squares.
     """
     observation = equations.observation
     speed, acceleration = (
@@ -398,10 +413,12 @@ def crossed(
     fold = np.searchsorted(seen, number[observation.row_sample]) % FOLDS
     folds = [rows & (fold == k) for k in range(min(FOLDS, len(seen)))]
     parts = [equations.compressed(own).whole(sigma) for own in folds]
-    residual = np.zeros(len(equations.y))
+    residual, known = np.zeros(len(equations.y)), parts[0][:0]
+    if prior is not None:
+        known = prior.beside(np.linalg.norm(np.vstack(parts)[:, :-1], axis=0))
     for k, own in enumerate(folds):
         if refit is None:
-            others = np.vstack([parts[0][:0], *parts[:k], *parts[k + 1 :]])
+            others = np.vstack([known, *parts[:k], *parts[k + 1 :]])
             beta = scaled_least_squares(others[:, :-1], others[:, -1], SEEN)
         else:
             beta = refit(np.searchsorted(seen, number) % FOLDS == k)

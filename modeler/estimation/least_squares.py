@@ -55,6 +55,9 @@ class Estimate:
         whole: (c + 1, c + 1) triangle of the weighted equations whose least squares this is; None
             for those of the data with weights 1/sigma.
         standard: all standard parameters by name, SI, where the estimator ends in them.
+        share: (c,) of what is known of each that comes from the prior; None without one.
+        held: names of those that cannot move.
+        contradicted: lines on what the prior says and the data contradict.
     """
 
     beta: np.ndarray
@@ -70,6 +73,9 @@ class Estimate:
     influence: Influence | None = None
     whole: np.ndarray | None = None
     standard: Mapping[str, float] = field(default_factory=dict)
+    share: np.ndarray | None = None
+    held: tuple[str, ...] = ()
+    contradicted: tuple[str, ...] = ()
 
 
 def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:

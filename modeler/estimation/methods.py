@@ -37,6 +37,11 @@ class Estimator:
     estimate: Callable[[Problem], Estimate]
     works_on: tuple[str, ...] = ("rows",)
 
+    @property
+    def takes_prior(self) -> bool:
+        """False of those that have one of their own: what a robot file states would be a second."""
+        return self.about.id not in ("ridge", "consistent")
+
 
 _EVERYTHING = tuple(_REFUSALS)
 _ROWS: dict[Method, Callable[[Problem], Estimate]] = {

@@ -23,8 +23,10 @@ class ParameterEstimate:
         value: 0 if it was set aside.
         sigma: standard deviation; None if it was set aside.
         essential: False if the model does as well without it.
-        status: "estimated" | "set aside".
+        status: "estimated" | "set aside" | "held".
         interval: 95 %, of parameters of an effect whose shapes were fitted too; None for others.
+        prior: share of what is known of it that comes from the prior of the robot file, of the
+            inverse variance; None without one.
     """
 
     name: str
@@ -34,6 +36,7 @@ class ParameterEstimate:
     essential: bool
     status: str
     interval: tuple[float, float] | None = None
+    prior: float | None = None
 
     @property
     def relative_sigma_percent(self) -> float | None:
@@ -44,7 +47,7 @@ class ParameterEstimate:
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        names = "name value sigma relative_sigma_percent essential unit status"
+        names = "name value sigma relative_sigma_percent essential unit status prior"
         interval = None if self.interval is None else list(self.interval)
         return entries(self, names) | {"interval": interval}
 
@@ -67,10 +70,11 @@ def read_all(kind: type[T], raw: Mapping[str, Any], name: str) -> tuple[T, ...]:
 def parameter_lines(
     parameters: Sequence[ParameterEstimate], reduced: Sequence[ParameterEstimate] = ()
 ) -> list[str]:
-    """A table: name, value, sigma, %sigma, the value of a reduced model if there is one, unit."""
+    """A table: name, value, sigma, %sigma, unit; values of a reduced model, shares of a prior."""
     alone = {parameter.name: f"{parameter.value:.6g}" for parameter in reduced}
     width = max([9, *(len(parameter.name) for parameter in parameters)])
-    head = f"{'reduced':>13}" if alone else ""
+    known = any(parameter.prior is not None for parameter in parameters)
+    head = (f"{'reduced':>13}" if alone else "") + (f"{'prior':>8}" if known else "")
     lines = [f"{'parameter':<{width}} {'value':>13} {'sigma':>10} {'%sigma':>8}{head}  unit"]
     for parameter in parameters:
         if parameter.sigma is None:
@@ -80,11 +84,19 @@ def parameter_lines(
         percent = "-" if share is None else f"{share:.3g}" if share < 1e4 else ">10000"
         mark = "" if parameter.essential else "  (not essential)"
         column = f"{alone.get(parameter.name, '-'):>13}" if alone else ""
+        column += f"{prior_text(parameter):>8}" if known else ""
         lines.append(
             f"{parameter.name:<{width}} {parameter.value:>13.6g} {parameter.sigma:>10.3g} "
             f"{percent:>8}{column}  {parameter.unit}{mark}"
         )
     return lines
+
+
+def prior_text(parameter: ParameterEstimate) -> str:
+    """How much of what is known of it comes from the prior."""
+    if parameter.status == "held":
+        return "held"
+    return "-" if parameter.prior is None else f"{100.0 * parameter.prior:.0f} %"
 
 
 def spread_text(value: float, sigma: float, interval: tuple[float, float] | None) -> str:

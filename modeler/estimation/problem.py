@@ -35,7 +35,7 @@ class Neighbours:
         self._products: tuple[list[int], list[np.ndarray] | None] | None = None
 
     def repeated(self, matrices: Sequence[np.ndarray], r: Sequence[np.ndarray]) -> np.ndarray:
-        """(k,) 2 sum_j sum_l r_j(l) sum_t a_j(t) a_j(t + l), element by element; l = 1, 2, ...
+        """(k, k) sum_j sum_l r_j(l) sum_t a_j(t) a_j(t + l)^T and its transpose; l = 1, 2, ...
 
         a_j(t) = w_j(t) A_j, w_j(t) the row of joint j at sample t, 0 where it is not counted.
 
@@ -51,12 +51,12 @@ class Neighbours:
             found = self._products[1]
         if found is None:
             return _by_blocks(self.observation, self.keep, matrices, r)
-        total = np.zeros(matrices[0].shape[1])
+        total = np.zeros((matrices[0].shape[1],) * 2)
         for j, own in enumerate(found):
             A = matrices[j][_columns(self.observation, j)]
             for weight, product in zip(r[j][1:], own, strict=False):
-                total += 2.0 * weight * np.einsum("ak,ak->k", A, product @ A)
-        return total
+                total += weight * (A.T @ product @ A)
+        return total + total.T
 
 
 def kept_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
@@ -81,13 +81,14 @@ def _by_blocks(
     r: Sequence[np.ndarray],
 ) -> np.ndarray:
     """As `Neighbours.repeated`, from the columns of samples, and the last rows before them."""
-    total, longest = np.zeros(matrices[0].shape[1]), max(len(own) - 1 for own in r)
+    k, longest = matrices[0].shape[1], max(len(own) - 1 for own in r)
+    total = np.zeros((k, k))
     before: list[np.ndarray] = []
     own_columns = [_columns(observation, j) for j in range(len(r))]
     at = -1
     for samples, columns in blocks(observation):
         if observation.segment[samples.start] != at:
-            before = [np.zeros((longest, len(total)))] * len(r)
+            before = [np.zeros((longest, k))] * len(r)
         at = int(observation.segment[samples.start])
         for j, correlation in enumerate(r):
             if len(correlation) < 2:
@@ -97,9 +98,9 @@ def _by_blocks(
             rows = np.concatenate([before[j], now])
             for lag, weight in enumerate(correlation[1:], start=1):
                 earlier = rows[longest - lag : len(rows) - lag]
-                total += 2.0 * weight * np.einsum("tk,tk->k", earlier, now)
+                total += weight * (earlier.T @ now)
             before[j] = rows[len(rows) - longest :]
-    return total
+    return total + total.T
 
 
 # What an estimator is given.

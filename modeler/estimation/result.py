@@ -327,6 +327,7 @@ class FitResult(Presented):
         gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
         singular_values: that tell the gains apart, descending; 1 is noise (see `mixed_tls`).
         reading: of long logs: passes, chunks, rows, windows, rows_in_windows; empty of others.
+        contradicted: lines on what the prior of the robot file says and the data contradict.
         by_load: the joints on the "bare" and on the "loaded" logs; empty without payloads.
         bands: the cut-offs, what chose them, the noise of the motion; None in files that lack it.
     """
@@ -357,6 +358,7 @@ class FitResult(Presented):
     reading: Mapping[str, int] = field(default_factory=dict)
     by_load: Mapping[str, tuple[JointFit, ...]] = field(default_factory=dict)
     bands: Bands | None = None
+    contradicted: tuple[str, ...] = ()
 
     @property
     def beta(self) -> np.ndarray:
@@ -421,6 +423,7 @@ class FitResult(Presented):
             **entries(self, "parameters loads gains singular_values sentences processing"),
             "standard": self.standard,
             "essential": self.essential,
+            "contradicted": list(self.contradicted),
             "directions": self.directions,
             "model": "torque" if self.energy is None else "energy",
             "energy": self.energy,

@@ -23,6 +23,7 @@ from modeler.estimation.identify import (
 )
 from modeler.estimation.least_squares import solve_by_qr
 from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
+from modeler.estimation.prior import prior_of
 from modeler.estimation.result import FitResult, JointFit, Verdict, friction_by_direction
 from modeler.numerics.least_squares import Compressed, independent_columns, triangle
 from modeler.observation import Fault, Observation
@@ -179,7 +180,8 @@ def with_verdict(
     equations = equations or base_equations(observation)
     rows = alive_rows(observation)
     part, data = data is not None, data or equations.compressed(rows)
-    seen = crossed(equations, rows, np.array([joint.sigma for joint in result.joints]), refit)
+    sigma, prior = np.array([joint.sigma for joint in result.joints]), prior_of(model.spec)
+    seen = crossed(equations, rows, sigma, refit, prior)
     unseen = tuple(i.line for i in told if isinstance(i, Fault) and i.unseen)
     found = _doubts_of(told)
     found += time_doubts(model, observation, result)
@@ -187,6 +189,7 @@ def with_verdict(
     if part:
         found += doubts.unexplained_joints(result, seen, _scale(data, observation, rows))
     found += doubts.systematic(result, _lasting(equations, rows, result))
+    found += [Doubt(line, values=True) for line in result.contradicted]
     found += doubts.undetermined(model.spec, result, _spread(data, result))
     found += [*_impossible(model.spec, result, data), *doubts.negative(model.spec, result)]
     verdict = _verdict(found, _predicts(equations, rows, result, seen))

@@ -296,28 +296,17 @@ def _beside(Q: np.ndarray, parts: Sequence[np.ndarray | None], sizes: Sequence[i
     return np.vstack([inside, below])
 
 
-# Weighted columns made orthonormal over the rows of all joints at once.
-
-
 _PARALLEL = 1e-11
 """Eigenvalue of their Gram matrix, over the largest, below which columns are dependent."""
 
 
-def orthonormal(
-    W: Sequence[np.ndarray], sigma: np.ndarray
-) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
-    """(rows_j, r) orthonormal columns by joint, and the turn (c, r): they are W turn / sigma.
+def turn_of(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
+    """(c, r) that makes weighted columns orthonormal over the rows of all joints at once.
 
     Args:
         W: (rows_j, c) by joint.
         sigma: (J,) of each joint; the weights are its inverse.
     """
-    turn = turn_of(W, sigma)
-    return tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True)), turn
-
-
-def turn_of(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
-    """(c, r) that makes weighted columns orthonormal: see `orthonormal`."""
     gram = np.asarray(sum((w.T @ w) / s**2 for w, s in zip(W, sigma, strict=True)))
     return whitening(gram, _PARALLEL)
 

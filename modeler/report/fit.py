@@ -41,12 +41,14 @@ def fit_tables(fit: FitResult) -> Tables:
 
 
 def _estimates(title: str, parameters: Sequence[ParameterEstimate]) -> Table:
+    known = any(p.prior is not None for p in parameters)
     rows = [
         (p.name, p.value if p.sigma is not None else None, p.sigma, p.relative_sigma_percent,
-         p.unit, p.essential if p.sigma is not None else p.status)
+         p.unit, p.essential if p.sigma is not None else p.status, *([p.prior] if known else []))
         for p in parameters
     ]  # fmt: skip
-    return Table.of(title, "parameter, value, sigma, relative sigma [%], unit, essential", rows)
+    head = "parameter, value, sigma, relative sigma [%], unit, essential"
+    return Table.of(title, f"{head}, prior share" if known else head, rows)
 
 
 def _errors(fit: FitResult) -> Table:

@@ -4,7 +4,14 @@ from collections.abc import Mapping, Sequence
 
 from modeler.core.manifest import BaseSpec, TermSpec
 from modeler.core.table import percent
-from modeler.estimation import Addition, FitResult, IdentifiedModel, ParameterEstimate, spread_text
+from modeler.estimation import (
+    Addition,
+    FitResult,
+    IdentifiedModel,
+    ParameterEstimate,
+    prior_text,
+    spread_text,
+)
 from modeler.report.blocks import PageCell, PageTable
 
 _KINDS = {"% sigma": "bar", "unit": "unit", "is the sum of": "why"}
@@ -22,18 +29,21 @@ def values_table(
         caption: below the table.
     """
     sums = {b.name: relation(b) for b in base}
-    rows = [
-        (
+    known = any(p.prior is not None for p in parameters)
+    rows: list[list[str | PageCell]] = [
+        [
             p.name,
             "set aside" if p.sigma is None else f"{p.value:.5g}",
             "" if p.sigma is None else _bare_spread(p.value, p.sigma, p.interval) or "0",
             _share(p),
+            *([prior_text(p)] if known else []),
             p.unit,
             sums.get(p.name, ""),
-        )
+        ]
         for p in parameters
     ]
-    head = ("parameter", "value", "sigma", "% sigma", "unit", "is the sum of")
+    prior = ("from the prior",) if known else ()
+    head = ("parameter", "value", "sigma", "% sigma", *prior, "unit", "is the sum of")
     return PageTable(head, rows, caption, _KINDS)
 
 

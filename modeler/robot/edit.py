@@ -79,7 +79,10 @@ def _catalogue(text: str) -> tuple[Effect, ...]:
 
 def with_parameters(text: str, values: Mapping[str, float]) -> str:
     """The robot file with these nominal values, and others only for what they leave open."""
-    before = tomllib.loads(text).get("parameters", {})
+    before = dict(tomllib.loads(text).get("parameters", {}))
+    sure = before.pop("uncertainty", None)
+    if sure is not None:
+        text = _with_numbers(text, "parameters.uncertainty", sure)
     return _with_numbers(text, "parameters", {**before, **values})
 
 

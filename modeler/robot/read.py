@@ -41,6 +41,7 @@ from modeler.robot.sections import (
     read_drive_gains,
     read_limits,
     read_numbers,
+    read_parameters,
     read_physical,
 )
 from modeler.robot.table import Row, table_joints, table_rows
@@ -179,6 +180,7 @@ def _with_tables(
     names = (
         f"names such as {listed(known[:12])} (friction and rotors only where [effects] has them)"
     )
+    parameters, uncertainty = read_parameters(section("parameters"), known, names)
     return dataclasses.replace(
         robot,
         loops=loops,
@@ -187,7 +189,8 @@ def _with_tables(
         reference=read_numbers(section("reference"), known, "[reference]", standard),
         coupling=coupling,
         priority=_priority(place.at("priority", document.get("priority", [])), known, robot),
-        parameters=read_numbers(section("parameters"), known, "[parameters]", names),
+        parameters=parameters,
+        uncertainty=uncertainty,
         drive_gains=read_drive_gains(section("drive_gains"), moving),
         limits=read_limits(section("limits"), moving, values),
         physical=read_physical(section("physical"), moving),

@@ -196,6 +196,8 @@ class Robot(Presented):
         priority: names or patterns (`ZZ*`, `Ia?`) of parameters that are kept first when
             parameters group; the others follow in table order.
         parameters: nominal values of standard parameters, SI units.
+        uncertainty: their standard deviations by name, 0 of those that are held; "inertial": of
+            every body, over its scale. Empty: they are nominal values only.
         drive_gains: joint torque per unit of the logged drive current, by joint.
         limits: range of motion for simulation, by joint.
         physical: the letters of a paper for the links, by joint.
@@ -225,6 +227,7 @@ class Robot(Presented):
     motors: Mapping[str, Mapping[str, float]] = field(default_factory=lambda: _EMPTY)
     priority: tuple[str, ...] = ()
     parameters: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    uncertainty: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
     drive_gains: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
     limits: Mapping[str, Limits] = field(default_factory=lambda: _EMPTY)
     physical: Mapping[str, PhysicalLink] = field(default_factory=lambda: _EMPTY)

@@ -10,6 +10,9 @@ from modeler.robot.robot import Joint, Limits, PhysicalLink
 
 Coupling = dict[str, dict[str, float]]
 
+INERTIAL_UNCERTAINTY = "inertial"
+"""What stands for every body in `[parameters.uncertainty]`."""
+
 
 def joint_at(name: Any, moving: Mapping[str, Joint], place: Place) -> Joint:
     """The moving joint of that name.
@@ -87,6 +90,69 @@ def read_numbers(
             )
         found[name] = place.at(name, cell).number("0.5")
     return found
+
+
+def read_parameters(
+    place: Place, known: Collection[str], expected: str
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Values of standard parameters, and how sure they are: `[parameters]`.
+
+    Args:
+        place: the table.
+        known: names of the parameters that the robot has.
+        expected: what to write for a name that is unknown.
+
+    Returns:
+        Values, and standard deviations by name: 0 of those that are held; under "inertial" that of
+        every body, over its scale.
+
+    Raises:
+        RobotError: an unknown parameter, no number, or a doubt about a value that is not stated.
+    """
+    table = dict(place.table("[parameters] ZZ1 = 0.5"))
+    inner = place.at("uncertainty").holding(table.pop("uncertainty", {}))
+    inner = Place(place.file, "[parameters.uncertainty]", inner.value)
+    sure = dict(inner.table("[parameters.uncertainty] inertial = 0.10"))
+    entries = [(place, table.pop("held", [])), (inner, sure.pop("held", []))]
+    held = {
+        here.at("held").holding(name).text('"Ia3"'): here
+        for here, names in entries
+        for name in here.at("held").holding(names).entries('held = ["Ia3"]')
+    }
+    values = read_numbers(place.holding(table), known, "[parameters]", expected)
+    found = {}
+    for name, cell in sure.items():
+        here = inner.at(name, cell)
+        found[name] = here.number("0.1")
+        if found[name] <= 0.0:
+            raise here.mismatch("a standard deviation above 0; a value that is certain is held")
+        if name != INERTIAL_UNCERTAINTY:
+            _stated(name, values, known, here)
+        elif found[name] > 1.0:
+            raise here.mismatch("a share of 1 at most, such as 0.10 for 10 %")
+        elif not any(name.startswith("M") for name in values):
+            raise here.error(
+                "got no body to which it applies; state masses, first moments and inertias in "
+                "[parameters], such as M1 = 4.0"
+            )
+    for name, here in held.items():
+        _stated(name, values, known, here.at("held"))
+        if name in found:
+            raise here.at("held").error(
+                f"{shown(name)} has an uncertainty too; expected one of both: leave one out"
+            )
+    return values, found | dict.fromkeys(held, 0.0)
+
+
+def _stated(name: str, values: Mapping[str, float], known: Collection[str], place: Place) -> None:
+    """Refuse a name without a value."""
+    if name not in known:
+        raise place.error(
+            f"there is no parameter {shown(name)}{near(name, [*known, INERTIAL_UNCERTAINTY])}; "
+            f"expected names of [parameters], or {INERTIAL_UNCERTAINTY} for every body"
+        )
+    if name not in values:
+        raise place.error(f"{name} has no value; write {name} = ... in [parameters]")
 
 
 def read_drive_gains(place: Place, moving: Mapping[str, Joint]) -> dict[str, float]:

@@ -192,6 +192,7 @@ def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPat
     nothing = SimpleNamespace(picks=())
     monkeypatch.setattr(search, "state_of", lambda data, picks, beta: nothing)
     monkeypatch.setattr(search, "about_itself", lambda state: state)
+    monkeypatch.setattr(search, "_beside_prior", lambda state, best, judgement, vetoed: best)
     found = search.search(None, None)  # type: ignore[arg-type]
     assert len(found.vetoed) == len(asked) == search.ASKED
 

@@ -6,7 +6,7 @@ import pytest
 
 from modeler.core.builtin import builtin_names
 from modeler.core.errors import RobotError
-from modeler.robot.edit import with_effects
+from modeler.robot.edit import with_effects, with_parameters
 from modeler.robot.read import read_robot, robot_from_text
 
 ARM = """
@@ -67,3 +67,17 @@ def test_a_table_that_cannot_be_replaced_is_refused(line):
     mdh = rest.split("[effects]")[0]
     with pytest.raises(RobotError, match="write it as a table of its own"):
         with_effects(f"{start}{line}\n[mdh]{mdh}", {"coulomb": "all"})
+
+
+def test_other_nominal_values_keep_what_is_known_of_them():
+    head = (
+        'name = "x"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "theta"]\nrows = [["1", "q1"]]\n'
+    )
+    head += '[effects]\nviscous = "all"\n'
+    for tail in (
+        '[parameters]\nFv1 = 1.0\nZZ1 = 1\nheld = ["ZZ1"]\n[parameters.uncertainty]\nFv1 = 0.2\n',
+        '[parameters]\nFv1 = 1.0\nZZ1 = 1\nuncertainty = {Fv1 = 0.2, held = ["ZZ1"]}\n',
+    ):
+        robot = robot_from_text(with_parameters(head + tail, {"Fv1": 3.0}), "x.toml")
+        assert robot.parameters == {"Fv1": 3.0, "ZZ1": 1.0}
+        assert robot.uncertainty == {"Fv1": 0.2, "ZZ1": 0.0}

@@ -58,6 +58,8 @@ inertia = ["J1", 0, 0, "J2", 0, "J3"]
 PG1 = "m1*x1"
 """
 
+_V, _U = "Fv1 = 2\n", "[parameters.uncertainty]"
+
 # (what is wrong, old text, new text, pieces of the message in this order)
 MISTAKES = [
     # the TOML text
@@ -188,6 +190,18 @@ MISTAKES = [
     ("no such friction", "ZZ1 = 0.5", "Fs1 = 1", ["[parameters]", '"Fs1"', "where [effects] has"]),
     ("parameter text", "ZZ1 = 0.5", 'ZZ1 = "big"', ["[parameters], ZZ1", 'got "big"', "a number"]),
     ("parameter inf", "ZZ1 = 0.5", "ZZ1 = nan", ["[parameters], ZZ1", "got nan", "finite"]),
+    ("uncertain text", _V, f"{_V}uncertainty.Fv1 = 'a'\n", [f"{_U}, Fv1", 'got "a"', "a number"]),
+    ("sigma 0", _V, f"{_V}uncertainty.Fv1 = 0\n", [f"{_U}, Fv1", "got 0", "above 0", "held"]),
+    ("sigma name", _V, f"{_V}uncertainty.Fv9 = 1\n", [_U, 'no parameter "Fv9"', "did you mean"]),
+    ("uncertain word", _V, f"{_V}uncertainty.inertal = 1\n", [_U, 'did you mean "inertial"']),
+    ("uncertain open", _V, f"{_V}uncertainty.ZZ2 = 1\n", [_U, "ZZ2 has no value", "write"]),
+    ("percent", "ZZ1 = 0.5", "M2 = 3\nuncertainty.inertial = 10", [_U, "got 10", "0.10 for 10 %"]),
+    ("no body", _V, f"{_V}uncertainty.inertial = 0.1\n", [_U, "no body", "state masses"]),
+    ("held text", _V, f"{_V}held = 'Fv1'\n", ["[parameters], held", 'got "Fv1"', "a list"]),
+    ("held number", _V, f"{_V}held = [3]\n", ["[parameters], held", "got 3", "text such as"]),
+    ("held name", _V, f"{_V}held = ['ZZ8']\n", ["[parameters], held", '"ZZ8"', "did you mean"]),
+    ("held without value", _V, f"{_V}held = ['ZZ2']\n", ["held: ZZ2 has no value; write ZZ2 = "]),
+    ("held and uncertain", _V, f"{_V}held = ['Fv1']\nuncertainty.Fv1 = 1\n", ["one of both"]),
     ("gain joint", "1 = 12.5", "8 = 12.5", ['[drive_gains], "8"', "no moving joint", "one of 1"]),
     ("gain 0", "1 = 12.5", "1 = 0", ['[drive_gains], "1"', "got 0", "not zero"]),
     ("gain text", "1 = 12.5", '1 = "12"', ['[drive_gains], "1"', 'got "12"', "expected a number"]),

@@ -1,0 +1,351 @@
+"""What is known beforehand: nominal values as a Gaussian prior of the base parameters.
+
+The robot file says chi ~ N(chi_0, S) of standard parameters; base parameters are beta = K chi, so
+
+    beta ~ N(K chi_0, K S K^T).
+
+Of a body of mass m, centre c, inertia I about it and relative uncertainty r, independent are: the
+mass, sd r m; the first moments about the centre, r m max(|c|, rho) with rho = sqrt(tr I / m); the
+six inertias about the centre, r tr(I) / 2. In the frame of the joint they are those of
+
+    P = A | Sigma  0 | A^T,   A = | 1  c |,   Sigma = tr(I)/2 1 - I,
+          |   0    m |            | 0  1 |
+
+the pseudo-inertia, to first order: a congruence of small symmetric matrices. Parameters of which
+nothing is said are free: whatever they may be, only what is left of beta without them is known.
+"""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.special import chdtrc, chdtri
+
+from modeler.core.errors import DataError
+from modeler.core.manifest import ModuleSpec
+from modeler.core.table import percent
+from modeler.estimation.least_squares import Estimate, solve_by_qr
+from modeler.estimation.nearest_body import CORNER, PREFIXES, machine_of
+from modeler.numerics.least_squares import (
+    Compressed,
+    column_lengths,
+    independent_columns,
+    scaled_least_squares,
+    triangle,
+)
+
+HELD = 1e-5
+"""Standard deviation of what is held, over that which the data alone would give it."""
+
+CHANCE = 1e-3
+"""Probability with which data contradict a true prior of some body."""
+
+_NONE = 1e-9  # share of a column's length that is rounding
+
+
+@dataclass(frozen=True, eq=False)
+class Prior:
+    """N(K chi_0, K S K^T) of c base parameters, m standard ones.
+
+    Attributes:
+        names: (c,) base parameters.
+        K: (c, m) beta = K chi.
+        mean: (m,) chi_0; 0 for those that are free.
+        S: (m, m); 0 for those that are free.
+        groups: what is known together: "link 2", or a name, and its places in chi.
+        held: base parameters that cannot move.
+        without: bodies that have no prior, and why.
+    """
+
+    names: tuple[str, ...]
+    K: np.ndarray
+    mean: np.ndarray
+    S: np.ndarray
+    groups: Mapping[str, list[int]]
+    held: tuple[str, ...]
+    without: Mapping[str, str]
+
+    @property
+    def has_bodies(self) -> bool:
+        """True if something is known of the mass of a link."""
+        return any(len(own) > 1 for own in self.groups.values())
+
+    def but(self, names: Sequence[str]) -> "Prior":
+        """The same without some groups."""
+        groups = {name: own for name, own in self.groups.items() if name not in names}
+        return dataclasses.replace(self, groups=groups)
+
+    def tightened(self, factors: Mapping[str, float]) -> "Prior":
+        """The same with standard deviations of some groups so many times as large."""
+        S = self.S.copy()
+        for name, factor in factors.items():
+            own = self.groups[name]
+            S[own] *= factor
+            S[:, own] *= factor
+        return dataclasses.replace(self, S=S)
+
+    def known(self, M: np.ndarray, but: str = "") -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """What is known of M beta: N (r, k), N M K chi_0 (r,), and a root (r, m) of its covariance.
+
+        The rows of N are orthonormal and see nothing of parameters that are free.
+
+        Args:
+            M: (k, c).
+            but: a group that is let go too.
+        """
+        every = [i for name, own in self.groups.items() if name != but for i in own]
+        K = M @ self.K
+        loose = np.delete(K, every, axis=1)
+        loose = loose / column_lengths(loose)
+        U, s, _ = np.linalg.svd(loose)
+        N = U[:, int(np.sum(s > _NONE * s.max(initial=1.0))) :].T
+        N = N[np.abs(N @ K[:, every]).max(axis=1, initial=0.0) > _NONE * np.abs(K).max(initial=0.0)]
+        part = N @ K[:, every]
+        return N, part @ self.mean[every], part @ self._root[every]
+
+    @cached_property
+    def _root(self) -> np.ndarray:
+        """(m, m) S = root root^T; groups stay apart."""
+        size = np.sqrt(np.diag(self.S))
+        safe = np.where(size > 0.0, size, 1.0)
+        values, vectors = np.linalg.eigh(self.S / np.outer(safe, safe))
+        half = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T
+        return np.asarray(size[:, None] * half)
+
+    def rows(self, lengths: np.ndarray) -> np.ndarray:
+        """(r, c + 1) [R, R beta_0] with R^T R the information on beta.
+
+        Args:
+            lengths: (c,) of the weighted columns of the data, 1 / sd of each parameter alone: what
+                is held is `HELD` of that.
+        """
+        scale = np.where(lengths > 0.0, lengths, 1.0)
+        N, mean, root = self.known(np.diag(scale))
+        vectors, values, _ = np.linalg.svd(root)
+        turn = vectors / np.maximum(np.pad(values, (0, len(vectors) - len(values))), HELD)
+        return np.column_stack([turn.T @ N * scale, turn.T @ mean])
+
+    def beside(self, lengths: np.ndarray) -> np.ndarray:
+        """(r, k + 1) `rows` of the k columns of a fit, first of which are the base parameters."""
+        own = self.rows(lengths[: len(self.names)])
+        found = np.zeros((len(own), len(lengths) + 1))
+        found[:, [*range(len(self.names)), -1]] = own
+        return found
+
+    def chances(self, beta: np.ndarray) -> dict[str, float]:
+        """With which each group lies as far off as the likeliest chi that has this beta (c,)."""
+        N, mean, root = self.known(np.eye(len(beta)))
+        size = np.linalg.norm(root, axis=1)
+        size = np.where(size > _NONE * size.max(initial=0.0), size, np.inf)  # held: moves nothing
+        apart = np.linalg.lstsq(root / size[:, None], (N @ beta - mean) / size, rcond=1e-9)[0]
+        squares = apart**2
+        return {
+            name: float(chdtrc(len(own), squares[own].sum())) for name, own in self.groups.items()
+        }
+
+    def contradictions(
+        self, M: np.ndarray, value: np.ndarray, covariance: np.ndarray
+    ) -> dict[str, str]:
+        """A line for each body or value that the data contradict.
+
+        d = M beta_0 - value has the covariance V + M K S K^T M^T, and d^T (..)^-1 d is chi-square.
+        Without the prior of a group it falls, by chi-square of as many degrees as are lost; that
+        which falls by least chance is told, and those that fall by half as much.
+
+        Args:
+            M: (k, c) what the data tell of beta.
+            value: (k,).
+            covariance: (k, k) V.
+        """
+
+        def misfit(but: str = "") -> tuple[float, int]:
+            N, mean, root = self.known(M, but)
+            d, total = mean - N @ value, root @ root.T + N @ covariance @ N.T
+            size = np.sqrt(np.maximum(np.diag(total), 1e-300))
+            apart = np.linalg.lstsq(total / np.outer(size, size), d / size, rcond=1e-12)[0]
+            return float(d / size @ apart), len(d)
+
+        whole, degrees = misfit()
+        falls, lines = {}, {}
+        for name in self.groups:
+            left, rest = misfit(name)
+            if degrees > rest and chdtrc(degrees - rest, max(whole - left, 0.0)) < (
+                CHANCE / len(self.groups)
+            ):
+                falls[name] = whole - left, degrees - rest
+        most = max((fall for fall, _ in falls.values()), default=0.0)
+        for name, (fall, lost) in sorted(falls.items(), key=lambda item: -item[1][0]):
+            if fall >= 0.5 * most:
+                limit = chdtri(lost, CHANCE / len(self.groups)) ** 0.5
+                kept = not self.S[np.ix_(self.groups[name], self.groups[name])].any()
+                lines[name] = (
+                    f"{name}: the data contradict what the robot file says of it, by "
+                    f"{fall**0.5:.3g} sigmas where {limit:.2g} are chance"
+                    f"{'' if kept else ', and it is left out of the prior'}; correct [parameters] "
+                    "or its uncertainty, or let `modeler diagnose` look for an effect that is "
+                    "missing"
+                )
+        return lines
+
+    def applied(self, estimate: Estimate, data: Compressed, covariance: np.ndarray) -> Estimate:
+        """The estimate of data and prior together.
+
+        The data tell theta = M beta of covariance V, raised for all that their rows repeat, and
+        M = [1 T] where T carries columns that were set aside: least squares of
+        [V^-1/2 (M beta - theta); R (beta - beta_0)].
+
+        Args:
+            estimate: of the data.
+            data: of which columns; first the base parameters, then those of loads.
+            covariance: (c, c) V, 0 for columns set aside.
+        """
+        whole = data.whole(estimate.sigma)
+        kept, c = np.asarray(estimate.rank.kept, dtype=int), len(estimate.beta)
+        M = np.zeros((len(kept), c))
+        rest = np.setdiff1d(np.arange(c), kept)
+        M[:, kept] = np.eye(len(kept))
+        M[:, rest] = scaled_least_squares(whole[:, kept], whole[:, rest])
+        size = np.sqrt(np.diag(covariance)[kept])
+        values, vectors = np.linalg.eigh(covariance[np.ix_(kept, kept)] / np.outer(size, size))
+        root = (vectors / np.sqrt(np.maximum(values, 1e-15 * values.max(initial=1.0)))).T / size
+        told = np.column_stack([root @ M, root @ estimate.beta[kept]])
+        V = covariance[np.ix_(kept, kept)]
+        against = self.contradictions(M[:, : len(self.names)], estimate.beta[kept], V)
+        left = self.but([name for name, line in against.items() if "left out" in line])
+        both = np.vstack([told, left.beside(np.linalg.norm(told[:, :-1], axis=0))])
+        rank = independent_columns(both[:, :-1], data.names)
+        beta, posterior = np.zeros(c), np.zeros((c, c))
+        at = list(rank.kept)
+        beta[at], half = solve_by_qr(both[:, at], both[:, -1])
+        posterior[np.ix_(at, at)] = half @ half.T
+        before, after = np.full(c, np.inf), np.diag(posterior)
+        before[kept] = np.diag(V)
+        share = np.clip(1.0 - after / before, 0.0, 1.0)
+        noise = np.zeros((1, c + 1))
+        noise[0, -1] = max(1, estimate.degrees) ** 0.5
+        return dataclasses.replace(
+            estimate,
+            beta=beta,
+            covariance=posterior,
+            rank=rank,
+            whole=triangle(np.vstack([both, noise])),
+            share=share,
+            held=self.held,
+            contradicted=tuple(against.values()),
+            sentences=(*estimate.sentences, *left.sentences(share)),
+        )
+
+    def sentences(self, share: np.ndarray) -> list[str]:
+        """What the prior did."""
+        count = len(self.names)
+        said = [
+            f"prior of the robot file on {', '.join(self.groups)}: {percent(share[:count].mean())} "
+            f"of what is known of {count} parameters comes from it"
+        ] if self.groups else []  # fmt: skip
+        if self.without:
+            told = ", ".join(f"{name} ({why})" for name, why in self.without.items())
+            said.append(f"no prior from [parameters] on placeholders: {told}")
+        return said
+
+
+def prior_of(spec: ModuleSpec) -> Prior | None:
+    """The prior that a robot file states; None without `[parameters.uncertainty]` and `held`."""
+    machine, every = machine_of(spec), spec.standard
+    if spec.inertial_uncertainty is None and all(p.deviation is None for p in every):
+        return None
+    count = machine.K.shape[1]
+    mean, S = np.zeros(count), np.zeros((count, count))
+    groups: dict[str, list[int]] = {}
+    without: dict[str, str] = {}
+    value = {p.name: p.nominal for p in every}
+    if spec.inertial_uncertainty is not None:
+        for link, own in machine.links.items():
+            ten = [value.get(f"{prefix}{link}") for prefix in PREFIXES]
+            stated = {
+                prefix: worth
+                for prefix, worth in zip(PREFIXES, ten, strict=True)
+                if own[prefix] >= len(every) or worth is not None
+            }
+            why = "its ten parameters are not all stated"
+            if len(stated) == len(PREFIXES):
+                given = np.array([worth or 0.0 for worth in ten])
+                why, block = body_covariance(given, spec.inertial_uncertainty)
+                if not why and not block[0, 0] and max(own.values()) < len(every):
+                    why = "inertia of 0"
+            if why:
+                without[f"link {link}"] = why
+                continue
+            places = list(own.values())
+            mean[places], S[np.ix_(places, places)] = given, block
+            groups[f"link {link}"] = places
+    owner = {i: name for name, own in groups.items() for i in own}
+    for i, parameter in enumerate(every):
+        if parameter.deviation is None:
+            continue
+        S[i], S[:, i] = 0.0, 0.0
+        S[i, i], mean[i] = parameter.deviation**2, parameter.nominal or 0.0
+        if i not in owner:
+            groups[parameter.name] = [i]
+    names = tuple(base.name for base in spec.base)
+    held = {p.name for p in every if p.deviation == 0.0}
+    fixed = tuple(b.name for b in spec.base if all(term.parameter in held for term in b.terms))
+    return Prior(names, machine.K, mean, S, groups, fixed, without)
+
+
+_FROM_CORNER = np.linalg.inv(
+    np.array([[terms.get(prefix, 0.0) for prefix in PREFIXES] for terms in CORNER.values()])
+)
+"""(10, 10) the ten parameters from the upper triangle of P, in the order of `CORNER`."""
+
+
+def body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndarray]:
+    """Why these are the ten parameters of no body, or (10, 10) their covariance.
+
+    A body that its own uncertainty makes possible is one.
+
+    Args:
+        ten: in the order of `PREFIXES`, SI.
+        share: relative uncertainty.
+    """
+    none, mass = np.zeros((10, 10)), ten[9]
+    P = np.zeros((4, 4))
+    for (i, j), entry in zip(CORNER, np.linalg.solve(_FROM_CORNER, ten), strict=True):
+        P[i, j] = P[j, i] = entry
+    if mass <= 0.0:
+        return "mass of 0" if mass == 0.0 else "negative mass", none
+    centre = P[:3, 3] / mass
+    second = P[:3, :3] - mass * np.outer(centre, centre)
+    moments = float(np.trace(second))  # tr(I) / 2 about the centre
+    if np.allclose(second, 0.5 * np.eye(3), atol=1e-9):
+        return "identity inertia", none
+    if np.linalg.eigvalsh(second)[0] < -share * moments or moments < 0.0:
+        return "not physically possible", none
+    metre = max(float(np.linalg.norm(centre)), (2.0 * moments / mass) ** 0.5)
+    # About the centre: inertias, and with them Sigma; first moments; mass.
+    about = share * np.array([moments] * 6 + [mass * metre] * 3 + [mass])
+    carry = np.eye(4)
+    carry[:3, 3] = centre
+    jacobian = np.zeros((10, 10))
+    for k in range(10):
+        D = np.zeros((4, 4))
+        for (i, j), entry in zip(CORNER, np.linalg.solve(_FROM_CORNER, np.eye(10)[k]), strict=True):
+            D[i, j] = D[j, i] = entry
+        moved = carry @ D @ carry.T
+        jacobian[:, k] = _FROM_CORNER @ [moved[i, j] for i, j in CORNER]
+    turned = jacobian * about
+    return "", turned @ turned.T
+
+
+def refuse_prior(spec: ModuleSpec, what: str) -> None:
+    """Refuse a prior where an estimator takes none.
+
+    Raises:
+        DataError: the robot file states one.
+    """
+    if prior_of(spec) is not None:
+        raise DataError(
+            f"{what} takes no prior; got [parameters.uncertainty] or held in the robot file of "
+            f"{spec.robot}; leave them out there, or use method weighted"
+        )

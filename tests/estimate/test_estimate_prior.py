@@ -1,0 +1,214 @@
+"""What a robot file knows beforehand, against Bayes' rule on all standard parameters."""
+
+import numpy as np
+import pytest
+
+from modeler.api import Load, fit_gains
+from modeler.api.fitting import FitRequest, estimated
+from modeler.codegen import derive
+from modeler.core.errors import DataError
+from modeler.estimation.identify import identify
+from modeler.estimation.least_squares import least_squares
+from modeler.estimation.nearest_body import PREFIXES
+from modeler.estimation.prior import body_covariance, prior_of
+from modeler.estimation.result import fit_from_json
+from modeler.numerics.least_squares import compress
+from modeler.observation import Log, observe
+from modeler.robot import robot_from_text
+from tests.link_data import compiled, drawn, links, text
+
+NOMINAL = links()
+FRICTION = {f"F{kind}{j}": 2.0 for kind in "vs" for j in "123"}
+NOISE = 0.5  # N m
+
+
+@pytest.fixture(scope="module")
+def model():
+    known = {"inertial": 0.1, "Fv1": 0.2, "Fv2": 0.2, "Fs3": 0.3}
+    return compiled(text(NOMINAL | FRICTION, known, held=("Fv3",)))
+
+
+def rows(model, seed, chi, noise=NOISE, samples=60):
+    """Random states, weighted W of one unit of noise, and torques of these standard parameters."""
+    rng = np.random.default_rng(seed)
+    q, qd, qdd = rng.normal(size=(3, samples, 3))
+    phi = model.regressor(q, qd, qdd)
+    W = model.base_regressor(q, qd, qdd)
+    values = [chi[p.name] for p in model.spec.standard]
+    y = phi @ values + noise * rng.normal(size=(samples, 3))
+    joint = np.tile(np.arange(3), samples)
+    return phi.reshape(-1, phi.shape[2]), W.reshape(-1, W.shape[2]), y.ravel(), joint
+
+
+def estimated_beside(model, seed, chi, **how):
+    """The posterior of white rows, with the least squares it came from."""
+    _, W, y, joint = rows(model, seed, chi, **how)
+    names = tuple(base.name for base in model.spec.base)
+    data = compress(W, y, joint, 3, names)
+    white = least_squares(data, "weighted")
+    return prior_of(model.spec).applied(white, data, white.covariance), white
+
+
+def true_chi(seed):
+    rng = np.random.default_rng([seed, 7])
+    chi = drawn(0.1, rng, NOMINAL) | FRICTION
+    shifts = {"Fv1": 0.2, "Fv2": 0.2, "Fs3": 0.3}
+    return chi | {name: FRICTION[name] + s * rng.normal() for name, s in shifts.items()}
+
+
+def base_values(model, chi):
+    return np.array([sum(t.value * chi[t.parameter] for t in b.terms) for b in model.spec.base])
+
+
+def test_the_posterior_is_bayes_rule_on_all_standard_parameters(model):
+    found, white = estimated_beside(model, 3, true_chi(3), noise=5.0)
+    phi, _, y, joint = rows(model, 3, true_chi(3), noise=5.0)
+    assert not found.contradicted
+    prior, names = prior_of(model.spec), [p.name for p in model.spec.standard]
+    count = len(names)
+    # free parameters: a flat prior; held: an all but certain one
+    S = prior.S[:count, :count] + 1e-12 * np.diag(np.diag(prior.S)[:count])
+    free = [i for i, name in enumerate(names) if name in ("Fs1", "Fs2")]
+    S[free, free], S[names.index("Fv3"), names.index("Fv3")] = 1e8, 1e-12
+    weighted = phi / white.sigma[joint][:, None]
+    information = weighted.T @ weighted + np.linalg.inv(S)
+    right = weighted.T @ (y / white.sigma[joint]) + np.linalg.solve(S, prior.mean[:count])
+    K = prior.K[:, :count]
+    np.testing.assert_allclose(found.beta, K @ np.linalg.solve(information, right), rtol=1e-4)
+    sigma = np.sqrt(np.diag(K @ np.linalg.solve(information, K.T)))
+    told = np.array([name != "Fv3" for name in prior.names])
+    np.testing.assert_allclose(np.sqrt(np.diag(found.covariance))[told], sigma[told], rtol=1e-3)
+
+
+def test_z_scores_are_those_of_the_prior_and_the_noise(model):
+    z = []
+    for seed in range(60):
+        chi = true_chi(seed)
+        found, _ = estimated_beside(model, seed, chi, noise=5.0)
+        free = np.array([name != "Fv3" for name in prior_of(model.spec).names])
+        apart = found.beta - base_values(model, chi)
+        z.append((apart / np.sqrt(np.diag(found.covariance)))[free])
+    assert 0.9 < np.sqrt(np.mean(np.square(z))) < 1.1
+    assert 0.93 < np.mean(np.abs(z) < 1.96) < 0.97
+
+
+def test_a_body_moves_as_its_mass_centre_and_inertia_do():
+    rng, share = np.random.default_rng(5), 1e-4
+    ten = np.array([NOMINAL[f"{p}2"] for p in PREFIXES])
+    why, found = body_covariance(ten, share)
+    every = [drawn(share, rng, NOMINAL) for _ in range(2000)]
+    many = [[one[f"{p}2"] for p in PREFIXES] for one in every]
+    seen, size = np.cov(np.array(many).T), np.sqrt(np.diag(found))
+    assert not why
+    np.testing.assert_allclose(seen / np.outer(size, size), found / np.outer(size, size), atol=0.1)
+
+
+def test_placeholders_have_no_prior_and_are_told_by_name():
+    zero, identity, odd = links(), links(), links()
+    zero |= {f"{p}1": 0.0 for p in PREFIXES}
+    values = zero | {f"{p}2": float(p in ("XX", "YY", "ZZ", "M")) for p in PREFIXES}
+    values |= {"XX3": 5.0 * odd["XX3"], "YY3": 0.1 * odd["YY3"]}
+    prior = prior_of(compiled(text(values, {"inertial": 0.1})).spec)
+    assert prior.without == {
+        "link 1": "mass of 0", "link 2": "identity inertia", "link 3": "not physically possible"
+    }  # fmt: skip
+    assert not prior.groups
+    told = " ".join(prior.sentences(np.zeros(3)))
+    assert "link 1 (mass of 0), link 2 (identity inertia), link 3 (not phys" in told
+    assert body_covariance(-np.array([identity[f"{p}1"] for p in PREFIXES]), 0.1)[0]
+    del values["YY3"]
+    prior = prior_of(compiled(text(values, {"inertial": 0.1})).spec)
+    assert prior.without["link 3"] == "its ten parameters are not all stated"
+    point = zero | {"M1": 3.0}
+    assert prior_of(compiled(text(point, {"inertial": 0.1})).spec).without["link 1"] == (
+        "inertia of 0"
+    )
+
+
+def test_without_a_word_on_uncertainty_there_is_no_prior():
+    assert prior_of(compiled(text(NOMINAL)).spec) is None
+
+
+def test_a_body_that_the_data_contradict_is_told_and_left_out(model):
+    told = 0
+    for seed in range(20):
+        chi = true_chi(seed)
+        chi |= {p + "3": 2.2 * NOMINAL[p + "3"] for p in PREFIXES}
+        found, white = estimated_beside(model, seed, chi)
+        told += len(found.contradicted) == 1 and found.contradicted[0].startswith("link 3: the dat")
+        free = [i for i, base in enumerate(model.spec.base) if base.name.endswith("3")]
+        np.testing.assert_allclose(found.beta[free], white.beta[free], rtol=0.2, atol=0.3)
+    assert told >= 19
+
+
+def test_a_true_prior_is_not_told_as_contradicted(model):
+    told = [estimated_beside(model, s, true_chi(s))[0].contradicted for s in range(100, 160)]
+    assert sum(map(bool, told)) <= 2
+
+
+def seen_of(model, chi, seed=0, seconds=6.0, noise=None):
+    rng = np.random.default_rng([seed, 1])
+    t = np.arange(0.0, seconds, 0.002)
+    w = 2.0 * np.pi * np.outer(t, [0.3, 0.7, 1.1])
+    a = rng.normal(size=(3, 3)) * 0.5
+    f = 2.0 * np.pi * np.array([0.3, 0.7, 1.1])
+    q, qd, qdd = np.sin(w) @ a, np.cos(w) * f @ a, -np.sin(w) * f**2 @ a
+    tau = model.inverse_dynamics(q, qd, qdd, base_values(model, chi))
+    tau = tau + (NOISE * rng.normal(size=tau.shape) if noise is None else noise)
+    return observe(model, [Log("made.csv", ("1", "2", "3"), t, q, tau)])
+
+
+@pytest.fixture(scope="module")
+def seen(model):
+    return seen_of(model, true_chi(1))
+
+
+@pytest.mark.parametrize("method", ["weighted", "ordinary", "robust"])
+def test_held_values_hold_and_the_table_says_what_came_from_the_prior(model, seen, method):
+    fit = identify(seen, method, model)
+    by_name = {p.name: p for p in fit.parameters}
+    assert by_name["Fv3"].value == pytest.approx(2.0, rel=1e-6)
+    assert by_name["Fv3"].status == "held"
+    shares = [p.prior for p in fit.parameters]
+    assert all(0.0 <= share <= 1.0 for share in shares) and by_name["Fs1"].prior < 0.2
+    alone = identify(seen, method)
+    assert all(a.sigma <= 1.02 * b.sigma for a, b in zip(fit.parameters, alone.parameters,
+                                                           strict=True))  # fmt: skip
+    told = "\n".join(fit.lines())
+    assert "  prior  unit" in told and "held" in told
+    assert "prior of the robot file on link 1, link 2, link 3, Fv1, Fs1" not in told
+    assert "prior of the robot file on link 1, link 2, link 3, Fv1, Fv2" in told
+    again = fit_from_json(fit.to_json(), fit.covariance)
+    assert [p.prior for p in again.parameters] == shares
+
+
+def test_rows_that_repeat_each_other_weigh_less(model):
+    """Noise that remembers 0.2 s: sigmas of data and prior together stay honest."""
+    z = []
+    for seed in range(12):
+        chi = true_chi(200 + seed)
+        rng = np.random.default_rng([seed, 3])
+        t = np.arange(0.0, 12.0, 0.002)
+        noise, a = np.zeros((len(t), 3)), np.exp(-0.002 / 0.2)
+        for k in range(1, len(t)):
+            noise[k] = a * noise[k - 1] + 2.0 * (1.0 - a * a) ** 0.5 * rng.normal(size=3)
+        fit = identify(seen_of(model, chi, seed, 12.0, noise), "weighted", model)
+        sigma = np.array([p.sigma for p in fit.parameters])
+        free = np.array([p.status != "held" for p in fit.parameters])
+        z.append(((fit.beta - base_values(model, chi)) / sigma)[free])
+    assert 0.8 < np.sqrt(np.mean(np.square(z))) < 1.25
+
+
+@pytest.mark.parametrize("method", ["ridge", "consistent"])
+def test_an_estimator_with_a_prior_of_its_own_refuses_another(model, seen, method):
+    with pytest.raises(DataError, match=f"method {method} takes no prior; .* method weighted"):
+        identify(seen, method, model)
+
+
+def test_other_ways_to_fit_refuse_a_prior(model, seen):
+    robot = robot_from_text(text(NOMINAL, {"inertial": 0.1}), "stated.toml")
+    for asked in (FitRequest("two-step"), FitRequest(energy=True)):
+        with pytest.raises(DataError, match=r"no prior; got .parameters.uncertainty. or held"):
+            estimated(asked, robot, model, seen)
+    with pytest.raises(DataError, match="method tls takes no prior"):
+        fit_gains(derive(robot), [], Load(["none.csv"], 3.0))
