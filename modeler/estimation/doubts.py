@@ -12,7 +12,7 @@ from modeler.estimation.identify import CrossValidation, Equations, base_equatio
 from modeler.estimation.least_squares import least_squares
 from modeler.estimation.payload import Payload, loaded_equations
 from modeler.estimation.result import FitResult
-from modeler.observation import Fault, Observation
+from modeler.observation import TREMBLES, Fault, Observation
 from modeler.runtime import CompiledModel
 
 _FAR = 3.0  # standard deviations below zero
@@ -95,6 +95,22 @@ def undescribed(result: FitResult) -> list[Doubt]:
         )
         for joint in result.joints
         if joint.relative_error is not None and joint.relative_error > LITTLE
+    ]
+
+
+def noisy_motion(observation: Observation) -> list[Doubt]:
+    """A motion that is noise even behind the lowest filters: no sigma holds what that does."""
+    bands = observation.report.bands
+    if bands.trembling_left <= TREMBLES:
+        return []
+    return [
+        Doubt(
+            f"behind filters as low as the motion allows ({bands.parallel_cutoff:g} Hz) the torque "
+            f"of the model still trembles {bands.trembling_left:.2g} times as much as the measured "
+            "one: the motion that was measured is mostly noise, values are drawn to zero and "
+            "sigmas do not hold it; move farther and faster, or measure positions more finely",
+            values=True,
+        )
     ]
 
 

@@ -18,7 +18,7 @@ from modeler.estimation.prior import Prior, prior_of, refuse_prior
 from modeler.estimation.problem import Neighbours, Problem, kept_rows, residual_of
 from modeler.estimation.result import FitResult, JointFit
 from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
-from modeler.observation import Observation, is_streamed, triangles
+from modeler.observation import SAMPLES, Observation, is_streamed, triangles
 from modeler.runtime import CompiledModel
 
 
@@ -182,7 +182,8 @@ def fit_equations(
         sentences=(*equations.sentences, *_not_connected(observation, dead), *estimate.sentences,
                    *(tangle.sentence() for tangle in estimate.rank.aside), *_unsettled(estimate),
                    essential.sentence(), *colour.sentences(),
-                   *differ.sentences(equations.names, [j.name for j in observation.joints])),
+                   *differ.sentences(equations.names, [j.name for j in observation.joints]),
+                   *bands_disagree(observation, estimate)),
         reduced=reduced,
         standard=estimate.standard,
         own=estimate.sentences,
@@ -334,6 +335,29 @@ def joints_of(
         )
         for j, joint in enumerate(observation.joints)
     )
+
+
+DISAGREE = 4.0
+"""Standard deviations by which the widest cut-offs and the chosen ones may disagree unsaid."""
+
+
+def bands_disagree(observation: Observation, estimate: Estimate) -> list[str]:
+    """A sentence where wider filters give other values: the noise of the motion bends those."""
+    values = np.array(observation.report.bands.widest_values)
+    if not values.size:
+        return []
+    sigma = np.sqrt(np.diag(estimate.covariance))[: len(values)]
+    d = np.abs(values - estimate.beta[: len(values)])
+    apart = np.divide(d, sigma, out=np.zeros(len(d)), where=sigma > 0.0)
+    worst = int(apart.argmax())
+    # of long logs, only a part was looked at
+    share = min(1.0, SAMPLES / sum(log.rows for log in observation.report.logs))
+    if apart[worst] < DISAGREE / share**0.5:
+        return []
+    return [
+        f"the widest cut-offs and the chosen ones disagree by {apart[worst]:.2g} sigma "
+        f"({observation.names[worst]}): behind the wider ones, the noise of the motion bends values"
+    ]
 
 
 def _unsettled(estimate: Estimate) -> list[str]:

@@ -184,7 +184,7 @@ def with_verdict(
     seen = crossed(equations, rows, sigma, refit, prior)
     unseen = tuple(i.line for i in told if isinstance(i, Fault) and i.unseen)
     found = _doubts_of(told)
-    found += time_doubts(model, observation, result)
+    found += [*time_doubts(model, observation, result), *doubts.noisy_motion(observation)]
     found = _with_poor(found, [*doubts.scarce(result, seen), *doubts.undescribed(result)])
     if part:
         found += doubts.unexplained_joints(result, seen, _scale(data, observation, rows))

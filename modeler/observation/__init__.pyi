@@ -43,7 +43,13 @@ from .observation import (
     observed_alike as observed_alike,
     stacked as stacked,
 )
-from .observe import APART as APART, LOWER as LOWER, TREMBLES as TREMBLES, observe as observe
+from .observe import (
+    APART as APART,
+    LOWER as LOWER,
+    SAMPLES as SAMPLES,
+    TREMBLES as TREMBLES,
+    observe as observe,
+)
 from .prepare import (
     LogRepair as LogRepair,
     Prepared as Prepared,

@@ -137,7 +137,8 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
     position, parallel = wide.position_cutoff, wide.parallel_cutoff
     least, beta = look.narrow(noise)
     met = meeting_cutoff(look, noise, position, (least, parallel))
-    shaken, first = trembling(look.fit(position, parallel), beta), (0.0, 0)
+    widest = look.fit(position, parallel)
+    shaken, first = trembling(widest, beta), (0.0, 0)
     while shaken[0] > TREMBLES and parallel > least:
         first = max(first, shaken)
         if parallel > met.cutoff:
@@ -164,6 +165,10 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
         chosen_by=said,
         limited_by=None if by is None else noise.joints[by].name,
         trembling=first[0],
+        trembling_left=shaken[0],
+        widest_values=()
+        if widest is None or parallel > LOWER * wide.parallel_cutoff
+        else tuple(widest.solution[0].tolist()),
     )
     choices = (*prepared.choices, *said)
     return dataclasses.replace(filtered_again(prepared, chosen), choices=choices, lowered=bands)

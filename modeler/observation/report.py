@@ -227,6 +227,8 @@ class Bands(Brief):
         limited_by: joint that they were lowered for; None if the parallel filter is the widest.
         trembling: how many times as much as the measured torque that of the model trembles behind
             the first filters of which it is too much; 0 if behind none.
+        trembling_left: the same behind the filters that were chosen.
+        widest_values: (c,) base parameters behind the widest filters; empty where they were chosen.
     """
 
     position_cutoff: float | None
@@ -236,6 +238,8 @@ class Bands(Brief):
     chosen_by: tuple[str, ...] = ()
     limited_by: str | None = None
     trembling: float = 0.0
+    trembling_left: float = 0.0
+    widest_values: tuple[float, ...] = ()
 
 
 def bands_of(

@@ -1,0 +1,112 @@
+"""Noise of the positions: sigmas hold it, and what it would have bent is said.
+
+The machine is simulated here: J qdd + Fv qd + Fs sign(qd) + Off, by the true motion, with 2 % of
+white noise on the torque.
+"""
+
+import numpy as np
+import pytest
+
+from modeler import api
+from modeler.observation.log import Log
+
+STAGE = """
+name = "stage"
+gravity = [0, 0, 0]
+
+[mdh]
+columns = ["j", "a", "alpha", "d", "theta", "r"]
+rows = [["1", "0", 0, 0, "q1", 0]]
+
+[effects]
+viscous = "all"
+coulomb = "all"
+offset = "all"
+"""
+RATE, SECONDS = 1000.0, 20.0
+
+
+@pytest.fixture(scope="module")
+def stage(tmp_path_factory):
+    place = tmp_path_factory.mktemp("stage") / "stage.toml"
+    place.write_text(STAGE)
+    derivation = api.derive(api.load(place))
+    emitted = api.generate(derivation)
+    return derivation, emitted, api.compile_model(emitted)
+
+
+def machine(draw):
+    """Values of J, Fv, Fs and Off, and a motion up to 1.5 Hz: q, qd, qdd."""
+    values = np.array([0.3, 0.5, 0.8, 0.1]) * draw.uniform(0.5, 1.5, 4)
+    time = np.arange(round(RATE * SECONDS)) / RATE
+    q, qd, qdd = np.zeros((3, len(time)))
+    for f in (0.2, 0.45, 0.8, 1.1, 1.5):
+        a, phase, w = draw.uniform(0.2, 0.5) / f**0.5, draw.uniform(0.0, 6.0), 2 * np.pi * f
+        q += a * np.sin(w * time + phase)
+        qd += a * w * np.cos(w * time + phase)
+        qdd -= a * w**2 * np.sin(w * time + phase)
+    return values, time, q, qd, qdd
+
+
+def fitted(stage, draw, measured):
+    """The truth, and the fit to what is measured of the positions."""
+    derivation, emitted, compiled = stage
+    values, time, q, qd, qdd = machine(draw)
+    tau = np.column_stack([qdd, qd, np.sign(qd), np.ones(len(q))]) @ values
+    tau += draw.normal(0.0, 0.02 * np.std(tau), len(tau))
+    log = Log("run", ("1",), time, measured(q, draw)[:, None], tau[:, None])
+    fit = api.fit(derivation, emitted, api.observe(compiled, [log])).fit
+    names = [parameter.name for parameter in fit.parameters]
+    assert names == ["ZZ1", "Fv1", "Fs1", "Off1"]
+    return values, fit
+
+
+def counts(n):
+    return lambda q, draw: np.round(q * n / (2 * np.pi)) * (2 * np.pi / n)
+
+
+def white(size):
+    return lambda q, draw: q + draw.normal(0.0, size, len(q))
+
+
+def slow_noise(size):
+    """Of a sensor that is slower than the motion's harmonics: 3 Hz."""
+
+    def measured(q, draw):
+        f = np.fft.rfftfreq(len(q), 1.0 / RATE)
+        noise = np.fft.rfft(draw.normal(size=len(q))) / np.sqrt(1.0 + (f / 3.0) ** 8)
+        noise = np.fft.irfft(noise)
+        return q + noise * size / np.std(noise)
+
+    return measured
+
+
+@pytest.mark.parametrize(
+    ("measured", "seed"), [(counts(2**20), 1), (counts(4096), 2), (white(2e-3), 3)]
+)
+def test_sigmas_hold_the_noise_of_the_positions(stage, measured, seed):
+    """z = error over sigma of 16 machines: without it, 2 mrad alone give 5."""
+    draw = np.random.default_rng(seed)
+    z = []
+    for _ in range(16):
+        truth, fit = fitted(stage, draw, measured)
+        z.append((fit.beta - truth) / [parameter.sigma for parameter in fit.parameters])
+    assert 0.5 < np.sqrt(np.mean(np.square(z))) < 1.4
+    assert np.mean(np.abs(z) < 1.96) > 0.87
+
+
+def test_what_the_noise_would_have_bent_is_said(stage):
+    _, fine = fitted(stage, np.random.default_rng(4), counts(2**20))
+    _, coarse = fitted(stage, np.random.default_rng(4), white(5e-2))
+    told = "the widest cut-offs and the chosen ones disagree by"
+    assert not any(told in line for line in fine.sentences)
+    assert any(told in line and "sigma (" in line for line in coarse.sentences)
+    assert coarse.processing.parallel_cutoff < fine.processing.parallel_cutoff
+    assert coarse.bands.limited_by == "1" and fine.bands.limited_by is None
+    assert fine.verdict.usable_for == "physics"
+
+
+def test_a_motion_that_is_mostly_noise_gives_no_values(stage):
+    _, fit = fitted(stage, np.random.default_rng(5), slow_noise(0.3))
+    assert fit.verdict.usable_for != "physics"
+    assert any("is mostly noise" in line for line in fit.verdict.doubts)
