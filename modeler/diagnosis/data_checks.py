@@ -11,7 +11,7 @@ from modeler.core.table import percent
 from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.drive_gains import with_gains
 from modeler.diagnosis.events import Window
-from modeler.diagnosis.plausible import friction_share
+from modeler.diagnosis.plausible import SMOOTH, is_computed
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import SearchData, State, state_of, trembling
 from modeler.diagnosis.timing import CONVENTION
@@ -21,9 +21,6 @@ from modeler.observation import TREMBLES, Fault
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""
-
-SMOOTH = 0.035
-"""Friction over torque, rms, median over the joints: the least of a machine seen is 0.11."""
 
 _STILL = {"rad": 1e-3, "m": 1e-4}  # stroke below which a joint does not move
 _ONE_WAY = 0.98  # of the moving rows
@@ -134,7 +131,7 @@ def without_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None
     No robot with gears is without friction: a torque that is was computed from the motion by some
     model, and differs from this one by delays, offsets, a tilt, a load.
     """
-    if friction_share(state_of(data, (), beta)) > SMOOTH:
+    if not is_computed(state_of(data, (), beta)):
         return None
     kept = tuple(effect for effect in data.known.catalogue if _of_the_computer(effect))
     return dataclasses.replace(data.known, catalogue=kept)

@@ -45,6 +45,7 @@ LOADED = 0.1
 """Gravity over torque of a joint, from which on it swings."""
 
 _GRAVITY = 9.81  # m/s^2
+_ROWS_EACH = 3  # for every parameter: the masses of fewer mean nothing
 _POSES = 40
 _UNITS = (("milliseconds", 1e-3), ("microseconds", 1e-6), ("nanoseconds", 1e-9), ("minutes", 60.0),
           ("hours", 3600.0))  # fmt: skip
@@ -72,13 +73,6 @@ def time_doubts(model: CompiledModel, observation: Observation, result: FitResul
             line = f"{log.name}: median time step {step:.3g} s, {what}: {_unit(step)}"
             found.append(Doubt(line, certain=step > SLOW, values=step <= SLOW))
     ratio, density = _pendulum(model, observation, result)
-    if density > HEAVY:
-        line = (
-            f"the links would weigh {density:.2g} kg for every cubic metre within the robot's "
-            "reach: the torques look like mN m, or the lengths of the table are not in metres; "
-            "give N m and metres"
-        )
-        found.append(Doubt(line, certain=True))
     if not found and ratio > ABSURD:
         found.append(
             Doubt(
@@ -88,6 +82,13 @@ def time_doubts(model: CompiledModel, observation: Observation, result: FitResul
                 certain=True,
             )
         )
+    elif density > HEAVY and result.rows >= _ROWS_EACH * len(result.parameters):
+        line = (
+            f"the links would weigh {density:.2g} kg for every cubic metre within the robot's "
+            "reach: the torques look like mN m, or the lengths of the table are not in metres; "
+            "give N m and metres"
+        )
+        found.append(Doubt(line, certain=True))
     return found
 
 

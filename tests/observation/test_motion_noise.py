@@ -60,7 +60,7 @@ def test_a_finer_encoder_hides_the_motion_later():
 def test_exact_positions_have_no_noise_that_matters():
     time = np.arange(20000) / 1000.0
     found = noise_of(smooth(time), 1e3)
-    assert found.cutoff == 100.0 and found.deviation(1e3) < 1e-9
+    assert found.cutoff == 80.0 and found.deviation(1e3) < 1e-9
 
 
 def test_noise_that_grows_towards_low_frequencies_is_told():
