@@ -150,7 +150,7 @@ def test_figures_stand_by_the_picture(case: Case, tmp_path: Path) -> None:
 
 
 def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:
-    """40 ms of nonsense in a log: the axes stay, the means stay, the caption says so."""
+    """40 ms of nonsense in a log: the axes stay, the rows are left out, a line says so."""
 
     def torn(log: Log) -> np.ndarray:
         torque = stribeck(log)
@@ -161,7 +161,6 @@ def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:
     assert [f.effect for f in loud.effects] == ["stribeck"]  # a spike is no push
     assert any("8.9 to 9.2 s: torques that come only once" in line for line in loud.data)
     pictures = [evidence_picture(evidence_of(s, s.steps[0])) for s in (quiet.search, loud.search)]
-    assert "in no mean" in pictures[1].caption
     spans = [np.ptp(panels(p)["without the effect"].y_range) for p in pictures]
     assert spans[1] < 1.5 * spans[0]
 
