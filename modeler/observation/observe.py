@@ -286,8 +286,17 @@ class Look(Brief):
             )  # fmt: skip
         return self._filtered[position]
 
+    @cached_property
+    def _fits(self) -> "dict[tuple[float, float], WeightedFit | None]":
+        return {}
+
     def fit(self, position: float, parallel: float) -> "WeightedFit | None":
         """The weighted fit of the rows behind filters of these cut-offs, Hz; None without rows."""
+        if (position, parallel) not in self._fits:
+            self._fits[position, parallel] = self._fit(position, parallel)
+        return self._fits[position, parallel]
+
+    def _fit(self, position: float, parallel: float) -> "WeightedFit | None":
         segments, parts = self.segments(position), shafts(self.model)
         chosen = dataclasses.replace(
             self.processing, position_cutoff=position, parallel_cutoff=parallel
