@@ -241,8 +241,8 @@ def _no_lever(state: State, pick: Candidate, parameters: Mapping[str, float]) ->
     torque = column @ [parameters[name] for name in pick.parameter_names()]
     line = np.vander(state.rows.filtered(j, [s.q[:, j] for s in state.rows.signals]), 2)
     bent = torque - line @ np.linalg.lstsq(line, torque, rcond=None)[0]
-    known = (prior := state.data.prior) is not None and prior.has_bodies  # else gravity bends too
-    if np.mean(bent**2) > (GATE if known else 1.0) * np.mean(state.residual[j] ** 2):
+    least = GATE if state.data.prior and state.data.prior.has_bodies else 1.0
+    if np.mean(bent**2) > least * np.mean(state.residual[j] ** 2):
         return ""
     return "over this stroke its torque is a straight line in q: another spring gives it too"
 

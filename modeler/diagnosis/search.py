@@ -456,9 +456,8 @@ def _beside_prior(
             later = extended(state, again)
             error = float(np.linalg.norm(later.base.left_out[again.index]))
             found[key] = error * float(later.sigma[again.index]), again
-    key = min(found, key=lambda key: found[key][0])
     likely = first.key if first.key in found else best.key
-    key = key if CLEAR * found[key][0] < found[likely][0] else likely
+    key = min(found, key=lambda key: found[key][0] * (1.0 if key == likely else CLEAR))
     return _judged_again(state, found[key][1])
 
 

@@ -140,9 +140,8 @@ class Prior:
         size = np.linalg.norm(root, axis=1)
         size = np.where(size > _NONE * size.max(initial=0.0), size, np.inf)  # held: moves nothing
         apart = np.linalg.lstsq(root / size[:, None], (N @ beta - mean) / size, rcond=1e-9)[0]
-        squares = apart**2
-        far = {name: chdtrc(len(own), squares[own].sum()) for name, own in self.groups.items()}
-        return [name for name, chance in far.items() if chance < CHANCE]
+        every = self.groups.items()
+        return [k for k, own in every if chdtrc(len(own), np.sum(apart[own] ** 2)) < CHANCE]
 
     def contradictions(
         self, M: np.ndarray, value: np.ndarray, covariance: np.ndarray
