@@ -7,7 +7,7 @@ import numpy as np
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.drive_gains import TENFOLD
 from modeler.diagnosis.effect_columns import body_parameters, dense
-from modeler.diagnosis.judge import PLAIN
+from modeler.diagnosis.judge import GATE, PLAIN
 from modeler.diagnosis.state import State, all_columns_of, columns_of, state_of, visible
 from modeler.effects import Needs
 from modeler.estimation import body, nearest_possible
@@ -244,14 +244,18 @@ def _nothing_to_balance(state: State, pick: Candidate, parameters: Mapping[str, 
 
 
 def _no_lever(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
-    """What the residual covers of its torque beside a straight line over the stroke is not seen."""
+    """What the residual covers of its torque beside a straight line over the stroke is not seen.
+
+    With link data that is `GATE` of its variance: no free inertia bends so.
+    """
     j = pick.index
     column = columns_of(state.rows, pick)[j]
     assert column is not None, "it acts on its own joint"
     torque = column @ [parameters[name] for name in pick.parameter_names()]
     line = np.vander(state.rows.filtered(j, [s.q[:, j] for s in state.rows.signals]), 2)
     bent = torque - line @ np.linalg.lstsq(line, torque, rcond=None)[0]
-    if np.mean(bent**2) > np.mean(state.residual[j] ** 2):
+    least = GATE if state.data.prior and state.data.prior.has_bodies else 1.0
+    if np.mean(bent**2) > least * np.mean(state.residual[j] ** 2):
         return ""
     return "over this stroke its torque is a straight line in q: another spring gives it too"
 

@@ -456,10 +456,9 @@ def _beside_prior(
             later = extended(state, again)
             error = float(np.linalg.norm(later.base.left_out[again.index]))
             found[key] = error * float(later.sigma[again.index]), again
-    key = min(found, key=lambda key: found[key][0])
-    key = key if CLEAR * found[key][0] < found[best.key][0] else best.key
-    again = found[key][1]
-    return _judged_again(state, again)
+    likely = first.key if first.key in found else best.key
+    key = min(found, key=lambda key: found[key][0] * (1.0 if key == likely else CLEAR))
+    return _judged_again(state, found[key][1])
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:

@@ -133,12 +133,6 @@ class SearchData(Brief):
 
 _FREE = ("friction", "offset")
 
-UNLIKELY = 1e-3
-"""Chance below which no body of the prior lies where the logs would have it."""
-
-LIKELY = 0.1
-"""Chance with which one that did is held near its prior."""
-
 _STRONGER = 12  # times twice
 
 _REMEMBERED = 3  # references: that of a state, and those of the next
@@ -223,7 +217,7 @@ class State(Brief):
         Rows of the logs count as if they were independent, and the prior as much more instead: by
         the sum of the autocorrelation of the residual, 1 + 2 sum_k r(k), of the middle joint. Where
         the logs would have a body that the prior excludes, what is missing is another effect,
-        which the body would stand in for: its prior counts more, until the body is a likely one.
+        which the body would stand in for: its prior counts more, until it is not excluded.
         """
         if self.weighed is not None:
             return self.weighed[1]
@@ -242,8 +236,7 @@ class State(Brief):
         tight: dict[str, float] = {}
         for _ in range(_STRONGER):
             rows = known.tightened(tight).beside(lengths) * repeats**0.5
-            chances = known.chances(self._beside(rows)[: len(self.data.free)])
-            nearer = [k for k, c in chances.items() if c < (LIKELY if k in tight else UNLIKELY)]
+            nearer = known.excluded(self._beside(rows)[: len(self.data.free)])
             if not nearer:
                 break
             tight |= {name: 0.5 * tight.get(name, 1.0) for name in nearer}

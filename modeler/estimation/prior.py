@@ -134,16 +134,14 @@ class Prior:
         found[:, [*range(len(self.names)), -1]] = own
         return found
 
-    def chances(self, beta: np.ndarray) -> dict[str, float]:
-        """With which each group lies as far off as the likeliest chi that has this beta (c,)."""
+    def excluded(self, beta: np.ndarray) -> list[str]:
+        """Groups that lie, by less than `CHANCE`, as far off as the likeliest chi of beta (c,)."""
         N, mean, root = self.known(np.eye(len(beta)))
         size = np.linalg.norm(root, axis=1)
         size = np.where(size > _NONE * size.max(initial=0.0), size, np.inf)  # held: moves nothing
         apart = np.linalg.lstsq(root / size[:, None], (N @ beta - mean) / size, rcond=1e-9)[0]
-        squares = apart**2
-        return {
-            name: float(chdtrc(len(own), squares[own].sum())) for name, own in self.groups.items()
-        }
+        every = self.groups.items()
+        return [k for k, own in every if chdtrc(len(own), np.sum(apart[own] ** 2)) < CHANCE]
 
     def contradictions(
         self, M: np.ndarray, value: np.ndarray, covariance: np.ndarray

@@ -23,7 +23,7 @@ def state(unit="rad", weight=0.0):
             signals=[SimpleNamespace(q=np.zeros((100, 1)), static=np.full((100, 1), weight))],
             y=[np.ones(100)],
         ),
-        data=SimpleNamespace(compiled=compiled),
+        data=SimpleNamespace(compiled=compiled, prior=None),
         spec=spec,
         reference=SimpleNamespace(links=np.zeros(1)),
     )
@@ -83,9 +83,14 @@ def test_a_spring_balances_only_a_joint_that_gravity_turns(weight, doubted):
     assert ("gravity does not turn joint 1" in said) is doubted
 
 
-@pytest.mark.parametrize(("bent", "doubted"), [(0.5, False), (0.02, True)])
-def test_a_lever_that_a_straight_line_describes_is_doubted(bent, doubted):
+@pytest.mark.parametrize(
+    ("bent", "links", "doubted"),
+    [(0.5, False, False), (0.1, False, True), (0.1, True, False), (0.02, True, True)],
+)
+def test_a_lever_that_a_straight_line_describes_is_doubted(bent, links, doubted):
+    """With link data a bend is seen that free inertias could make."""
     made = levered(lambda q: 3.0 + q + bent * q**2)
+    made.data.prior = SimpleNamespace(has_bodies=links)
     said = objection(made, pick("constant_force_spring"), {"Kgl1": 1.0})
     assert ("a straight line in q" in said) is doubted
 
