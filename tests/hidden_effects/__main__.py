@@ -84,7 +84,7 @@ def cases_of(options: argparse.Namespace) -> list[Case]:
 
 def _tell(score: Score) -> None:
     mark = ("ok  " if score.right else "MISS") if score.detectable else "hard"
-    mark = "LIE " if score.wrong else mark
+    mark = "LIE " if score.false and not score.stranger else mark
     print(f"{mark} {line(score)} [{score.seconds:.1f} s]", flush=True)
 
 

@@ -80,6 +80,11 @@ class Score:
         return self.verdict == "missing"
 
     @property
+    def false(self) -> bool:
+        """True if something is stated as the cause, or as a fact, that is not there."""
+        return bool(self.wrong) or (self.stated and not self.first and self.spurious > 0)
+
+    @property
     def exact(self) -> bool:
         """True if all that is hidden is named, and nothing else."""
         return not self.error and self.found == len(self.hidden) and not self.spurious

@@ -25,10 +25,11 @@ next to nothing to see (less than {least} of the noise) are not counted; they ar
 SENSORS_TOLD = f"""Other sensors and recorders on such arms; a slow one takes five times as long for
 its way, and has motors in proportion. *First*: of what these positions can show at all: an effect
 that is less than {DETECTABLE} of the noise, to which that of the positions adds, is not counted.
-*Fact*: what is hidden is stated as a fact. *Facts wrong*: of all facts. *Names wrong*: cases with a
-name of something that is not there; where the log is wrong, its fault may be named. *Alarms*: such
-names, or no answer, where nothing is hidden. *Told*: what is wrong with the log, in words or by a
-name.
+*Stated*: it is stated as the cause, perhaps with others that are as likely; *Fact*: alone.
+*Wrong*: what is stated is not there, of all cases with a statement. *Names wrong*: something is named
+that is not there; where the log is wrong, its fault may be named. *Alarms*: such names, or no answer,
+where nothing is hidden. *Told*: what is wrong with the log, in words or by a name. What is "perhaps"
+missing is no name.
 """
 
 
@@ -84,18 +85,19 @@ def by_sensor(scores: Sequence[Score]) -> str:
     for kind in [*(kind for kind in SENSORS if any(s.sensor == kind for s in scores)), ""]:
         some = [s for s in scores if kind in (s.sensor, "")]
         hidden = [s for s in some if s.hidden and s.detectable]
-        facts, wrong = sum(len(s.facts) for s in some), sum(len(s.wrong) for s in some)
+        stated = [s for s in some if s.stated]
         clean, faulty = ([s for s in some if good(s)] for good in (_is_clean, _is_faulty))
         rows.append([
             SENSORS[kind].told if kind else "**all**",
             count(hidden, lambda s: s.first),
+            count(hidden, lambda s: s.stated and s.first),
             count(hidden, lambda s: len(s.facts) > len(s.wrong)),
-            f"{wrong}/{facts}",
+            count(stated, lambda s: s.false),
             count(some, lambda s: s.spurious > 0),
             count(clean, lambda s: s.spurious > 0 or bool(s.error)),
             count(faulty, lambda s: bool(s.told)),
         ])  # fmt: skip
-    header = ["Sensor", "First", "Fact", "Facts wrong", "Names wrong", "Alarms", "Told"]
+    header = ["Sensor", "First", "Stated", "Fact", "Wrong", "Names wrong", "Alarms", "Told"]
     return markdown(header, rows)
 
 
