@@ -81,8 +81,11 @@ class Score:
 
     @property
     def false(self) -> bool:
-        """True if something is stated as the cause, or as a fact, that is not there."""
-        return bool(self.wrong) or (self.stated and not self.first and self.spurious > 0)
+        """True if something is stated as the cause, or as a fact, that is not there.
+
+        A statement that leaves open which of several it is, the true one among them, is not false.
+        """
+        return bool(self.wrong) or (self.stated and not self.tied and self.spurious > 0)
 
     @property
     def exact(self) -> bool:

@@ -26,10 +26,10 @@ SENSORS_TOLD = f"""Other sensors and recorders on such arms; a slow one takes fi
 its way, and has motors in proportion. *First*: of what these positions can show at all: an effect
 that is less than {DETECTABLE} of the noise, to which that of the positions adds, is not counted.
 *Stated*: it is stated as the cause, perhaps with others that are as likely; *Fact*: alone.
-*Wrong*: what is stated is not there, of all cases with a statement. *Names wrong*: something is named
-that is not there; where the log is wrong, its fault may be named. *Alarms*: such names, or no answer,
-where nothing is hidden. *Told*: what is wrong with the log, in words or by a name. What is "perhaps"
-missing is no name.
+*Wrong*: what is stated is not there, of all cases with a statement. *Names wrong*: something is
+named that is not there; where the log is wrong, its fault may be named. *Alarms*: such names, or no
+answer, where nothing is hidden. *Told*: what is wrong with the log, in words or by a name.
+What is "perhaps" missing is no name.
 """
 
 
@@ -90,7 +90,7 @@ def by_sensor(scores: Sequence[Score]) -> str:
         rows.append([
             SENSORS[kind].told if kind else "**all**",
             count(hidden, lambda s: s.first),
-            count(hidden, lambda s: s.stated and s.first),
+            count(hidden, lambda s: s.stated and s.tied),
             count(hidden, lambda s: len(s.facts) > len(s.wrong)),
             count(stated, lambda s: s.false),
             count(some, lambda s: s.spurious > 0),

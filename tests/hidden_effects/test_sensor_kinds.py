@@ -181,6 +181,13 @@ def test_a_wrong_log_is_told(name):
     assert score.right == (told and not wrong)
 
 
+def test_a_statement_that_leaves_it_open_is_not_false():
+    other, spring = ("counterbalance", "2"), ("spring", "2")
+    for ties, false in (((), True), ((spring,), False)):
+        answer = said((*other, "named"), tied=ties) | {"verdict": "missing"}
+        assert scored("a", truth("coarse", spring), answer).false is false
+
+
 def test_the_page_counts_by_sensor():
     spring = ("spring", "2")
     scores = [
