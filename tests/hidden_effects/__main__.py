@@ -10,6 +10,7 @@ from tests.hidden_effects.case import NONE, Case
 from tests.hidden_effects.drives import NOISE
 from tests.hidden_effects.effects import EFFECTS
 from tests.hidden_effects.score import Score
+from tests.hidden_effects.sensor_kinds import FINE, SENSORS
 from tests.hidden_effects.suite import (
     ACCEPTANCE,
     DEVELOPMENT,
@@ -18,6 +19,7 @@ from tests.hidden_effects.suite import (
     run,
     single_cases,
     stranger_cases,
+    with_sensors,
     withheld_cases,
 )
 from tests.hidden_effects.table import line, page
@@ -38,6 +40,7 @@ def parser() -> argparse.ArgumentParser:
     add = made.add_argument
     add("--effects", help="names with commas, or none; default: all")
     add("--noise", default=",".join(NOISE), help="default: %(default)s")
+    add("--sensors", default=FINE, help=f"of {', '.join(SENSORS)}; default: %(default)s")
     seeds = made.add_mutually_exclusive_group()
     seeds.add_argument("--seeds", help=f"numbers with commas; default: 1 to {SEEDS}")
     seeds.add_argument(
@@ -58,8 +61,8 @@ def cases_of(options: argparse.Namespace) -> list[Case]:
     """What the options ask for; ends the program with a line if they make no sense."""
     names = list(EFFECTS) if options.effects is None else options.effects.split(",")
     names = [] if names == [NONE] else names
-    noises = options.noise.split(",")
-    for given, known in ((names, EFFECTS), (noises, NOISE)):
+    noises, sensors = options.noise.split(","), options.sensors.split(",")
+    for given, known in ((names, EFFECTS), (noises, NOISE), (sensors, SENSORS)):
         if unknown := [name for name in given if name not in known]:
             sys.exit(f"unknown: {', '.join(unknown)}; expected of {', '.join(known)}")
     every = ACCEPTANCE if options.acceptance else DEVELOPMENT
@@ -69,17 +72,19 @@ def cases_of(options: argparse.Namespace) -> list[Case]:
         seeds = [int(seed) for seed in options.seeds.split(",")]
     if not set(seeds) <= set(pool):
         sys.exit(f"seeds {options.seeds}: expected of {pool[0]} to {pool[-1]}, or --acceptance")
-    return [
+    made = [
         *single_cases(names, noises, seeds),
         *clean_cases(noises, pool[: options.clean]),
         *pair_cases(noises, pool[: options.two]),
         *withheld_cases(noises, pool[: options.withheld]),
         *stranger_cases(noises, pool[: options.strangers]),
     ]
+    return with_sensors(made, sensors)
 
 
 def _tell(score: Score) -> None:
     mark = ("ok  " if score.right else "MISS") if score.detectable else "hard"
+    mark = "LIE " if score.false and not score.stranger else mark
     print(f"{mark} {line(score)} [{score.seconds:.1f} s]", flush=True)
 
 

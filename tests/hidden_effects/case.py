@@ -7,6 +7,7 @@
     truth.json              what is hidden
 
 The case of a seed is that seed's for its effects and its noise only: another noise, another arm.
+Another kind of sensor is the same arm again.
 """
 
 import json
@@ -19,13 +20,14 @@ import numpy as np
 from tests.hidden_effects import body_effects, drive_effects, friction_effects
 from tests.hidden_effects.drives import equip, measured_noise
 from tests.hidden_effects.effects import BASE, EFFECTS, LOADS, Hidden, Impossible, hide
-from tests.hidden_effects.motion import draw_bounds, motion
+from tests.hidden_effects.motion import draw_bounds
 from tests.hidden_effects.plant import Plant, Run
 from tests.hidden_effects.robot_file import robot_text
 from tests.hidden_effects.robots import draw_arm
+from tests.hidden_effects.sensor_kinds import FINE, OF_LINKS, SENSORS, computed_torque
 from tests.hidden_effects.sensors import log, write
 from tests.hidden_effects.stranger_effects import STRANGERS
-from tests.hidden_effects.visibility import Trial, visibility
+from tests.hidden_effects.visibility import Trial, left_over, shown, visibility
 
 KINDS_OF_EFFECTS = (friction_effects, body_effects, drive_effects)  # importing them fills EFFECTS
 KNOWN = EFFECTS | STRANGERS
@@ -42,6 +44,8 @@ NONE = "none"
 class Case:
     """What is asked for: no, one or two effects, noise, seed; kind of the arm, None: random.
 
+    The sensor is a kind of `SENSORS`.
+
     A stranger is a case as any other, with a name of `STRANGERS`.
 
     Where the effects are withheld, the diagnosis may not name them: whatever it names is wrong.
@@ -52,11 +56,13 @@ class Case:
     seed: int
     kind: str | None = None
     withheld: bool = False
+    sensor: str = FINE
 
     @property
     def folder(self) -> str:
         """Where its files are."""
-        return "-".join(["+".join(self.effects or (NONE,)), self.noise, str(self.seed)])
+        sensor = [] if self.sensor == FINE else [self.sensor]
+        return "-".join(["+".join(self.effects or (NONE,)), self.noise, str(self.seed), *sensor])
 
     @property
     def name(self) -> str:
@@ -105,10 +111,12 @@ class _Attempt:
         self.rng = case.stream(attempt)
         self.plain, self.kind = draw_arm(self.rng, case.kind)
         n = self.plain.joints
-        self.bounds = draw_bounds(self.rng, n)
-        self.wanted = motion(self.rng, TRAIN, self.bounds)
-        self.wanted_later = motion(self.rng, HOLDOUT, self.bounds)
-        self.scales = equip(self.plain, self.bounds, self.wanted, case.noise, self.rng)
+        self.sensor = SENSORS[case.sensor]
+        self.most = draw_bounds(self.rng, n)
+        self.wanted = self.sensor.path(self.rng, TRAIN, self.most)
+        self.wanted_later = self.sensor.path(self.rng, HOLDOUT, self.most)
+        bounds = self.sensor.bounds(self.most)
+        self.scales = equip(self.plain, bounds, self.wanted, case.noise, self.rng)
         self.admitted = {name: list(range(n)) for name in BASE}
         upright = abs(np.cos(self.plain.alpha[1])) < 1e-6 if n >= 3 else False
         if self.rng.uniform() < 0.4 and upright:  # the first two rotors are inertias of links
@@ -122,6 +130,10 @@ class _Attempt:
             self.admitted[name].remove(self._joint(name))
         self.temperature = self.rng.uniform(20, 24, n)
         self.seed = int(self.rng.integers(1 << 60))
+        self.of_sensor = case.stream(attempt, 55)
+        self.sensed = int(self.of_sensor.integers(n))  # joint of the sensor, if it is one joint's
+        for arm in (self.loaded, self.free):
+            self.sensor.equip(arm)
 
     def _hide(self, names: list[str]) -> None:
         for name in names:
@@ -145,9 +157,7 @@ class _Attempt:
         later.clock = start if drifts else 0.0
         warm = train.temperature[-1] if thermal else self.temperature
         holdout = _ran(later, self.wanted_later, warm, self.seed + 1)
-        seen = [self._visibility(name) for name in self.case.effects] if visible else []
-        if not all(value >= visible for value in seen):
-            raise Impossible
+        seen = [self._visibility(name, visible) for name in self.case.effects] if visible else []
         folder.mkdir(parents=True, exist_ok=True)
         if set(LOADS) & self.hidden.keys():
             self._write_loaded(folder, thermal)
@@ -160,21 +170,25 @@ class _Attempt:
         return truth
 
     def _write_loaded(self, folder: Path, thermal: bool) -> None:
-        paths = [motion(self.rng, seconds, self.bounds) for seconds in (TRAIN, HOLDOUT)]
+        paths = [self.sensor.path(self.rng, seconds, self.most) for seconds in (TRAIN, HOLDOUT)]
         runs = [
             _ran(self.loaded, path, self.temperature, self.seed + 2 + k)
             for k, path in enumerate(paths)
         ]
         for name, run, path in zip(("loaded", "loaded_holdout"), runs, paths, strict=True):
-            self._write_log(folder / f"{name}.parquet", run, path, 0.0, thermal)
+            self._write_log(folder / f"{name}.parquet", run, path, 0.0, thermal, self.loaded)
 
     def _write_log(
-        self, place: Path, run: Run, wanted: np.ndarray, start: float, thermal: bool
-    ) -> None:
+        self, place: Path, run: Run, wanted: np.ndarray, start: float, thermal: bool,
+        plant: Plant | None = None,
+    ) -> None:  # fmt: skip
         noise = measured_noise(self.scales, self.case.noise)
         delay = sum(hidden.delay for hidden in self.hidden.values())
         columns = log(run, wanted, noise, self.rng, delay=delay, start=start, thermal=thermal)
-        write(columns, place)
+        if self.sensor.computed:
+            torque = computed_torque(plant or self.free, run.link)
+            columns |= {f"tau{j + 1}": values for j, values in enumerate(torque.T)}
+        write(self.sensor.logged(columns, self.sensed, self.of_sensor), place)
 
     def _known(self) -> Plant:
         """The arm as the robot file has it: with gravity as it was meant."""
@@ -184,15 +198,27 @@ class _Attempt:
             known.gravity = np.round(known.gravity - turned, 9) + 0.0
         return known
 
-    def _visibility(self, name: str) -> float:
-        """Of one effect, as if it were alone; others that are missing in the file stay away."""
+    def _visibility(self, name: str, least: float) -> float:
+        """Of one effect, as if it were alone; others that are missing in the file stay away.
+
+        A fine sensor must show at least so much of it; the value is that of the sensor.
+        """
         alone = self.plain.copy()
         hidden = hide(name, alone, self.scales, self._own(name), KNOWN)
         admitted = dict(self.admitted)
         for other in set(BASE) & self.hidden.keys() - {name}:
             admitted[other] = sorted([*admitted[other], self._joint(other)])
         trial = Trial(self.wanted, self.temperature, self.seed + 9)
-        return visibility(alone, self.plain, name, admitted, hidden.delay, trial, self.scales)
+        left = left_over(alone, self.plain, name, admitted, hidden.delay, trial)
+        seen = visibility(left, self.scales)
+        if not seen >= least:
+            raise Impossible
+        if self.sensor.computed and name not in OF_LINKS:
+            return 0.0
+        if left is None or not self.sensor.blurs:
+            return seen
+        read = self.sensor.read(left.encoder, self.case.stream(self.attempt, 66))
+        return shown(left, alone, read, self.case.noise, self.scales)
 
     def _truth(self, seen: list[float]) -> dict[str, Any]:
         hidden = []
@@ -205,6 +231,8 @@ class _Attempt:
             "hidden": hidden,
             "visible": seen,
             "noise": self.case.noise,
+            "sensor": {"kind": self.case.sensor}
+            | ({"joint": str(self.sensed + 1)} if self.sensor.of_joint else {}),
             "seed": self.case.seed,
             "robot": self.kind,
             "attempt": self.attempt,

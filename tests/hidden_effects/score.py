@@ -1,10 +1,15 @@
-"""Is a diagnosis right? From the truth of a case and what was said of it, both as plain data."""
+"""Is a diagnosis right? From the truth of a case and what was said of it, both as plain data.
+
+What is "perhaps" missing is no name: it is no alarm, and nothing wrong. It counts as named first
+only where it is listed first and nothing is named.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from tests.hidden_effects.drives import NOISE
+from tests.hidden_effects.sensor_kinds import FINE, SENSORS
 from tests.hidden_effects.stranger_effects import STRANGERS
 
 DETECTABLE = 0.25
@@ -35,6 +40,11 @@ class Score:
         seconds: of the diagnosis.
         error: why there is none; empty if there is.
         withheld: True if what is hidden was not to be named.
+        maybe: what was said to be perhaps missing, and no more.
+        facts: what was stated as a fact.
+        wrong: those of them that are none.
+        sensor: kind.
+        told: True if what is wrong with the log is told, in words or by name; None if nothing is.
     """
 
     case: str
@@ -53,6 +63,11 @@ class Score:
     seconds: float
     error: str = ""
     withheld: bool = False
+    maybe: tuple[Key, ...] = ()
+    facts: tuple[Key, ...] = ()
+    wrong: tuple[Key, ...] = ()
+    sensor: str = FINE
+    told: bool | None = None
 
     @property
     def stranger(self) -> bool:
@@ -65,15 +80,28 @@ class Score:
         return self.verdict == "missing"
 
     @property
+    def false(self) -> bool:
+        """True if something is stated as the cause, or as a fact, that is not there.
+
+        A statement that leaves open which of several it is, the true one among them, is not false.
+        """
+        return bool(self.wrong) or (self.stated and not self.tied and self.spurious > 0)
+
+    @property
     def exact(self) -> bool:
         """True if all that is hidden is named, and nothing else."""
         return not self.error and self.found == len(self.hidden) and not self.spurious
 
     @property
     def right(self) -> bool:
-        """One effect: named first; withheld or a stranger: nothing stated. None or two: exact."""
+        """One effect: named first; withheld or a stranger: nothing stated. None or two: exact.
+
+        A log that is wrong: told, and nothing named that is not there.
+        """
         if self.withheld or self.stranger:
             return not self.error and not self.stated
+        if self.told is not None:
+            return self.told and not self.spurious
         return self.first if len(self.hidden) == 1 else self.exact
 
     @property
@@ -93,7 +121,8 @@ class Score:
 
 def score_from_json(data: Mapping[str, Any]) -> Score:
     """What `to_json` gave."""
-    keys = {name: tuple((e, j) for e, j in data[name]) for name in ("hidden", "said")}
+    names = ("hidden", "said", "maybe", "facts", "wrong")
+    keys = {name: tuple((e, j) for e, j in data.get(name, ())) for name in names}
     return Score(**{**data, **keys})
 
 
@@ -102,10 +131,16 @@ def scored(
 ) -> Score:
     """A diagnosis (`to_json`) against the truth of its case (`truth.json`)."""
     hidden, findings = truth["hidden"], said["effects"]
-    named = [_key(finding) for finding in findings]
-    first = findings[0] if findings else None
-    tied = [_key(first), *map(_key, first["ties"])] if first else []
+    by_status = {status: [_key(f) for f in findings if f.get("status", "named") in kinds]
+                 for status, kinds in STATUS.items()}  # fmt: skip
+    named, facts = by_status["named"], by_status["fact"]
+    listed = findings[0] if findings else None  # those that are no more than perhaps come last
+    first = [_key(f) for f in findings[:1]]
+    tied = [*first, *map(_key, listed["ties"])] if listed else []
     visible = min(truth["visible"], default=None)
+    sensor = truth.get("sensor", {"kind": FINE})
+    blamed = _blamed(sensor, findings)
+    true = [*hidden, *blamed]
     return Score(
         case=case,
         hidden=tuple(_key(effect) for effect in hidden),
@@ -114,20 +149,58 @@ def scored(
         robot=truth["robot"],
         visible=None if visible is None else visible * NOISE["med"] / NOISE[truth["noise"]],
         verdict=said["verdict"],
-        first=any(is_it(effect, key) for effect in hidden for key in named[:1]),
-        joint=any(key[1] in joints(effect) for effect in hidden for key in named[:1]),
+        first=any(is_it(effect, key) for effect in hidden for key in first),
+        joint=any(key[1] in joints(effect) for effect in hidden for key in first),
         tied=any(is_it(effect, key) for effect in hidden for key in tied),
         found=sum(any(is_it(effect, key) for key in named) for effect in hidden),
-        spurious=sum(not any(is_it(effect, key) for effect in hidden) for key in named),
-        fall=_fall(first),
+        spurious=len(_not_of(true, named)),
+        fall=_fall(listed),
         seconds=said["seconds"],
         withheld=withheld,
+        maybe=tuple(by_status["perhaps"]),
+        facts=tuple(facts),
+        wrong=tuple(_not_of(true, facts)),
+        sensor=sensor["kind"],
+        told=_told(sensor, said, blamed, named),
     )
+
+
+STATUS = {"named": ("fact", "named"), "fact": ("fact",), "perhaps": ("perhaps",)}
+
+
+def _not_of(true: Sequence[Mapping[str, Any]], keys: Sequence[Key]) -> list[Key]:
+    return [key for key in keys if not any(is_it(effect, key) for effect in true)]
+
+
+def _blamed(
+    sensor: Mapping[str, Any], findings: Sequence[Mapping[str, Any]]
+) -> list[dict[str, Any]]:
+    """Names that are true on account of the sensor: its joint's, or one that is tied with that."""
+    names, where = SENSORS[sensor["kind"]].names, (sensor.get("joint"), None)
+    found = []
+    for finding in findings:
+        keys = [_key(finding), *map(_key, finding["ties"])]
+        if any(effect in names and joint in where for effect, joint in keys):
+            found.append({"effect": finding["effect"], "joint": finding["joint"], "values": {}})
+    return found
+
+
+def _told(
+    sensor: Mapping[str, Any], said: Mapping[str, Any], blamed: Sequence[Mapping[str, Any]],
+    named: Sequence[Key],
+) -> bool | None:  # fmt: skip
+    """Whether a line on the data, or a name, tells what is wrong with the log."""
+    words, joint = SENSORS[sensor["kind"]].words, sensor.get("joint")
+    if not words:
+        return None
+    lines = [line for line in said.get("data", ()) if not joint or f"joint {joint}" in line]
+    by_name = any(is_it(effect, key) for effect in blamed for key in named)
+    return by_name or any(word in line for word in words for line in lines)
 
 
 def failed(case: str, truth: Mapping[str, Any], error: str, withheld: bool = False) -> Score:
     """A case whose diagnosis ended in an error."""
-    nothing = {"effects": [], "verdict": "error", "seconds": 0.0}
+    nothing = {"effects": [], "verdict": "error", "seconds": 0.0, "data": [error]}
     data = scored(case, truth, nothing, withheld).to_json()
     return score_from_json(data | {"error": error})
 

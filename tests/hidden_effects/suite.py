@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -57,6 +58,11 @@ def _pair(seed: int) -> tuple[str, ...]:
             return pair
 
 
+def with_sensors(cases: Sequence[Case], sensors: Sequence[str]) -> list[Case]:
+    """Every case with every kind of sensor."""
+    return [replace(case, sensor=sensor) for sensor in sensors for case in cases]
+
+
 def ran(case: Case, cases: Path) -> Score:
     """Make a case unless it is there, diagnose it, and only then open its truth."""
     from tests.hidden_effects.chain import diagnosed
@@ -86,7 +92,8 @@ def _no_truth(case: Case) -> dict[str, Any]:
     """Of a case that could not be made: what was asked for, invisible."""
     hidden: list[dict[str, Any]]
     hidden = [{"effect": name, "joint": None, "values": {}} for name in case.effects]
-    return {"hidden": hidden, "visible": [0.0], "noise": case.noise, "robot": case.kind or "any"}
+    return {"hidden": hidden, "visible": [0.0], "noise": case.noise, "robot": case.kind or "any",
+            "sensor": {"kind": case.sensor}}  # fmt: skip
 
 
 def run(

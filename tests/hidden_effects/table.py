@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 
 from tests.hidden_effects.drives import NOISE
 from tests.hidden_effects.score import DETECTABLE, Key, Score
+from tests.hidden_effects.sensor_kinds import FINE, SENSORS
 
 INTRODUCTION = """# Hidden effects: what the diagnosis finds
 
@@ -21,10 +22,21 @@ next to nothing to see (less than {least} of the noise) are not counted; they ar
 """
 
 
+SENSORS_TOLD = f"""Other sensors and recorders on such arms; a slow one takes five times as long for
+its way, and has motors in proportion. *First*: of what these positions can show at all: an effect
+that is less than {DETECTABLE} of the noise, to which that of the positions adds, is not counted.
+*Stated*: it is stated as the cause, perhaps with others that are as likely; *Fact*: alone.
+*Wrong*: what is stated is not there, of all cases with a statement. *Names wrong*: something is
+named that is not there; where the log is wrong, its fault may be named. *Alarms*: such names, or no
+answer, where nothing is hidden. *Told*: what is wrong with the log, in words or by a name.
+What is "perhaps" missing is no name.
+"""
+
+
 def page(scores: Sequence[Score]) -> str:
     """Counts by effect and noise, false alarms, pairs, and every case that went wrong."""
     seen = [score for score in scores if score.detectable]
-    named = [score for score in seen if not score.withheld and not score.stranger]
+    named = [s for s in seen if not s.withheld and not s.stranger and s.sensor == FINE]
     single = [score for score in named if len(score.hidden) == 1]
     noise = ", ".join(f"{100 * share:.3g} % ({name})" for name, share in NOISE.items())
     parts = [INTRODUCTION.format(noise=noise, least=DETECTABLE)]
@@ -34,6 +46,8 @@ def page(scores: Sequence[Score]) -> str:
         parts += ["## Nothing hidden\n", _clean(clean)]
     if pairs := [score for score in named if len(score.hidden) == 2]:
         parts += ["## Two effects\n", _pairs(pairs)]
+    if coarse := [score for score in scores if score.sensor != FINE]:
+        parts += ["## Coarse encoders, noisy positions\n", SENSORS_TOLD, by_sensor(coarse)]
     if withheld := [score for score in seen if score.withheld]:
         parts += ["## The hidden effect withheld from the catalogue\n", _withheld(withheld)]
     if strangers := [score for score in seen if score.stranger]:
@@ -63,6 +77,36 @@ def _singles(scores: Sequence[Score]) -> str:
     rows.append(_row("**all**", scores, levels))
     rows.append(["**share**", *(_share(cell) for cell in rows[-1][1:-1]), rows[-1][-1]])
     return markdown([*header, "Fall"], rows)
+
+
+def by_sensor(scores: Sequence[Score]) -> str:
+    """Names, facts and alarms by kind of sensor."""
+    rows = []
+    for kind in [*(kind for kind in SENSORS if any(s.sensor == kind for s in scores)), ""]:
+        some = [s for s in scores if kind in (s.sensor, "")]
+        hidden = [s for s in some if s.hidden and s.detectable]
+        stated = [s for s in some if s.stated]
+        clean, faulty = ([s for s in some if good(s)] for good in (_is_clean, _is_faulty))
+        rows.append([
+            SENSORS[kind].told if kind else "**all**",
+            count(hidden, lambda s: s.first),
+            count(hidden, lambda s: s.stated and s.tied),
+            count(hidden, lambda s: len(s.facts) > len(s.wrong)),
+            count(stated, lambda s: s.false),
+            count(some, lambda s: s.spurious > 0),
+            count(clean, lambda s: s.spurious > 0 or bool(s.error)),
+            count(faulty, lambda s: bool(s.told)),
+        ])  # fmt: skip
+    header = ["Sensor", "First", "Stated", "Fact", "Wrong", "Names wrong", "Alarms", "Told"]
+    return markdown(header, rows)
+
+
+def _is_clean(score: Score) -> bool:
+    return not score.hidden
+
+
+def _is_faulty(score: Score) -> bool:
+    return score.told is not None
 
 
 def _row(name: str, scores: Sequence[Score], levels: Sequence[str]) -> list[str]:
@@ -142,7 +186,12 @@ def _list(scores: Sequence[Score]) -> str:
 def line(score: Score) -> str:
     """A case in one line."""
     seen = "" if score.visible is None else f", visible {score.visible:.2f}"
-    said = score.error or f"{', '.join(map(_name, score.said)) or 'nothing'} ({score.verdict})"
+    names = [*map(_name, score.said), *(f"perhaps {_name(key)}" for key in score.maybe)]
+    said = score.error or f"{', '.join(names) or 'nothing'} ({score.verdict})"
+    if score.wrong:
+        said += f"; no fact: {', '.join(map(_name, score.wrong))}"
+    if score.told is False:
+        said += "; the log's fault is not told"
     tied = "; tied with what is hidden" if score.tied and not score.first else ""
     where = f"{score.robot}{seen}"
     return f"{score.case} ({where}): {_hidden(score)}; said {said}{tied}"

@@ -14,7 +14,7 @@ from tests.hidden_effects.plant import rate
 from tests.hidden_effects.robot_file import robot_text
 from tests.hidden_effects.robots import KINDS, draw_arm
 from tests.hidden_effects.sensors import logged_torque
-from tests.hidden_effects.visibility import Trial, visibility
+from tests.hidden_effects.visibility import Trial, left_over, visibility
 
 pytestmark = pytest.mark.usefixtures("plant_compiler")
 
@@ -83,11 +83,11 @@ def test_motors_drive_links_rotors_and_friction():
 def test_a_clean_arm_hides_nothing_and_a_spring_is_seen():
     plant, path, scales = arm("2R", seconds=10.0)
     admitted = {name: [0, 1] for name in BASE}
-    more = (admitted, 0.0, Trial(path, np.zeros(2), 1), scales)
-    assert visibility(plant, plant, "spring", *more) < 0.25
+    more = (admitted, 0.0, Trial(path, np.zeros(2), 1))
+    assert visibility(left_over(plant, plant, "spring", *more), scales) < 0.25
     sprung = plant.copy()
     hide("spring", sprung, scales, np.random.default_rng(1))
-    assert visibility(sprung, plant, "spring", *more) > 0.5
+    assert visibility(left_over(sprung, plant, "spring", *more), scales) > 0.5
 
 
 @pytest.mark.parametrize("name", EFFECTS)

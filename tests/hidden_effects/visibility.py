@@ -18,6 +18,7 @@ from tests.hidden_effects.sensors import logged_torque
 
 SLOW = 0.03  # rad/s: Coulomb friction is not sign(v) there
 KEPT = slice(100, -100, 12)  # rows after the low-pass filters
+BANDS = (29.0, 10.0, 4.0, 2.0)  # Hz, where an effect is looked for beside the noise of positions
 
 Effects = Mapping[str, Sequence[int]]
 
@@ -31,16 +32,25 @@ class Trial:
     seed: int
 
 
-def visibility(
-    plant: Plant,
-    without: Plant,
-    name: str,
-    admitted: Effects,
-    delay: float,
-    trial: Trial,
-    scales: Scales,
-) -> float:
-    """Rms left over on the joint where it is largest, in rms of the medium noise; nan if lost.
+@dataclass(frozen=True)
+class Left:
+    """What a fit of the admitted effects leaves of the torque, below 30 Hz, on a fine encoder.
+
+    Attributes:
+        torque: (rows, n) N m.
+        used: (rows, n) rows of it that count.
+        encoder: (ticks, n) rad, of the motion.
+    """
+
+    torque: np.ndarray
+    used: np.ndarray
+    encoder: np.ndarray
+
+
+def left_over(
+    plant: Plant, without: Plant, name: str, admitted: Effects, delay: float, trial: Trial
+) -> Left | None:
+    """What is left over of an effect without noise; None if the arm runs away.
 
     Args:
         plant: with this effect only.
@@ -49,24 +59,62 @@ def visibility(
         admitted: effects of the fit.
         delay: s, of the logged torque.
         trial: the motion.
-        scales: of the arm.
     """
     quiet, plain = plant.copy(), without.copy()
     quiet.noise_torque = plain.noise_torque = 0
     run = quiet.run(trial.wanted, trial.temperature, trial.seed)
     if run is None:
-        return float("nan")
+        return None
     rows = regression(without if name in (*LOADS, "base_tilt") else plant, run, delay, admitted)
     learnt = rows
     if name in LOADS:  # the fit has the arm without its load
         unloaded = plain.run(trial.wanted, trial.temperature, trial.seed)
         if unloaded is None:
-            return float("nan")
+            return None
         learnt = regression(without, unloaded, 0.0, admitted)
     phi, torque, used = rows
-    left = torque - phi @ least_squares(*learnt)
-    rms = [np.sqrt((left[used[:, j], j] ** 2).mean()) for j in range(plant.joints)]
-    return float(np.max(rms / scales.motors) / NOISE["med"])
+    return Left(torque - phi @ least_squares(*learnt), used, run.encoder)
+
+
+def visibility(left: Left | None, scales: Scales) -> float:
+    """Rms left over on the joint where it is largest, in rms of the medium noise; nan if lost."""
+    if left is None:
+        return float("nan")
+    return float(np.max(_rms(left.torque, left.used) / scales.motors) / NOISE["med"])
+
+
+def shown(left: Left, plant: Plant, read: np.ndarray, noise: str, scales: Scales) -> float:
+    """Visibility beside the noise of positions, in the band where it is best.
+
+    The noise is what the torque of the arm differs by along the positions as read.
+
+    Args:
+        left: over from the effect.
+        plant: the arm.
+        read: (ticks, n) rad, positions as the log has them.
+        noise: level of the case.
+        scales: of the arm.
+    """
+    low, last = (butter(4, hertz, fs=1000, output="sos") for hertz in (40, 30))
+    moved = []
+    for path in (read, left.encoder):
+        q = sosfiltfilt(low, path, axis=0)
+        v = rate(q)
+        a = rate(v)
+        asked = plant.inverse_dynamics(q, v, a)[0] + plant.rotor_inertia * a + plant.viscous * v
+        moved.append(sosfiltfilt(last, asked, axis=0)[KEPT])
+    own, blur = left.torque * left.used, (moved[0] - moved[1]) * left.used
+    drive, best = NOISE[noise] * scales.motors, np.zeros(plant.joints)
+    for band in BANDS:
+        narrow = butter(4, band, fs=1000 / KEPT.step, output="sos")
+        size, noisy = (_rms(sosfiltfilt(narrow, x, axis=0), left.used) for x in (own, blur))
+        best = np.maximum(best, size / np.sqrt(drive**2 + noisy**2))
+    return float(best.max() * NOISE[noise] / NOISE["med"])
+
+
+def _rms(values: np.ndarray, used: np.ndarray) -> np.ndarray:
+    rows = zip(values.T, used.T, strict=True)
+    return np.array([np.sqrt((own[use] ** 2).mean()) for own, use in rows])
 
 
 def regression(

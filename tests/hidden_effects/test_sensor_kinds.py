@@ -1,0 +1,214 @@
+"""Sensors of real machines: what they do to a log, and how answers about such logs count."""
+
+import json
+
+import numpy as np
+import pyarrow.parquet
+import pytest
+
+from tests.hidden_effects.__main__ import cases_of, parser
+from tests.hidden_effects.case import Case, make_case
+from tests.hidden_effects.plant import TICK
+from tests.hidden_effects.score import score_from_json, scored
+from tests.hidden_effects.sensor_kinds import FINE, SENSORS, computed_torque
+from tests.hidden_effects.table import page
+from tests.hidden_effects.test_generator import arm
+from tests.hidden_effects.visibility import Left, shown
+
+JOINTS = 2
+
+
+def columns(rows=3000):
+    """A log of two joints without any noise."""
+    time = np.arange(rows) * TICK
+    q = {f"q{j + 1}": np.sin((j + 1) * time) for j in range(JOINTS)}
+    tau = {f"tau{j + 1}": np.cos((j + 1) * time) for j in range(JOINTS)}
+    return {"time": time} | q | {f"qc{j + 1}": q[f"q{j + 1}"] for j in range(JOINTS)} | tau
+
+
+def logged(kind):
+    return SENSORS[kind].logged(columns(), 1, np.random.default_rng(3))
+
+
+@pytest.mark.parametrize("kind", ["white", "white2", "coloured"])
+def test_noise_is_in_the_logged_positions_only(kind):
+    size = {"white": 0.44e-3, "white2": 2e-3, "coloured": 1e-3}[kind]
+    before, after = columns(), logged(kind)
+    noise = after["q1"] - before["q1"]
+    assert noise.std() == pytest.approx(size, rel=0.3)
+    assert abs(np.corrcoef(noise, after["q2"] - before["q2"])[0, 1]) < 0.3
+    for name in before.keys() - {"q1", "q2"}:
+        np.testing.assert_array_equal(after[name], before[name])
+    share = np.abs(np.fft.rfft(noise)) ** 2
+    low = share[np.fft.rfftfreq(len(noise), TICK) < 30].sum() / share.sum()
+    assert low > 0.6 if kind == "coloured" else low == pytest.approx(0.06, abs=0.02)
+
+
+def test_a_late_position_and_a_wrong_unit_are_of_one_joint():
+    before = columns()
+    for kind in ("late", "gain", "millinewton"):
+        after = logged(kind)
+        changed = {name for name in before if (after[name] != before[name]).any()}
+        assert changed == {"q2" if kind == "late" else "tau2"}
+    np.testing.assert_array_equal(logged("late")["q2"][5:], before["q2"][:-5])
+    np.testing.assert_allclose(logged("millinewton")["tau2"], 1000 * before["tau2"])
+
+
+@pytest.mark.parametrize("kind", ["repeat", "repeat3"])
+def test_a_recorder_repeats_whole_rows(kind):
+    before, after = columns(), logged(kind)
+    faster = SENSORS[kind].faster
+    np.testing.assert_allclose(np.diff(after["time"]), TICK / faster, rtol=1e-6)
+    assert after["time"][-1] == pytest.approx(before["time"][-1], abs=TICK)
+    same = np.all([np.diff(after[name]) == 0 for name in ("q1", "q2", "tau1", "tau2")], axis=0)
+    assert same.mean() == pytest.approx(1 - 1 / faster, abs=1e-2)
+    assert np.abs(after["q1"] - np.sin(after["time"])).max() < 1.1 * TICK
+
+
+def test_a_slow_machine_goes_the_same_kind_of_way_a_fifth_as_fast():
+    _, _, scales = arm()
+    paths = [
+        SENSORS[kind].path(np.random.default_rng(5), seconds, scales.bounds)
+        for kind, seconds in ((FINE, 4.0), ("slow", 10.0))
+    ]
+    np.testing.assert_allclose(paths[1][::5], paths[0], atol=1e-12)
+    assert np.abs(np.diff(paths[1], axis=0)).max() < 0.25 * np.abs(np.diff(paths[0], axis=0)).max()
+
+
+def test_a_coarse_encoder_is_in_the_loop():
+    """The drive answers its steps, but follows its path; a step is that of the encoder."""
+    plant, path, _ = arm("2R", seconds=4.0)
+    fine = plant.run(path, np.zeros(JOINTS), 1)
+    SENSORS["coarse"].equip(plant)
+    run = plant.run(path, np.zeros(JOINTS), 1)
+    counts = run.encoder * 4096 / (2 * np.pi)
+    np.testing.assert_allclose(counts, np.round(counts), atol=1e-6)
+    trembling = [np.diff(r.torque[::4], axis=0).std(0) for r in (fine, run)]
+    assert (trembling[1] > 2 * trembling[0]).all()
+    assert (run.torque.std(0) < 1.5 * fine.torque.std(0)).all()
+    assert np.abs(run.link - path).max() < 0.1
+
+
+def test_computed_torques_have_no_friction():
+    plant, path, _ = arm("2R", seconds=4.0)
+    torque = computed_torque(plant, path)
+    assert torque.shape == path.shape
+    rubbing = plant.copy()
+    rubbing.coulomb, rubbing.viscous, rubbing.offset = 9.0, 9.0, 9.0
+    np.testing.assert_array_equal(computed_torque(rubbing, path), torque)
+    run = plant.run(path, np.zeros(JOINTS), 1)
+    share = (run.torque[::4] - computed_torque(plant, run.link)).std(0) / run.torque.std(0)
+    assert (share > 0.01).all() and (share < 0.5).all()
+
+
+def test_what_positions_bury_is_not_visible():
+    """Visible is what a fine encoder shows, or less; fast effects are buried before slow ones."""
+    plant, path, scales = arm("2R", seconds=4.0)
+    time = np.arange(len(path))[100:-100:12] * TICK
+    seen = {}
+    for hertz in (0.5, 12.0):
+        wave = np.sin(2 * np.pi * hertz * time)[:, None] * 0.02 * scales.motors
+        left = Left(wave, np.ones(wave.shape, bool), path)
+        for kind in ("white", "white2"):
+            read = SENSORS[kind].read(path, np.random.default_rng(1))
+            seen[hertz, kind] = shown(left, plant, read, "med", scales)
+        exact = shown(left, plant, path, "med", scales)
+        assert exact == pytest.approx(2 / np.sqrt(2), rel=0.1)
+        assert exact >= seen[hertz, "white"] > seen[hertz, "white2"]
+    assert seen[0.5, "white2"] > 3 * seen[12.0, "white2"]
+
+
+def test_a_kind_of_sensor_is_the_same_arm(tmp_path):
+    case = Case(("coulomb",), "med", 3, "2R", sensor="late")
+    truth = make_case(case, tmp_path / "late", visible=0.25)
+    fine = make_case(Case(("coulomb",), "med", 3, "2R"), tmp_path / "fine", visible=0.25)
+    assert case.folder == "coulomb-med-3-late" and Case((), "med", 3).folder == "none-med-3"
+    assert truth["plant"] == fine["plant"] and truth["visible"] == fine["visible"]
+    logs = [pyarrow.parquet.read_table(tmp_path / k / "train.parquet") for k in ("late", "fine")]
+    other = [name for name in logs[0].column_names if logs[0][name] != logs[1][name]]
+    assert other == [f"q{truth['sensor']['joint']}"] and "joint" not in fine["sensor"]
+
+
+def truth(kind, *hidden, joint="2"):
+    named = [{"effect": e, "joint": j, "values": {}} for e, j in hidden]
+    of_joint = {"joint": joint} if SENSORS[kind].of_joint else {}
+    return {"hidden": named, "visible": [1.0] * len(named), "noise": "med", "robot": "3R",
+            "sensor": {"kind": kind} | of_joint}  # fmt: skip
+
+
+def said(*findings, data=(), tied=()):
+    ties = [{"effect": e, "joint": j} for e, j in tied]
+    effects = [{"effect": e, "joint": j, "status": s, "ties": ties, "error_before": 0.1,
+                "error_after": 0.05} for e, j, s in findings]  # fmt: skip
+    verdict = "missing" if any(s == "fact" for *_, s in findings) else "closest description"
+    return {"effects": effects, "verdict": verdict, "seconds": 1.0, "data": list(data)}
+
+
+def test_perhaps_is_no_name():
+    """It is no alarm; it is first where nothing is named."""
+    perhaps = ("spring", "2", "perhaps")
+    clean = scored("a", truth("coarse"), said(perhaps))
+    assert clean.exact and clean.said == () and clean.maybe == (("spring", "2"),)
+    only = scored("b", truth("coarse", ("spring", "2")), said(perhaps))
+    assert only.first and not only.exact and not only.facts
+    beside = scored("c", truth("coarse", ("spring", "2")), said(("drift", "2", "named"), perhaps))
+    assert not beside.first and beside.spurious == 1
+    assert score_from_json(json.loads(json.dumps(beside.to_json()))) == beside
+
+
+LATE_LINE = "joint 2: its position comes 5 ms too late beside the other channels"
+#             sensor, said, told, names that are wrong
+FAULTS = {
+    "in words": ("late", said(data=[LATE_LINE]), True, 0),
+    "of another joint": ("late", said(data=[LATE_LINE.replace("2", "3")]), False, 0),
+    "by name": ("late", said(("time_delay", None, "fact")), True, 0),
+    "taken for another": ("late", said(("spring", "2", "fact"), data=[LATE_LINE]), True, 1),
+    "gain": ("gain", said(("drive_gain", "2", "named")), True, 0),
+    "gain elsewhere": ("gain", said(("drive_gain", "1", "fact")), False, 1),
+    "gain of either": (
+        "gain", said(("drive_gain", "1", "named"), tied=[("drive_gain", "2")]), True, 0,
+    ),
+    "friction computed": ("computed", said(("coulomb", "1", "named")), False, 1),
+    "silent": ("repeat", said(), False, 0),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_wrong_log_is_told(name):
+    kind, answer, told, wrong = FAULTS[name]
+    score = scored(name, truth(kind), answer)
+    assert (score.told, score.spurious) == (told, wrong)
+    assert score.right == (told and not wrong)
+
+
+def test_a_statement_that_leaves_it_open_is_not_false():
+    other, spring = ("counterbalance", "2"), ("spring", "2")
+    for ties, false in (((), True), ((spring,), False)):
+        answer = said((*other, "named"), tied=ties) | {"verdict": "missing"}
+        assert scored("a", truth("coarse", spring), answer).false is false
+
+
+def test_the_page_counts_by_sensor():
+    spring = ("spring", "2")
+    scores = [
+        scored("a", truth("coarse", spring), said((*spring, "fact"))),
+        scored("b", truth("coarse", spring), said(("drift", "2", "fact"))),
+        scored("c", truth("coarse"), said((*spring, "named"))),
+        scored("d", truth("late"), said(data=[LATE_LINE])),
+    ]
+    text = page(scores)
+    assert "| 4096 counts a turn, in the loop | 1/2 | 1/2 | 1/2 | 1/2 | 2/3 | 1/1 |  |" in text
+    assert "| one position 5 ms late |  |  |  |  | 0/1 | 0/1 | 1/1 |" in text
+    assert "## One effect" not in text and "no fact: drift@2" in text
+
+
+def test_every_case_is_run_with_every_sensor():
+    options = ["--effects", "spring", "--noise", "med", "--seeds", "1", "--clean", "2"]
+    cases = cases_of(parser().parse_args([*options, "--sensors", "coarse,white"]))
+    assert [case.folder for case in cases] == [
+        f"{name}-{kind}"
+        for kind in ("coarse", "white")
+        for name in ("spring-med-1", "none-med-1", "none-med-2")
+    ]
+    with pytest.raises(SystemExit, match="unknown: blind"):
+        cases_of(parser().parse_args(["--sensors", "blind"]))
