@@ -165,8 +165,9 @@ def prepare(
                 for ring in what_rings(
                     [s for p, s in zip(pieces, spectra, strict=True) if p.run == run]
                 )
+                if not usual.repeats  # else what is left comes unevenly, as it was stamped
             )
-            for run in range(len(logs))
+            for run, (_, _, usual) in enumerate(mended)
         ),
         defects=tuple(defect for _, defect, _ in mended),
         usual=tuple(usual for _, _, usual in mended),

@@ -64,7 +64,7 @@ def test_energies_of_a_robot_with_loops_are_fitted_and_compared(capsys, folder):
     raw = json.loads((folder / "f.json").read_text())
     assert raw["model"] == "energy" and raw["usable"] is True
     assert raw["energy"]["figures"][0]["model"] == "torque"
-    assert raw["energy"]["ratio"] > 1.0 and "the energy model predicts the torques" in out
+    assert raw["energy"]["ratio"] > 1.0 and "beside the torque model on the same data" in out
     status, out, _ = run(capsys, "compare", folder / "m.json", folder / "b.parquet",
                          "--json", folder / "c.json")  # fmt: skip
     assert status == 0
