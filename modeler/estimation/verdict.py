@@ -45,7 +45,6 @@ LOADED = 0.1
 """Gravity over torque of a joint, from which on it swings."""
 
 _GRAVITY = 9.81  # m/s^2
-_ROWS_EACH = 3  # for every parameter: the masses of fewer mean nothing
 _POSES = 40
 _UNITS = (("milliseconds", 1e-3), ("microseconds", 1e-6), ("nanoseconds", 1e-9), ("minutes", 60.0),
           ("hours", 3600.0))  # fmt: skip
@@ -82,7 +81,7 @@ def time_doubts(model: CompiledModel, observation: Observation, result: FitResul
                 certain=True,
             )
         )
-    elif density > HEAVY and result.rows >= _ROWS_EACH * len(result.parameters):
+    elif density > HEAVY and result.status != "rank deficient":
         line = (
             f"the links would weigh {density:.2g} kg for every cubic metre within the robot's "
             "reach: the torques look like mN m, or the lengths of the table are not in metres; "

@@ -314,7 +314,7 @@ _THIRDS = 3  # of an octave
 
 
 @dataclass(frozen=True, eq=False)
-class BandSpectrum:
+class BandSpectrum(Brief):
     """Means over third octaves; m of them, J channels.
 
     Attributes:

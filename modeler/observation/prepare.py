@@ -163,7 +163,8 @@ def prepare(
             tuple(
                 ring.sentence(spec.joints[ring.joint].name)
                 for ring in what_rings(
-                    [s for p, s in zip(pieces, spectra, strict=True) if p.run == run]
+                    [s for p, s in zip(pieces, spectra, strict=True) if p.run == run],
+                    [joint.step for joint in noise.joints],
                 )
                 if not usual.repeats  # else what is left comes unevenly, as it was stamped
             )
@@ -335,14 +336,28 @@ def spectra_of(pieces: Sequence[Piece]) -> list[MotionSpectrum]:
     return [motion_spectrum(piece.q, piece.step) for piece in pieces]
 
 
-def what_rings(spectra: Sequence[MotionSpectrum]) -> list[Ringing]:
-    """Joints that ring in the longest of some pieces."""
+def what_rings(
+    spectra: Sequence[MotionSpectrum], steps: Sequence[float] | None = None
+) -> list[Ringing]:
+    """Joints that ring in the longest of some pieces, by more than the steps of their encoders.
+
+    A joint that passes count after count shows lines too, but none that are as large as a count.
+
+    Args:
+        spectra: of the positions of the pieces.
+        steps: (J,) resolution of each joint, rad or m; None: not known.
+    """
     if not spectra:
         return []
     longest = max(spectra, key=lambda own: len(own.frequency))
     speed = longest.above * longest.frequency[:, None] ** 2
-    found = [ringing(longest.frequency, own, j)[0] for j, own in enumerate(speed.T)]
-    return [ring for ring in found if ring is not None]
+    found = []
+    for j, own in enumerate(speed.T):
+        ring, first = ringing(longest.frequency, own, j)
+        size = float(np.sqrt(longest.above[first:, j].sum()))
+        if ring is not None and size > (0.0 if steps is None else steps[j]):
+            found.append(ring)
+    return found
 
 
 def choose_cutoffs(

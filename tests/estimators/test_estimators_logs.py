@@ -225,11 +225,12 @@ def test_a_loop_that_loses_the_robot_later_is_given_up(monkeypatch):
     for seed in (1, 2):
         log, _ = measured(seed, "coarser")
         bare = Log("bare", log.joints, log.time, log.q, log.tau)
-        observation = api.observe(compiled(), [bare])
+        wide = api.Processing(position_cutoff=30.0, parallel_cutoff=5.0)  # where noise is let in
+        observation = api.observe(compiled(), [bare], wide)
         told = [" ".join(identify(observation, m, compiled()).own) for m in SIMULATED]
         lost += [said for said in told if "none that was tried holds the robot" in said]
     assert len(lost) >= 2
-    assert all("not positive definite in" in said and "most at joint 2" in said for said in lost)
+    assert all("not positive definite in" in said for said in lost)
 
 
 @pytest.fixture(scope="module")
