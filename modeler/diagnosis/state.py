@@ -544,6 +544,12 @@ def bands_line(fitted: Processing, seen: Processing) -> list[str]:
     """A sentence on the band of a diagnosis where it is not that of the fit."""
     if seen.parallel_cutoff == fitted.parallel_cutoff:
         return []
+    if (seen.parallel_cutoff or 0.0) < (fitted.parallel_cutoff or 0.0):
+        return [
+            f"errors and values are those up to {seen.parallel_cutoff:.3g} Hz, beside all effects "
+            f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: of these "
+            "logs, and with what the model has, no more of the motion is answered by the torques"
+        ]
     return [
         f"errors and values are those up to {seen.parallel_cutoff:.3g} Hz, beside all effects "
         f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: ripple, "

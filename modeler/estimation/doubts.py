@@ -99,7 +99,7 @@ def undescribed(result: FitResult) -> list[Doubt]:
 
 
 def noisy_motion(observation: Observation) -> list[Doubt]:
-    """A motion that is noise even behind the lowest filters: no sigma holds what that does."""
+    """Torques that do not answer to the motion even behind the lowest filters: no sigma says so."""
     bands = observation.report.bands
     if bands.trembling_left <= TREMBLES:
         return []
@@ -107,8 +107,9 @@ def noisy_motion(observation: Observation) -> list[Doubt]:
         Doubt(
             f"behind filters as low as the motion allows ({bands.parallel_cutoff:g} Hz) the torque "
             f"of the model still trembles {bands.trembling_left:.2g} times as much as the measured "
-            "one: the motion that was measured is mostly noise, values are drawn to zero and "
-            "sigmas do not hold it; move farther and faster, or measure positions more finely",
+            "one: the positions are noisy there, or an effect is missing that smooths the torque; "
+            "values may be drawn to zero by more than their sigmas; let `modeler diagnose` look, "
+            "move farther and faster, or measure positions more finely",
             values=True,
         )
     ]

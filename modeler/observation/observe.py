@@ -131,11 +131,11 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
         prepared: the logs, with the widest cut-offs.
         given: position cut-off of the user, Hz; None: chosen.
     """
-    prepared = farther(model, prepared, given)
-    noise, wide = prepared.noise, prepared.processing
     look = Look.of(model, prepared)
+    prepared = farther(look, prepared, given)
+    noise, wide = prepared.noise, prepared.processing
     position, parallel = wide.position_cutoff, wide.parallel_cutoff
-    least, beta = look.narrow(noise)
+    least, beta = look.narrow(noise, position)
     met = meeting_cutoff(look, noise, position, (least, parallel))
     widest = look.fit(position, parallel)
     shaken, first = trembling(widest, beta), (0.0, 0)
@@ -174,22 +174,21 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
     return dataclasses.replace(filtered_again(prepared, chosen), choices=choices, lowered=bands)
 
 
-def farther(model: CompiledModel, prepared: Prepared, given: float | None) -> Prepared:
+def farther(look: "Look", prepared: Prepared, given: float | None) -> Prepared:
     """The logs with later floors of the noise, where the torques answer to what lies before them.
 
     What a controller leaves of a motion may be flat for octaves before it falls, and so may the
     noise of a slow sensor: positions do not tell which it is, torques do.
 
     Args:
-        model: the compiled robot.
+        look: at the logs.
         prepared: the logs, with the first floors.
         given: position cut-off of the user, Hz; None: chosen.
     """
     later, wide = prepared.noise.of_last_floors(), prepared.processing
     if later.cutoff <= prepared.noise.cutoff:
         return prepared
-    look = Look.of(model, prepared)
-    _, beta = look.narrow(prepared.noise)
+    _, beta = look.narrow(prepared.noise, wide.position_cutoff)
     position = wide.position_cutoff if given is not None else later.cutoff
     position = min(position, HIGHEST / max(piece.step for piece in look.pieces))
     if answer(look.fit(position, wide.parallel_cutoff), beta) < ANSWERED:
@@ -206,10 +205,13 @@ def _sentences(
     noise, wide, f = prepared.noise, prepared.processing, chosen.parallel_cutoff
     said = []
     if own:
-        said.append(
-            f"position filter {chosen.position_cutoff:g} Hz: "
-            f"{noise.why_cutoff(chosen.position_cutoff)}"
-        )
+        position = chosen.position_cutoff
+        why = noise.why_cutoff(position)
+        if shaken[0] and position < noise.cutoff:
+            why = (
+                f"lowered with the parallel filter; the noise alone asks for {noise.cutoff:.2g} Hz"
+            )
+        said.append(f"position filter {position:g} Hz: {why}")
     if shaken[0]:
         why = "with more, the model's torque trembles and the measured one does not"
     elif met.joint is None:
@@ -246,7 +248,7 @@ class Look(Brief):
 
     Attributes:
         model: the compiled robot.
-        processing: of the logs, with its widest cut-offs.
+        processing: of the logs; its parallel cut-off is the widest.
         pieces: uniform.
     """
 
@@ -260,11 +262,16 @@ class Look(Brief):
         pieces = tuple(piece for own in prepared.pieces for piece in own)
         return cls(model, prepared.processing, pieces)
 
-    def narrow(self, noise: MotionNoise) -> tuple[float, np.ndarray | None]:
-        """The lowest parallel cut-off that leaves rows enough, Hz, and beta (c,) of its fit."""
+    def narrow(self, noise: MotionNoise, position: float) -> tuple[float, np.ndarray | None]:
+        """The lowest parallel cut-off that leaves rows enough, Hz, and beta (c,) of its fit.
+
+        Args:
+            noise: of the motion.
+            position: highest cut-off of the position filter, Hz.
+        """
         highest = self.processing.parallel_cutoff
         least = min(max(LEAST_BANDS * noise.band, LEAST_CUTOFF), highest)
-        own = min(noise.cutoff, self.processing.position_cutoff)
+        own = min(noise.cutoff, position)
         while not determined(fit := self.fit(max(own, 2.0 * least), least)) and least < highest:
             least = min(least / LOWER, highest)
         return least, None if fit is None else fit.solution[0]
