@@ -36,16 +36,12 @@ class Colour:
 
     def raised(self, white: np.ndarray) -> np.ndarray:
         """(c, c) the covariance with it: in no direction less than that of white residuals."""
-        at = np.flatnonzero(np.diag(white))
-        size = np.sqrt(np.diag(white)[at])
-        own, more = (x[np.ix_(at, at)] / np.outer(size, size) for x in (white, self.extra))
-        values, vectors = np.linalg.eigh(own)
-        root = vectors * np.sqrt(np.maximum(values, 1e-15 * values.max(initial=1.0)))
-        inverse = np.linalg.inv(root) if at.size else root
-        ratio, turn = np.linalg.eigh(inverse @ more @ inverse.T)
-        turned = size[:, None] * (root @ turn) * np.sqrt(1.0 + np.maximum(ratio, 0.0))
+        at = np.ix_(*[np.flatnonzero(np.diag(white))] * 2)
+        root, inverse = roots(white[at])
+        ratio, turn = np.linalg.eigh(inverse @ self.extra[at] @ inverse.T)
+        turned = root @ turn * np.sqrt(1.0 + np.maximum(ratio, 0.0))
         found = np.zeros(white.shape)
-        found[np.ix_(at, at)] = turned @ turned.T
+        found[at] = turned @ turned.T
         return found
 
     def sentences(self) -> list[str]:
@@ -58,6 +54,17 @@ class Colour:
             f"neighbouring rows repeat each other, and the sigmas are raised for it, by up to a "
             f"factor {self.factors.max():.2g}"
         ]
+
+
+def roots(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(k, k) R R^T = V and R^-1, of V (k, k) without zeros on its diagonal.
+
+    Nothing is known better than rounding lets V say.
+    """
+    size = np.sqrt(np.diag(V))
+    values, vectors = np.linalg.eigh(V / np.outer(size, size))
+    half = np.sqrt(np.maximum(values, 1e-15 * values.max(initial=1.0)))
+    return size[:, None] * vectors * half, (vectors / half).T / size
 
 
 def coloured(
