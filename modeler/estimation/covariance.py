@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.estimation.least_squares import Estimate, solve_by_qr
-from modeler.estimation.problem import Neighbours, residual_of
+from modeler.estimation.problem import Rows
 from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import Compressed, triangle
 from modeler.observation import Observation
@@ -68,12 +68,7 @@ def roots(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def coloured(
-    observation: Observation,
-    W: np.ndarray | Neighbours,
-    y: np.ndarray,
-    counted: np.ndarray,
-    estimate: Estimate,
-    at: Sequence[int] | None = None,
+    rows: Rows, estimate: Estimate, at: Sequence[int] | None = None, share: float = 1.0
 ) -> Colour:
     """By how much autocorrelated residuals raise the standard deviations.
 
@@ -84,58 +79,59 @@ def coloured(
 
     w_j(t) the row of joint j at sample t (Newey and West 1987, weights replaced by truncation: the
     sum over k ends with the first r_j below one standard deviation of that of white noise). r_j is
-    at least that of white noise through the parallel filter. An estimator with an influence has
-    pull_t rms_j in place of C w_t / sigma_j. Each sigma is multiplied by the square root of the
-    ratio of the diagonals, never by less than 1.
+    at least that of white noise through the parallel filter. An estimator with a bread or a pull
+    has bread w_t rms_j or pull_t rms_j in place of C w_t / sigma_j. Each sigma is multiplied by the
+    square root of the ratio of the diagonals, never by less than 1.
 
     Args:
-        observation: says which row is which sample and joint.
-        W: (rows, c), or that of the observation while its rows pass, of the same counted.
-        y: (rows,).
-        counted: (rows,) rows that were fitted.
+        rows: of which the counted ones were fitted.
         estimate: of those rows; its covariance is for white residuals.
-        at: (c,) columns of the observation that W would have, in order; None: all.
+        at: (c,) columns of the rows that were fitted, in order; None: all.
+        share: of the fitted rows that these are.
     """
-    own_way, c = estimate.influence, len(estimate.beta)
-    places: Sequence[int] | np.ndarray = np.arange(c) if at is None else at
-    if isinstance(W, Neighbours):
-        c = len(observation.names)
-        beta = np.zeros(c)
-        beta[places] = estimate.beta
-        residual = residual_of(observation, beta)
-    else:
-        residual = y - W @ estimate.beta if own_way is None else own_way.residual
-    extra, memory = np.zeros((len(estimate.beta),) * 2), []  # C (B - C^-1) C
-    lasting, pull = np.zeros(len(observation.joints)), np.zeros(0)
-    pulls = np.zeros((len(observation.joints), c, len(estimate.beta)))
+    observation, W = rows.observation, rows
+    columns = len(observation.names) if rows.streamed else rows.W.shape[1]
+    picked = np.eye(columns) if at is None else np.eye(columns)[:, at]
+    residual = estimate.residual
+    if residual is None:
+        residual = rows.residual(picked @ estimate.beta)
+    if estimate.pull is not None:
+        W = Rows(observation, estimate.pull, rows.y, rows.counted)
+    joints, memory = len(observation.joints), []
+    lasting, pulls = np.zeros(joints), np.zeros((joints, *picked.shape))
     correlations = [np.ones(1) for _ in observation.joints]
     for j, joint in enumerate(observation.joints):
-        if not (own := counted & (observation.row_joint == j)).any():
+        if not (own := rows.counted & (rows.joint == j)).any():
             continue
-        sample = observation.row_sample[own]
-        correlations[j] = r = remembered(observation, residual[own], sample)
+        correlations[j] = r = remembered(observation, residual[own], observation.row_sample[own])
         lasting[j] = r[1] if len(r) > 1 else 0.0
         if told := int(np.sum(r > _TOLD)) - 1:
             memory.append((joint.name, told * _spacing(observation)))
         size = float(np.sqrt(np.mean(residual[own] ** 2)))
-        if own_way is None:
-            pull = estimate.covariance / estimate.sigma[j]
-        elif own_way.bread is not None:
-            pull = own_way.bread * size
-        if isinstance(W, Neighbours):
-            pulls[j][places] = pull
+        if estimate.pull is not None:
+            pulls[j] = size * picked
+        elif estimate.bread is not None:
+            pulls[j] = picked @ estimate.bread * size
         else:
-            rows = (
-                W[own] @ pull
-                if own_way is None or own_way.pull is None
-                else own_way.pull[own] * size
-            )
-            extra += repeated_whole(rows, r, sample, observation.segment)
-    if isinstance(W, Neighbours):
-        extra = W.repeated([*pulls], correlations)
+            pulls[j] = picked @ estimate.covariance / estimate.sigma[j]
+    extra = _repeated_rows(W, pulls, correlations) / share  # C (B - C^-1) C
     white = np.diag(estimate.covariance)
     ratio = 1.0 + np.diag(extra) / np.where(white > 0.0, white, 1.0)
     return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory), lasting, extra)
+
+
+def _repeated_rows(
+    rows: Rows, matrices: np.ndarray, correlations: Sequence[np.ndarray]
+) -> np.ndarray:
+    """(k, k) `repeated_whole` of the counted rows of all joints, each times its matrix (c, k)."""
+    if rows.streamed:
+        return rows.neighbours.repeated([*matrices], correlations)
+    total, observation = np.zeros((matrices.shape[2],) * 2), rows.observation
+    for j, r in enumerate(correlations):
+        own = rows.counted & (rows.joint == j)
+        sample = observation.row_sample[own]
+        total += repeated_whole(rows.W[own] @ matrices[j], r, sample, observation.segment)
+    return total
 
 
 def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> np.ndarray:

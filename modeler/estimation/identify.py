@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError, Method
-from modeler.estimation.covariance import Colour, Halves, coloured, halves
+from modeler.estimation.covariance import Halves, coloured, halves
 from modeler.estimation.essential import Essential, essential_parameters, reduced_model
 from modeler.estimation.least_squares import MAX_ITERATIONS, Estimate, least_sigma
 from modeler.estimation.methods import method_of
 from modeler.estimation.parameter import ParameterEstimate
 from modeler.estimation.prior import Prior, prior_of, refuse_prior
-from modeler.estimation.problem import Neighbours, Problem, kept_rows, residual_of
+from modeler.estimation.problem import Problem, kept_rows, residual_of
 from modeler.estimation.result import FitResult, JointFit
 from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
 from modeler.observation import SAMPLES, Observation, is_streamed, triangles
@@ -151,8 +151,7 @@ def fit_equations(
     if prior is not None and model is not None and not estimator.takes_prior:
         refuse_prior(model.spec, f"method {method}")
     estimate = estimator.estimate(problem)
-    rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
-    colour = _coloured(problem, rows, estimate, share)
+    colour = coloured(problem, estimate, share=share)
     white = np.sqrt(np.diag(estimate.covariance))
     differ = Halves(np.ones(len(white)))
     if not noise_only:
@@ -167,7 +166,7 @@ def fit_equations(
     if prior is None:
         essential = essential_parameters(data, estimate, method, below)
         at = [equations.names.index(name) for name in essential.names]
-        reduced = raised[at] * _coloured(problem, rows, essential.reduced, share, at).factors
+        reduced = raised[at] * coloured(problem, essential.reduced, at, share).factors
         estimate = dataclasses.replace(estimate, covariance=covariance)
     else:  # rows that repeat each other weigh less beside it
         full = colour.raised(estimate.covariance)
@@ -192,25 +191,6 @@ def fit_equations(
             for name, own in equations.conditions(alive).items()
         },
     )  # fmt: skip
-
-
-def _coloured(
-    problem: Problem,
-    rows: np.ndarray | Neighbours,
-    estimate: Estimate,
-    share: float,
-    at: Sequence[int] | None = None,
-) -> Colour:
-    """The colour that a share of the rows shows; the estimate, of columns `at`, is of all of them.
-
-    The covariance of that share alone is larger by its inverse, and so is the pull of its rows.
-    """
-    if share < 1.0:
-        pull = None if estimate.influence is None else estimate.influence.times(1.0 / share)
-        covariance = estimate.covariance / share
-        estimate = dataclasses.replace(estimate, covariance=covariance, influence=pull)
-    W = rows if at is None or isinstance(rows, Neighbours) else rows[:, at]
-    return coloured(problem.observation, W, problem.y, problem.counted, estimate, at)
 
 
 def result_of(

@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.table import percent
 from modeler.estimation.direct_model import ControlLoop, DirectModel
-from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
+from modeler.estimation.least_squares import Estimate, least_sigma, least_squares
 from modeler.estimation.problem import Problem
 from modeler.numerics.least_squares import column_lengths, compress, independent_columns, triangle
 
@@ -86,9 +86,7 @@ def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
         iterations=iterations,
         settled=settled,
         sentences=weak if found.cosine <= _WEAK else (),
-        influence=Influence(
-            problem.scattered(kept, (found.P / sigma[joint]).T), problem.y - problem.W @ beta
-        ),
+        pull=problem.scattered(kept, (found.P / sigma[joint]).T),
         whole=whole,
     )
 
@@ -182,7 +180,8 @@ def _along(problem: Problem, W: np.ndarray) -> Estimate:
     return dataclasses.replace(
         found,
         covariance=found.covariance + np.outer(shift, shift),
-        influence=Influence(pull, problem.y - W @ found.beta),
+        pull=pull,
+        residual=problem.y - W @ found.beta,
         whole=data.whole(found.sigma),
     )
 

@@ -2,38 +2,17 @@
 
 import dataclasses
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from modeler.core.errors import Method
-from modeler.estimation.problem import Problem, residual_of
+from modeler.estimation.problem import Problem
 from modeler.numerics.least_squares import Compressed, Rank, independent_columns
 
 MAX_ITERATIONS = 500
 _SETTLED = 1e-9  # relative change of the weights
 _LEAST = 1e-9  # a joint's standard deviation is at least this share of its torque
-
-
-@dataclass(frozen=True, eq=False)
-class Influence:
-    """How rows act on an estimate that is no least squares over W: d beta = sum_i pull_i e_i.
-
-    Attributes:
-        pull: (rows, c) in units of beta per unit of row i; 0 for rows that were not fitted. None:
-            W bread.
-        residual: (rows,) what was left of each row, N m or N, weighed as the estimator does.
-        bread: (c, c) where the pull is not kept.
-    """
-
-    pull: np.ndarray | None
-    residual: np.ndarray
-    bread: np.ndarray | None = None
-
-    def times(self, factor: float) -> "Influence":
-        """The same rows, each with a pull so many times as large."""
-        pull, bread = (None if x is None else x * factor for x in (self.pull, self.bread))
-        return replace(self, pull=pull, bread=bread)
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +30,11 @@ class Estimate:
         condition_scaled: with columns of length one.
         degrees: rows less parameters.
         sentences: what a reader must know of this estimate.
-        influence: of the rows; None for least squares over W with weights 1/sigma.
+        bread: (c, c) of beta = bread W^T y; None for weights 1/sigma, where it is the covariance.
+        pull: (rows, c) of d beta = sum_i pull_i e_i, in units of beta per unit of row i, 0 for rows
+            that were not fitted; None for least squares over W.
+        residual: (rows,) what was left of each row, N m or N, weighed as the estimator does; None:
+            y - W beta.
         whole: (c + 1, c + 1) triangle of the weighted equations whose least squares this is; None
             for those of the data with weights 1/sigma.
         standard: all standard parameters by name, SI, where the estimator ends in them.
@@ -70,7 +53,9 @@ class Estimate:
     condition_scaled: float
     degrees: int
     sentences: tuple[str, ...] = ()
-    influence: Influence | None = None
+    bread: np.ndarray | None = None
+    pull: np.ndarray | None = None
+    residual: np.ndarray | None = None
     whole: np.ndarray | None = None
     standard: Mapping[str, float] = field(default_factory=dict)
     share: np.ndarray | None = None
@@ -202,10 +187,4 @@ def ordinary(problem: Problem) -> Estimate:
     spread = data.residual_norms(found.beta) / np.sqrt(np.maximum(data.rows - share, 0.5))
     spread = np.maximum(spread, least_sigma(data))
     middle = np.einsum("j,jkl->kl", spread**2, squares)
-    if problem.streamed:
-        residual = problem.y - problem.observation.y + residual_of(problem.observation, found.beta)
-        influence = Influence(None, residual, bread)
-    else:
-        pull = problem.W @ bread * problem.counted[:, None]
-        influence = Influence(pull, problem.y - problem.W @ found.beta)
-    return dataclasses.replace(found, covariance=bread @ middle @ bread, influence=influence)
+    return dataclasses.replace(found, covariance=bread @ middle @ bread, bread=bread)

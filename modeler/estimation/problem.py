@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -107,26 +108,20 @@ def _by_blocks(
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
-    """y = W beta + rho, row for row those of an observation; c columns.
+class Rows:
+    """Row for row those of an observation; c columns.
 
     Attributes:
         observation: says which row is which joint and sample, and holds the motion.
         given: (rows, c) W; None: that of the observation.
         y: (rows,) N m or N.
         counted: (rows,) rows to fit; the others are of joints without a torque.
-        names: (c,) base parameters first, then those of loads.
-        data: the counted rows, compressed.
-        model: the compiled robot; None where nobody gave it.
     """
 
     observation: Observation
     given: np.ndarray | None
     y: np.ndarray
     counted: np.ndarray
-    names: tuple[str, ...]
-    data: Compressed
-    model: CompiledModel | None = None
 
     @property
     def W(self) -> np.ndarray:
@@ -138,16 +133,42 @@ class Problem:
         """True if W is better not asked for: it is large."""
         return self.given is None and is_streamed(self.observation)
 
-    def scattered(self, kept: np.ndarray, values: np.ndarray) -> np.ndarray:
-        """(rows, c) of values (counted rows, kept columns); 0 elsewhere."""
-        every = np.zeros((len(self.y), len(self.names)))
-        every[np.ix_(self.counted, kept)] = values
-        return every
+    @cached_property
+    def neighbours(self) -> Neighbours:
+        """The rows where W is not asked for."""
+        return Neighbours(self.observation, self.counted)
 
     @property
     def joint(self) -> np.ndarray:
         """(rows,) index of the joint of each row."""
         return self.observation.row_joint
+
+    def residual(self, beta: np.ndarray) -> np.ndarray:
+        """(rows,) y - W beta."""
+        if self.streamed:
+            return residual_of(self.observation, beta)
+        return np.asarray(self.y - self.W @ beta)
+
+
+@dataclass(frozen=True, eq=False)
+class Problem(Rows):
+    """y = W beta + rho.
+
+    Attributes:
+        names: (c,) base parameters first, then those of loads.
+        data: the counted rows, compressed.
+        model: the compiled robot; None where nobody gave it.
+    """
+
+    names: tuple[str, ...]
+    data: Compressed
+    model: CompiledModel | None = None
+
+    def scattered(self, kept: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """(rows, c) of values (counted rows, kept columns); 0 elsewhere."""
+        every = np.zeros((len(self.y), len(self.names)))
+        every[np.ix_(self.counted, kept)] = values
+        return every
 
     def robot(self, method: str) -> CompiledModel:
         """The compiled robot, for an estimator that cannot do without it.

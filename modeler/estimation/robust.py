@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 
 from modeler.core.table import percent
-from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
+from modeler.estimation.least_squares import Estimate, least_sigma, least_squares
 from modeler.estimation.problem import Problem
 from modeler.numerics.least_squares import triangle
 from modeler.numerics.noise import robust_deviation
@@ -56,7 +56,8 @@ def robust(problem: Problem) -> Estimate:
         iterations=fit.iterations,
         settled=settled,
         sentences=_sentences(problem, fit.weight, joint),
-        influence=Influence(problem.scattered(kept, pull), residual),
+        pull=problem.scattered(kept, pull),
+        residual=residual,
         whole=triangle(rows),
     )
 
