@@ -6,10 +6,11 @@ each other. A checksum tells an edited value from a saved one; it is no proof of
 
 import dataclasses
 import hashlib
+import itertools
 import json
 import shlex
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -113,14 +114,11 @@ class Addition(Presented):
         """Plain data, without the robot file."""
         return {
             "effect": self.effect or None,
-            **entries(self, "joint error training_error"),
-            "shapes": dict(self.shapes),
-            "shape_sigmas": dict(self.shape_sigmas),
-            "shape_intervals": {name: list(ends) for name, ends in self.shape_intervals.items()},
-            "held_out": list(self.held_out),
+            **entries(
+                self, "joint error training_error shapes shape_sigmas shape_intervals held_out"
+            ),
             "joints": {j: {"before": a, "after": b} for j, (a, b) in self.joints.items()},
-            "changed": list(self.changed),
-            **entries(self, "falls doubt"),
+            **entries(self, "changed falls doubt"),
         }
 
 
@@ -346,52 +344,42 @@ def check_estimate(fit: FitResult, where: str) -> None:
     Raises:
         ManifestError: names the first parameter that is wrong, and how.
     """
+    for what in itertools.chain(_wrong_values(fit), _wrong_covariance(fit)):
+        raise ManifestError(f"{where}: {what}; fit the model again")
+
+
+def _wrong_values(fit: FitResult) -> Iterator[str]:
     for p in (*fit.gains, *fit.parameters, *fit.loads):
         for what, number in (("value", p.value), ("sigma", p.sigma)):
             if number is not None and not np.isfinite(number):
-                raise _wrong(where, f"the {what} of {p.name} is {number!r}; expected a finite one")
+                yield f"the {what} of {p.name} is {number!r}; expected a finite one"
         if p.sigma is not None and p.sigma < 0.0:
-            raise _wrong(where, f"the sigma of {p.name} is {p.sigma:g}; expected 0 or more")
-    _check_variances(fit, where)
-    _check_correlations(fit, where)
+            yield f"the sigma of {p.name} is {p.sigma:g}; expected 0 or more"
 
 
-def _check_variances(fit: FitResult, where: str) -> None:
+def _wrong_covariance(fit: FitResult) -> Iterator[str]:
     names, C = [p.name for p in fit.parameters], fit.covariance
-    if not np.isfinite(C).all():
-        i, j = np.argwhere(~np.isfinite(C))[0]
-        raise _wrong(where, f"the covariance of {names[i]} and {names[j]} is not finite")
+    for i, j in np.argwhere(~np.isfinite(C)):
+        yield f"the covariance of {names[i]} and {names[j]} is not finite"
     for p, variance in zip(fit.parameters, np.diag(C), strict=True):
         if variance < 0.0:
-            raise _wrong(where, f"the variance of {p.name} is {variance:g}; expected 0 or more")
+            yield f"the variance of {p.name} is {variance:g}; expected 0 or more"
         deviation = float(np.sqrt(variance))
         if abs((p.sigma or 0.0) - deviation) > _SAME * deviation:
             got = "none" if p.sigma is None else f"{p.sigma:g}"
-            raise _wrong(
-                where, f"the sigma of {p.name} is {got}, the root of its variance {deviation:g}"
-            )
-
-
-def _check_correlations(fit: FitResult, where: str) -> None:
-    names, C = [p.name for p in fit.parameters], fit.covariance
+            yield f"the sigma of {p.name} is {got}, the root of its variance {deviation:g}"
     deviations = np.sqrt(np.diag(C))
     known = deviations > 0.0
-    loose = ~known & np.any(C != 0.0, axis=1)
-    if loose.any():
-        raise _wrong(
-            where, f"{names[int(np.argmax(loose))]} varies with others, but its variance is 0"
-        )
-    correlation = C[np.ix_(known, known)] / np.outer(deviations[known], deviations[known])
+    for i in np.flatnonzero(~known & np.any(C != 0.0, axis=1)):
+        yield f"{names[i]} varies with others, but its variance is 0"
+    safe = np.where(known, deviations, 1.0)
+    correlation = np.where(np.outer(known, known), C / np.outer(safe, safe), 0.0)
     uneven = np.abs(correlation - correlation.T)
     if uneven.max(initial=0.0) > _SYMMETRIC:
-        i, j = np.flatnonzero(known)[list(np.unravel_index(int(np.argmax(uneven)), uneven.shape))]
-        raise _wrong(where, f"the covariance of {names[i]} and {names[j]} is not symmetric")
+        i, j = np.unravel_index(int(np.argmax(uneven)), uneven.shape)
+        yield f"the covariance of {names[i]} and {names[j]} is not symmetric"
     if np.linalg.eigvalsh(correlation).min(initial=0.0) < _INDEFINITE:
-        raise _wrong(where, "the covariance gives a sum of parameters a negative variance")
-
-
-def _wrong(where: str, what: str) -> ManifestError:
-    return ManifestError(f"{where}: {what}; fit the model again")
+        yield "the covariance gives a sum of parameters a negative variance"
 
 
 # What of a fit goes into the C of a controller.
