@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import TWO_STEPS
+from modeler.core.json import entries
 from modeler.core.table import percent
 from modeler.estimation.doubts import LITTLE, Doubt
 from modeler.estimation.essential import essential_parameters
@@ -31,52 +32,51 @@ class PersistentExcitation:
     Attributes:
         joint: name.
         configurations: at which it moved alone.
-        values: singular values of Phi, those that are 0 left out, largest first.
-        possible: rank of Phi at ever so many configurations.
-        usual: last of the singular values over the first at ever so many configurations.
+        singular_values: of Phi, those that are 0 left out, largest first.
+        possible_rank: of Phi at ever so many configurations.
+        usual_ratio: last of the singular values over the first at ever so many configurations.
     """
 
     joint: str
     configurations: int
-    values: tuple[float, ...]
-    possible: int
-    usual: float
+    singular_values: tuple[float, ...]
+    possible_rank: int
+    usual_ratio: float
+
+    @property
+    def rank(self) -> int:
+        """Of Phi at these configurations."""
+        return len(self.singular_values)
 
     @property
     def persistent(self) -> bool:
         """True if more configurations tell no further parameter."""
-        return len(self.values) >= self.possible
+        return self.rank >= self.possible_rank
 
     def line(self) -> str:
         """For people."""
-        values = " ".join(f"{value:.3g}" for value in self.values)
-        ratio = self.values[-1] / self.values[0] if self.values else 0.0
+        values = self.singular_values
+        listed = " ".join(f"{value:.3g}" for value in values)
+        ratio = values[-1] / values[0] if values else 0.0
         return (
             f"J of joint {self.joint} at {self.configurations} configurations: rank "
-            f"{len(self.values)} of {self.possible}, singular values of Phi {values} (last "
-            f"{ratio:.2g} of the first; {self.usual:.2g} at many random ones)"
+            f"{self.rank} of {self.possible_rank}, singular values of Phi {listed} (last "
+            f"{ratio:.2g} of the first; {self.usual_ratio:.2g} at many random ones)"
         )
 
     def sentence(self) -> str:
         """What to do where it is not persistent."""
-        missing = self.possible - len(self.values)
         return (
             f"joint {self.joint} moves alone at {self.configurations} configurations, which tell "
-            f"{len(self.values)} of the {self.possible} combinations in its inertia: not "
-            f"persistently exciting; move it at {missing} or more further configurations of the "
-            "other joints"
+            f"{self.rank} of the {self.possible_rank} combinations in its inertia: not "
+            f"persistently exciting; move it at {self.possible_rank - self.rank} or more further "
+            "configurations of the other joints"
         )
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        return {
-            "joint": self.joint,
-            "configurations": self.configurations,
-            "singular_values": list(self.values),
-            "rank": len(self.values),
-            "possible_rank": self.possible,
-            "usual_ratio": self.usual,
-        }
+        names = "joint configurations singular_values rank possible_rank usual_ratio"
+        return entries(self, names)
 
 
 def excitations(
@@ -168,11 +168,11 @@ class TwoStepFit:
         ]
 
     def _line(self, c: Configuration) -> str:
-        names, own = self.steps.directions.names, c.felt[0]
+        names = self.steps.directions.names
         where = ", ".join(f"q{name} {x:.2f}" for name, x in self._others(c).items())
         cells = [
             f"{'J' if name == 'qdd' else name} {x:.5g} +- {s:.2g}"
-            for name, x, s in zip(own.along.names, own.theta, own.sigma, strict=True)
+            for name, x, s in c.coefficients(0)
         ]
         further = [names[f.joint] for f in c.felt[1:]]
         also = f"; torque of joint {', '.join(further)} too" if further else ""
@@ -209,18 +209,15 @@ class TwoStepFit:
         return {
             "configurations": [
                 {
-                    "log": c.log,
-                    "start": c.start,
-                    "end": c.end,
+                    **entries(c, "log start end"),
                     "joint": names[c.joint],
                     "others": self._others(c),
                     "rows": len(c.felt[0].residual),
                     "torques": {
                         names[f.joint]: {
-                            name: {"value": float(x), "sigma": float(s)}
-                            for name, x, s in zip(f.along.names, f.theta, f.sigma, strict=True)
+                            name: {"value": x, "sigma": s} for name, x, s in c.coefficients(k)
                         }
-                        for f in c.felt
+                        for k, f in enumerate(c.felt)
                     },
                 }
                 for c in self.steps.configurations
