@@ -19,7 +19,7 @@ from modeler.estimation.identify import (
     joints_of,
     result_of,
 )
-from modeler.estimation.least_squares import Estimate, condition_numbers
+from modeler.estimation.least_squares import Estimate, condition_numbers, placed
 from modeler.estimation.methods import method_of
 from modeler.estimation.result import KNOWN_BELOW_PERCENT, EnergyReport, FitResult, ModelFigures
 from modeler.numerics.least_squares import (
@@ -66,6 +66,10 @@ class EnergyRows:
     time: np.ndarray
     run: np.ndarray
     window: float
+
+    def estimate(self, names: tuple[str, ...], method: Method) -> "Unequal":
+        """By `unequal_least_squares`."""
+        return unequal_least_squares(self.W, self.y, self.spread, names, self.stretch, method)
 
 
 @dataclass(frozen=True)
@@ -290,15 +294,13 @@ def unequal_least_squares(
     sources = np.column_stack([used / used.mean(axis=0), np.ones(len(y))])  # the last: all alike
     deviation, settled = _settled_deviations(X, y, sources, method)
     A = _influence(X, 1.0 / deviation if method == "weighted" else np.ones(len(y)))
-    beta, covariance = np.zeros(len(names)), np.zeros((len(names),) * 2)
-    beta[kept] = A @ y
-    C = (A * deviation**2) @ A.T
+    values, C = A @ y, (A * deviation**2) @ A.T
     # As in `coloured`; neighbours share the sample between them, so a little is always there.
-    sample, white = np.arange(len(y)), (y - W @ beta) / deviation
+    sample, white = np.arange(len(y)), (y - X @ values) / deviation
     r = autocorrelation(white, sample, stretch)
     extra = repeated((A * deviation).T, r, sample, stretch)
     factors = np.sqrt(np.maximum(1.0 + extra / np.diag(C), 1.0))
-    covariance[np.ix_(kept, kept)] = C * np.outer(factors, factors)
+    beta, covariance = placed(len(names), kept, values, C * np.outer(factors, factors))
     raw, scaled = condition_numbers(X)
     return Unequal(
         beta, covariance, np.ones(1), rank, 0, settled, raw, scaled, max(1, len(y) - len(kept)),
@@ -401,9 +403,7 @@ def identify_energy(
             f"{', '.join(observation.logs)}: {len(rows.y)} windows of {rows.window:.4g} s for "
             f"{len(observation.names)} parameters; record more motion, or give a shorter --window"
         )
-    found = unequal_least_squares(
-        rows.W, rows.y, rows.spread, observation.names, rows.stretch, method
-    )
+    found = rows.estimate(observation.names, method)
     torques = base_equations(observation).compressed(np.ones(len(observation.y), dtype=bool))
     essential = _essential(rows, observation.names, found, below).judged_on(torques, found.beta)
     said = [tangle.sentence() for tangle in found.rank.aside]
@@ -452,9 +452,7 @@ def _report(
 ) -> EnergyReport:
     torque = identify(observation, method)
     rough = energy_rows(model, observation, window, "trapezoid")
-    coarse = unequal_least_squares(
-        rough.W, rough.y, rough.spread, observation.names, rough.stretch, method
-    )
+    coarse = rough.estimate(observation.names, method)
     figures = [_figures("torque", observation, torque.rows, torque)]
     for name, part, fit in (("energy, Simpson", rows, found), ("energy, trapezoid", rough, coarse)):
         missed = np.linalg.norm((part.balance - part.W) @ found.beta) / np.linalg.norm(part.y)
@@ -483,7 +481,7 @@ def _figures(
     W, y, beta, covariance = observation.W, observation.y, fit.beta, fit.covariance
     sigma = np.sqrt(np.diag(covariance))
     squares = np.einsum("rc,cd,rd->r", W, covariance, W, optimize=True)
-    owners = [(k, observation.row_joint == k) for k in range(len(observation.joints))]
+    joint = observation.row_joint
     return ModelFigures(
         model=name,
         rows=rows,
@@ -492,8 +490,7 @@ def _figures(
         torque_error=float(np.linalg.norm(y - W @ beta) / np.linalg.norm(y)),
         torque_sigma=float(np.sqrt(squares.sum()) / np.linalg.norm(y)),
         joint_sigma={
-            observation.joints[k].name: float(np.sqrt(squares[own].mean()))
-            for k, own in owners
-            if own.any()
+            observation.joints[k].name: float(np.sqrt(squares[joint == k].mean()))
+            for k in np.unique(joint)
         },
     )

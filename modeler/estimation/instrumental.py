@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.table import percent
 from modeler.estimation.direct_model import ControlLoop, DirectModel
-from modeler.estimation.least_squares import Estimate, least_sigma, least_squares
+from modeler.estimation.least_squares import Estimate, least_sigma, least_squares, placed
 from modeler.estimation.problem import Problem
 from modeler.numerics.least_squares import column_lengths, compress, independent_columns, triangle
 
@@ -67,8 +67,7 @@ def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
         before, sigma = sigma, np.maximum(spread, least_sigma(data))
         settled = bool(np.all(np.abs(sigma / before - 1.0) < _SETTLED))
         iterations += 1
-    beta, covariance = np.zeros_like(start.beta), np.zeros_like(start.covariance)
-    beta[kept], covariance[np.ix_(kept, kept)] = found.beta, found.P @ found.P.T
+    beta, covariance = placed(len(start.beta), kept, found.beta, found.P @ found.P.T)
     # Qz^T S^-1/2 W beta = Qz^T S^-1/2 y, which beta satisfies, above what it leaves.
     c = len(problem.names)
     whole = np.zeros((c + 1, c + 1))

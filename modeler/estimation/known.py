@@ -103,13 +103,11 @@ def deviations(spec: ModuleSpec, found: GainFit, only_doubtful: bool = False) ->
             continue
         sigma, stated = found.sigmas[joint.name], joint.drive_gain
         told = f"joint {joint.name} {gain:.4g} +- {sigma:.1g}"
-        if stated is None and gain >= 0.0:
-            continue
-        if (
-            stated is not None
-            and only_doubtful
-            and not _contradicts(gain / stated, sigma / abs(stated))
-        ):
+        if stated is None:
+            as_known = gain >= 0.0
+        else:
+            as_known = only_doubtful and not _contradicts(gain / stated, sigma / abs(stated))
+        if as_known:
             continue
         if stated is None or gain * stated < 0.0:
             beside = "negative" if stated is None else f"of the other sign than {stated:.4g}"

@@ -1,7 +1,7 @@
 """Least squares of y = W beta by joints: weights, iterations, standard deviations."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -138,13 +138,19 @@ def _weighed(data: Compressed, spread: np.ndarray, cancelling: np.ndarray) -> np
 
 def _solve(data: Compressed, kept: np.ndarray, sigma: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """beta and (W^T S^-1 W)^-1 over all columns."""
-    c = len(data.names)
-    beta, covariance = np.zeros(c), np.zeros((c, c))
-    if kept.size:
-        whole = data.whole(sigma)
-        beta[kept], root = solve_by_qr(whole[:, kept], whole[:, -1])
-        covariance[np.ix_(kept, kept)] = root @ root.T
-    return beta, covariance
+    whole = data.whole(sigma)
+    values, root = solve_by_qr(whole[:, kept], whole[:, -1])
+    return placed(len(data.names), kept, values, root @ root.T)
+
+
+def placed(
+    columns: int, kept: Sequence[int] | np.ndarray, values: np.ndarray, covariance: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """(c,) values and (c, c) covariance of the kept columns among all c; 0 elsewhere."""
+    at = np.asarray(kept, dtype=int)
+    beta, every = np.zeros(columns), np.zeros((columns, columns))
+    beta[at], every[np.ix_(at, at)] = values, covariance
+    return beta, every
 
 
 def _spread(

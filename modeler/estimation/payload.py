@@ -96,14 +96,13 @@ def loaded_equations(
     """
     _check(model, observation, payloads)
     equations = base_equations(observation)
-    stacked = np.zeros((len(equations.y), 0))
+    sides = [equations.y]
     for payload in payloads:
-        before = equations.y
         equations = _with_load(equations, model, observation, payload)
-        if payload.mass is not None:
-            stacked = np.column_stack([stacked, before - equations.y])
-    weighed = tuple(payload for payload in payloads if payload.mass is not None)
-    loaded = Loaded(equations, weighed, stacked)
+        sides.append(equations.y)
+    known = [i for i, payload in enumerate(payloads) if payload.mass is not None]
+    weighed = tuple(payloads[i] for i in known)
+    loaded = Loaded(equations, weighed, -np.diff(sides, axis=0)[known].T)
     blind = [
         f"{payload.name}: its mass of {payload.mass:g} kg is taken as given: these logs do not "
         "tell it from its other parameters"
@@ -146,8 +145,8 @@ def _with_load(
     sums = _sums(equations.W, columns, names, kept)
     own = [f"{names[i]}{'R' if i in sums else ''}_{payload.name}" for i in kept]
     remarks = _remarks(payload, columns, names, kept, sums)
-    return Equations(
-        observation=observation,
+    return dataclasses.replace(
+        equations,
         extra=np.column_stack([equations.extra, columns[:, kept]]),
         y=y,
         names=(*equations.names, *own),

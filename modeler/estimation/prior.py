@@ -27,7 +27,7 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
 from modeler.estimation.covariance import roots
-from modeler.estimation.least_squares import Estimate, solve_by_qr
+from modeler.estimation.least_squares import Estimate, placed, solve_by_qr
 from modeler.estimation.nearest_body import machine_of, parameters_of, pseudo_inertia_of
 from modeler.numerics.least_squares import (
     Compressed,
@@ -168,7 +168,7 @@ class Prior:
             return float(d / size @ apart), len(d)
 
         whole, degrees = misfit()
-        chance = CHANCE / len(self.groups) if self.groups else 0.0
+        chance = CHANCE / max(1, len(self.groups))
         falls = {}
         for name in self.groups:
             left, rest = misfit(name)
@@ -213,10 +213,8 @@ class Prior:
         left = self.but([name for name in against if not self._fixed(name)])
         both = np.vstack([told, left.beside(np.linalg.norm(told[:, :-1], axis=0))])
         rank = independent_columns(both[:, :-1], data.names)
-        beta, posterior = np.zeros(c), np.zeros((c, c))
-        at = list(rank.kept)
-        beta[at], half = solve_by_qr(both[:, at], both[:, -1])
-        posterior[np.ix_(at, at)] = half @ half.T
+        values, half = solve_by_qr(both[:, rank.kept], both[:, -1])
+        beta, posterior = placed(c, rank.kept, values, half @ half.T)
         before, after = np.full(c, np.inf), np.diag(posterior)
         before[kept] = np.diag(V)
         share = np.clip(1.0 - after / before, 0.0, 1.0)

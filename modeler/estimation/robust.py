@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 
 from modeler.core.table import percent
-from modeler.estimation.least_squares import Estimate, least_sigma, least_squares
+from modeler.estimation.least_squares import Estimate, least_sigma, least_squares, placed
 from modeler.estimation.problem import Problem
 from modeler.numerics.least_squares import triangle
 from modeler.numerics.noise import robust_deviation
@@ -40,18 +40,15 @@ def robust(problem: Problem) -> Estimate:
     W, y = problem.W[problem.counted], problem.y[problem.counted]
     fit = _Reweighted(W[:, kept], y, joint, start, kept)
     settled = fit.huber(data.free, least_sigma(data)) and fit.tukey()
-    beta = np.zeros(len(data.names))
-    beta[kept] = fit.beta
-    covariance, pull, kept_residual = fit.sandwich()
-    whole_covariance = np.zeros((len(beta), len(beta)))
-    whole_covariance[np.ix_(kept, kept)] = covariance
+    own, pull, kept_residual = fit.sandwich()
+    beta, covariance = placed(len(data.names), kept, fit.beta, own)
     residual = np.zeros(len(problem.y))
     residual[problem.counted] = kept_residual
     rows = np.column_stack([W, y]) * (np.sqrt(fit.weight) / fit.sigma[joint])[:, None]
     return dataclasses.replace(
         start,
         beta=beta,
-        covariance=whole_covariance,
+        covariance=covariance,
         sigma=fit.sigma,
         iterations=fit.iterations,
         settled=settled,

@@ -10,6 +10,7 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.errors import Method, ModelerError
 from modeler.core.estimators import ABOUT
+from modeler.core.json import entries
 from modeler.core.result import Presented
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
@@ -47,13 +48,11 @@ class Tried(Brief):
         """Plain data."""
         return {
             "method": self.method,
-            "title": ABOUT[self.method].title,
-            "avoid": ABOUT[self.method].avoid,
+            **entries(ABOUT[self.method], "title avoid"),
             "refusal": self.refusal or None,
             "seconds": self.seconds,
             "held_out_error": self.held_out,
-            "farthest": self.farthest,
-            "remarks": list(self.remarks),
+            **entries(self, "farthest remarks"),
             "fit": None if self.fit is None else self.fit.to_json(),
         }
 
