@@ -15,6 +15,7 @@ from modeler.core.table import percent, printed
 from modeler.diagnosis.added_model import (
     HoldoutRows,
     Logs,
+    catalogue_of,
     described,
     left_of,
     left_out,
@@ -173,9 +174,7 @@ def add_effect(
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    effect = requested_effect(
-        model, name, joint, robot_from_text(model.robot_text, "robot").catalogue
-    )
+    effect = requested_effect(model, name, joint, catalogue_of(model))
     before = _Fitted(model, rows_of(compiled, logs, model.processing))
     pick = _found(before, effect, joint)
     after, score = _judged(before, pick)
@@ -214,8 +213,7 @@ def add_findings(
     best, findings = _with_gains(best, [f for f in findings if not f.doubt])
     for finding in findings:
         try:
-            catalogue = robot_from_text(best.model.robot_text, "robot").catalogue
-            requested_effect(best.model, finding.effect, finding.joint, catalogue)
+            requested_effect(best.model, finding.effect, finding.joint, catalogue_of(best.model))
             assert finding.pick is not None  # `requested_effect` refuses what is no column
             after, score = _judged(best, finding.pick)
         except (DataError, RobotError) as error:

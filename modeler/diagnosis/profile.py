@@ -18,21 +18,20 @@ weighted by L, about the value that is told; for a narrow L it is that of the de
 
 import dataclasses
 import itertools
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate, JointScale, coded
-from modeler.diagnosis.effect_columns import Columns, Rows, body_parameters, dense
+from modeler.diagnosis.effect_columns import Columns, body_parameters, dense
 from modeler.diagnosis.ranking import blocks_of
 from modeler.diagnosis.signals import tilt_basis
 from modeler.diagnosis.state import State
 from modeler.effects import Acts, Shape
 from modeler.estimation import autocorrelation, repeated
 from modeler.numerics.least_squares import turn_of
-from modeler.observation import Observation
 
 # The fit of an effect with given shapes, beside all else that a model has.
 
@@ -58,39 +57,23 @@ class Point:
     weight: float = 1.0
 
 
-@dataclass(frozen=True, eq=False)
 class ProfileProblem:
-    """What a profile is made from; J joints.
+    """What a profile is made from: an effect in a state, and all columns but its own; J joints.
 
     Attributes:
         rows: where columns come from.
         observation: the rows' samples and segments.
-        others: (rows_j, c) by joint: columns of all else.
+        scale: what is large on its joint.
         y: (rows_j,) by joint.
         sigma: (J,) rms residual with the effect in.
-        scale: what is large on its joint.
+        others: (rows_j, c) by joint: columns of all else.
         prior: (k, c + 1) rows of what is known beforehand of all else, of weight 1.
     """
 
-    rows: Rows
-    observation: Observation
-    others: Sequence[np.ndarray]
-    y: Sequence[np.ndarray]
-    sigma: np.ndarray
-    scale: JointScale
-    prior: np.ndarray
-
-    @classmethod
-    def of(cls, state: State, pick: Candidate, own: slice | list[int]) -> "ProfileProblem":
-        """Of an effect in a state, by all columns but its own."""
-        observation, scale = state.data.observation, state.scales[pick.scaled]
-        *others, prior = (np.delete(w, own, axis=1) for w in (*state.W, state.prior))
-        return cls(state.rows, observation, others, state.y, state.sigma, scale, prior)
-
-    @cached_property
-    def block(self) -> np.ndarray:
-        """(samples,) number of the block of time of each sample."""
-        return blocks_of(self.observation).number
+    def __init__(self, state: State, pick: Candidate, own: slice | list[int]) -> None:
+        self.rows, self.observation = state.rows, state.data.observation
+        self.scale, self.y, self.sigma = state.scales[pick.scaled], state.y, state.sigma
+        *self.others, self.prior = (np.delete(w, own, axis=1) for w in (*state.W, state.prior))
 
     @cached_property
     def base(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
@@ -143,13 +126,6 @@ class ProfileProblem:
         T = sum(q.T @ c for q, c in zip(self.base[0], columns, strict=True))
         return np.concatenate([c - q @ T for q, c in zip(self.base[0], columns, strict=True)])
 
-    def by_joint(self) -> Iterator[tuple[slice, np.ndarray]]:
-        """Where the rows of each joint stand among all, and their samples."""
-        first = 0
-        for j, y in enumerate(self.y):
-            yield slice(first, first + len(y)), np.flatnonzero(self.observation.used[:, j])
-            first += len(y)
-
 
 CHI2_95 = 3.841458820694124
 """95 % quantile of chi-square with one degree of freedom."""
@@ -182,6 +158,11 @@ class Profile:
     shape_factor: float
 
     @cached_property
+    def values(self) -> np.ndarray:
+        """(points, k) parameters."""
+        return np.array([point.values for point in self.points])
+
+    @cached_property
     def rise(self) -> np.ndarray:
         """(points,) (S - S*) / f^2."""
         squares = np.array([point.squares for point in self.points])
@@ -201,7 +182,7 @@ class Profile:
         parameter may be anything.
         """
         own = np.array([point.deviations for point in self.points]) * self.factor
-        apart = np.array([point.values for point in self.points]) - self.told.values
+        apart = self.values - self.told.values
         reach = np.abs(self.intervals() - self.told.values[:, None]).max(axis=1)
         return np.minimum(np.sqrt(self.share @ (own**2 + apart**2)), reach)
 
@@ -210,7 +191,7 @@ class Profile:
         every = [*self.points, self.told]
         rise = np.append(self.rise, 0.0)
         half = np.sqrt(np.maximum(CHI2_95 - rise, 0.0))[:, None] * self.factor
-        values = np.array([point.values for point in every])
+        values = np.vstack([self.values, self.told.values])
         reach = half * np.array([point.deviations for point in every])
         allowed = rise < CHI2_95
         low, high = (values - reach)[allowed], (values + reach)[allowed]
@@ -218,11 +199,10 @@ class Profile:
 
     def shape_deviations(self) -> dict[str, float]:
         """Standard deviations of the shapes by name."""
-        found = {}
-        for name, value in self.told.shapes.items():
-            apart = np.array([point.shapes[name] for point in self.points]) - value
-            found[name] = float(np.sqrt(self.share @ apart**2))
-        return found
+        return {
+            name: float(np.sqrt(self.share @ [(p.shapes[name] - value) ** 2 for p in self.points]))
+            for name, value in self.told.shapes.items()
+        }
 
     def shape_intervals(self) -> dict[str, tuple[float, float]]:
         """95 % intervals of the shapes by name: all that the data do not refuse."""
@@ -237,13 +217,15 @@ class Profile:
         return np.asarray((apart * self.share[:, None]).T @ apart)
 
 
-def profile(problem: ProfileProblem, told: Candidate) -> Profile | None:
+def profile(state: State, told: Candidate, own: slice | list[int]) -> Profile | None:
     """The likelihood along the shapes of an effect; None if it has none that could be others.
 
     Args:
-        problem: the rows.
+        state: the rows.
         told: the effect with the shapes that are told.
+        own: its columns in the state.
     """
+    problem = ProfileProblem(state, told, own)
     smooth = [shape for shape in told.form.shapes if told.refinable(shape)]
     fixed = {  # shapes of which only some values make sense
         shape.name: shape.grid for shape in told.form.shapes
@@ -386,15 +368,15 @@ def _factors(
     both = np.column_stack([own, slopes])
     influence = both @ np.linalg.pinv(both.T @ both, rcond=1e-12, hermitian=True)
     white = np.sum(influence**2, axis=0)
-    extra, number = np.zeros(len(white)), []
-    segment = problem.observation.segment
-    for rows, sample in problem.by_joint():
-        number.append(problem.block[sample])
-        if rows.stop > rows.start:
-            r = autocorrelation(left[rows], sample, segment)
-            extra += repeated(influence[rows], r, sample, segment)
-    sums = np.zeros((problem.block.max() + 1, len(white)))
-    np.add.at(sums, np.concatenate(number), influence * left[:, None])
+    extra, segment = np.zeros(len(white)), problem.observation.segment
+    joint, every = np.nonzero(problem.observation.used.T)
+    for j in np.unique(joint):
+        rows, sample = joint == j, every[joint == j]
+        r = autocorrelation(left[rows], sample, segment)
+        extra += repeated(influence[rows], r, sample, segment)
+    number = blocks_of(problem.observation).number
+    sums = np.zeros((number.max() + 1, len(white)))
+    np.add.at(sums, number[every], influence * left[:, None])
     safe = np.where(white > 0.0, white, 1.0)
     ratio = np.maximum(1.0 + extra / safe, np.sum(sums**2, axis=0) / safe)
     return np.sqrt(np.maximum(ratio, 1.0))
@@ -450,9 +432,7 @@ def profile_of(state: State, place: int) -> Profile | None:
     """
     sizes = [len(values) for values in state.values]
     first = state.W[0].shape[1] - sum(sizes[place:])
-    own = slice(first, first + sizes[place])
-    pick = state.picks[place]
-    return profile(ProfileProblem.of(state, pick, own), pick)
+    return profile(state, state.picks[place], slice(first, first + sizes[place]))
 
 
 def named_intervals(along: Profile, named: EffectValues) -> dict[str, tuple[float, float]]:
