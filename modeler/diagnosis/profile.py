@@ -30,7 +30,7 @@ from modeler.diagnosis.ranking import blocks_of
 from modeler.diagnosis.signals import tilt_basis
 from modeler.diagnosis.state import State
 from modeler.effects import Acts, Shape
-from modeler.estimation import autocorrelation, repeated
+from modeler.estimation import autocorrelation, repeated_whole
 from modeler.numerics.least_squares import turn_of
 
 # The fit of an effect with given shapes, beside all else that a model has.
@@ -373,7 +373,7 @@ def _factors(
     for j in np.unique(joint):
         rows, sample = joint == j, every[joint == j]
         r = autocorrelation(left[rows], sample, segment)
-        extra += repeated(influence[rows], r, sample, segment)
+        extra += np.diag(repeated_whole(influence[rows], r, sample, segment))
     number = blocks_of(problem.observation).number
     sums = np.zeros((number.max() + 1, len(white)))
     np.add.at(sums, number[every], influence * left[:, None])

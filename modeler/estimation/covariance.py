@@ -160,7 +160,7 @@ def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> n
 def repeated_whole(
     rows: np.ndarray, r: np.ndarray, sample: np.ndarray, segment: np.ndarray
 ) -> np.ndarray:
-    """(c, c) sum_k r(k) sum_t (rows(t) rows(t + k)^T + its transpose); `repeated` is its diagonal.
+    """(c, c) sum_k r(k) sum_t (rows(t) rows(t + k)^T + its transpose).
 
     With rows^T rows it is the middle of the covariance of least squares over these rows.
     """
@@ -169,17 +169,6 @@ def repeated_whole(
         left, right = _pairs(sample, segment, lag)
         total += r[lag] * (rows[left].T @ rows[right])
     return total + total.T
-
-
-def repeated(
-    rows: np.ndarray, r: np.ndarray, sample: np.ndarray, segment: np.ndarray
-) -> np.ndarray:
-    """(c,) 2 sum_k r(k) sum_t rows(t) rows(t + k)."""
-    total = np.zeros(rows.shape[1])
-    for lag in range(1, len(r)):
-        left, right = _pairs(sample, segment, lag)
-        total += 2.0 * r[lag] * np.einsum("tc,tc->c", rows[left], rows[right])
-    return total
 
 
 def autocorrelation(e: np.ndarray, sample: np.ndarray, segment: np.ndarray) -> np.ndarray:
@@ -287,6 +276,7 @@ def halves(
         loaded: (rows,) True where a load is carried; None: nowhere.
     """
     kept, row = np.array(estimate.rank.kept, dtype=int), observation.row_sample
+    weighted = _weighted(compressed, estimate)
     every = {"speed": np.abs(observation.qd), "position": observation.q,
              "torque": np.abs(observation.torque)}  # fmt: skip
     signals = {name: values[row, observation.row_joint] for name, values in every.items()}
@@ -296,16 +286,14 @@ def halves(
         count = np.bincount(observation.row_joint[counted], None, len(estimate.sigma))
         total = np.bincount(observation.row_joint[counted], values[counted], len(count))
         low = values < (total / np.maximum(count, 1))[observation.row_joint]
-        parts = [compressed(counted & own) for own in (low, ~low)]
-        R = [part.triangles / estimate.sigma[:, None, None] for part in parts]
-        R = [own[:, :, [*kept, -1]] for own in R]
+        R = [weighted(counted & own) for own in (low, ~low)]
         beta, var = _solved([*R[0], *R[1]])
         if beta is None:
             break
         raised = np.maximum((sigma[kept] ** 2) / var, 1.0)
         for j in range(len(observation.joints)):
             found = [_solved([*np.delete(R[k], j, 0), *R[1 - k]]) for k in (0, 1)]
-            if any(b is None for b, _ in found) or not all(part.rows[j] for part in parts):
+            if any(b is None for b, _ in found) or not all(own[j].any() for own in R):
                 continue
             d = np.array([b - beta for b, _ in found])
             noise = raised * np.maximum(np.array([v for _, v in found]) - var, 1e-6 * var)
@@ -352,9 +340,9 @@ def beside_reversals(
     if observation.steady is None:
         return added
     kept, steady = np.array(estimate.rank.kept, dtype=int), observation.steady[observation.used]
+    weighted = _weighted(compressed, estimate)
     (whole, var), (far, far_var) = (
-        _solved([*(compressed(rows).triangles / estimate.sigma[:, None, None])[:, :, [*kept, -1]]])
-        for rows in (counted, counted & steady)
+        _solved([*weighted(rows)]) for rows in (counted, counted & steady)
     )
     if whole is None or far is None:
         return added
@@ -363,6 +351,14 @@ def beside_reversals(
     d = (far - whole) ** 2
     added[kept] = np.maximum(d - _DOUBTED**2 * noise, 0.0)
     return added
+
+
+def _weighted(
+    compressed: Callable[[np.ndarray], Compressed], estimate: Estimate
+) -> Callable[[np.ndarray], np.ndarray]:
+    """(n, ., k + 1) triangles of some rows, over the sigmas of an estimate; its kept columns."""
+    scale, columns = estimate.sigma[:, None, None], [*estimate.rank.kept, -1]
+    return lambda rows: (compressed(rows).triangles / scale)[:, :, columns]
 
 
 def _solved(blocks: list[np.ndarray]) -> tuple[np.ndarray | None, np.ndarray]:

@@ -14,6 +14,7 @@ fit best.
 """
 
 import dataclasses
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -98,11 +99,9 @@ class DirectModel:
 
         def evaluate(segment: Segment, window: slice) -> np.ndarray:
             i = places[id(segment)]
+            signals = None if (own := self.signals[i]) is None else own[window]
             q, qd, qdd = motions[i][:, window]
-            signals = self.signals[i]
-            return self.model.base_regressor(
-                q, qd, qdd, None if signals is None else signals[window]
-            )
+            return self.model.base_regressor(q, qd, qdd, signals)
 
         return self.observation.filtered(evaluate)[self.observation.used]
 
@@ -114,18 +113,16 @@ class DirectModel:
         pieces = self._pieces()
         pieces = [pieces[i] for i in sorted({*np.linspace(0, len(pieces) - 1, _TRIED).astype(int)})]
         step, speeds = self._speeds()
-        rough = self._nearest(
-            beta, pieces,
-            [ControlLoop(speed, *kind, forward) for speed in speeds for kind in KINDS
-             for forward in (0.0, 1.0)],
-        )  # fmt: skip
+        tried = itertools.product(speeds, KINDS, (0.0, 1.0))
+        rough = self._nearest(beta, pieces, [ControlLoop(kv, *kind, f) for kv, kind, f in tried])
         for width in _FINER if np.isfinite(rough.distance) else ():
             factors = width ** np.linspace(-1.0, 1.0, 5)
-            rough = self._nearest(
-                beta, pieces,
-                [dataclasses.replace(rough, speed=rough.speed * a, ratio=rough.ratio * b)
-                 for a in factors for b in factors if rough.speed * a * step < _STABLE],
-            )  # fmt: skip
+            finer = [
+                dataclasses.replace(rough, speed=rough.speed * a, ratio=rough.ratio * b)
+                for a, b in itertools.product(factors, repeat=2)
+                if rough.speed * a * step < _STABLE
+            ]
+            rough = self._nearest(beta, pieces, finer)
         if not np.isfinite(rough.distance) or rough.distance > 1.0:
             return ControlLoop(np.inf, 0.0, 0.0, 1.0, 1.0)
         return rough
@@ -158,11 +155,9 @@ class DirectModel:
     def _nearest(
         self, beta: np.ndarray, pieces: list[_Piece], loops: list[ControlLoop]
     ) -> ControlLoop:
+        count = len(pieces)
         ways = self._walked(beta, pieces * len(loops), [loop for loop in loops for _ in pieces])
-        far = [
-            self._distance(pieces, ways[i : i + len(pieces)])
-            for i in range(0, len(ways), len(pieces))
-        ]
+        far = [self._distance(pieces, ways[i : i + count]) for i in range(0, len(ways), count)]
         best = int(np.argmin(far))
         return dataclasses.replace(loops[best], distance=far[best])
 
@@ -192,12 +187,10 @@ class DirectModel:
 
     def error(self, motions: list[Motion]) -> np.ndarray:
         """(joints,) rms of simulated less logged position, as a share of the range of motion."""
-        away = np.concatenate([
-            (motion[0] - segment.q)[segment.whole]
-            for segment, motion in zip(self.segments, motions, strict=True)
-        ])  # fmt: skip
-        every = np.concatenate([segment.q[segment.whole] for segment in self.segments])
-        extent = np.ptp(every, axis=0)
+        whole = np.concatenate([segment.whole for segment in self.segments])
+        logged = np.concatenate([segment.q for segment in self.segments])[whole]
+        away = np.concatenate([motion[0] for motion in motions])[whole] - logged
+        extent = np.ptp(logged, axis=0)
         return np.sqrt(np.mean(away**2, axis=0)) / np.where(extent > 0.0, extent, 1.0)
 
     def _reference(self, segment: Segment) -> Motion:

@@ -9,7 +9,7 @@ import numpy as np
 
 from modeler.core.errors import DataError, Method
 from modeler.core.table import percent
-from modeler.estimation.covariance import autocorrelation, repeated
+from modeler.estimation.covariance import autocorrelation, repeated_whole
 from modeler.estimation.essential import Essential, essential_parameters
 from modeler.estimation.identify import (
     SEEN,
@@ -72,14 +72,8 @@ class EnergyRows:
         return unequal_least_squares(self.W, self.y, self.spread, names, self.stretch, method)
 
 
-@dataclass(frozen=True)
-class _Tiles:
-    """Windows of one segment: first samples, intervals of each, and their stretches."""
-
-    segment: Segment
-    starts: np.ndarray
-    intervals: int
-    stretch: np.ndarray
+_Windows = tuple[Segment, np.ndarray, np.ndarray]
+"""A segment, the samples (r, k) of its windows, and the number (r,) of the stretch of each."""
 
 
 def energy_rows(
@@ -109,9 +103,9 @@ def energy_rows(
         DataError: a window longer than any motion, no window without a missing sample, or a robot
             that stands still.
     """
-    tiles = _tiles(observation, window)
-    count = sum(len(part.starts) for part in tiles)
-    if not count:
+    windows = _windows(observation, window)
+    counts = [len(at) for _, at, _ in windows]
+    if not sum(counts):
         valid = np.concatenate([part.segment.valid for part in observation.stretches])
         bad = [
             f"joint {joint.name} has {percent(share)} of its samples"
@@ -122,7 +116,7 @@ def energy_rows(
             f"measurement ({', '.join(bad)}); the energy is that of the whole machine: mend the "
             "log, give a shorter --window, or take --model torque"
         )
-    rows = [_rows(model, part, rule) for part in tiles if len(part.starts)]
+    rows = [_rows(model, segment, at, rule) for segment, at, _ in windows if len(at)]
     W, y, balance, spread, time = (np.concatenate(group) for group in zip(*rows, strict=True))
     # J are compared with the largest torque over a unit of travel:
     least = _STILL * float(np.abs(observation.torque).max(initial=0.0))
@@ -133,33 +127,30 @@ def energy_rows(
         )
     return EnergyRows(
         W=W, y=y, balance=balance, spread=spread, time=time,
-        stretch=np.concatenate([part.stretch for part in tiles]),
-        run=np.repeat([part.segment.run for part in tiles], [len(part.starts) for part in tiles]),
-        window=tiles[0].intervals * tiles[0].segment.step,
+        stretch=np.concatenate([stretch for _, _, stretch in windows]),
+        run=np.repeat([segment.run for segment, _, _ in windows], counts),
+        window=(windows[0][1].shape[1] - 1) * windows[0][0].step,
     )  # fmt: skip
 
 
-def _tiles(observation: Observation, window: float | None) -> list[_Tiles]:
+def _windows(observation: Observation, window: float | None) -> list[_Windows]:
     """Windows of all segments, laid into the uninterrupted stretches of good samples."""
     found, number = [], 0
     _check_window(observation, window)
     for part in observation.stretches:
-        s = part.segment
-        centres = part.rows.centres
+        s, centres = part.segment, part.rows.centres
         spacing = int(centres[1] - centres[0]) if len(centres) > 1 else 2
-        wanted = spacing if window is None else window / s.step
-        intervals = 2 * max(1, round(wanted / 2))
-        starts: list[np.ndarray] = [np.zeros(0, dtype=int)]
-        stretch = [np.zeros(0, dtype=int)]
+        intervals = 2 * max(1, round((spacing if window is None else window / s.step) / 2))
+        inside = np.arange(intervals + 1)
+        every, stretch = [np.zeros((0, len(inside)), dtype=int)], [np.zeros(0, dtype=int)]
         for first, stop in runs(s.whole & s.valid.all(axis=1)):
-            fitting = (stop - first - 1) // intervals
-            if fitting < 1:
-                continue
-            rest = (stop - first - 1 - fitting * intervals) // 2
-            starts.append(first + rest + intervals * np.arange(fitting))
-            stretch.append(np.full(fitting, number))
-            number += 1
-        found.append(_Tiles(s, np.concatenate(starts), intervals, np.concatenate(stretch)))
+            fitting, rest = divmod(stop - first - 1, intervals)
+            if fitting:
+                starts = first + rest // 2 + intervals * np.arange(fitting)
+                every.append(starts[:, None] + inside)
+                stretch.append(np.full(fitting, number))
+                number += 1
+        found.append((s, np.concatenate(every), np.concatenate(stretch)))
     return found
 
 
@@ -190,15 +181,16 @@ def weights(intervals: int, step: float, rule: Rule) -> np.ndarray:
     return inner * unit
 
 
-def _rows(model: CompiledModel, tiles: _Tiles, rule: Rule) -> tuple[np.ndarray, ...]:
+def _rows(
+    model: CompiledModel, s: Segment, windows: np.ndarray, rule: Rule
+) -> tuple[np.ndarray, ...]:
     """W, y, balance, spread and times of the windows of one segment."""
-    s, n = tiles.segment, tiles.intervals
-    w = weights(n, s.step, rule)
+    w = weights(windows.shape[1] - 1, s.step, rule)
     signals = signals_of(model.spec, s)
-    per_block = max(1, _BLOCK // (n + 1))
+    per_block = max(1, _BLOCK // len(w))
     blocks = []
-    for first in range(0, len(tiles.starts), per_block):
-        at = tiles.starts[first : first + per_block, None] + np.arange(n + 1)
+    for first in range(0, len(windows), per_block):
+        at = windows[first : first + per_block]
         flat = at.ravel()
         read = None if signals is None else signals[flat]
         total, power, energy = _powers(model, s.q[flat], s.qd[flat], s.qdd[flat], read)
@@ -298,8 +290,8 @@ def unequal_least_squares(
     # As in `coloured`; neighbours share the sample between them, so a little is always there.
     sample, white = np.arange(len(y)), (y - X @ values) / deviation
     r = autocorrelation(white, sample, stretch)
-    extra = repeated((A * deviation).T, r, sample, stretch)
-    factors = np.sqrt(np.maximum(1.0 + extra / np.diag(C), 1.0))
+    extra = repeated_whole((A * deviation).T, r, sample, stretch)
+    factors = np.sqrt(np.maximum(1.0 + np.diag(extra) / np.diag(C), 1.0))
     beta, covariance = placed(len(names), kept, values, C * np.outer(factors, factors))
     raw, scaled = condition_numbers(X)
     return Unequal(

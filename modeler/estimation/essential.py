@@ -10,6 +10,7 @@ from scipy.special import fdtri
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, Method
+from modeler.core.json import entries
 from modeler.core.table import percent, printed
 from modeler.estimation.least_squares import Estimate, least_squares, solve_by_qr
 from modeler.estimation.parameter import ParameterEstimate
@@ -103,16 +104,8 @@ def essential_parameters(
         reduced = dataclasses.replace(reduced, beta=values, covariance=root @ root.T)
     beta = np.zeros(len(data.names))
     beta[kept] = reduced.beta
-    return Essential(
-        names=tuple(data.names[i] for i in kept),
-        dropped=left,
-        beta=beta,
-        error_before=relative_error(data, full.beta),
-        error_after=relative_error(data, beta),
-        ratio=float(ratio),
-        limit=limit,
-        reduced=reduced,
-    )
+    before, after = (relative_error(data, values) for values in (full.beta, beta))
+    return Essential(own.names, left, beta, before, after, float(ratio), limit, reduced)
 
 
 def relative_error(data: Compressed, beta: np.ndarray) -> float:
@@ -202,8 +195,7 @@ class Reduced(Brief):
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        parameters = [parameter.to_json() for parameter in self.parameters]
-        return vars(self) | {"parameters": parameters, "dropped": list(self.dropped)}
+        return vars(self) | {"parameters": [parameter.to_json() for parameter in self.parameters]}
 
 
 def reduced_model(
@@ -220,15 +212,11 @@ def reduced_model(
     if not np.isfinite(reduced.condition_number):
         return None
     sigma = factors * np.sqrt(np.diag(reduced.covariance))
+    values = zip(essential.names, reduced.beta.tolist(), sigma.tolist(), strict=True)
     return Reduced(
-        parameters=tuple(
-            ParameterEstimate(name, units[name], float(value), float(deviation), True, "estimated")
-            for name, value, deviation in zip(essential.names, reduced.beta, sigma, strict=True)
-        ),
-        dropped=essential.dropped,
-        condition_number=reduced.condition_number,
-        condition_scaled=reduced.condition_scaled,
+        tuple(ParameterEstimate(n, units[n], x, s, True, "estimated") for n, x, s in values),
+        **entries(essential, "dropped ratio"),
+        **entries(reduced, "condition_number condition_scaled"),
         relative_error=essential.error_after,
-        ratio=essential.ratio,
         limit=essential.limit if essential.dropped else None,
     )

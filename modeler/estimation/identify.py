@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError, Method
+from modeler.core.json import entries
 from modeler.estimation.covariance import Halves, coloured, halves
 from modeler.estimation.essential import Essential, essential_parameters, reduced_model
 from modeler.estimation.least_squares import MAX_ITERATIONS, Estimate, least_sigma
@@ -147,9 +148,11 @@ def fit_equations(
             "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
         )
     problem = Problem(observation, equations.kept, equations.y, alive, equations.names, data, model)
-    prior = None if model is None or noise_only else prior_of(model.spec)
-    if prior is not None and model is not None and not estimator.takes_prior:
-        refuse_prior(model.spec, f"method {method}")
+    prior = None
+    if model is not None and not noise_only:
+        prior = prior_of(model.spec)
+        if not estimator.takes_prior:
+            refuse_prior(model.spec, f"method {method}")
     estimate = estimator.estimate(problem)
     colour = coloured(problem, estimate, share=share)
     white = np.sqrt(np.diag(estimate.covariance))
@@ -219,6 +222,7 @@ def result_of(
     """
     observation, count = equations.observation, len(equations.observation.names)
     labels = list(zip(equations.names, equations.units, strict=True))
+    settled = "ok" if estimate.settled else "not settled"
     sigma, told = np.sqrt(np.diag(estimate.covariance)), set(estimate.rank.kept)
     every = tuple(
         ParameterEstimate(
@@ -235,15 +239,10 @@ def result_of(
     return FitResult(
         robot=observation.robot,
         method=method,
-        status="rank deficient"
-        if estimate.rank.aside
-        else "ok"
-        if estimate.settled
-        else "not settled",
+        status="rank deficient" if estimate.rank.aside else settled,
         samples=len(observation.time),
         rows=rows,
-        condition_number=estimate.condition_number,
-        condition_scaled=estimate.condition_scaled,
+        **entries(estimate, "condition_number condition_scaled contradicted"),
         relative_error=essential.error_before,
         essential_error=essential.error_after,
         joints=joints,
@@ -253,7 +252,6 @@ def result_of(
         sentences=sentences,
         processing=observation.report.processing,
         bands=observation.report.bands,
-        contradicted=estimate.contradicted,
         essential=None if reduced is None else reduced_model(essential, reduced, dict(labels)),
         **further,
     )

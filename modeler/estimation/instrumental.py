@@ -96,9 +96,8 @@ def _solved(W: np.ndarray, Z: np.ndarray, y: np.ndarray, sigma: np.ndarray) -> _
     instruments = Z / sigma[:, None]
     Qz, _ = np.linalg.qr(instruments / column_lengths(instruments))
     Qw, Rw = np.linalg.qr(X)
-    across = Qz.T @ Qw
-    cosine = float(np.linalg.svd(across, compute_uv=False).min(initial=1.0))
-    across = across @ Rw
+    cosine = float(np.linalg.svd(Qz.T @ Qw, compute_uv=False).min(initial=1.0))
+    across = Qz.T @ Qw @ Rw
     worst = int(np.argmin(np.linalg.norm(across, axis=0)))
     P = np.linalg.lstsq(across, Qz.T, rcond=None)[0] / lengths[:, None]
     whole = np.column_stack([across * lengths, Qz.T @ y])
@@ -227,15 +226,15 @@ def _repeated(
         beta, settled = found.beta, bool(step.max(initial=0.0) < _NEAR)
         if settled or np.isinf(loop.speed):
             break
-    said = _sentences(problem, robot, loop, robot.error(motions))
+    said = []
     before, after = (_misfit(problem, start, problem.W, own) for own in (start.beta, beta))
     if after > _WORSE * before:
-        said.insert(
-            0,
+        said.append(
             f"along the logged motion the values leave {after / before:.3g} times the error of "
             f'"weighted", from which method "{method}" starts: the simulated motion is not that of '
-            'the log; take the values of method "weighted"',
+            'the log; take the values of method "weighted"'
         )
+    said += _sentences(problem, robot, loop, robot.error(motions))
     if not settled and np.isfinite(loop.speed):
         said.append(
             f"the values still move by up to {step.max():.2g} sigma from one simulation to the "
@@ -243,7 +242,7 @@ def _repeated(
         )
     return dataclasses.replace(
         found,
-        settled=found.settled and (settled or bool(np.isinf(loop.speed))),
+        settled=found.settled and (settled or not np.isfinite(loop.speed)),
         sentences=(*said, *found.sentences),
     )
 

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import reduce
+from itertools import accumulate
 from os import cpu_count
 from pathlib import Path
 from typing import Any
@@ -213,8 +214,7 @@ def all_rows(
         done = 0
         for source, parts in zip(sources, begun, strict=True):
             whole: Any = None
-            for part in parts:
-                whole = part if whole is None else whole.merged_with(part)
+            for whole in accumulate(parts, lambda before, part: before.merged_with(part)):
                 progress(min(1.0, (done + whole.facts.tally.count("rows")) / total))
             if whole is None:
                 raise DataError(f"{source.name}: no rows; expected a motion; leave it out")

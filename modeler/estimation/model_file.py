@@ -324,11 +324,8 @@ def check_checksums(content: Mapping[str, Any], where: str) -> None:
             f"{'missing' if CHECKSUMS not in content else 'not as saved'}; fit the model again"
         )
     expected = checksums(content)
-    wrong = [
-        name
-        for name in dict.fromkeys([*expected, *given])
-        if (name in expected, expected.get(name)) != (name in given, given.get(name))
-    ]
+    every = dict.fromkeys([*expected, *given])
+    wrong = [name for name in every if expected.get(name, "none") != given.get(name, "missing")]
     if wrong:
         told = ", ".join(_MEANING.get(name, shown(name)) for name in wrong[:3])
         more = f" and {len(wrong) - 3} more" if len(wrong) > 3 else ""
@@ -451,19 +448,12 @@ def with_essential_only(model: IdentifiedModel, where: str) -> IdentifiedModel:
             "fit it again"
         )
     found = {parameter.name: parameter for parameter in reduced.parameters}
-    values = tuple(
-        found.get(
-            p.name, dataclasses.replace(p, value=0.0, sigma=None, essential=False, interval=None)
-        )
-        for p in fit.parameters
-    )
-    deviations = np.array([p.sigma or 0.0 for p in values])
+    none: Any = {"value": 0.0, "sigma": None, "essential": False, "interval": None}
+    values = [found.get(p.name, dataclasses.replace(p, **none)) for p in fit.parameters]
     fit = dataclasses.replace(
         fit,
-        parameters=values,
-        covariance=np.diag(deviations**2),
-        relative_error=reduced.relative_error,
-        condition_number=reduced.condition_number,
-        condition_scaled=reduced.condition_scaled,
+        parameters=tuple(values),
+        covariance=np.diag([(p.sigma or 0.0) ** 2 for p in values]),
+        **entries(reduced, "relative_error condition_number condition_scaled"),
     )
     return dataclasses.replace(model, fit=fit)

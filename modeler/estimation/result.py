@@ -455,11 +455,8 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
         given: dict[str, Any] = {
             **{name: read_all(kind, raw, name) for name, kind in _LISTS.items() if name in raw},
             **{name: unknown for name, unknown in _NULLS.items() if raw[name] is None},
-            "joints": [{"name": name, **joint} for name, joint in raw["joints"].items()],
-            "by_load": {
-                load: [{"name": name, **joint} for name, joint in own["joints"].items()]
-                for load, own in raw.get("by_load", {}).items()
-            },
+            "joints": _named(raw["joints"]),
+            "by_load": {load: _named(x["joints"]) for load, x in raw.get("by_load", {}).items()},
             "essential": reduced,
             "energy": None if energy is None else read_back(EnergyReport, energy, "energy"),
             "covariance": covariance,
@@ -480,6 +477,10 @@ def pooled(joints: Sequence[JointFit]) -> float:
 
 def _joints_to_json(joints: Sequence[JointFit]) -> dict[str, Any]:
     return {joint.name: entries(joint, "relative_error rms sigma rows unit") for joint in joints}
+
+
+def _named(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
+    return [{"name": name, **joint} for name, joint in joints.items()]
 
 
 def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
