@@ -58,21 +58,19 @@ def reads_speed_only(effect: Effect) -> bool:
 _JOINTED = (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
 
 
-def requested_effect(
-    model: IdentifiedModel, name: str, joint: str | None, catalogue: Sequence[Effect]
-) -> Effect:
+def requested_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effect:
     """The effect of that name, if it can go into the model on that joint.
 
     Args:
         model: as it is.
         name: id or alias of the effect.
         joint: name; None: whichever, or the whole robot.
-        catalogue: the effects there are, with those of the robot file.
 
     Raises:
         DataError: no such effect or joint, one that cannot be added, that is there already, or
             that acts on the whole robot while a joint is named.
     """
+    catalogue = catalogue_of(model)
     effect = effect_named(name, catalogue)
     if effect is None:
         raise DataError(
@@ -94,11 +92,10 @@ def requested_effect(
     if effect.several or not jointed:  # there may be several orders of ripples
         return effect
     present = {p.joint for p in model.spec.standard if p.effect == effect.id}
-    if joint in present:
-        raise DataError(f"{effect.id}: joint {joint} has it in this model already")
     motors = {joint.name for joint in model.spec.joints if joint.actuated}
-    if joint is None and present and present >= motors:
-        raise DataError(f"{effect.id}: every joint has it in this model already")
+    if joint in present or (joint is None and present and present >= motors):
+        where_it_is = "every joint" if joint is None else f"joint {joint}"
+        raise DataError(f"{effect.id}: {where_it_is} has it in this model already")
     return effect
 
 
@@ -174,7 +171,7 @@ def add_effect(
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    effect = requested_effect(model, name, joint, catalogue_of(model))
+    effect = requested_effect(model, name, joint)
     before = _Fitted(model, rows_of(compiled, logs, model.processing))
     pick = _found(before, effect, joint)
     after, score = _judged(before, pick)
@@ -213,7 +210,7 @@ def add_findings(
     best, findings = _with_gains(best, [f for f in findings if not f.doubt])
     for finding in findings:
         try:
-            requested_effect(best.model, finding.effect, finding.joint, catalogue_of(best.model))
+            requested_effect(best.model, finding.effect, finding.joint)
             assert finding.pick is not None  # `requested_effect` refuses what is no column
             after, score = _judged(best, finding.pick)
         except (DataError, RobotError) as error:

@@ -385,16 +385,14 @@ def left_out(
         observation: of its logs.
         free: (c, k) the directions of beta that are fitted, beside the model; None: all of it.
     """
-    used = observation.used.T
+    used, blocks, known = observation.used.T, blocks_of(observation), None
     W = [observation.columns[own, j] for j, own in enumerate(used)]
     y = [observation.torque[own, j] for j, own in enumerate(used)]
+    sigma = np.array([joint.sigma if joint.sigma > 0.0 else 1.0 for joint in model.fit.joints])
     if free is not None:
         y = [tau - w @ model.beta for w, tau in zip(W, y, strict=True)]
         W = [w @ free for w in W]
-    blocks = blocks_of(observation)
-    sigma = np.array([joint.sigma if joint.sigma > 0.0 else 1.0 for joint in model.fit.joints])
-    known = None
-    if free is None and (prior := prior_of(model.spec)) is not None:
+    elif (prior := prior_of(model.spec)) is not None:
         weighted = np.concatenate([w / s for w, s in zip(W, sigma, strict=True)])
         known = prior.beside(np.linalg.norm(weighted, axis=0))
     number = [blocks.number[own] for own in used]
