@@ -11,14 +11,7 @@ from modeler.core.errors import DataError, Method
 from modeler.core.table import percent
 from modeler.estimation.covariance import autocorrelation, repeated_whole
 from modeler.estimation.essential import Essential, essential_parameters
-from modeler.estimation.identify import (
-    SEEN,
-    base_equations,
-    dead_joints,
-    identify,
-    joints_of,
-    result_of,
-)
+from modeler.estimation.identify import SEEN, base_equations, dead_joints, identify, result_of
 from modeler.estimation.least_squares import Estimate, condition_numbers, placed
 from modeler.estimation.methods import method_of
 from modeler.estimation.result import KNOWN_BELOW_PERCENT, EnergyReport, FitResult, ModelFigures
@@ -397,7 +390,7 @@ def identify_energy(
         )
     found = rows.estimate(observation.names, method)
     torques = base_equations(observation).compressed(np.ones(len(observation.y), dtype=bool))
-    essential = _essential(rows, observation.names, found, below).judged_on(torques, found.beta)
+    essential = _essential(rows, observation.names, found, below)
     said = [tangle.sentence() for tangle in found.rank.aside]
     if not found.settled:
         said.append("the variances of the windows still change; record more rows")
@@ -406,11 +399,10 @@ def identify_energy(
             "neighbouring windows repeat each other, and the sigmas are raised for it, by up to a "
             f"factor {found.memory:.2g}"
         )
-    said.append(essential.sentence())
+    said.append(essential.sentence(torques, found.beta))
     result = result_of(
-        base_equations(observation), method, found, essential,
+        base_equations(observation), method, found, essential, torques,
         rows=len(rows.y),
-        joints=joints_of(observation, torques, found.beta),
         sentences=tuple(said),
         reduced=np.ones(len(essential.names)),
         energy=_report(model, observation, rows, found, window, method),

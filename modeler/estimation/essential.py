@@ -30,8 +30,6 @@ class Essential:
         names: essential parameters, in column order.
         dropped: the others that were kept by the rank, in the order of leaving.
         beta: (c,) values with the dropped ones at 0.
-        error_before: relative error ||y - W beta|| / ||y|| with all parameters.
-        error_after: with the essential ones.
         ratio: F statistic of all dropped parameters together.
         limit: the F quantile, which rules unless sigmas do.
         reduced: the estimate of the essential parameters alone, columns as `names`.
@@ -40,28 +38,22 @@ class Essential:
     names: tuple[str, ...]
     dropped: tuple[str, ...]
     beta: np.ndarray
-    error_before: float
-    error_after: float
     ratio: float
     limit: float
     reduced: Estimate
 
-    def sentence(self) -> str:
-        """What was found."""
+    def errors(self, data: Compressed, full: np.ndarray) -> tuple[float, float]:
+        """What all parameters (c,) and the essential ones leave of rows, relative."""
+        return relative_error(data, full), relative_error(data, self.beta)
+
+    def sentence(self, data: Compressed, full: np.ndarray) -> str:
+        """What was found, and what it costs on rows beside all parameters (c,)."""
         if not self.dropped:
             return f"all {len(self.names)} parameters are essential"
         return (
             f"{len(self.names)} of {len(self.names) + len(self.dropped)} parameters are "
             "essential; leaving the others out changes the relative error from "
-            + " to ".join(printed(self.error_before, self.error_after))
-        )
-
-    def judged_on(self, data: Compressed, full: np.ndarray) -> "Essential":
-        """The same, with the errors that these and all parameters (c,) leave of other rows."""
-        return dataclasses.replace(
-            self,
-            error_before=relative_error(data, full),
-            error_after=relative_error(data, self.beta),
+            + " to ".join(printed(*self.errors(data, full)))
         )
 
 
@@ -104,8 +96,7 @@ def essential_parameters(
         reduced = dataclasses.replace(reduced, beta=values, covariance=root @ root.T)
     beta = np.zeros(len(data.names))
     beta[kept] = reduced.beta
-    before, after = (relative_error(data, values) for values in (full.beta, beta))
-    return Essential(own.names, left, beta, before, after, float(ratio), limit, reduced)
+    return Essential(own.names, left, beta, float(ratio), limit, reduced)
 
 
 def relative_error(data: Compressed, beta: np.ndarray) -> float:
@@ -199,7 +190,7 @@ class Reduced(Brief):
 
 
 def reduced_model(
-    essential: Essential, factors: np.ndarray, units: Mapping[str, str]
+    essential: Essential, factors: np.ndarray, units: Mapping[str, str], error: float
 ) -> Reduced | None:
     """The reduced model of a fit; None if no parameter is left.
 
@@ -207,6 +198,7 @@ def reduced_model(
         essential: which are, what leaving out the others costs, and the estimate of them alone.
         factors: (essential,) on its standard deviations, where residuals repeat each other.
         units: by name.
+        error: relative, of them alone.
     """
     reduced = essential.reduced
     if not np.isfinite(reduced.condition_number):
@@ -217,6 +209,6 @@ def reduced_model(
         tuple(ParameterEstimate(n, units[n], x, s, True, "estimated") for n, x, s in values),
         **entries(essential, "dropped ratio"),
         **entries(reduced, "condition_number condition_scaled"),
-        relative_error=essential.error_after,
+        relative_error=error,
         limit=essential.limit if essential.dropped else None,
     )

@@ -178,12 +178,11 @@ def fit_equations(
         essential = essential_parameters(data, estimate, method, below)
         reduced = np.ones(len(essential.names))
     return result_of(
-        equations, method, estimate, essential,
+        equations, method, estimate, essential, data, estimate.sigma,
         rows=count,
-        joints=joints_of(observation, data, estimate.beta, estimate.sigma),
         sentences=(*equations.sentences, *_not_connected(observation, dead), *estimate.sentences,
                    *(tangle.sentence() for tangle in estimate.rank.aside), *_unsettled(estimate),
-                   essential.sentence(), *colour.sentences(),
+                   essential.sentence(data, estimate.beta), *colour.sentences(),
                    *differ.sentences(equations.names, [j.name for j in observation.joints]),
                    *bands_disagree(observation, estimate)),
         reduced=reduced,
@@ -201,9 +200,8 @@ def result_of(
     method: str,
     estimate: Estimate,
     essential: Essential,
-    rows: int,
-    joints: tuple[JointFit, ...],
-    sentences: tuple[str, ...],
+    data: Compressed,
+    sigma_of_rows: np.ndarray | None = None,
     reduced: np.ndarray | None = None,
     **further: Any,
 ) -> FitResult:
@@ -214,13 +212,13 @@ def result_of(
         method: id.
         estimate: its solution, the covariance raised where residuals repeat each other.
         essential: of its parameters.
-        rows: that were fitted.
-        joints: what is left of each.
-        sentences: what a reader must know.
+        data: the torques that its errors are of.
+        sigma_of_rows: (n,) of each joint; None: what is left of it.
         reduced: (essential,) factors on the sigmas of the reduced model; None: it has none.
         **further: fields of the result.
     """
     observation, count = equations.observation, len(equations.observation.names)
+    before, after = essential.errors(data, estimate.beta)
     labels = list(zip(equations.names, equations.units, strict=True))
     settled = "ok" if estimate.settled else "not settled"
     sigma, told = np.sqrt(np.diag(estimate.covariance)), set(estimate.rank.kept)
@@ -241,18 +239,18 @@ def result_of(
         method=method,
         status="rank deficient" if estimate.rank.aside else settled,
         samples=len(observation.time),
-        rows=rows,
         **entries(estimate, "condition_number condition_scaled contradicted"),
-        relative_error=essential.error_before,
-        essential_error=essential.error_after,
-        joints=joints,
+        relative_error=before,
+        essential_error=after,
+        joints=joints_of(observation, data, estimate.beta, sigma_of_rows),
         parameters=every[:count],
         covariance=estimate.covariance[:count, :count],
         loads=every[count:],
-        sentences=sentences,
         processing=observation.report.processing,
         bands=observation.report.bands,
-        essential=None if reduced is None else reduced_model(essential, reduced, dict(labels)),
+        essential=None
+        if reduced is None
+        else reduced_model(essential, reduced, dict(labels), after),
         **further,
     )
 

@@ -219,9 +219,8 @@ def load_model(path: str | Path) -> IdentifiedModel:
     check_checksums(raw, where)
     spec = module_from_plain(_entry(raw, "manifest", Any, where), f"{where}, manifest")
     if _entry(raw, "signature", str, where) != spec.signature():
-        raise ManifestError(
-            f"{where}: the manifest does not match its signature, so it was changed after it was "
-            "saved; fit the model again"
+        raise _refused(
+            where, "the manifest does not match its signature, so it was changed after it was saved"
         )
     fit = _fit(raw, where)
     expected = [base.name for base in spec.base]
@@ -230,9 +229,9 @@ def load_model(path: str | Path) -> IdentifiedModel:
         or fit.covariance.shape != (len(expected),) * 2
         or spec.robot != _entry(raw, "robot", str, where)
     ):
-        raise ManifestError(
-            f"{where}: the values are not those of the {len(expected)} base parameters of its "
-            "manifest; fit the model again"
+        raise _refused(
+            where,
+            f"the values are not those of the {len(expected)} base parameters of its manifest",
         )
     check_estimate(fit, where)
     return IdentifiedModel(
@@ -245,12 +244,16 @@ def load_model(path: str | Path) -> IdentifiedModel:
     )
 
 
+def _refused(where: str, what: str) -> ManifestError:
+    return ManifestError(f"{where}: {what}; fit the model again")
+
+
 def _fit(raw: Mapping[str, Any], where: str) -> FitResult:
     """The estimate, every entry of the type that its class declares."""
     rows = _entry(raw, "covariance", tuple[tuple[float, ...], ...], where)
     fitted = _entry(raw, "fit", Mapping[str, Any], where)
     if any(len(row) != len(rows) for row in rows):
-        raise ManifestError(f"{where}: damaged, covariance is not square; fit the model again")
+        raise _refused(where, "damaged, covariance is not square")
     try:
         return fit_from_json(fitted, np.array(rows, dtype=float).reshape(len(rows), len(rows)))
     except ManifestError as error:
@@ -293,11 +296,11 @@ def _is_robot_file(path: Path) -> bool:
 
 def _entry(raw: Mapping[str, Any], name: str, kind: Any, where: str) -> Any:
     if name not in raw:
-        raise ManifestError(f"{where}: damaged, {name} is missing; fit the model again")
+        raise _refused(where, f"damaged, {name} is missing")
     try:
         return plain(kind, raw[name], name)
     except UndeclaredEntry as error:
-        raise ManifestError(f"{where}: damaged, {error}; fit the model again") from None
+        raise _refused(where, f"damaged, {error}") from None
 
 
 def checksums(content: Mapping[str, Any]) -> dict[str, str]:
@@ -319,10 +322,8 @@ def check_checksums(content: Mapping[str, Any], where: str) -> None:
     """
     given = content.get(CHECKSUMS)
     if not isinstance(given, dict):
-        raise ManifestError(
-            f"{where}: damaged, {CHECKSUMS} is "
-            f"{'missing' if CHECKSUMS not in content else 'not as saved'}; fit the model again"
-        )
+        what = "not as saved" if CHECKSUMS in content else "missing"
+        raise _refused(where, f"damaged, {CHECKSUMS} is {what}")
     expected = checksums(content)
     every = dict.fromkeys([*expected, *given])
     wrong = [name for name in every if expected.get(name, "none") != given.get(name, "missing")]
@@ -342,7 +343,7 @@ def check_estimate(fit: FitResult, where: str) -> None:
         ManifestError: names the first parameter that is wrong, and how.
     """
     for what in itertools.chain(_wrong_values(fit), _wrong_covariance(fit)):
-        raise ManifestError(f"{where}: {what}; fit the model again")
+        raise _refused(where, what)
 
 
 def _wrong_values(fit: FitResult) -> Iterator[str]:

@@ -11,7 +11,7 @@ from modeler.core.json import entries
 from modeler.core.table import percent
 from modeler.estimation.doubts import LITTLE, Doubt
 from modeler.estimation.essential import essential_parameters
-from modeler.estimation.identify import all_rows, base_equations, identify, joints_of, result_of
+from modeler.estimation.identify import all_rows, base_equations, identify, result_of
 from modeler.estimation.result import FitResult
 from modeler.estimation.two_step import Configuration, Directions, TwoStep, two_steps
 from modeler.observation import Observation
@@ -250,14 +250,10 @@ def identify_in_two_steps(
     steps = two_steps(model, observation, directions)
     excitation = excitations(model, observation, directions, steps.configurations)
     estimate = steps.estimate
-    every = all_rows(observation)
-    essential = essential_parameters(steps.data, estimate, "ordinary", below).judged_on(
-        every, estimate.beta
-    )
+    essential = essential_parameters(steps.data, estimate, "ordinary", below)
     result = result_of(
-        base_equations(observation), TWO_STEPS, estimate, essential,
+        base_equations(observation), TWO_STEPS, estimate, essential, all_rows(observation),
         rows=sum(len(f.residual) for c in steps.configurations for f in c.felt),
-        joints=joints_of(observation, every, estimate.beta),
         sentences=(
             *(e.sentence() for e in excitation if not e.persistent),
             *(tangle.sentence() for tangle in estimate.rank.aside),
