@@ -100,17 +100,15 @@ class ProfileProblem:
 
     def at(self, candidate: Candidate) -> Point | None:
         """The fit with these shapes; None where the columns cannot be told from all else."""
-        columns = self.rows.columns(candidate)
-        if not all(c is None or np.isfinite(c).all() for c in columns):
+        columns = enumerate(self.rows.columns(candidate))
+        felt = {j: np.asarray(c) / self.sigma[j] for j, c in columns if c is not None}
+        if not felt or not all(np.isfinite(c).all() for c in felt.values()):
             return None
-        if all(c is None for c in columns):
-            return None
-        y, u, left = self.target
-        felt = [j for j, c in enumerate(columns) if c is not None]
-        own = [np.asarray(columns[j]) / self.sigma[j] for j in felt]
-        T = sum(self.base[0][j].T @ c for j, c in zip(felt, own, strict=True))
+        (y, u, left), base = self.target, self.base[0]
+        own = felt.values()
+        T = sum(base[j].T @ c for j, c in felt.items())
         M = sum(c.T @ c for c in own) - T.T @ T
-        h = sum(c.T @ y[j] for j, c in zip(felt, own, strict=True)) - T.T @ u
+        h = sum(c.T @ y[j] for j, c in felt.items()) - T.T @ u
         length = np.sqrt(sum(np.sum(c**2, axis=0) for c in own))
         if not (length > 0.0).all():
             return None
@@ -259,12 +257,15 @@ def _explored(
 ) -> list[Point]:
     """Points with weights, the smooth shapes over all that makes sense."""
     if not smooth:
-        point = problem.at(start)
-        return [] if point is None else [point]
+        return [point for point in [problem.at(start)] if point is not None]
     lines = [_line(problem.scale, start, shape) for shape in smooth]
     if len(smooth) == 1:
         return _along(lambda x: problem.at(start.moved(smooth, [x])), lines[0], least)
     return _around(problem, start, smooth, lines)
+
+
+def _coded(shapes: Sequence[Shape], candidate: Candidate) -> np.ndarray:
+    return np.array([coded(shape, candidate.shapes[shape.name]) for shape in shapes])
 
 
 def _line(scale: JointScale, start: Candidate, shape: Shape) -> list[float]:
@@ -273,8 +274,9 @@ def _line(scale: JointScale, start: Candidate, shape: Shape) -> list[float]:
     if shape.scale == "waves":
         near = told + np.pi / scale.range * np.linspace(-_BESIDE, _BESIDE, 4 * _BESIDE + 1)
         return [float(m) for m in near if m > 0.0]
-    low, high = (coded(shape, scale.value(shape, end)) for end in shape.limits)
-    inner = {coded(shape, scale.value(shape, entry)) for entry in shape.grid}
+    low, high, *inner = (
+        coded(shape, scale.value(shape, entry)) for entry in (*shape.limits, *shape.grid)
+    )
     return sorted({low, high, *(x for x in (*inner, told) if low < x < high)})
 
 
@@ -310,7 +312,7 @@ def _around(
     lines: Sequence[Sequence[float]],
 ) -> list[Point]:
     """Points on a grid about the told shapes, along the axes of the likelihood there."""
-    middle = np.array([coded(shape, start.shapes[shape.name]) for shape in smooth])
+    middle = _coded(smooth, start)
     low, high = (np.array([line[end] for line in lines]) for end in (0, -1))
 
     def at(x: np.ndarray) -> Point | None:
@@ -338,16 +340,13 @@ def _slopes(
     here = problem.at(told)
     assert here is not None
     own = problem.off(problem.weighted(problem.rows.columns(told)))
-    slopes = []
-    for i in range(len(smooth)):
-        ends = []
-        for sign in (-1.0, 1.0):
-            x = np.array([coded(shape, told.shapes[shape.name]) for shape in smooth])
-            x[i] += sign * _STEP
-            moved = problem.rows.columns(told.moved(smooth, x))
-            ends.append(problem.off(problem.weighted(moved)) @ here.values)
-        slopes.append((ends[1] - ends[0]) / (2.0 * _STEP))
-    slope = np.column_stack(slopes) if slopes else np.zeros((len(own), 0))
+    middle, slope = _coded(smooth, told), np.zeros((len(own), len(smooth)))
+    for i, step in enumerate(_STEP * np.eye(len(smooth))):
+        low, high = (
+            problem.off(problem.weighted(problem.rows.columns(told.moved(smooth, x)))) @ here.values
+            for x in (middle - step, middle + step)
+        )
+        slope[:, i] = (high - low) / (2.0 * _STEP)
     return own, slope - own @ np.linalg.lstsq(own, slope, rcond=1e-9)[0]
 
 

@@ -295,12 +295,10 @@ def halves(
             found = [_solved([*np.delete(R[k], j, 0), *R[1 - k]]) for k in (0, 1)]
             if any(b is None for b, _ in found) or not all(own[j].any() for own in R):
                 continue
-            d = np.array([b - beta for b, _ in found])
-            noise = raised * np.maximum(np.array([v for _, v in found]) - var, 1e-6 * var)
-            z = np.abs(d) / np.sqrt(noise)
-            weight = 1.0 / np.array([v for _, v in found])
-            more = np.sum(weight * (d**2 - noise), axis=0) / weight.sum(axis=0)
-            z = z.max(axis=0)
+            d, own = np.array([b - beta for b, _ in found]), np.array([v for _, v in found])
+            noise = raised * np.maximum(own - var, 1e-6 * var)
+            z = (np.abs(d) / np.sqrt(noise)).max(axis=0)
+            more = np.sum((d**2 - noise) / own, axis=0) / np.sum(1.0 / own, axis=0)
             if z.max() < (_NEAR if lasting[j] > _MOST else _FAR):
                 continue
             added[kept] = np.maximum(added[kept], np.where(z > _FELT, more, 0.0))

@@ -278,7 +278,7 @@ def unequal_least_squares(
     used = shares[:, shares.max(axis=0) > 0.0]
     sources = np.column_stack([used / used.mean(axis=0), np.ones(len(y))])  # the last: all alike
     deviation, settled = _settled_deviations(X, y, sources, method)
-    A = _influence(X, 1.0 / deviation if method == "weighted" else np.ones(len(y)))
+    A = _influence(X, deviation, method)
     values, C = A @ y, (A * deviation**2) @ A.T
     # As in `coloured`; neighbours share the sample between them, so a little is always there.
     sample, white = np.arange(len(y)), (y - X @ values) / deviation
@@ -303,7 +303,7 @@ def _settled_deviations(
     least = max(_LEAST * float(np.mean(y**2)), np.finfo(float).tiny)
     for _ in range(_ROUNDS):
         weight = 1.0 / deviation**2
-        A = _influence(X, 1.0 / deviation if method == "weighted" else np.ones(len(y)))
+        A = _influence(X, deviation, method)
         leverage = np.clip(np.einsum("rc,cr->r", X, A), 0.0, 0.99)
         squares = (y - X @ (A @ y)) ** 2 / (1.0 - leverage)
         scale = float(np.mean(squares * weight)) or 1.0
@@ -315,8 +315,9 @@ def _settled_deviations(
     return deviation, False
 
 
-def _influence(X: np.ndarray, weight: np.ndarray) -> np.ndarray:
+def _influence(X: np.ndarray, deviation: np.ndarray, method: Method) -> np.ndarray:
     """(c, rows) A of beta = A y."""
+    weight = 1.0 / deviation if method == "weighted" else np.ones(len(X))
     lengths = np.linalg.norm(X * weight[:, None], axis=0)
     q, r = np.linalg.qr(X * weight[:, None] / lengths)
     return np.asarray(np.linalg.solve(r, q.T) / lengths[:, None] * weight)
@@ -439,18 +440,15 @@ def _report(
     coarse = rough.estimate(observation.names, method)
     figures = [_figures("torque", observation, torque.rows, torque)]
     for name, part, fit in (("energy, Simpson", rows, found), ("energy, trapezoid", rough, coarse)):
-        missed = np.linalg.norm((part.balance - part.W) @ found.beta) / np.linalg.norm(part.y)
-        own = _figures(name, observation, len(part.y), fit)
+        missed, kept = (part.balance - part.W) @ found.beta, list(fit.rank.kept)
+        share = float(np.linalg.norm(missed) / np.linalg.norm(part.y))
         # What the energy that integration misses moves at most, in sigmas.
-        kept, deviation = list(fit.rank.kept), fit.deviation
-        moved = scaled_least_squares(
-            part.W[:, kept] / deviation[:, None],
-            (part.balance - part.W) @ found.beta / deviation,
-            SEEN,
-        )
+        weighted = part.W[:, kept] / fit.deviation[:, None]
+        moved = scaled_least_squares(weighted, missed / fit.deviation, SEEN)
         sigma = np.sqrt(np.diag(fit.covariance)[kept])
         bias = float(np.max(np.abs(moved) / sigma, initial=0.0))
-        figures.append(dataclasses.replace(own, imbalance=float(missed), bias=bias))
+        own = _figures(name, observation, len(part.y), fit)
+        figures.append(dataclasses.replace(own, imbalance=share, bias=bias))
     return EnergyReport(
         window=rows.window,
         relative_error=float(np.linalg.norm(rows.y - rows.W @ found.beta) / np.linalg.norm(rows.y)),

@@ -96,7 +96,8 @@ def essential_parameters(
         reduced = dataclasses.replace(reduced, beta=values, covariance=root @ root.T)
     beta = np.zeros(len(data.names))
     beta[kept] = reduced.beta
-    return Essential(own.names, left, beta, float(ratio), limit, reduced)
+    names = tuple(data.names[i] for i in kept)
+    return Essential(names, left, beta, float(ratio), limit, reduced)
 
 
 def relative_error(data: Compressed, beta: np.ndarray) -> float:

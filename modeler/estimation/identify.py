@@ -377,7 +377,7 @@ def errors_on(equations: Equations, residual: np.ndarray, rows: np.ndarray) -> n
     joint, count = equations.observation.row_joint[rows], len(equations.observation.joints)
     left = np.bincount(joint, residual[rows] ** 2, count)
     total = np.bincount(joint, equations.y[rows] ** 2, count)
-    return np.sqrt(np.where(total > 0.0, left / np.where(total > 0.0, total, 1.0), np.nan))
+    return np.sqrt(np.divide(left, total, out=np.full(count, np.nan), where=total > 0.0))
 
 
 def crossed(

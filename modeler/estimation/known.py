@@ -104,13 +104,13 @@ def deviations(spec: ModuleSpec, found: GainFit, only_doubtful: bool = False) ->
         sigma, stated = found.sigmas[joint.name], joint.drive_gain
         told = f"joint {joint.name} {gain:.4g} +- {sigma:.1g}"
         if stated is None:
-            as_known = gain >= 0.0
+            fits, beside = gain >= 0.0, "negative"
         else:
-            as_known = only_doubtful and not _contradicts(gain / stated, sigma / abs(stated))
-        if as_known:
+            fits = only_doubtful and not _contradicts(gain / stated, sigma / abs(stated))
+            beside = f"of the other sign than {stated:.4g}"
+        if fits:
             continue
         if stated is None or gain * stated < 0.0:
-            beside = "negative" if stated is None else f"of the other sign than {stated:.4g}"
             lines.append(
                 f"{told}, {beside}: current{joint.name} or q{joint.name} is counted the other way "
                 "round; if that is a mistake of the log, give the one that is wrong sign = -1 in "

@@ -289,9 +289,9 @@ def _repeats(model: CompiledModel, j: int) -> bool:
     joints, signals = len(model.spec.joints), model.spec.signals
     q, qd, qdd = np.random.default_rng(2).uniform(0.2, 1.0, (3, 1, joints))
     read = np.full((1, len(signals)), 0.5) if signals else None
+    turned = q + 2.0 * np.pi * np.eye(joints)[j]
     try:
-        here = model.base_regressor(q, qd, qdd, read)
-        there = model.base_regressor(q + 2.0 * np.pi * np.eye(joints)[j], qd, qdd, read)
+        here, there = (model.base_regressor(x, qd, qdd, read) for x in (q, turned))
     except LoopError:
         return True
     return bool(np.allclose(here, there, rtol=1e-6, atol=1e-6))
