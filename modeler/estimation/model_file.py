@@ -13,7 +13,7 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
 import numpy as np
 
@@ -234,14 +234,10 @@ def load_model(path: str | Path) -> IdentifiedModel:
             f"the values are not those of the {len(expected)} base parameters of its manifest",
         )
     check_estimate(fit, where)
-    return IdentifiedModel(
-        robot_text=_entry(raw, "robot_text", str, where),
-        spec=spec,
-        sources=_entry(raw, "sources", Mapping[str, str], where),
-        fit=fit,
-        logs=_entry(raw, "logs", tuple[LogProvenance, ...], where),
-        history=_entry(raw, "history", tuple[Addition, ...], where),
-    )
+    kinds = get_type_hints(IdentifiedModel)
+    as_saved = ("robot_text", "sources", "logs", "history")
+    further = {name: _entry(raw, name, kinds[name], where) for name in as_saved}
+    return IdentifiedModel(spec=spec, fit=fit, **further)
 
 
 def _refused(where: str, what: str) -> ManifestError:

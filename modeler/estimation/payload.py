@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError, Method
 from modeler.estimation.identify import Equations, base_equations, fit_equations
 from modeler.estimation.result import FitResult
-from modeler.numerics.least_squares import scaled_least_squares
+from modeler.numerics.least_squares import column_lengths, scaled_least_squares, triangle
 from modeler.observation import Observation, Segment, signals_of
 from modeler.runtime import CompiledModel
 
@@ -224,17 +224,6 @@ def _remarks(
 
 def independent(base: np.ndarray, columns: np.ndarray) -> list[int]:
     """Indices of the columns that neither `base` nor earlier columns reproduce."""
-    lengths = np.linalg.norm(base, axis=0)
-    basis = np.linalg.qr(base[:, lengths > 0.0] / lengths[lengths > 0.0])[0]
-    kept: list[int] = []
-    for i in range(columns.shape[1]):
-        length = np.linalg.norm(columns[:, i])
-        if length == 0.0:
-            continue
-        rest = columns[:, i] / length
-        for _ in range(2):  # Gram and Schmidt twice: once is not enough beside a long basis
-            rest = rest - basis @ (basis.T @ rest)
-        if np.linalg.norm(rest) > _TOLERANCE:
-            kept.append(i)
-            basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
-    return kept
+    every = np.column_stack([base, columns])
+    left = np.diag(triangle(every / column_lengths(every)))[base.shape[1] :]
+    return np.flatnonzero(np.abs(left) > _TOLERANCE).tolist()

@@ -88,16 +88,15 @@ class Prior:
             S[:, own] *= factor
         return dataclasses.replace(self, S=S)
 
-    def known(self, M: np.ndarray, but: str = "") -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def known(self, M: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """What is known of M beta: N (r, k), N M K chi_0 (r,), and a root (r, m) of its covariance.
 
         The rows of N are orthonormal and see nothing of parameters that are free.
 
         Args:
             M: (k, c).
-            but: a group that is let go too.
         """
-        every = [i for name, own in self.groups.items() if name != but for i in own]
+        every = [i for own in self.groups.values() for i in own]
         K = M @ self.K
         loose = np.delete(K, every, axis=1)
         loose = loose / column_lengths(loose)
@@ -160,18 +159,18 @@ class Prior:
             covariance: (k, k) V.
         """
 
-        def misfit(but: str = "") -> tuple[float, int]:
-            N, mean, root = self.known(M, but)
+        def misfit(prior: "Prior") -> tuple[float, int]:
+            N, mean, root = prior.known(M)
             d, total = mean - N @ value, root @ root.T + N @ covariance @ N.T
             size = np.sqrt(np.maximum(np.diag(total), 1e-300))
             apart = np.linalg.lstsq(total / np.outer(size, size), d / size, rcond=1e-12)[0]
             return float(d / size @ apart), len(d)
 
-        whole, degrees = misfit()
+        whole, degrees = misfit(self)
         chance = CHANCE / max(1, len(self.groups))
         falls = {}
         for name in self.groups:
-            left, rest = misfit(name)
+            left, rest = misfit(self.but([name]))
             lost, fall = degrees - rest, max(whole - left, 0.0)
             if lost and chdtrc(lost, fall) < chance:
                 falls[name] = fall**0.5, chdtri(lost, chance) ** 0.5
