@@ -16,6 +16,7 @@ from modeler.diagnosis.signals import SignalReference, tilt_basis
 from modeler.diagnosis.state import SearchData, State, columns_of, state_of
 from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Acts, Effect, effect_named
 from modeler.estimation import Addition, IdentifiedModel, prior_of, spread_text
+from modeler.numerics.least_squares import column_lengths
 from modeler.observation import (
     Log,
     Observation,
@@ -81,22 +82,16 @@ def _candidate(model: IdentifiedModel, step: Addition) -> Candidate | None:
 
 def _own_columns(model: IdentifiedModel, state: State, pick: Candidate) -> list[int]:
     """Base columns of the effect, in the order of its own; of several ripples, those alike."""
+    from scipy.optimize import linear_sum_assignment  # it takes long to load
+
     found = columns_of(state.rows, pick)[pick.index]
     effect = {p.name: (p.effect, p.joint) for p in model.spec.standard}
     free = [i for i, b in enumerate(model.spec.base) if effect[b.column_of] == pick.key]
     if found is None or len(free) < found.shape[1]:
         return []
-    base = state.rows.W[pick.index]
-    own: list[int] = []
-    for column in found.T:
-        left = [i for i in free if i not in own]
-        own.append(max(left, key=lambda i: _alike(base[:, i], column)))
-    return own
-
-
-def _alike(one: np.ndarray, other: np.ndarray) -> float:
-    size = float(np.linalg.norm(one) * np.linalg.norm(other))
-    return abs(float(one @ other)) / size if size > 0.0 else 0.0
+    base = state.rows.W[pick.index][:, free]
+    alike = (found / column_lengths(found)).T @ (base / column_lengths(base))
+    return [free[i] for i in linear_sum_assignment(-np.abs(alike))[1]]
 
 
 def _widened(model: IdentifiedModel, along: Profile, own: Sequence[int]) -> IdentifiedModel:
@@ -241,17 +236,13 @@ def added(model: IdentifiedModel) -> list[str]:
         for p in model.fit.parameters if p.name in base
     ]  # fmt: skip
     if lines and last.shapes:
-        units = _units(model, last)
+        units, sigmas, ends = _units(model, last), last.shape_sigmas, last.shape_intervals
         texts = [
-            f"{k} = {v:.4g}{_spread(last, k)}{units.get(k, '')}" for k, v in last.shapes.items()
+            f"{k} = {v:.4g}{spread_text(v, sigmas.get(k, 0.0), ends.get(k))}{units.get(k, '')}"
+            for k, v in last.shapes.items()
         ]
         lines.append("with " + ", ".join(texts))
     return lines
-
-
-def _spread(step: Addition, name: str) -> str:
-    sigma, interval = step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name)
-    return spread_text(step.shapes[name], sigma, interval)
 
 
 def _units(model: IdentifiedModel, step: Addition) -> dict[str, str]:

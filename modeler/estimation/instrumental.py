@@ -69,9 +69,8 @@ def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
         iterations += 1
     beta, covariance = placed(len(start.beta), kept, found.beta, found.P @ found.P.T)
     # Qz^T S^-1/2 W beta = Qz^T S^-1/2 y, which beta satisfies, above what it leaves.
-    c = len(problem.names)
-    whole = np.zeros((c + 1, c + 1))
-    whole[np.ix_(np.arange(len(kept)), np.append(kept, c))] = found.whole
+    whole = np.zeros((len(kept) + 1, len(beta) + 1))
+    whole[:-1, [*kept, -1]] = found.whole
     whole[-1, -1] = np.linalg.norm((y - W @ found.beta) / sigma[joint])
     weak = (
         f"the instruments are weak: of one combination of parameters they carry {found.cosine:.2g} "
