@@ -21,7 +21,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
-from modeler.estimation.least_squares import Estimate, least_squares
+from modeler.estimation.least_squares import Estimate, Problem, least_squares
 from modeler.estimation.nearest_body import (
     PREFIXES,
     Machine,
@@ -30,7 +30,6 @@ from modeler.estimation.nearest_body import (
     pseudo_inertia_of,
     scales,
 )
-from modeler.estimation.problem import Problem
 from modeler.numerics.least_squares import Rank, column_lengths
 
 WEIGHT = 0.01

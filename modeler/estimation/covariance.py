@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.estimation.least_squares import Estimate, solve_by_qr
-from modeler.estimation.problem import Rows
+from modeler.estimation.least_squares import Estimate, Rows, solve_by_qr
 from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import Compressed, triangle
 from modeler.observation import Observation

@@ -24,9 +24,8 @@ from modeler.core.table import percent
 from modeler.estimation.covariance import Colour, coloured
 from modeler.estimation.doubts import not_together
 from modeler.estimation.identify import Equations, dead_joints, fit_equations
-from modeler.estimation.least_squares import Estimate, least_squares, solve_by_qr
+from modeler.estimation.least_squares import Estimate, Rows, least_squares, solve_by_qr
 from modeler.estimation.payload import Loaded, Payload, loaded_equations
-from modeler.estimation.problem import Rows
 from modeler.estimation.result import FitResult, ParameterEstimate
 from modeler.numerics.least_squares import Compressed, Rank, independent_columns, triangle
 from modeler.observation import Log, LogReport, Observation

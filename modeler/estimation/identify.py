@@ -12,11 +12,10 @@ from modeler.core.errors import DataError, Method
 from modeler.core.json import entries
 from modeler.estimation.covariance import Halves, coloured, halves
 from modeler.estimation.essential import Essential, essential_parameters, reduced_model
-from modeler.estimation.least_squares import MAX_ITERATIONS, Estimate, least_sigma
+from modeler.estimation.least_squares import Estimate, Problem, kept_rows, least_sigma, residual_of
 from modeler.estimation.methods import method_of
 from modeler.estimation.parameter import ParameterEstimate
 from modeler.estimation.prior import Prior, prior_of, refuse_prior
-from modeler.estimation.problem import Problem, kept_rows, residual_of
 from modeler.estimation.result import FitResult, JointFit
 from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
 from modeler.observation import SAMPLES, Observation, is_streamed, triangles
@@ -181,7 +180,7 @@ def fit_equations(
         equations, method, estimate, essential, data, estimate.sigma,
         rows=count,
         sentences=(*equations.sentences, *_not_connected(observation, dead), *estimate.sentences,
-                   *(tangle.sentence() for tangle in estimate.rank.aside), *_unsettled(estimate),
+                   *(tangle.sentence() for tangle in estimate.rank.aside), *estimate.unsettled(),
                    essential.sentence(data, estimate.beta), *colour.sentences(),
                    *differ.sentences(equations.names, [j.name for j in observation.joints]),
                    *bands_disagree(observation, estimate)),
@@ -333,15 +332,6 @@ def bands_disagree(observation: Observation, estimate: Estimate) -> list[str]:
     return [
         f"the widest cut-offs and the chosen ones disagree by {apart[worst]:.2g} sigma "
         f"({observation.names[worst]}): behind the wider ones, the noise of the motion bends values"
-    ]
-
-
-def _unsettled(estimate: Estimate) -> list[str]:
-    if estimate.settled or estimate.iterations < MAX_ITERATIONS:
-        return []
-    return [
-        f"the joint weights still change after {MAX_ITERATIONS} iterations; "
-        'record more rows, or use method "ordinary"'
     ]
 
 

@@ -9,8 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.table import percent
 from modeler.estimation.direct_model import ControlLoop, DirectModel
-from modeler.estimation.least_squares import Estimate, least_sigma, least_squares, placed
-from modeler.estimation.problem import Problem
+from modeler.estimation.least_squares import Estimate, Problem, least_sigma, least_squares, placed
 from modeler.numerics.least_squares import column_lengths, compress, independent_columns, triangle
 
 # Instrumental variables: what the noise of the measured motion cannot bias.

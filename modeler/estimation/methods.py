@@ -7,8 +7,7 @@ from modeler.core.errors import DataError, Method
 from modeler.core.estimators import ABOUT, About
 from modeler.estimation.consistent import buildable
 from modeler.estimation.instrumental import didim, iv, iv_direct
-from modeler.estimation.least_squares import Estimate, least_squares, ordinary
-from modeler.estimation.problem import Problem
+from modeler.estimation.least_squares import Estimate, Problem, least_squares, ordinary
 from modeler.estimation.ridge import ridge
 from modeler.estimation.robust import robust
 

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.estimation.least_squares import Estimate, least_squares, placed
-from modeler.estimation.problem import Problem
+from modeler.estimation.least_squares import Estimate, Problem, least_squares, placed
 from modeler.numerics.least_squares import Rank, triangle
 
 _RANGE = (-6.0, 9.0)

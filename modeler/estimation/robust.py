@@ -6,8 +6,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from modeler.core.table import percent
-from modeler.estimation.least_squares import Estimate, least_sigma, least_squares, placed
-from modeler.estimation.problem import Problem
+from modeler.estimation.least_squares import Estimate, Problem, least_sigma, least_squares, placed
 from modeler.numerics.least_squares import triangle
 from modeler.numerics.noise import robust_deviation
 
