@@ -89,13 +89,15 @@ def coloured(
         share: of the fitted rows that these are.
     """
     observation, W = rows.observation, rows
+    own_way = estimate.pull is not None or estimate.bread is not None
     columns = len(observation.names) if rows.streamed else rows.W.shape[1]
     picked = np.eye(columns) if at is None else np.eye(columns)[:, at]
     residual = estimate.residual
     if residual is None:
         residual = rows.residual(picked @ estimate.beta)
+    matrix = picked @ (estimate.covariance if estimate.bread is None else estimate.bread)
     if estimate.pull is not None:
-        W = Rows(observation, estimate.pull, rows.y, rows.counted)
+        W, matrix = Rows(observation, estimate.pull, rows.y, rows.counted), picked
     joints, memory = len(observation.joints), []
     lasting, pulls = np.zeros(joints), np.zeros((joints, *picked.shape))
     correlations = [np.ones(1) for _ in observation.joints]
@@ -107,12 +109,7 @@ def coloured(
         if told := int(np.sum(r > _TOLD)) - 1:
             memory.append((joint.name, told * _spacing(observation)))
         size = float(np.sqrt(np.mean(residual[own] ** 2)))
-        if estimate.pull is not None:
-            pulls[j] = size * picked
-        elif estimate.bread is not None:
-            pulls[j] = picked @ estimate.bread * size
-        else:
-            pulls[j] = picked @ estimate.covariance / estimate.sigma[j]
+        pulls[j] = matrix * (size if own_way else 1.0 / estimate.sigma[j])
     extra = _repeated_rows(W, pulls, correlations) / share  # C (B - C^-1) C
     white = np.diag(estimate.covariance)
     ratio = 1.0 + np.diag(extra) / np.where(white > 0.0, white, 1.0)

@@ -1,5 +1,6 @@
 """What a fit takes for known, tested against the data: weights of loads, drive gains."""
 
+import contextlib
 import dataclasses
 from collections.abc import Sequence
 
@@ -42,19 +43,17 @@ def known_doubts(
     if apart or not any(payload.mass is not None for payload in payloads):
         return [Doubt(line, values=True) for line in apart]
     found = _weights(observation, loaded_equations(model, observation, payloads), currents)
+    lines: list[str] = []
     if currents:
-        try:
-            lines = deviations(
-                model.spec, identify_gains(model, observation, payloads), only_doubtful=True
-            )
-        except DataError:
-            lines = []  # logs that do not tell the gains contradict none
-        if lines:
-            line = (
-                "by the weight of the load, the drive gains are not those of the robot file: "
-                f"{'; '.join(lines)}; check them, or let --method tls take the ones found"
-            )
-            found.append(Doubt(line, values=True))
+        with contextlib.suppress(DataError):  # logs that do not tell the gains contradict none
+            gains = identify_gains(model, observation, payloads)
+            lines = deviations(model.spec, gains, only_doubtful=True)
+    if lines:
+        line = (
+            "by the weight of the load, the drive gains are not those of the robot file: "
+            f"{'; '.join(lines)}; check them, or let --method tls take the ones found"
+        )
+        found.append(Doubt(line, values=True))
     return found
 
 

@@ -211,14 +211,13 @@ def all_rows(
         found = survey(model, sources, processing or Processing(), known, rows)
         begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
         every: list[Any] = []
-        done = 0
         for source, parts in zip(sources, begun, strict=True):
             whole: Any = None
             for whole in accumulate(parts, lambda before, part: before.merged_with(part)):
-                progress(min(1.0, (done + whole.facts.tally.count("rows")) / total))
+                done = sum(part.facts.tally.count("rows") for part in (*every, whole))
+                progress(min(1.0, done / total))
             if whole is None:
                 raise DataError(f"{source.name}: no rows; expected a motion; leave it out")
-            done += whole.facts.tally.count("rows")
             every.append(whole)
         facts = tuple(part.facts for part in every)
         again = _again(facts, found, known)

@@ -122,10 +122,10 @@ def _sentences(
         f"data decide {found.told:.1f} of {len(found.mean)} directions, the prior the others; the "
         "sigmas hold if the values scatter about it as wide as these data say, and know no bias"
     ]
-    for tangle in start.rank.aside:
-        if tangle.into:
-            said.append(
-                f"{tangle.name} cannot be told from {', '.join(tangle.into)} on these data: ridge "
-                "shares their effect out by the prior"
-            )
+    said += [
+        f"{tangle.name} cannot be told from {', '.join(tangle.into)} on these data: ridge shares "
+        "their effect out by the prior"
+        for tangle in start.rank.aside
+        if tangle.into
+    ]
     return tuple(said)

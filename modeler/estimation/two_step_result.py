@@ -138,17 +138,19 @@ class TwoStepFit:
 
     def lines(self) -> list[str]:
         """Lines: step 1 by configuration, what Phi tells, both fits beside each other."""
-        lines = ["step 1: one joint moves, the others stand"]
-        lines += [f"  {self._line(c)}" for c in self.steps.configurations]
-        lines += [
-            f"  {count} piece{'s' * (count > 1)} not used: {why}"
+        unused = [
+            f"{count} piece{'s' * (count > 1)} not used: {why}"
             for why, count in self.steps.left_out.items()
         ]
         if self.steps.several > 0.0:
-            lines.append(f"  {self.steps.several:.3g} s not used: several joints move")
-        lines.append("step 2: theta = Phi beta")
-        lines += [f"  {excitation.line()}" for excitation in self.excitation]
-        return [*lines, *self._compared()]
+            unused.append(f"{self.steps.several:.3g} s not used: several joints move")
+        return [
+            "step 1: one joint moves, the others stand",
+            *(f"  {line}" for line in (*map(self._line, self.steps.configurations), *unused)),
+            "step 2: theta = Phi beta",
+            *(f"  {excitation.line()}" for excitation in self.excitation),
+            *self._compared(),
+        ]
 
     def doubts(self) -> list[Doubt]:
         """Joints that never moved alone, where torques are not described for want of them."""
@@ -156,16 +158,12 @@ class TwoStepFit:
         never = [name for k, name in enumerate(self.steps.directions.names) if k not in used]
         short = all(why.startswith("too short") for why in self.steps.left_out)
         poor = any((joint.relative_error or 0.0) > LITTLE for joint in self.result.joints)
-        if not (never and short and poor):
-            return []
-        return [
-            Doubt(
-                f"joint {', '.join(never)} never moved alone for long enough, and the two steps "
-                "use no other motion: what only its torque tells is not found; record more motion "
-                "of it alone, or take --method weighted",
-                explains=True,
-            )
-        ]
+        line = (
+            f"joint {', '.join(never)} never moved alone for long enough, and the two steps use no "
+            "other motion: what only its torque tells is not found; record more motion of it "
+            "alone, or take --method weighted"
+        )
+        return [Doubt(line, explains=True)] if never and short and poor else []
 
     def _line(self, c: Configuration) -> str:
         names = self.steps.directions.names
