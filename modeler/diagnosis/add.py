@@ -107,13 +107,9 @@ def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
             f"--joint {joint}: {effect.id} acts on the whole robot, not on one joint; leave "
             "--joint out"
         )
-    names = [own.name for own in spec.joints if own.actuated]
-    if effect.acts is Acts.LINK:
-        names = links_of(spec)
-    elif effect.acts is Acts.PASSIVE:
-        names = passive
-    elif reads_speed_only(effect):
-        names += passive
+    usual = [own.name for own in spec.joints if own.actuated]
+    usual += passive if reads_speed_only(effect) else []
+    names = {Acts.LINK: links_of(spec), Acts.PASSIVE: passive}.get(effect.acts, usual)
     if joint not in names and joint in passive and jointed:
         raise DataError(
             f"--joint {joint}: it has no motor, and there {effect.id} cannot be found from logs; "
@@ -299,13 +295,13 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
             f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "
             "motion would"
         )
-    best = ranked[0]
+    candidate, visible = ranked[0].candidate, ranked[0].visible
     if effect.acts is Acts.TORQUE:  # least squares make delays too small
-        values = instrumental(state, best.candidate)[0]
-        return Pick(best.candidate, values, state, best.visible)
-    later = extended(state, best.candidate)  # a wrong gain bends the model whose torques it scales
-    visible = gain_visible(later, 0) if is_gain(best.candidate) else best.visible
-    return Pick(best.candidate, later.values[0], later, visible)
+        return Pick(candidate, instrumental(state, candidate)[0], state, visible)
+    later = extended(state, candidate)  # a wrong gain bends the model whose torques it scales
+    if is_gain(candidate):
+        visible = gain_visible(later, 0)
+    return Pick(candidate, later.values[0], later, visible)
 
 
 def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:

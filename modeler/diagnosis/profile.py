@@ -290,18 +290,15 @@ def _along(at: Callable[[float], Point | None], line: Sequence[float], least: fl
         likely = np.exp(-0.5 * (squares - min(least, squares.min())))
         # a peak may hide between two points: cells count by their better end
         cells = np.diff(x) * np.maximum(likely[:-1], likely[1:])
-        total = cells.sum()
         biggest = int(np.argmax(cells))
-        if not total > 0.0 or cells[biggest] < _FINE * total:
-            break
-        middle = 0.5 * (x[biggest] + x[biggest + 1])
-        if middle in (x[biggest], x[biggest + 1]):
+        ends = x[biggest], x[biggest + 1]
+        middle = 0.5 * (ends[0] + ends[1])
+        if not cells[biggest] > 0.0 or cells[biggest] < _FINE * cells.sum() or middle in ends:
             break
         seen[middle] = at(middle)
     x = np.array(sorted(seen))
     edges = np.concatenate([x[:1], 0.5 * (x[1:] + x[:-1]), x[-1:]])
-    widths = np.diff(edges)
-    found = zip((seen[value] for value in x), widths, strict=True)
+    found = zip((seen[value] for value in x), np.diff(edges), strict=True)
     return [dataclasses.replace(p, weight=float(w)) for p, w in found if p is not None]
 
 
@@ -314,20 +311,16 @@ def _around(
     """Points on a grid about the told shapes, along the axes of the likelihood there."""
     middle = _coded(smooth, start)
     low, high = (np.array([line[end] for line in lines]) for end in (0, -1))
-
-    def at(x: np.ndarray) -> Point | None:
-        if np.any(x < low) or np.any(x > high):
-            return None
-        return problem.at(start.moved(smooth, x))
-
     # a root of the covariance of the coded shapes, by the slopes of the columns
     _, slopes = _slopes(problem, start, smooth)
     values, vectors = np.linalg.eigh(slopes.T @ slopes)
     floor = 1e-9 * max(float(values.max(initial=0.0)), 1e-300)
     axes = vectors / np.sqrt(np.maximum(values, floor)) * _REACHED
     steps = np.linspace(-1.0, 1.0, _LINE)
-    places = (middle + axes @ np.array(z) for z in itertools.product(steps, repeat=len(smooth)))
-    return [point for point in map(at, places) if point is not None]
+    places = [middle + axes @ np.array(z) for z in itertools.product(steps, repeat=len(smooth))]
+    inside = [x for x in places if np.all((low <= x) & (x <= high))]
+    found = [problem.at(start.moved(smooth, x)) for x in inside]
+    return [point for point in found if point is not None]
 
 
 def _slopes(

@@ -216,15 +216,14 @@ class DirectModel:
 
     def _distance(self, pieces: list[_Piece], ways: list[Motion]) -> float:
         """rms of simulated less logged position, each joint in units of its own tracking error."""
-        errors, scales = [], []
+        error, scale = np.zeros((2, len(self.observation.joints)))
         for piece, way in zip(pieces, ways, strict=True):
             segment, kept = self.segments[piece.segment], slice(piece.start, piece.stop)
             logged, whole = segment.q[kept], segment.whole[kept]
-            errors.append((way[0] - logged)[whole] ** 2)
-            scales.append((self.references[piece.segment][0, kept] - logged)[whole] ** 2)
-        scale = np.sum(np.concatenate(scales), axis=0)
+            error += np.sum((way[0] - logged)[whole] ** 2, axis=0)
+            reference = self.references[piece.segment][0, kept]
+            scale += np.sum((reference - logged)[whole] ** 2, axis=0)
         moved = scale > 0.0
-        error = np.sum(np.concatenate(errors), axis=0)
         total = float(np.mean(error[moved] / scale[moved])) if moved.any() else 0.0
         return float(np.sqrt(total)) if np.isfinite(total) else np.inf
 
@@ -245,9 +244,8 @@ class DirectModel:
             start = np.stack([np.stack([s.q[at], s.qd[at]]) for s, at in logged], axis=1)
             motion = robot.walk(start, reference, signals, step, [loops[i] for i in own])
             for place, i in enumerate(own):
-                piece = pieces[i]
-                kept = slice(piece.start - piece.first, piece.stop - piece.first)
-                ways[i] = motion[:, kept, place]
+                first = pieces[i].first
+                ways[i] = motion[:, pieces[i].start - first : pieces[i].stop - first, place]
         return [ways[i] for i in range(len(pieces))]
 
     def _stacked(self, pieces: list[_Piece]) -> tuple[np.ndarray, np.ndarray | None]:

@@ -129,7 +129,8 @@ def energy_rows(
 def _windows(observation: Observation, window: float | None) -> list[_Windows]:
     """Windows of all segments, laid into the uninterrupted stretches of good samples."""
     found, number = [], 0
-    _check_window(observation, window)
+    if window is not None:
+        _check_window(observation, window)
     for part in observation.stretches:
         s, centres = part.segment, part.rows.centres
         spacing = int(centres[1] - centres[0]) if len(centres) > 1 else 2
@@ -147,9 +148,7 @@ def _windows(observation: Observation, window: float | None) -> list[_Windows]:
     return found
 
 
-def _check_window(observation: Observation, window: float | None) -> None:
-    if window is None:
-        return
+def _check_window(observation: Observation, window: float) -> None:
     parts = observation.stretches
     step = min(part.segment.step for part in parts)
     longest = max(part.segment.step * max(0, int(part.segment.whole.sum()) - 1) for part in parts)
@@ -449,12 +448,8 @@ def _report(
         bias = float(np.max(np.abs(moved) / sigma, initial=0.0))
         own = _figures(name, observation, len(part.y), fit)
         figures.append(dataclasses.replace(own, imbalance=share, bias=bias))
-    return EnergyReport(
-        window=rows.window,
-        relative_error=float(np.linalg.norm(rows.y - rows.W @ found.beta) / np.linalg.norm(rows.y)),
-        figures=tuple(figures),
-        parameters=len(found.rank.kept),
-    )
+    error = float(np.linalg.norm(rows.y - rows.W @ found.beta) / np.linalg.norm(rows.y))
+    return EnergyReport(rows.window, error, tuple(figures), len(found.rank.kept))
 
 
 def _figures(

@@ -260,8 +260,8 @@ def _sentences(
             "motion, smoothed, stands for the simulated one"
         )
     else:
-        parts = [("integral action", loop.integral), ("feedforward", loop.forward)]
-        fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts)
+        parts = {"integral action": loop.integral, "feedforward": loop.forward}
+        fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts.items())
         best = "comes nearest to the log" if robot.commanded else "explains the torques best"
         how = (
             f"the simulated one that {best} has speed loops of "

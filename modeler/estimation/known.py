@@ -80,13 +80,11 @@ def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[D
             else f"or all torques are logged {factor.value:.3g} times as large as they are: the "
             "drive gains that the controller assumes are wrong by that"
         )
-        found.append(
-            Doubt(
-                f"payload {payload.name}: the logs say that it weighs {mass:.4g} +- {sigma:.1g} "
-                f"kg, {more} than the {payload.mass:g} kg given; check the weight, {gains}",
-                values=True,
-            )
+        line = (
+            f"payload {payload.name}: the logs say that it weighs {mass:.4g} +- {sigma:.1g} kg, "
+            f"{more} than the {payload.mass:g} kg given; check the weight, {gains}"
         )
+        found.append(Doubt(line, values=True))
     return found
 
 

@@ -383,8 +383,7 @@ def ordinary(problem: Problem) -> Estimate:
     bread = found.covariance / found.sigma[0] ** 2
     own = data.triangles[:, :, :-1]
     squares = np.einsum("jik,jil->jkl", own, own)
-    share = np.einsum("kl,jlk->j", bread, squares)
-    spread = data.residual_norms(found.beta) / np.sqrt(np.maximum(data.rows - share, 0.5))
+    spread = _spread(data, found.beta, found.covariance, found.sigma)
     spread = np.maximum(spread, least_sigma(data))
     middle = np.einsum("j,jkl->kl", spread**2, squares)
     return dataclasses.replace(found, covariance=bread @ middle @ bread, bread=bread)

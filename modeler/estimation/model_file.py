@@ -409,11 +409,8 @@ def _remarks(model: IdentifiedModel) -> list[str]:
         f"Values by the method {fit.method}{energy}, {fit.samples} samples, relative error "
         f"{percent(fit.relative_error)}."
     ]
-    added = [
-        step.effect if step.joint is None else f"{step.effect} (joint {step.joint})"
-        for step in model.history
-        if step.effect
-    ]
+    steps = [step for step in model.history if step.effect]
+    added = [f"{s.effect} (joint {s.joint})" if s.joint is not None else s.effect for s in steps]
     if added:
         told.append(f"Effects added since the first fit: {', '.join(added)}.")
     if fit.processing.delay:

@@ -264,9 +264,9 @@ def prior_of(spec: ModuleSpec) -> Prior | None:
             why = "inertia of 0"
         if why:
             without[f"link {link}"] = why
-            continue
-        mean[places], S[np.ix_(places, places)] = given, block
-        groups[f"link {link}"] = places.tolist()
+        else:
+            mean[places], S[np.ix_(places, places)] = given, block
+            groups[f"link {link}"] = places.tolist()
     of_links = {i for own in groups.values() for i in own}
     for i, parameter in enumerate(every):
         if parameter.deviation is not None:

@@ -206,11 +206,11 @@ def friction_by_direction(spec: ModuleSpec, fit: "FitResult") -> tuple[Directed,
         fit: its c base parameters, and the (c, c) covariance of their values.
     """
     parameters, covariance = fit.parameters, fit.covariance
-    kinds = {parameter.name: parameter for parameter in spec.standard}
+    own = {parameter.name: (parameter.effect, parameter.joint) for parameter in spec.standard}
     column = {
-        (kinds[base.column_of].effect, kinds[base.column_of].joint): i
+        own[base.column_of]: i
         for i, base in enumerate(spec.base)
-        if base.column_of in kinds and parameters[i].sigma is not None
+        if base.column_of in own and parameters[i].sigma is not None
     }
     found = []
     for joint in spec.joints:

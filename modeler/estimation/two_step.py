@@ -114,10 +114,9 @@ def _episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
     before = _SEVERAL
     for start, stop in runs(labels != _NONE):
         joint = int(labels[start]) if np.ptp(labels[start:stop]) == 0 else _SEVERAL
-        if joint != _SEVERAL and joint == before:
-            found[-1] = (joint, slice(found[-1][1].start, stop))
-        elif joint != _SEVERAL:
-            found.append((joint, slice(start, stop)))
+        if joint != _SEVERAL:
+            first = found.pop()[1].start if joint == before else start
+            found.append((joint, slice(first, stop)))
         before = joint
     return found
 
@@ -432,10 +431,8 @@ def _solved(joint: int, found: SingleJointMotion, filtered: np.ndarray) -> First
     """Step 1 from its columns and torque; None where the rows do not tell the coefficients."""
     X, y = filtered[:, :-1], filtered[:, -1]
     rows, count = X.shape
-    if not count or rows < _ROWS_PER_COLUMN * count:
-        return None
     lengths = np.linalg.norm(X, axis=0)
-    if not lengths.all():
+    if not count or rows < _ROWS_PER_COLUMN * count or not lengths.all():
         return None
     values = np.linalg.svd(X / lengths, compute_uv=False)
     if values[-1] < _SINGULAR * values[0]:

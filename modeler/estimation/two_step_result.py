@@ -100,11 +100,9 @@ def excitations(
     for i in sorted({c.joint for c in configurations}):
         own = np.array([c.pose for c in configurations if c.joint == i]) @ directions.rows
         rows, best = (inertia_rows(model, q, directions.rows[i]) for q in (own, poses))
-        every = _values(best)
+        name, every = directions.names[i], _values(best)
         usual = every[-1] / every[0]
-        found.append(
-            PersistentExcitation(directions.names[i], len(own), _values(rows), len(every), usual)
-        )
+        found.append(PersistentExcitation(name, len(own), _values(rows), len(every), usual))
     return tuple(found)
 
 
