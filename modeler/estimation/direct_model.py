@@ -135,10 +135,9 @@ class DirectModel:
         action, which holds friction and gravity from the first sample on, and feedforward is
         taken, and its speed by `misfit`, the criterion of the fit along a motion.
         """
-        ratio, integral = KINDS[0]
         found = ControlLoop(np.inf, 0.0, 0.0, 1.0, np.inf)
         for speed in self._speeds()[1]:
-            loop = ControlLoop(speed, ratio, integral, 1.0)
+            loop = ControlLoop(speed, *KINDS[0], 1.0)
             try:
                 far = misfit(self.followed(beta, loop))
             except DataError:

@@ -1,7 +1,6 @@
 """The energy model: work of the motors over windows, and its fit (Houda et al., section 4)."""
 
 import dataclasses
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -216,8 +215,7 @@ def _powers(
 
 def kinetic_columns(model: CompiledModel) -> np.ndarray:
     """(c,) True for base parameters of bodies and rotors."""
-    kinds: Sequence[str] = [base.kind for base in model.spec.base]
-    return np.array([kind in _ENERGY for kind in kinds])
+    return np.array([base.kind in _ENERGY for base in model.spec.base])
 
 
 # The fit.

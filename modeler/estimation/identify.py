@@ -219,6 +219,7 @@ def result_of(
     observation, count = equations.observation, len(equations.observation.names)
     before, after = essential.errors(data, estimate.beta)
     labels = list(zip(equations.names, equations.units, strict=True))
+    alone = None if reduced is None else reduced_model(essential, reduced, dict(labels), after)
     settled = "ok" if estimate.settled else "not settled"
     sigma, told = np.sqrt(np.diag(estimate.covariance)), set(estimate.rank.kept)
     every = tuple(
@@ -247,9 +248,7 @@ def result_of(
         loads=every[count:],
         processing=observation.report.processing,
         bands=observation.report.bands,
-        essential=None
-        if reduced is None
-        else reduced_model(essential, reduced, dict(labels), after),
+        essential=alone,
         **further,
     )
 

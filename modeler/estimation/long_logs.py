@@ -177,12 +177,9 @@ def identify_long(
     """
     method_of(method, "triangles")
     observation, data = streamed.observation, streamed.data
-    gone = np.isin(np.arange(len(data.rows)), dead_joints(observation))
-    data = dataclasses.replace(
-        data,
-        triangles=np.where(gone[:, None, None], 0.0, data.triangles),
-        rows=np.where(gone, 0, data.rows),
-    )
+    alive = ~np.isin(np.arange(len(data.rows)), dead_joints(observation))
+    triangles = data.triangles * alive[:, None, None]
+    data = dataclasses.replace(data, triangles=triangles, rows=data.rows * alive)
     equations = base_equations(observation)
     fit = fit_equations(observation, equations, method, model, data=data, share=streamed.share)
     return dataclasses.replace(fit, samples=streamed.samples, reading=streamed.reading)
