@@ -108,8 +108,13 @@ def _time(table: LogTable) -> np.ndarray:
     if back.size:
         row = int(back[0]) + 1
         raise backwards(table, table.before + row, time[row - 1], time[row])
-    if len(time) > 1:
-        check_step(table.path, name, float(np.median(np.diff(time))))
+    step = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
+    if not _SHORTEST_STEP <= step <= _LONGEST_STEP:
+        raise DataError(
+            f"{table.path}: column {name}: median step of {step:.3g} s; expected "
+            f"{_SHORTEST_STEP:g} to {_LONGEST_STEP:g} s; write the time in seconds, or map it "
+            "with its unit"
+        )
     return time
 
 
@@ -120,16 +125,6 @@ def backwards(table: LogTable, row: int, before: float, time: float) -> DataErro
         f"{before:.9g} s; expected increasing time; delete repeated rows, or sort "
         "and split the file where the clock restarts"
     )
-
-
-def check_step(path: Path, name: str, step: float) -> None:
-    """Refuse a median step, s, that squares of say nothing."""
-    if not _SHORTEST_STEP <= step <= _LONGEST_STEP:
-        raise DataError(
-            f"{path}: column {name}: median step of {step:.3g} s; expected "
-            f"{_SHORTEST_STEP:g} to {_LONGEST_STEP:g} s; write the time in seconds, or map it "
-            "with its unit"
-        )
 
 
 def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str]:
@@ -302,7 +297,7 @@ class Ranges:
 # A log as blocks of rows: a file of any length, or a log that is in memory already.
 
 
-_COLUMNS = ("time", "q", "tau", "qd", "qdd", "commanded")
+_COLUMNS = ("time", "q", "tau", "qd", "qdd", "commanded", "segment")
 _FIRST = 1000  # rows that tell which columns a file has
 
 
@@ -345,32 +340,30 @@ class FileSource:
             if log.time[0] <= last:
                 raise backwards(table, before, last, float(log.time[0]))
             before, last = before + log.rows, float(log.time[-1])
-            yield dataclasses.replace(log, notes=self._notes, extra=_carried(log, warm))
+            yield self._told(log, warm)
 
     def window(self, share: float, size: int) -> Log:
         """Up to `size` consecutive rows from about a share of the log on."""
         columns = self._blocks.window(share, size, self._names)
-        log = log_of(self._table(columns, int(share * self.rows)), self._spec)
-        return dataclasses.replace(log, notes=self._notes, extra=_carried(log, {}))
+        return self._told(log_of(self._table(columns, int(share * self.rows)), self._spec), {})
 
     def _table(self, part: Columns, before: int = 0) -> LogTable:
         return LogTable(*self.place, self._spec.joints, part=part, before=before)
 
-
-def _carried(log: Log, last: dict[str, float]) -> dict[str, np.ndarray]:
-    """Slow columns without a value in these rows, with the last one before them."""
-    found = {}
-    for name, values in log.extra.items():
-        if not np.isfinite(values).any():
-            if name not in last:
-                raise DataError(
-                    f"{log.name}: {name} has no values from {log.time[0]:.6g} to "
-                    f"{log.time[-1]:.6g} s; record it all the time, or drop the column"
-                )
-            values = np.full(len(values), last[name])
-        last[name] = float(values[np.isfinite(values)][-1])
-        found[name] = values
-    return found
+    def _told(self, log: Log, last: dict[str, float]) -> Log:
+        """With the notes; slow columns without a value in its rows have the last before them."""
+        found = {}
+        for name, values in log.extra.items():
+            if not np.isfinite(values).any():
+                if name not in last:
+                    raise DataError(
+                        f"{log.name}: {name} has no values from {log.time[0]:.6g} to "
+                        f"{log.time[-1]:.6g} s; record it all the time, or drop the column"
+                    )
+                values = np.full(len(values), last[name])
+            last[name] = float(values[np.isfinite(values)][-1])
+            found[name] = values
+        return dataclasses.replace(log, notes=self._notes, extra=found)
 
 
 class MemorySource:
@@ -406,7 +399,15 @@ def source_of(path: Path, spec: ModuleSpec, mapping: LogMap | None = None) -> Fi
 
 def joined(logs: Sequence[Log]) -> Log:
     """Consecutive rows of one log, put together."""
-    return logs[0] if len(logs) == 1 else _joined(logs, _whole(logs, "segment"))
+    if len(logs) == 1:
+        return logs[0]
+    columns: dict[str, Any] = {}
+    for name in _COLUMNS:
+        found = [getattr(log, name) for log in logs]
+        columns[name] = None if any(part is None for part in found) else np.concatenate(found)
+    extra = {name: np.concatenate([log.extra[name] for log in logs]) for name in logs[0].extra}
+    missing = dict(sum((Counter(log.missing) for log in logs), Counter[str]()))
+    return dataclasses.replace(logs[0], **columns, extra=extra, missing=missing)
 
 
 def windows_joined(logs: Sequence[Log]) -> Log:
@@ -415,25 +416,12 @@ def windows_joined(logs: Sequence[Log]) -> Log:
     for log in logs:
         numbers.append(first + log.piece_number)
         first = int(numbers[-1][-1]) + 1
-    return _joined(logs, np.concatenate(numbers))
-
-
-def _joined(logs: Sequence[Log], segment: np.ndarray | None) -> Log:
-    columns = {name: _whole(logs, name) for name in _COLUMNS}
-    extra = {name: np.concatenate([log.extra[name] for log in logs]) for name in logs[0].extra}
-    missing = dict(sum((Counter(log.missing) for log in logs), Counter[str]()))
-    changed: dict[str, Any] = {**columns, "segment": segment, "extra": extra, "missing": missing}
-    return dataclasses.replace(logs[0], **changed)
-
-
-def _whole(logs: Sequence[Log], name: str) -> np.ndarray | None:
-    found = [getattr(log, name) for log in logs]
-    return None if any(values is None for values in found) else np.concatenate(found)
+    return dataclasses.replace(joined(logs), segment=np.concatenate(numbers))
 
 
 def cut(log: Log, rows: slice | np.ndarray) -> Log:
     """Some rows of a log: consecutive ones, or those of a mask (n,)."""
-    whole = {name: getattr(log, name) for name in (*_COLUMNS, "segment")}
+    whole = {name: getattr(log, name) for name in _COLUMNS}
     parts: dict[str, Any] = {n: v if v is None else v[rows] for n, v in whole.items()}
     extra = {name: values[rows] for name, values in log.extra.items()}
     return dataclasses.replace(log, **parts, extra=extra)

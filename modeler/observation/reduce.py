@@ -4,7 +4,7 @@ Up to `KEPT` bytes W is built once and kept. Beyond, every stage asks for what i
 and they are evaluated as often as that: cheaper than to write them to memory and read them back.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
@@ -17,6 +17,8 @@ from modeler.runtime import NonzeroPattern, Triangles, no_rows, of_rows
 KEPT = 2**26
 """Bytes of the filtered regressor up to which it is kept."""
 
+_ADDED = 4096  # samples evaluated at a time for triangles of filtered rows
+
 
 def is_streamed(observation: Observation) -> bool:
     """True if W is not built: it would be large, and nobody has asked for it yet."""
@@ -27,11 +29,9 @@ def is_streamed(observation: Observation) -> bool:
 
 def blocks(observation: Observation) -> Iterator[tuple[slice, np.ndarray]]:
     """Samples (b of them) and their filtered regressor (b, n, c), in order."""
-    first = 0
-    for part in observation.stretches:
+    for part, own in _stretches(observation):
         for rows, columns in part.blocks(partial(observation.regressor, part.segment)):
-            yield slice(first + rows.start, first + rows.stop), columns
-        first += len(part.rows.centres)
+            yield slice(own.start + rows.start, own.start + rows.stop), columns
 
 
 def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
@@ -50,25 +50,20 @@ def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
     return np.concatenate(found)
 
 
-def fitted_torque(
-    observation: Observation, beta: np.ndarray, keep: np.ndarray | None = None
-) -> np.ndarray:
-    """(s, n) torque of the model, `columns beta`; 0 where keep (s, n) is given and False."""
-    regressor = observation.regressor
-    if not isinstance(regressor, Evaluated):
-        found = np.concatenate([columns @ beta for _, columns in blocks(observation)])
-        return found if keep is None else np.where(keep, found, 0.0)
-    found = np.zeros(observation.used.shape)
+def fitted_torque(observation: Observation, beta: np.ndarray, keep: np.ndarray) -> np.ndarray:
+    """(s, n) torque of the model, `columns beta`, where keep (s, n); 0 elsewhere."""
+    regressor, found = observation.regressor, np.zeros(observation.used.shape)
     for part, own in _stretches(observation):
-        if keep is not None and not keep[own].any():
+        if not keep[own].any():
             continue
-        if is_unfiltered(part):
-            every = np.ones(len(part.used), dtype=bool) if keep is None else keep[own].any(axis=1)
-            some = near(np.flatnonzero(every))
+        if not isinstance(regressor, Evaluated):
+            found[own] = part.filtered(partial(regressor, part.segment)) @ beta
+        elif is_unfiltered(part):
+            some = near(np.flatnonzero(keep[own].any(axis=1)))
             found[own][some] = regressor.torque(part.segment, near(part.rows.centres[some]), beta)
         else:
             found[own] = part.filtered(partial(regressor.torque, part.segment, beta=beta))
-    return found if keep is None else np.where(keep, found, 0.0)
+    return np.where(keep, found, 0.0)
 
 
 def triangles(observation: Observation, keep: np.ndarray) -> Triangles:
@@ -88,7 +83,6 @@ def with_stretch(
     torque: np.ndarray,
     keep: np.ndarray,
     state: Triangles,
-    samples: int = 4096,
 ) -> Triangles:
     """Triangles with the rows of a stretch added.
 
@@ -98,35 +92,15 @@ def with_stretch(
         torque: (rows, n) filtered.
         keep: (rows, n) bool.
         state: before.
-        samples: whose regressor is evaluated at a time, where rows are filtered.
     """
     if not keep.any():
         return state
     if isinstance(regressor, Evaluated) and is_unfiltered(part):
         return regressor.triangles(part, keep, state)
-    for rows, columns in part.blocks(partial(regressor, part.segment), samples):
+    for rows, columns in part.blocks(partial(regressor, part.segment), _ADDED):
         used = np.ascontiguousarray(keep[rows])
         state = of_rows(state.pattern, columns, torque[rows], used, state)
     return state
-
-
-def products(
-    observation: Observation, keep: np.ndarray, last: Sequence[int]
-) -> list[np.ndarray] | None:
-    """Sums over t of w_j(t - k) w_j(t)^T within segments, k = 1 .. last_j; None: ask for blocks.
-
-    (last_j, c_j, c_j) for each joint, over its columns of the pattern of the regressor.
-    """
-    regressor = observation.regressor
-    if not (isinstance(regressor, Evaluated) and regressor.multiplies):
-        return None
-    if not all(is_unfiltered(part) for part in observation.stretches):
-        return None
-    total: list[np.ndarray] | None = None
-    for part, own in _stretches(observation):
-        found = [joint[:, :-1, :-1] for joint in regressor.products(part, keep[own].copy(), last)]
-        total = found if total is None else [a + b for a, b in zip(total, found, strict=True)]
-    return total
 
 
 def is_unfiltered(part: Stretch) -> bool:

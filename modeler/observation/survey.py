@@ -333,14 +333,11 @@ def _centres(segment: Segment, chunk: Chunk, chosen: LogChoices) -> np.ndarray:
 
 def _clipped(log: Log, pieces: Sequence[Piece]) -> np.ndarray:
     """(2, J) the ends of each torque's range that were taken for a limit; NaN of the others."""
-    found = np.full((2, log.tau.shape[1]), np.nan)
-    if not pieces or not any(piece.clipped.any() for piece in pieces):
-        return found
-    low, high = np.fmin.reduce(log.tau, axis=0), np.fmax.reduce(log.tau, axis=0)
-    for row, end in enumerate((low, high)):
+    found = []
+    for end in (np.fmin.reduce(log.tau, axis=0), np.fmax.reduce(log.tau, axis=0)):
         at = [np.any(piece.clipped & (piece.tau == end), axis=0) for piece in pieces]
-        found[row] = np.where(np.any(at, axis=0), end, np.nan)
-    return found
+        found.append(np.where(np.any(at, axis=0), end, np.nan))
+    return np.stack(found)
 
 
 def _awake(segments: Sequence[Segment], chosen: LogChoices) -> dict[str, float]:
