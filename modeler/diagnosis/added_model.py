@@ -326,11 +326,6 @@ class HoldoutRows:
         """What a model is fitted to."""
         return self.seen[0]
 
-    @property
-    def held_out(self) -> bool:
-        """True if there are logs to judge on."""
-        return len(self.seen) > 1
-
     def of(self, compiled: CompiledModel) -> "HoldoutRows":
         """The rows of the same robot with other effects; nothing is filtered again."""
         if shafts(compiled) == shafts(self.compiled):

@@ -228,10 +228,9 @@ def _references(
     """Reference bodies: as known, or round, of the mass and size that the torques allow."""
     size = max(float(np.linalg.norm(z)), 1e-300)
     scale = scales(machine, R @ machine.K / size)
-    count = max(1, len(machine.links))
     found = {}
     for name, own in machine.links.items():
-        mass, metre = scale[own[9]] / count, scale[own[6]] / scale[own[9]]
+        mass, metre = scale[own[9]] / len(machine.links), scale[own[6]] / scale[own[9]]
         found[name] = known.get(name, mass * np.diag([metre**2, metre**2, metre**2, 1.0]))
     return found
 

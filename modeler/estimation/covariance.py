@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.estimation.least_squares import Estimate, Problem, repeated_in_passing, solve_by_qr
+from modeler.estimation.least_squares import Estimate, Rows, repeated_in_passing, solve_by_qr
 from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import Compressed, triangle
 from modeler.observation import Observation
@@ -67,7 +67,7 @@ def roots(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def coloured(
-    rows: Problem, estimate: Estimate, at: Sequence[int] | None = None, share: float = 1.0
+    rows: Rows, estimate: Estimate, at: Sequence[int] | None = None, share: float = 1.0
 ) -> Colour:
     """By how much autocorrelated residuals raise the standard deviations.
 
@@ -88,16 +88,16 @@ def coloured(
         at: (c,) columns of the rows that were fitted, in order; None: all.
         share: of the fitted rows that these are.
     """
-    observation, W = rows.observation, None if rows.streamed else rows.W
+    observation, W = rows.observation, rows
     own_way = estimate.pull is not None or estimate.bread is not None
-    every = np.eye(len(rows.names))
-    picked = every if at is None else every[:, at]
+    columns = len(observation.names) if rows.streamed else rows.W.shape[1]
+    picked = np.eye(columns) if at is None else np.eye(columns)[:, at]
     residual = estimate.residual
     if residual is None:
         residual = rows.residual(picked @ estimate.beta)
     matrix = picked @ (estimate.covariance if estimate.bread is None else estimate.bread)
     if estimate.pull is not None:
-        W, matrix = estimate.pull, picked
+        W, matrix = Rows(observation, estimate.pull, rows.y, rows.counted), picked
     joints, memory = len(observation.joints), []
     lasting, pulls = np.zeros(joints), np.zeros((joints, *picked.shape))
     correlations = [np.ones(1) for _ in observation.joints]
@@ -110,24 +110,23 @@ def coloured(
             memory.append((joint.name, told * _spacing(observation)))
         size = float(np.sqrt(np.mean(residual[own] ** 2)))
         pulls[j] = matrix * (size if own_way else 1.0 / estimate.sigma[j])
-    extra = _repeated_rows(rows, W, pulls, correlations) / share  # C (B - C^-1) C
+    extra = _repeated_rows(W, pulls, correlations) / share  # C (B - C^-1) C
     white = np.diag(estimate.covariance)
     ratio = 1.0 + np.diag(extra) / np.where(white > 0.0, white, 1.0)
     return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory), lasting, extra)
 
 
 def _repeated_rows(
-    rows: Problem, W: np.ndarray | None, matrices: np.ndarray, correlations: Sequence[np.ndarray]
+    rows: Rows, matrices: np.ndarray, correlations: Sequence[np.ndarray]
 ) -> np.ndarray:
     """(k, k) `repeated_whole` of the counted rows of all joints, each times its matrix (c, k)."""
-    observation = rows.observation
-    if W is None:
-        return repeated_in_passing(observation, rows.counted, matrices, correlations)
-    total = np.zeros((matrices.shape[2],) * 2)
+    if rows.streamed:
+        return repeated_in_passing(rows.observation, rows.counted, matrices, correlations)
+    total, observation = np.zeros((matrices.shape[2],) * 2), rows.observation
     for j, r in enumerate(correlations):
         own = rows.counted & (rows.joint == j)
         sample = observation.row_sample[own]
-        total += repeated_whole(W[own] @ matrices[j], r, sample, observation.segment)
+        total += repeated_whole(rows.W[own] @ matrices[j], r, sample, observation.segment)
     return total
 
 

@@ -73,26 +73,20 @@ def repeated_in_passing(
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
-    """y = W beta + rho, row for row those of an observation; c columns.
+class Rows:
+    """Row for row those of an observation; c columns.
 
     Attributes:
         observation: says which row is which joint and sample, and holds the motion.
         given: (rows, c) W; None: that of the observation.
         y: (rows,) N m or N.
         counted: (rows,) rows to fit; the others are of joints without a torque.
-        names: (c,) base parameters first, then those of loads.
-        data: the counted rows, compressed.
-        model: the compiled robot; None where nobody gave it.
     """
 
     observation: Observation
     given: np.ndarray | None
     y: np.ndarray
     counted: np.ndarray
-    names: tuple[str, ...]
-    data: Compressed
-    model: CompiledModel | None = None
 
     @property
     def W(self) -> np.ndarray:
@@ -114,6 +108,21 @@ class Problem:
         if self.streamed:
             return residual_of(self.observation, beta)
         return np.asarray(self.y - self.W @ beta)
+
+
+@dataclass(frozen=True, eq=False)
+class Problem(Rows):
+    """y = W beta + rho.
+
+    Attributes:
+        names: (c,) base parameters first, then those of loads.
+        data: the counted rows, compressed.
+        model: the compiled robot; None where nobody gave it.
+    """
+
+    names: tuple[str, ...]
+    data: Compressed
+    model: CompiledModel | None = None
 
     def scattered(self, kept: np.ndarray, values: np.ndarray) -> np.ndarray:
         """(rows, c) of values (counted rows, kept columns); 0 elsewhere."""

@@ -94,11 +94,6 @@ def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: LogChoices) -> Part
     return Partial(Compressed(names, state.triangles, state.rows.astype(np.intp), free), facts)
 
 
-def merge_all(parts: Iterable[Partial]) -> Partial:
-    """Of all chunks of a log, one after the other."""
-    return reduce(Partial.merged_with, parts)
-
-
 @dataclass(frozen=True, eq=False)
 class Streamed:
     """Long logs, ready for a fit.

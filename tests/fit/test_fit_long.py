@@ -4,6 +4,7 @@ import dataclasses
 import pickle
 import subprocess
 import sys
+from functools import reduce
 
 import numpy as np
 import pyarrow as pa
@@ -17,7 +18,7 @@ from modeler.core.errors import DataError
 from modeler.estimation import long_logs as streamed
 from modeler.estimation.doubts import unexplained_joints
 from modeler.estimation.identify import CrossValidation, identify
-from modeler.estimation.long_logs import identify_long, merge_all, reduce_chunk, stream
+from modeler.estimation.long_logs import Partial, identify_long, reduce_chunk, stream
 from modeler.estimation.verdict import with_verdict
 from modeler.numerics.filters import spacing
 from modeler.observation.chunk import chunks, margin
@@ -334,7 +335,9 @@ def test_threads_change_nothing_and_chunks_can_be_sent_away(monkeypatch):
     for chunk in chunks(source, chosen.own, chosen.beside):
         sent = pickle.loads(pickle.dumps((chunk, chosen)))
         parts.append(pickle.loads(pickle.dumps(reduce_chunk(ARM, *sent))))
-    np.testing.assert_array_equal(merge_all(parts).data.triangles, one.data.triangles)
+    np.testing.assert_array_equal(
+        reduce(Partial.merged_with, parts).data.triangles, one.data.triangles
+    )
 
 
 def test_an_error_or_an_interrupt_ends_the_threads(monkeypatch):
