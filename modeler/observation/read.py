@@ -240,13 +240,11 @@ class Ranges:
     @staticmethod
     def of(log: Log) -> "Ranges":
         """Of some rows."""
-        there, low, high = [], [], []
-        for values in (log.q, log.tau):
-            there.append(np.isfinite(values).sum(axis=0))
-            least, most = np.fmin.reduce(values, axis=0), np.fmax.reduce(values, axis=0)
-            low.append(np.where(there[-1] > 0, least, np.inf))
-            high.append(np.where(there[-1] > 0, most, -np.inf))
-        return Ranges(np.stack(there), np.stack(low), np.stack(high))
+        channels = (log.q, log.tau)
+        there = np.stack([np.isfinite(values).sum(axis=0) for values in channels])
+        low = np.stack([np.fmin.reduce(values, axis=0) for values in channels])
+        high = np.stack([np.fmax.reduce(values, axis=0) for values in channels])
+        return Ranges(there, np.where(there, low, np.inf), np.where(there, high, -np.inf))
 
     @property
     def torques(self) -> tuple[tuple[float, float], ...]:

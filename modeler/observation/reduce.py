@@ -22,9 +22,8 @@ _ADDED = 4096  # samples evaluated at a time for triangles of filtered rows
 
 def is_streamed(observation: Observation) -> bool:
     """True if W is not built: it would be large, and nobody has asked for it yet."""
-    if "columns" in vars(observation):
-        return False
-    return 8 * observation.used.size * len(observation.names) > KEPT
+    large = 8 * observation.used.size * len(observation.names) > KEPT
+    return large and "columns" not in vars(observation)
 
 
 def blocks(observation: Observation) -> Iterator[tuple[slice, np.ndarray]]:

@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -228,14 +229,10 @@ def _check_unit(windows: Sequence[Log]) -> None:
 
 def _moving(source: Source, part: tuple[float, float], size: int) -> Log:
     """A window in which something moves, in a part of a log; that in its middle if none does."""
-    middle: Log | None = None
-    for place in _PLACES:
-        log = source.window(part[0] + place * (part[1] - part[0]), size)
-        if _moves(log):
-            return log
-        middle = middle or log
-    assert middle is not None
-    return middle
+    start, stop = part
+    looks = (source.window(start + place * (stop - start), size) for place in _PLACES)
+    middle = next(looks)
+    return next((log for log in chain([middle], looks) if _moves(log)), middle)
 
 
 def _moves(log: Log) -> bool:

@@ -245,7 +245,7 @@ def test_a_drive_limit_that_the_windows_reach_and_others_exceed_costs_a_second_p
     tau[7 * ROWS + 10 : 7 * ROWS + 60, 0] = 3.0 * np.abs(tau[:, 0]).max()
     limited = dataclasses.replace(log, tau=tau)
     long = stream(ARM, [MemorySource(limited)], Processing(keep_damaged=True), rows=ROWS)
-    assert long.reading["passes"] == 2
+    assert long.passes.passes == 2
     seen = observe(ARM, [limited], Processing(keep_damaged=True))
     assert long.observation.report.logs[0].saturated == seen.report.logs[0].saturated == {"1": 50}
 
@@ -260,7 +260,7 @@ def test_a_joint_that_rests_where_windows_are_is_not_left_out(small_windows):
     tau = ARM.base_regressor(q, qd, np.gradient(qd, log.step, axis=0)) @ BETA
     resting = dataclasses.replace(log, q=q, tau=tau + 0.01 * log.tau)
     long = stream(ARM, [MemorySource(resting)], rows=ROWS)
-    assert long.reading["passes"] == 2
+    assert long.passes.passes == 2
     assert 0.0 < long.observation.report.joints[1].speed_floor < np.inf
     assert long.data.rows[1] > 10
 
