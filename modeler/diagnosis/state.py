@@ -1,7 +1,7 @@
 """The analysis at one point of the search: what is in the model so far, and what it leaves."""
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -29,21 +29,18 @@ from modeler.effects import Acts
 from modeler.estimation import Prior, prior_of, remembered
 from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
 from modeler.observation import (
-    APART,
     HIGHEST,
-    LOWER,
-    TREMBLES,
-    ChosenProcessing,
     Log,
     LogRepair,
+    Look,
     Observation,
     Prepared,
     Processing,
     choose_cutoffs,
-    filtered_again,
     observe,
     observed,
     prepare,
+    quiet,
 )
 
 if TYPE_CHECKING:
@@ -293,6 +290,16 @@ class State(Brief):
         """(rows_j,) by joint, N m or N."""
         return tuple(y - w @ self.solution for y, w in zip(self.y, self.W, strict=True))
 
+    @property
+    def torque(self) -> np.ndarray:
+        """(s, n) of the model, beside the rows that are used; of the others the measured one."""
+        found = self.data.observation.torque.copy()
+        for j, (used, left) in enumerate(
+            zip(self.data.observation.used.T, self.residual, strict=True)
+        ):
+            found[used, j] -= left
+        return found
+
     @cached_property
     def known(self) -> dict[Any, Any]:
         """What was made of it, by name."""
@@ -420,10 +427,6 @@ BAND = 30.0
 """Hz: highest cut-off of the parallel filter. Fits use a narrow band, where torque noise is least;
 ripple, elasticity, delays and reversals show above it."""
 
-COMPLETE = 0.95
-"""Least share of a row's weights on usable samples."""
-
-
 def analysed(
     compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None = None,
     prepared: Prepared | None = None, mending: LogRepair | None = None,
@@ -432,9 +435,8 @@ def analysed(
 
     With f0 where the positions drown in their noise, and c the parallel cut-off that the motion
     asks for, the parallel filter is at f0/2 within c and `BAND`, that of the positions at f0 and at
-    least twice as high. Then, while the model's torque trembles more than `TREMBLES` times as much
-    as the measured one, the parallel filter is lowered down to that of the fit, the position filter
-    to `APART` times that, and both. What the user gave stays.
+    least twice as high. Both are lowered until the model's torque is `quiet`, the parallel filter
+    first down to c. What the user gave stays.
 
     Args:
         compiled: the robot.
@@ -445,86 +447,34 @@ def analysed(
         mending: of the same logs, where it is shared.
     """
     prepared = prepared or prepare(compiled.spec, logs, fitted, mending)
-    if "parallel_cutoff" not in fitted.chosen or not prepared.noise.moving:
+    noise = prepared.noise
+    if "parallel_cutoff" not in fitted.chosen or not noise.moving:
         return _whole(observed(compiled, logs, prepared, every_joint=True))
-    pieces = [piece for own in prepared.pieces for piece in own]
     given = None if "position_cutoff" in fitted.chosen else fitted.position_cutoff
     asked = dataclasses.replace(
         fitted, position_cutoff=given, parallel_cutoff=None, decimation=None, edge=None
     )
-    wide, _ = choose_cutoffs(asked, pieces, prepared.noise)
-    least = wide.parallel_cutoff
-    highest = given or HIGHEST / max(piece.step for piece in pieces)
+    wide, _ = choose_cutoffs(asked, prepared.pieces, noise)
+    motion = wide.parallel_cutoff
+    highest = given or HIGHEST / max(piece.step for piece in prepared.pieces)
     if band is None:
-        parallel = max(least, min(BAND, 0.5 * highest, 0.5 * prepared.noise.cutoff))
+        parallel = max(motion, min(BAND, 0.5 * highest, 0.5 * noise.cutoff))
         position = max(wide.position_cutoff, 2.0 * parallel)
     else:
-        parallel = max(least, min(band, 0.8 * highest))
+        parallel = max(motion, min(band, 0.8 * highest))
         position = 1.25 * parallel if band else wide.position_cutoff
-    position = given or min(position, highest)
-    wide = dataclasses.replace(wide, position_cutoff=position, parallel_cutoff=parallel)
-
-    def filtered(chosen: ChosenProcessing) -> Prepared:
-        """Logged speeds are checked in the band of the rows."""
-        if any(check is not None for check in prepared.checks):
-            return prepare(compiled.spec, logs, chosen, mending)
-        return filtered_again(prepared, chosen)
-
-    return quieted(compiled, logs, filtered, wide, least)
-
-
-def quieted(
-    compiled: "CompiledModel", logs: Sequence[Log],
-    filtered: Callable[[ChosenProcessing], Prepared], chosen: ChosenProcessing, least: float,
-) -> Observation:  # fmt: skip
-    """The logs with cut-offs lowered until the torque of the model does not tremble."""
-    position, parallel = chosen.position_cutoff, chosen.parallel_cutoff
-    for _ in range(_LOWERED):
-        lower = dataclasses.replace(chosen, position_cutoff=position, parallel_cutoff=parallel)
-        prepared = filtered(lower)
-        seen = _whole(observed(compiled, logs, prepared, every_joint=True))
-        if max(trembling(_free(compiled, seen)).values(), default=0.0) <= TREMBLES:
-            break
-        if parallel > least:
-            parallel = max(least, LOWER * parallel)
-        elif position > APART * parallel:
-            position = max(LOWER * position, APART * parallel)
-        else:
-            least *= LOWER
-            parallel = least
-    return seen
-
-
-def _free(compiled: "CompiledModel", seen: Observation) -> State:
-    """The model fitted to an observation."""
-    return state_of(SearchData(compiled, seen), (), np.zeros(len(compiled.spec.base)))
-
-
-_LOWERED = 16  # times, from 100 Hz to less than 1 Hz
-
-
-def trembling(state: State) -> dict[str, float]:
-    """How much more the model's torque trembles than the measured one, by joint.
-
-    Root mean square of the second differences from row to row, over that of the measured torque.
-    """
-    found = {}
-    for j, (name, y) in enumerate(zip(state.names, state.rows.y, strict=True)):
-        measured, model = (_bends(state, j, x) for x in (y, y - state.residual[j]))
-        if measured > 0.0:
-            found[name] = model / measured
-    return found
-
-
-def _bends(state: State, j: int, values: np.ndarray) -> float:
-    """Rms of the second differences of values (rows_j,) between neighbouring rows."""
-    time, segment = state.rows.time[j], state.rows.segment[j]
-    if len(time) < 3:
-        return 0.0
-    step = np.diff(time)
-    near = (step < 1.5 * np.median(step)) & (np.diff(segment) == 0)
-    bends = np.diff(values, 2)[near[1:] & near[:-1]]
-    return float(np.sqrt(np.mean(bends**2))) if bends.size else 0.0
+    prepared = dataclasses.replace(prepared, processing=wide)
+    prepared = prepared.with_cutoffs(given or min(position, highest), parallel)
+    look, wide = Look.of(compiled, prepared), prepared.processing
+    least, beta = look.narrow(noise, wide.position_cutoff)
+    found = quiet(
+        look, beta, (wide.position_cutoff, wide.parallel_cutoff), (motion, least),
+        given is not None,
+    )  # fmt: skip
+    prepared = prepared.with_cutoffs(found.position, found.parallel)
+    if any(log.check is not None for log in prepared.logs):  # in the band of the rows
+        prepared = prepare(compiled.spec, logs, prepared.processing, mending)
+    return _whole(observed(compiled, logs, prepared, every_joint=True))
 
 
 def again(
@@ -559,16 +509,6 @@ def bands_line(fitted: Processing, seen: Processing) -> list[str]:
 
 
 def _whole(observation: Observation) -> Observation:
-    """Only rows whose weights lie on usable samples all but wholly.
-
-    A row at the edge of a masked reversal is the mean of few samples, and what the filter makes of
-    the sign of a speed there looks like physics.
-    """
-    stretches = tuple(
-        dataclasses.replace(part, used=part.used & (part.rows.share(part.usable) >= COMPLETE))
-        for part in observation.stretches
-    )
-    used = np.concatenate([part.used for part in stretches])
-    if not used.any():
-        return observation
-    return dataclasses.replace(observation, used=used, stretches=stretches)
+    """Only whole rows, if there are any."""
+    used = observation.whole
+    return observation.with_rows(used) if used.any() else observation

@@ -39,6 +39,9 @@ from modeler.observation.stretch import Stretch, stretch
 from modeler.observation.tally import joint_reports, log_report, tally
 from modeler.runtime import CompiledModel, NonzeroPattern, Triangles
 
+COMPLETE = 0.95
+"""Least share of the weights of a row on usable samples, where it must be whole."""
+
 # The rows of y = W beta, and which is which.
 
 
@@ -111,6 +114,23 @@ class Observation(Presented):
     def row_run(self) -> np.ndarray:
         """(rows,) index of the log of each row."""
         return self.run[self.row_sample]
+
+    @cached_property
+    def whole(self) -> np.ndarray:
+        """(s, n) rows that count, and whose weights lie on usable samples all but wholly.
+
+        A row at the edge of a masked reversal is the mean of few samples, and what the filter makes
+        of the sign of a speed there looks like physics.
+        """
+        shares = [part.rows.share(part.usable) for part in self.stretches]
+        return self.used & (np.concatenate(shares) >= COMPLETE)
+
+    def with_rows(self, used: np.ndarray) -> "Observation":
+        """The same with other rows (s, n) that count."""
+        ends = np.cumsum([len(part.used) for part in self.stretches])[:-1]
+        pairs = zip(self.stretches, np.split(used, ends), strict=True)
+        parts = tuple(dataclasses.replace(part, used=own) for part, own in pairs)
+        return dataclasses.replace(self, used=used, stretches=parts)
 
     def predicted(self, beta: np.ndarray) -> np.ndarray:
         """(s, n) torque of the model, filtered like the measurement: columns beta."""
@@ -204,23 +224,19 @@ def observed(
         DataError: no usable row.
         LoopError: hardly a sample closes the loops.
     """
-    prepared, open_times = without_open(model, logs, prepared)
+    segments, open_times = without_open(model, logs, prepared.segments)
     parts = with_every_joint(model) if every_joint else shafts(model)
-    seen = prepared.processing, parts, prepared.segments
+    seen = prepared.processing, parts, segments
     floors = floors_of(*seen)
     chosen = dataclasses.replace(prepared.processing, speed_floors=floors)
-    stretches = tuple(stretch(segment, parts, chosen) for segment in prepared.segments)
+    stretches = tuple(stretch(segment, parts, chosen) for segment in segments)
     tallies, reports = [], []
-    for run, (log, times) in enumerate(zip(logs, open_times, strict=True)):
+    for run, (log, times, of) in enumerate(zip(logs, open_times, prepared.logs, strict=True)):
         own = [part for part in stretches if part.segment.run == run]
-        left_out = [piece for piece in prepared.left_out if piece.run == run]
-        pieces, check = prepared.pieces[run], prepared.checks[run]
-        whole = tally(whole_log(log), pieces, prepared.splits[run], own, left_out, check)
-        wrong = check.contradictions if check else ()
+        whole = tally(whole_log(log), of.pieces, of.cuts, own, of.check)
+        wrong = of.check.contradictions if of.check else ()
         decimation = next((part.decimation for part in own if len(part.rows.centres) > 1), 1)
-        found = log_report(
-            log, model.spec, prepared, run, whole, prepared.defects[run], wrong, decimation
-        )
+        found = log_report(log, model.spec, of, whole, of.defects, wrong, decimation)
         tallies.append(whole)
         reports.append(dataclasses.replace(found, open_times=times))
     report = DataReport(

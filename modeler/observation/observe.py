@@ -19,17 +19,10 @@ from modeler.numerics.least_squares import scaled_least_squares
 from modeler.observation.log import Log
 from modeler.observation.low_speed import floors_of, shafts
 from modeler.observation.motion import HIGHEST, Segment, segment_of
-from modeler.observation.motion_noise import MotionNoise
+from modeler.observation.motion_noise import ChannelNoise, MotionNoise
 from modeler.observation.observation import Observation, observed, stacked
-from modeler.observation.prepare import (
-    LogRepair,
-    Prepared,
-    closed,
-    filtered_again,
-    prepare,
-    two_digits,
-)
-from modeler.observation.report import DataReport, bands_of
+from modeler.observation.prepare import LogRepair, Prepared, closed, prepare, two_digits
+from modeler.observation.report import Bands, DataReport
 from modeler.observation.segments import Piece
 from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.observation.stretch import stretch
@@ -88,31 +81,10 @@ def observe(
     """
     asked = processing or Processing()
     prepared = prepare(model.spec, logs, asked, mending)
-    return within_noise(model, logs, prepared, asked, every_joint)
+    return observed(model, logs, lowered(model, prepared, asked), every_joint)
 
 
-def within_noise(
-    model: CompiledModel, logs: Sequence[Log], prepared: Prepared, asked: Processing,
-    every_joint: bool = False,
-) -> Observation:  # fmt: skip
-    """The observation of prepared logs, with the cut-offs lowered to what torques answer to.
-
-    Args:
-        model: the compiled robot.
-        logs: as they were prepared.
-        prepared: with the widest cut-offs that the motion asks for.
-        asked: the processing that was asked for; a cut-off that it gives stays.
-        every_joint: as of `observe`.
-
-    Raises:
-        DataError: no usable row.
-    """
-    if asked.parallel_cutoff is None and prepared.noise.moving:
-        prepared = lowered(model, prepared, asked.position_cutoff)
-    return observed(model, logs, prepared, every_joint)
-
-
-def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Prepared:
+def lowered(model: CompiledModel, prepared: Prepared, asked: Processing) -> Prepared:
     """The logs with both cut-offs where the torques answer to the motion.
 
     Parallel filter: where the noise of the positions, as torque, meets the noise of the torques.
@@ -123,58 +95,48 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
         f' = min_j (max(T_j, T_least) / A_j)^(1/4)
 
     is tried anew until it stays, from below: from above, inertias bent by noise would hide it.
-    Then, while the model's torque trembles more than `TREMBLES` times as much as the measured one,
-    the parallel filter, and then the position filter, is lowered further: noise without a floor.
+    Then both are lowered further until the model's torque is `quiet`: noise without a floor.
 
     Args:
         model: the compiled robot.
         prepared: the logs, with the widest cut-offs.
-        given: position cut-off of the user, Hz; None: chosen.
+        asked: the processing that was asked for; a cut-off that it gives stays.
     """
-    look = Look.of(model, prepared)
+    if asked.parallel_cutoff is not None or not prepared.noise.moving:
+        return prepared
+    look, given = Look.of(model, prepared), asked.position_cutoff is not None
     prepared = farther(look, prepared, given)
     noise, wide = prepared.noise, prepared.processing
     position, parallel = wide.position_cutoff, wide.parallel_cutoff
     least, beta = look.narrow(noise, position)
     met = meeting_cutoff(look, noise, position, (least, parallel))
     widest = look.fit(position, parallel)
-    shaken, first = trembling(widest, beta), (0.0, 0)
-    while shaken[0] > TREMBLES and parallel > least:
-        first = max(first, shaken)
-        if parallel > met.cutoff:
-            parallel = max(met.cutoff, LOWER * parallel)
-        elif given is None and position > APART * parallel:
-            position *= LOWER
-        else:
-            parallel = max(least, LOWER * parallel)
-            position = position if given is not None else LOWER * position
-        shaken = trembling(look.fit(position, parallel), beta)
-    if position < wide.position_cutoff:
-        met = meeting_cutoff(look, noise, position, (least, parallel))
-    parallel = two_digits(min(met.cutoff, parallel))
-    if given is None:
-        position = two_digits(max(min(noise.cutoff, position), 2.0 * parallel))
-    chosen = dataclasses.replace(wide, position_cutoff=position, parallel_cutoff=parallel)
-    said = _sentences(prepared, chosen, given is None, met, first)
-    by = first[1] if first[0] else met.joint
-    bands = bands_of(
-        noise,
-        chosen,
-        met.torques,
+    found = quiet(look, beta, (position, parallel), (met.cutoff, least), given)
+    if found.position < position:
+        met = meeting_cutoff(look, noise, found.position, (least, parallel))
+    parallel = two_digits(min(met.cutoff, found.parallel))
+    if not given:
+        position = two_digits(max(min(noise.cutoff, found.position), 2.0 * parallel))
+    prepared = prepared.with_cutoffs(position, parallel)
+    said = _sentences(prepared, wide.parallel_cutoff, given, met, found)
+    by = met.joint if found.joint is None else found.joint
+    bands = Bands(
+        position,
+        parallel,
+        met.beside(noise),
         widest=entries(wide, "position_cutoff parallel_cutoff"),
         chosen_by=said,
-        limited_by=None if by is None else noise.joints[by].name,
-        trembling=first[0],
-        trembling_left=shaken[0],
+        limited_by=None if by is None else noise.joints[by].joint,
+        trembling=found.most,
+        trembling_left=found.left,
         widest_values=()
         if widest is None or parallel > LOWER * wide.parallel_cutoff
         else tuple(widest.solution[0].tolist()),
     )
-    choices = (*prepared.choices, *said)
-    return dataclasses.replace(filtered_again(prepared, chosen), choices=choices, lowered=bands)
+    return dataclasses.replace(prepared, choices=(*prepared.choices, *said), lowered=bands)
 
 
-def farther(look: "Look", prepared: Prepared, given: float | None) -> Prepared:
+def farther(look: "Look", prepared: Prepared, given: bool) -> Prepared:
     """The logs with later floors of the noise, where the torques answer to what lies before them.
 
     What a controller leaves of a motion may be flat for octaves before it falls, and so may the
@@ -183,60 +145,44 @@ def farther(look: "Look", prepared: Prepared, given: float | None) -> Prepared:
     Args:
         look: at the logs.
         prepared: the logs, with the first floors.
-        given: position cut-off of the user, Hz; None: chosen.
+        given: the position cut-off is the user's.
     """
     later, wide = prepared.noise.of_last_floors(), prepared.processing
     if later.cutoff <= prepared.noise.cutoff:
         return prepared
     _, beta = look.narrow(prepared.noise, wide.position_cutoff)
-    position = wide.position_cutoff if given is not None else later.cutoff
+    position = wide.position_cutoff if given else later.cutoff
     position = min(position, HIGHEST / max(piece.step for piece in look.pieces))
-    if answer(look.fit(position, wide.parallel_cutoff), beta) < ANSWERED:
+    fit = look.fit(position, wide.parallel_cutoff)
+    if fit is None or beta is None or answer(fit.rows, fit.rows.predicted(beta)) < ANSWERED:
         return prepared
-    chosen = dataclasses.replace(wide, position_cutoff=two_digits(position))
-    return dataclasses.replace(prepared, noise=later, processing=chosen)
+    wider = prepared.with_cutoffs(two_digits(position), wide.parallel_cutoff)
+    return dataclasses.replace(wider, noise=later)
 
 
 def _sentences(
-    prepared: Prepared, chosen: ChosenProcessing, own: bool, met: "Meeting",
-    shaken: tuple[float, int],
-) -> tuple[str, ...]:  # fmt: skip
+    prepared: Prepared, widest: float, given: bool, met: "Meeting", found: "Quiet"
+) -> tuple[str, ...]:
     """What was chosen, and why."""
-    noise, wide, f = prepared.noise, prepared.processing, chosen.parallel_cutoff
-    said = []
-    if own:
-        position = chosen.position_cutoff
+    noise, chosen, said = prepared.noise, prepared.processing, []
+    position, parallel = chosen.position_cutoff, chosen.parallel_cutoff
+    if not given:
         why = noise.why_cutoff(position)
-        if shaken[0] and position < noise.cutoff:
+        if found.most and position < noise.cutoff:
             why = (
                 f"lowered with the parallel filter; the noise alone asks for {noise.cutoff:.2g} Hz"
             )
         said.append(f"position filter {position:g} Hz: {why}")
-    if shaken[0]:
-        why = "with more, the model's torque trembles and the measured one does not"
-    elif met.joint is None:
-        why = "the widest that the motion asks for; the noise of the torques is larger up to there"
-    elif met.answered:
-        why = (
-            "above, a drive that answers the noise of its encoder could bend the inertias, most by "
-            f"joint {noise.joints[met.joint].name}"
-        )
-    else:
-        why = (
-            f"there the noise of the {noise.quantity} makes as much torque on joint "
-            f"{noise.joints[met.joint].name} as is left of it"
-        )
-    if met.bounded and not shaken[0]:
-        why += "; it would be lower, but for the motion band"
-    said.append(f"parallel filter {f:g} Hz: {why}")
-    if shaken[0]:
-        name = noise.joints[shaken[1]].name
-        said.append(
-            f"motion between {f:g} and {wide.parallel_cutoff:g} Hz is not what the torques answer "
-            f"to: up to there the model's torque of joint {name} trembles {shaken[0]:.2g} times as "
-            "much as the measured one"
-        )
-    return tuple(said)
+    if found.joint is None:
+        return *said, f"parallel filter {parallel:g} Hz: {met.why(noise)}"
+    return (
+        *said,
+        f"parallel filter {parallel:g} Hz: with more, the model's torque trembles and the measured "
+        "one does not",
+        f"motion between {parallel:g} and {widest:g} Hz is not what the torques answer to: up to "
+        f"there the model's torque of joint {noise.joints[found.joint].joint} trembles "
+        f"{found.most:.2g} times as much as the measured one",
+    )
 
 
 # Some of the samples, as rows of any cut-offs.
@@ -259,8 +205,7 @@ class Look(Brief):
     @classmethod
     def of(cls, model: CompiledModel, prepared: Prepared) -> "Look":
         """At prepared logs."""
-        pieces = tuple(piece for own in prepared.pieces for piece in own)
-        return cls(model, prepared.processing, pieces)
+        return cls(model, prepared.processing, prepared.pieces)
 
     def narrow(self, noise: MotionNoise, position: float) -> tuple[float, np.ndarray | None]:
         """The lowest parallel cut-off that leaves rows enough, Hz, and beta (c,) of its fit.
@@ -302,6 +247,16 @@ class Look(Brief):
         if (position, parallel) not in self._fits:
             self._fits[position, parallel] = self._fit(position, parallel)
         return self._fits[position, parallel]
+
+    def trembling(
+        self, beta: np.ndarray | None, position: float, parallel: float
+    ) -> tuple[float, int | None]:
+        """How much more than the measured torque that of beta (c,) trembles; joint where most."""
+        fit = self.fit(position, parallel)
+        if fit is None or beta is None:
+            return 0.0, None
+        found = trembling(fit.rows, fit.rows.predicted(beta))
+        return max(((most, j) for j, most in found.items()), default=(0.0, None))
 
     def _fit(self, position: float, parallel: float) -> "WeightedFit | None":
         segments, parts = self.segments(position), shafts(self.model)
@@ -355,11 +310,7 @@ class WeightedFit(Brief):
     @cached_property
     def driven(self) -> list[int]:
         """Joints with a motor, rows and a torque."""
-        rows, joints = self.rows, self.rows.joints
-        return [
-            j for j, joint in enumerate(joints)
-            if joint.actuated and rows.torque[rows.used[:, j], j].any()
-        ]  # fmt: skip
+        return driven(self.rows)
 
     @cached_property
     def solution(self) -> tuple[np.ndarray, dict[int, float]]:
@@ -410,55 +361,110 @@ def determined(fit: WeightedFit | None) -> bool:
     return count >= ROWS_EACH * len(fit.rows.names)
 
 
-def trembling(fit: WeightedFit | None, beta: np.ndarray | None) -> tuple[float, int]:
-    """How much more the torque of beta (c,) trembles than the measured one; joint where most.
+# How a model's torque trembles, and how much of that the measured one does.
+
+
+def driven(rows: Observation) -> list[int]:
+    """Joints with a motor, rows and a torque."""
+    return [
+        j for j, joint in enumerate(rows.joints)
+        if joint.actuated and rows.torque[rows.used[:, j], j].any()
+    ]  # fmt: skip
+
+
+def trembling(rows: Observation, model: np.ndarray) -> dict[int, float]:
+    """How much more a model's torque (s, n) trembles than the measured one, by driven joint.
 
     Root mean square of the second differences from row to row, over that of the torque itself, of
     the model's over that of the measured: a gain of the channel leaves it as it is.
     """
-    most = 0.0, 0
-    for j, (measured, model), sizes in bends(fit, beta):
-        if measured.any() and sizes.all():
-            own = np.linalg.norm([measured, model], axis=1) / sizes
-            most = max(most, (float(own[1] / own[0]), j))
-    return most
+    found = {}
+    for j, bent, sizes in bends(rows, model):
+        if bent[0].any() and sizes.all():
+            measured, own = np.linalg.norm(bent, axis=1) / sizes
+            found[j] = float(own / measured)
+    return found
 
 
-def answer(fit: WeightedFit | None, beta: np.ndarray | None) -> float:
-    """The share of the trembling of the torque of beta (c,) that the measured one has.
+def answer(rows: Observation, model: np.ndarray) -> float:
+    """The share of the trembling of a model's torque (s, n) that the measured one has.
 
     sum of b m over the sum of m^2, b and m second differences of the measured and of the model's
     torque, each joint in units of its torque: 1 of a motion, 0 of noise of its sensor.
     """
     product = square = 0.0
-    for _, (measured, model), sizes in bends(fit, beta):
+    for _, (measured, own), sizes in bends(rows, model):
         unit = max(float(sizes[0]), 1e-300) ** 2
-        product += float(measured @ model) / unit
-        square += float(model @ model) / unit
+        product += float(measured @ own) / unit
+        square += float(own @ own) / unit
     return product / square if square > 0.0 else 0.0
 
 
-def bends(
-    fit: WeightedFit | None, beta: np.ndarray | None
-) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
-    """Second differences from row to row, measured and of beta, and the torques' sizes, by joint.
+def bends(rows: Observation, model: np.ndarray) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
+    """Second differences (2, k) from row to row, and sizes (2,), of the torques of driven joints.
 
     Args:
-        fit: whose rows count; None: nothing.
-        beta: (c,); None: nothing.
+        rows: with the measured torque, which comes first.
+        model: (s, n) the model's torque.
     """
-    if fit is None or beta is None:
-        return
-    rows = fit.rows
     near = np.diff(rows.segment) == 0
     near = near[1:] & near[:-1]
-    for j in fit.driven:
-        used = rows.used[:, j]
+    for j in driven(rows):
+        used = rows.whole[:, j]
         kept = near & used[2:] & used[1:-1] & used[:-2]
-        if kept.sum() < _FEW:
+        if kept.sum() >= _FEW:
+            both = np.stack([rows.torque[:, j], model[:, j]])
+            yield j, np.diff(both, 2)[:, kept], np.sqrt(np.mean(both[:, used] ** 2, axis=1))
+
+
+@dataclass(frozen=True)
+class Quiet(Brief):
+    """Cut-offs behind which a model's torque does not tremble.
+
+    Attributes:
+        position, parallel: Hz.
+        left: how many times as much as the measured torque that of the model trembles there.
+        most: the same behind the first filters of which it is too much; 0 if behind none.
+        joint: of that; None without.
+    """
+
+    position: float
+    parallel: float
+    left: float
+    most: float = 0.0
+    joint: int | None = None
+
+
+def quiet(
+    look: Look, beta: np.ndarray | None, cutoffs: tuple[float, float], down: tuple[float, float],
+    given: bool,
+) -> Quiet:  # fmt: skip
+    """Cut-offs lowered while the torque of beta trembles `TREMBLES` times as much as the measured.
+
+    First the parallel filter, then that of the positions, then both.
+
+    Args:
+        look: at the logs.
+        beta: (c,) of a model that narrow filters gave; None: nothing is known.
+        cutoffs: position and parallel filter to begin with, Hz.
+        down: Hz to which the parallel filter is lowered first, and last.
+        given: the position filter is the user's, and stays.
+    """
+    (position, parallel), (floor, least) = cutoffs, down
+    most, joint = 0.0, None
+    while True:
+        left, worst = look.trembling(beta, position, parallel)
+        if left <= TREMBLES or parallel <= least:
+            return Quiet(position, parallel, left, most, joint)
+        if left > most:
+            most, joint = left, worst
+        if parallel > floor:
+            parallel = max(floor, LOWER * parallel)
             continue
-        both = np.stack([rows.torque[:, j], rows.columns[:, j] @ beta])
-        yield j, np.diff(both, 2)[:, kept], np.sqrt(np.mean(both[:, used] ** 2, axis=1))
+        if given or position <= APART * parallel:
+            parallel = max(least, LOWER * parallel)
+        if not given:
+            position *= LOWER
 
 
 _EXACT = 1e-6  # of a torque's rms: a residual that is less is none
@@ -486,6 +492,32 @@ class Meeting(Brief):
     torques: Mapping[int, tuple[float, float]] = field(default_factory=dict)
     answered: bool = False
     bounded: bool = False
+
+    def why(self, noise: MotionNoise) -> str:
+        """Why it is there."""
+        if self.joint is None:
+            why = (
+                "the widest that the motion asks for; the noise of the torques is larger up to "
+                "there"
+            )
+        elif self.answered:
+            why = (
+                "above, a drive that answers the noise of its encoder could bend the inertias, "
+                f"most by joint {noise.joints[self.joint].joint}"
+            )
+        else:
+            why = (
+                f"there the noise of the {noise.quantity} makes as much torque on joint "
+                f"{noise.joints[self.joint].joint} as is left of it"
+            )
+        return f"{why}; it would be lower, but for the motion band" if self.bounded else why
+
+    def beside(self, noise: MotionNoise) -> tuple[ChannelNoise, ...]:
+        """The channels of the motion, with the noise of the torques of their joints."""
+        channels = list(noise.joints)
+        for j, (A, T) in self.torques.items():
+            channels[j] = dataclasses.replace(channels[j], torque_of_noise=A, torque_noise=T)
+        return tuple(channels)
 
 
 def meeting_cutoff(

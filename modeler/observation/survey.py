@@ -13,10 +13,10 @@ from modeler.observation.consistency import consistency
 from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_of, fingers
 from modeler.observation.low_speed import IDLE_TRAVEL, TOP, FrictionShaft, shafts
 from modeler.observation.motion import Segment, segment_of
-from modeler.observation.observation import Observation
-from modeler.observation.observe import within_noise
+from modeler.observation.observation import Observation, observed
+from modeler.observation.observe import lowered
 from modeler.observation.outliers import ChannelScales, defects
-from modeler.observation.prepare import Prepared, believed, check_size, closed, prepare
+from modeler.observation.prepare import PreparedLog, believed, check_size, closed, prepare
 from modeler.observation.read import Ranges, Source, cut, joined, windows_joined
 from modeler.observation.report import DataReport, LogReport
 from modeler.observation.segments import Piece, split
@@ -89,17 +89,15 @@ class Survey:
 
     Attributes:
         observation: of the windows, for all that needs rows side by side.
-        prepared: what else was seen in the windows; without their samples.
+        logs: what else was seen in the windows of each; of another where it has none.
         chosen: by log.
-        places: of each log among those that were prepared; that of another where none is.
         windows: how many.
         rows: of them.
     """
 
     observation: Observation
-    prepared: Prepared
+    logs: tuple[PreparedLog, ...]
     chosen: tuple[LogChoices, ...]
-    places: tuple[int, ...]
     windows: int
     rows: int
 
@@ -143,7 +141,7 @@ def survey(
     seen = [log for log in logs if log is not None]
     try:
         prepared = prepare(model.spec, seen, processing)
-        observation = within_noise(model, seen, prepared, processing)
+        observation = observed(model, seen, lowered(model, prepared, processing))
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
         where = f"the {sum(len(own) for own in windows)} windows"
         raise WholeLogNeeded(f"{error}; found in {where} by which long logs are judged") from None
@@ -159,16 +157,16 @@ def survey(
                 "out"
             )
         ranges, beside = Ranges.of(log), margin(chosen, log.step)
-        fresh = (s.step for s in prepared.segments if k in looked and s.run == at)
+        fresh = [piece.step for piece in prepared.logs[at].pieces if k in looked]
         every.append(
             LogChoices(
                 run=k,
                 processing=chosen,
                 decimation=spacing(
-                    next(fresh, log.step), chosen.parallel_cutoff, chosen.decimation
+                    (*fresh, log.step)[0], chosen.parallel_cutoff, chosen.decimation
                 ),
-                logged=prepared.checks[at] is not None,
-                usual=prepared.usual[at],
+                logged=prepared.logs[at].check is not None,
+                usual=prepared.logs[at].usual,
                 extremes=known.extremes.get(k) or ranges.torques,
                 shafts=parts,
                 step=log.step,
@@ -177,8 +175,8 @@ def survey(
             )
         )
     count, rows_seen = sum(len(own) for own in windows), sum(log.rows for log in seen)
-    prepared = dataclasses.replace(prepared, segments=(), pieces=(), left_out=())  # memory
-    return Survey(observation, prepared, tuple(every), places, count, rows_seen)
+    told = tuple(dataclasses.replace(prepared.logs[at], pieces=()) for at in places)  # memory
+    return Survey(observation, told, tuple(every), count, rows_seen)
 
 
 def _count(sources: Sequence[Source], k: int) -> int:
@@ -267,7 +265,6 @@ def rows_of_chunk(
         if not processing.keep_contradicted:
             pieces = believed(pieces, check)
     filtered = [segment_of(piece, processing) for piece in pieces]
-    left_out = [p for p, segment in zip(pieces, filtered, strict=True) if segment is None]
     both = [closed(model, segment) for segment in filtered if segment is not None]
     segments = [segment for segment, _ in both]
     stretches = tuple(
@@ -276,7 +273,7 @@ def rows_of_chunk(
     own = cut(chunk.log, chunk.own)
     start, stop = chunk.span
     return stretches, Facts(
-        tally=tally(chunk, pieces, cuts, stretches, left_out, check),
+        tally=tally(chunk, pieces, cuts, stretches, check),
         defects={
             name: [_own(chunk, some, name == "rows") for some in by_joint]
             for name, by_joint in found.items()
@@ -434,8 +431,8 @@ def _log_report(model: CompiledModel, source: Source, k: int, passes: Passes) ->
         first, name=source.name, notes=notes, missing=missing, content=content
     )
     report = log_report(
-        log, model.spec, found.prepared, found.places[k], counts, facts.defects,
-        facts.contradictions, chosen.decimation,
+        log, model.spec, found.logs[k], counts, facts.defects, facts.contradictions,
+        chosen.decimation,
     )  # fmt: skip
     rate, times = 1.0 / chosen.step, facts.open_times
     return dataclasses.replace(report, rate=rate, span=facts.span, open_times=times)

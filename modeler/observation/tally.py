@@ -14,7 +14,7 @@ from modeler.observation.log import Log
 from modeler.observation.low_speed import FrictionShaft
 from modeler.observation.motion import CAUSES
 from modeler.observation.outliers import Defects, damages
-from modeler.observation.prepare import Prepared
+from modeler.observation.prepare import PreparedLog
 from modeler.observation.read import Ranges
 from modeler.observation.report import JointReport, LogReport
 from modeler.observation.segments import Piece, SplitReport
@@ -50,7 +50,6 @@ def tally(
     pieces: Sequence[Piece],
     cuts: SplitReport,
     stretches: Sequence[Stretch],
-    left_out: Sequence[Piece],
     check: Consistency | None,
 ) -> Tally:
     """Counts of a chunk's own rows.
@@ -60,7 +59,6 @@ def tally(
         pieces: of it and its margins.
         cuts: where it was cut into them.
         stretches: of the pieces that are long enough, with the rows that are the chunk's own.
-        left_out: the other pieces.
         check: of its logged derivatives.
     """
     none = np.zeros(len(chunk.log.joints), dtype=int)
@@ -69,14 +67,13 @@ def tally(
     clipped = [piece.clipped[rows].sum(axis=0) for piece, rows in zip(pieces, own, strict=True)]
     bad = () if check is None else check.bad
     widths = cuts.widths[chunk.holds(cuts.gaps)]
-    short = chunk.holds(cuts.short).sum() + sum(chunk.holds(p.time).sum() for p in left_out)
     sums: dict[str, Any] = {
         "chunks": 1,
         "rows": chunk.rows,
         "gaps": len(widths),
         "pieces": len(begun),
         "resampled": sum(piece.resampled for piece in begun),
-        "short": short,
+        "short": chunk.holds(cuts.short).sum() + sum(int(rows.sum()) for rows in own),
         **{f"missing {name}": count for name, count in chunk.missing().items()},
         "clipped": sum(clipped, none),
         "contradicted": sum(int(flags[rows].sum()) for flags, rows in zip(bad, own, strict=False)),
@@ -93,6 +90,7 @@ def tally(
         if (valid < full).any():
             cause = s.cause[rows]
             counts |= {name: (cause == k).sum(axis=0) for k, name in enumerate(CAUSES)}
+        counts["short"] = -full  # what no stretch is made of
         sums |= {name: sums[name] + count for name, count in counts.items()}
     return Tally(sums, {"jitter": cuts.jitter, "gap": widths.max(initial=0.0)})
 
@@ -176,22 +174,21 @@ def _contradictions(
 
 
 def log_report(
-    log: Log, spec: ModuleSpec, prepared: Prepared, place: int, facts: Tally,
-    defects: Defects, contradictions: Sequence[Contradiction], decimation: int,
+    log: Log, spec: ModuleSpec, prepared: PreparedLog, facts: Tally, defects: Defects,
+    contradictions: Sequence[Contradiction], decimation: int,
 ) -> LogReport:  # fmt: skip
     """What became of the rows of a log.
 
     Args:
         log: it, or some rows of it, with the notes, the missing values and the content of all.
         spec: the robot's manifest.
-        prepared: the logs by which all was chosen.
-        place: of the one among them that stands for this log.
+        prepared: the log by which all was chosen.
         facts: counts of all rows.
         defects: values that no robot can have made.
         contradictions: of logged derivatives.
         decimation: samples per row.
     """
-    check, rows = prepared.checks[place], facts.count("rows")
+    check, rows = prepared.check, facts.count("rows")
     clipped = zip(log.joints, facts.sums["clipped"], strict=True)
     return LogReport(
         name=log.name,
@@ -205,10 +202,10 @@ def log_report(
         pieces=facts.count("pieces"),
         resampled=facts.count("resampled"),
         short=facts.count("short"),
-        derivatives=prepared.derivatives[place],
+        derivatives=prepared.derivatives,
         decimation=decimation,
         samples=facts.count("samples"),
-        notes=log.notes + prepared.rings[place] + (check.notes if check else ()),
+        notes=log.notes + prepared.rings + (check.notes if check else ()),
         contradictions=tuple(contradictions),
         contradicted=facts.count("contradicted"),
         damages=damages(log, rows, spec, defects),
