@@ -427,6 +427,7 @@ BAND = 30.0
 """Hz: highest cut-off of the parallel filter. Fits use a narrow band, where torque noise is least;
 ripple, elasticity, delays and reversals show above it."""
 
+
 def analysed(
     compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None = None,
     prepared: Prepared | None = None, mending: LogRepair | None = None,
@@ -465,7 +466,7 @@ def analysed(
         position = 1.25 * parallel if band else wide.position_cutoff
     prepared = dataclasses.replace(prepared, processing=wide)
     prepared = prepared.with_cutoffs(given or min(position, highest), parallel)
-    look, wide = Look.of(compiled, prepared), prepared.processing
+    look, wide = Look(compiled, prepared), prepared.processing
     least, beta = look.narrow(noise, wide.position_cutoff)
     found = quiet(
         look, beta, (wide.position_cutoff, wide.parallel_cutoff), (motion, least),
@@ -495,16 +496,18 @@ def bands_line(fitted: Processing, seen: Processing) -> list[str]:
     if seen.parallel_cutoff == fitted.parallel_cutoff:
         return []
     if (seen.parallel_cutoff or 0.0) < (fitted.parallel_cutoff or 0.0):
-        return [
-            f"errors and values are those up to {seen.parallel_cutoff:.3g} Hz, beside all effects "
-            f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: of these "
-            "logs, and with what the model has, no more of the motion is answered by the torques"
-        ]
+        why = (
+            "of these logs, and with what the model has, no more of the motion is answered by the "
+            "torques"
+        )
+    else:
+        why = (
+            "ripple, elasticity, delays and reversals show above; fit with --parallel-cutoff "
+            f"{fitted.parallel_cutoff:g} to have both alike"
+        )
     return [
         f"errors and values are those up to {seen.parallel_cutoff:.3g} Hz, beside all effects "
-        f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: ripple, "
-        "elasticity, delays and reversals show above; fit with --parallel-cutoff "
-        f"{fitted.parallel_cutoff:g} to have both alike"
+        f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: {why}"
     ]
 
 

@@ -116,6 +116,14 @@ class Observation(Presented):
         return self.run[self.row_sample]
 
     @cached_property
+    def driven(self) -> list[int]:
+        """Indices of the joints with a motor, rows and a torque."""
+        return [
+            j for j, joint in enumerate(self.joints)
+            if joint.actuated and self.torque[self.used[:, j], j].any()
+        ]  # fmt: skip
+
+    @cached_property
     def whole(self) -> np.ndarray:
         """(s, n) rows that count, and whose weights lie on usable samples all but wholly.
 

@@ -23,8 +23,7 @@ from modeler.observation.motion_noise import ChannelNoise, MotionNoise
 from modeler.observation.observation import Observation, observed, stacked
 from modeler.observation.prepare import LogRepair, Prepared, closed, prepare, two_digits
 from modeler.observation.report import Bands, DataReport
-from modeler.observation.segments import Piece
-from modeler.observation.settings import ChosenProcessing, Processing
+from modeler.observation.settings import Processing
 from modeler.observation.stretch import stretch
 from modeler.runtime import CompiledModel
 
@@ -104,7 +103,7 @@ def lowered(model: CompiledModel, prepared: Prepared, asked: Processing) -> Prep
     """
     if asked.parallel_cutoff is not None or not prepared.noise.moving:
         return prepared
-    look, given = Look.of(model, prepared), asked.position_cutoff is not None
+    look, given = Look(model, prepared), asked.position_cutoff is not None
     prepared = farther(look, prepared, given)
     noise, wide = prepared.noise, prepared.processing
     position, parallel = wide.position_cutoff, wide.parallel_cutoff
@@ -152,7 +151,7 @@ def farther(look: "Look", prepared: Prepared, given: bool) -> Prepared:
         return prepared
     _, beta = look.narrow(prepared.noise, wide.position_cutoff)
     position = wide.position_cutoff if given else later.cutoff
-    position = min(position, HIGHEST / max(piece.step for piece in look.pieces))
+    position = min(position, HIGHEST / max(piece.step for piece in prepared.pieces))
     fit = look.fit(position, wide.parallel_cutoff)
     if fit is None or beta is None or answer(fit.rows, fit.rows.predicted(beta)) < ANSWERED:
         return prepared
@@ -194,18 +193,11 @@ class Look(Brief):
 
     Attributes:
         model: the compiled robot.
-        processing: of the logs; its parallel cut-off is the widest.
-        pieces: uniform.
+        prepared: the logs; its parallel cut-off is the widest.
     """
 
     model: CompiledModel
-    processing: ChosenProcessing
-    pieces: tuple[Piece, ...]
-
-    @classmethod
-    def of(cls, model: CompiledModel, prepared: Prepared) -> "Look":
-        """At prepared logs."""
-        return cls(model, prepared.processing, prepared.pieces)
+    prepared: Prepared
 
     def narrow(self, noise: MotionNoise, position: float) -> tuple[float, np.ndarray | None]:
         """The lowest parallel cut-off that leaves rows enough, Hz, and beta (c,) of its fit.
@@ -214,28 +206,32 @@ class Look(Brief):
             noise: of the motion.
             position: highest cut-off of the position filter, Hz.
         """
-        highest = self.processing.parallel_cutoff
+        highest = self.prepared.processing.parallel_cutoff
         least = min(max(LEAST_BANDS * noise.band, LEAST_CUTOFF), highest)
         own = min(noise.cutoff, position)
-        while not determined(fit := self.fit(max(own, 2.0 * least), least)) and least < highest:
+        while True:
+            fit = self.fit(max(own, 2.0 * least), least)
+            if least >= highest or (fit is not None and fit.determined):
+                return least, None if fit is None else fit.solution[0]
             least = min(least / LOWER, highest)
-        return least, None if fit is None else fit.solution[0]
 
     @cached_property
     def _filtered(self) -> dict[float, tuple[Segment, ...]]:
         return {}
 
     def segments(self, position: float) -> tuple[Segment, ...]:
-        """Parts of the pieces behind a position filter, Hz."""
+        """Parts of the pieces behind a position filter, Hz, that are not all edge."""
         if position not in self._filtered:
-            chosen = dataclasses.replace(self.processing, position_cutoff=position)
-            every = [segment_of(piece, chosen) for piece in self.pieces]
-            share = SAMPLES / sum(len(piece.time) for piece in self.pieces)
-            self._filtered[position] = tuple(
+            pieces, chosen = self.prepared.pieces, self.prepared.processing
+            chosen = dataclasses.replace(chosen, position_cutoff=position)
+            every = [segment_of(piece, chosen) for piece in pieces]
+            share = SAMPLES / sum(len(piece.time) for piece in pieces)
+            parts = [
                 closed(self.model, _part(segment, place))[0]
                 for segment in every if segment is not None
                 for place in _windows(segment.samples, share)
-            )  # fmt: skip
+            ]  # fmt: skip
+            self._filtered[position] = tuple(part for part in parts if part.whole.any())
         return self._filtered[position]
 
     @cached_property
@@ -245,7 +241,15 @@ class Look(Brief):
     def fit(self, position: float, parallel: float) -> "WeightedFit | None":
         """The weighted fit of the rows behind filters of these cut-offs, Hz; None without rows."""
         if (position, parallel) not in self._fits:
-            self._fits[position, parallel] = self._fit(position, parallel)
+            segments, parts = self.segments(position), shafts(self.model)
+            chosen = self.prepared.with_cutoffs(position, parallel).processing
+            floors = floors_of(chosen, parts, segments) if segments else {}
+            chosen = dataclasses.replace(chosen, speed_floors=floors)
+            some = tuple(stretch(segment, parts, chosen) for segment in segments)
+            report = DataReport(chosen, (), (), ())
+            self._fits[position, parallel] = (
+                WeightedFit(self.model, stacked(self.model, (), some, report)) if some else None
+            )
         return self._fits[position, parallel]
 
     def trembling(
@@ -258,25 +262,9 @@ class Look(Brief):
         found = trembling(fit.rows, fit.rows.predicted(beta))
         return max(((most, j) for j, most in found.items()), default=(0.0, None))
 
-    def _fit(self, position: float, parallel: float) -> "WeightedFit | None":
-        segments, parts = self.segments(position), shafts(self.model)
-        chosen = dataclasses.replace(
-            self.processing, position_cutoff=position, parallel_cutoff=parallel
-        )
-        if not any(segment.whole.any() for segment in segments):
-            return None
-        floors = floors_of(chosen, parts, segments)
-        chosen = dataclasses.replace(chosen, speed_floors=floors)
-        some = tuple(stretch(s, parts, chosen) for s in segments if s.whole.any())
-        return WeightedFit(
-            self.model, stacked(self.model, (), some, DataReport(chosen, (), (), ()))
-        )
-
 
 def _part(segment: Segment, place: slice) -> Segment:
     """The samples of a segment in some place of it."""
-    if place == slice(0, segment.samples):
-        return segment
     arrays: dict[str, Any] = {
         own.name: x[place]
         for own in dataclasses.fields(segment)
@@ -308,17 +296,12 @@ class WeightedFit(Brief):
     rows: Observation
 
     @cached_property
-    def driven(self) -> list[int]:
-        """Joints with a motor, rows and a torque."""
-        return driven(self.rows)
-
-    @cached_property
     def solution(self) -> tuple[np.ndarray, dict[int, float]]:
         """beta (c,), and the rms residual of each joint that is driven."""
         rows = self.rows
-        W = {j: rows.columns[rows.used[:, j], j] for j in self.driven}
-        y = {j: rows.torque[rows.used[:, j], j] for j in self.driven}
-        sigma = {j: float(np.sqrt(np.mean(y[j] ** 2))) for j in self.driven}
+        W = {j: rows.columns[rows.used[:, j], j] for j in rows.driven}
+        y = {j: rows.torque[rows.used[:, j], j] for j in rows.driven}
+        sigma = {j: float(np.sqrt(np.mean(y[j] ** 2))) for j in rows.driven}
         least, beta = {j: _EXACT * sigma[j] for j in sigma}, np.zeros(len(rows.names))
         for _ in range(_WEIGHTINGS if W else 0):
             beta = scaled_least_squares(
@@ -333,6 +316,12 @@ class WeightedFit(Brief):
             }
         return beta, sigma
 
+    @property
+    def determined(self) -> bool:
+        """True if there are rows enough for the residual to be one."""
+        count = self.rows.used[:, self.rows.driven].sum()
+        return bool(count >= ROWS_EACH * len(self.rows.names))
+
     @cached_property
     def _inertias(self) -> tuple[np.ndarray, np.ndarray]:
         """(k, n, n) matrices at some of the rows, and (k, n) accelerations there."""
@@ -345,31 +334,15 @@ class WeightedFit(Brief):
         """Torque of the noise of the motion at 1 Hz, as density, (N m)^2/Hz, by driven joint."""
         densities = [joint.acceleration_density(1.0) for joint in noise.joints]
         squares = np.mean(self._inertias[0] ** 2, axis=0) @ densities
-        return {j: float(squares[j]) for j in self.driven}
+        return {j: float(squares[j]) for j in self.rows.driven}
 
     def inertial(self) -> dict[int, float]:
         """Mean square of the torque of inertia, (N m)^2, by driven joint."""
         torque = np.einsum("kij,kj->ki", *self._inertias)
-        return {j: float(np.mean(torque[:, j] ** 2)) for j in self.driven}
-
-
-def determined(fit: WeightedFit | None) -> bool:
-    """True if there are rows enough for the residual to be one."""
-    if fit is None:
-        return False
-    count = int(fit.rows.used[:, fit.driven].sum())
-    return count >= ROWS_EACH * len(fit.rows.names)
+        return {j: float(np.mean(torque[:, j] ** 2)) for j in self.rows.driven}
 
 
 # How a model's torque trembles, and how much of that the measured one does.
-
-
-def driven(rows: Observation) -> list[int]:
-    """Joints with a motor, rows and a torque."""
-    return [
-        j for j, joint in enumerate(rows.joints)
-        if joint.actuated and rows.torque[rows.used[:, j], j].any()
-    ]  # fmt: skip
 
 
 def trembling(rows: Observation, model: np.ndarray) -> dict[int, float]:
@@ -409,7 +382,7 @@ def bends(rows: Observation, model: np.ndarray) -> Iterator[tuple[int, np.ndarra
     """
     near = np.diff(rows.segment) == 0
     near = near[1:] & near[:-1]
-    for j in driven(rows):
+    for j in rows.driven:
         used = rows.whole[:, j]
         kept = near & used[2:] & used[1:-1] & used[:-2]
         if kept.sum() >= _FEW:

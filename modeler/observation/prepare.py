@@ -172,8 +172,8 @@ def prepare(
         said = tuple(ring.sentence(spec.joints[ring.joint].name) for ring in rings)
         prepared.append(PreparedLog(found, cuts, source, check, said, damage, usual))
     pieces = [piece for log in prepared for piece in log.pieces]
-    rated = all(piece.qd is not None for piece in pieces)
-    noise = motion_noise(spec.joints, pieces, bands) if rated else positions
+    given = all(piece.qd is not None for piece in pieces)
+    noise = motion_noise(spec.joints, pieces, bands) if given else positions
     chosen, choices = choose_cutoffs(processing, pieces, noise)
     return Prepared(chosen, choices, tuple(prepared), noise, shown_band(noise.band, pieces))
 
@@ -191,24 +191,17 @@ def _derived(
         processing: what is asked.
         noisy: positions that are differentiated have less noise.
     """
-    auto, keep = processing.derivatives == "auto", processing.keep_contradicted
-    late = auto and check is not None and check.harmful
-    if check is None or noisy or (late and not keep):
-        pieces = tuple(map(without_speeds, pieces))
-        why = (
-            ", whose noise is less than that of the logged qd"
-            if noisy and log.qd is not None
-            else ""
-        )
-        if check is not None and late:
-            return (
-                pieces,
-                without_late(check, pieces),
-                ("qd and qdd by differentiating q, as logged derivatives come late"),
-            )
-        return pieces, None, f"qd and qdd by differentiating q{why}"
-    source = "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
-    return pieces if keep else believed(pieces, check), check, source
+    keep = processing.keep_contradicted
+    late = check is not None and check.harmful and processing.derivatives == "auto"
+    if check is not None and not noisy and (keep or not late):
+        source = "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
+        return pieces if keep else believed(pieces, check), check, source
+    pieces, source = tuple(map(without_speeds, pieces)), "qd and qdd by differentiating q"
+    if check is not None and late:
+        check, why = without_late(check, pieces), ", as logged derivatives come late"
+    else:
+        check, why = None, ", whose noise is less than that of the logged qd" if check else ""
+    return pieces, check, source + why
 
 
 def believed(pieces: Sequence[Piece], check: Consistency) -> tuple[Piece, ...]:

@@ -204,8 +204,10 @@ class Bands(Brief):
 
 def bands_of(noise: MotionNoise | None, processing: ChosenProcessing | None = None) -> Bands:
     """What is known of the noise of the motion, and of cut-offs that nothing was lowered for."""
-    both = processing and (processing.position_cutoff, processing.parallel_cutoff)
-    return Bands(*(both or (None, None)), noise.joints if noise else ())
+    joints = noise.joints if noise else ()
+    if processing is None:
+        return Bands(None, None, joints)
+    return Bands(processing.position_cutoff, processing.parallel_cutoff, joints)
 
 
 @dataclass(frozen=True)
