@@ -76,7 +76,7 @@ class LogChoices:
     decimation: int
     logged: bool
     usual: ChannelScales
-    extremes: tuple[tuple[float, float], ...]
+    extremes: Extremes
     shafts: tuple[FrictionShaft, ...]
     step: float
     own: int
@@ -416,20 +416,13 @@ def streamed_report(model: CompiledModel, sources: Sequence[Source], passes: Pas
 def _log_report(model: CompiledModel, source: Source, k: int, passes: Passes) -> LogReport:
     facts, chosen, found = passes.facts[k], passes.found.chosen[k], passes.found
     counts, first, content = facts.tally, source.window(0.0, 2), source.content
-    missing = {
-        name.removeprefix("missing "): int(count)
-        for name, count in counts.sums.items()
-        if name.startswith("missing ") and count
-    }
     if not content and counts.count("rows") > LONG:
         content = fingerprint_of(facts.fingers)
     elif not content:
         whole = joined(list(source.blocks(LONG)))
         content = fingerprint(whole.time, whole.q, whole.tau)
     notes = (*first.notes, *facts.ranges.doubts(chosen.step, model.spec))
-    log = dataclasses.replace(
-        first, name=source.name, notes=notes, missing=missing, content=content
-    )
+    log = dataclasses.replace(first, name=source.name, notes=notes, content=content)
     report = log_report(
         log, model.spec, found.logs[k], counts, facts.defects, facts.contradictions,
         chosen.decimation,

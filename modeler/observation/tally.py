@@ -1,6 +1,7 @@
 """What the rows of a log say: counts that add up over its chunks, facts, and their report."""
 
 import dataclasses
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -15,7 +16,7 @@ from modeler.observation.low_speed import FrictionShaft
 from modeler.observation.motion import CAUSES
 from modeler.observation.outliers import Defects, damages
 from modeler.observation.prepare import PreparedLog
-from modeler.observation.read import Ranges
+from modeler.observation.read import Ranges, cut
 from modeler.observation.report import JointReport, LogReport
 from modeler.observation.segments import Piece, SplitReport
 from modeler.observation.stretch import Stretch
@@ -74,7 +75,7 @@ def tally(
         "pieces": len(begun),
         "resampled": sum(piece.resampled for piece in begun),
         "short": chunk.holds(cuts.short).sum() + sum(int(rows.sum()) for rows in own),
-        **{f"missing {name}": count for name, count in chunk.missing().items()},
+        "missing": Counter(cut(chunk.log, chunk.own).missing),
         "clipped": sum(clipped, none),
         "contradicted": sum(int(flags[rows].sum()) for flags, rows in zip(bad, own, strict=False)),
         "samples": 0,
@@ -180,7 +181,7 @@ def log_report(
     """What became of the rows of a log.
 
     Args:
-        log: it, or some rows of it, with the notes, the missing values and the content of all.
+        log: it, or some rows of it, with the notes and the content of all.
         spec: the robot's manifest.
         prepared: the log by which all was chosen.
         facts: counts of all rows.
@@ -193,7 +194,7 @@ def log_report(
     return LogReport(
         name=log.name,
         rows=rows,
-        missing=dict(log.missing),
+        missing=dict(facts.sums["missing"]),
         saturated={name: int(count) for name, count in clipped if count},
         rate=1.0 / log.step,
         jitter=float(facts.most["jitter"]),

@@ -122,8 +122,7 @@ def test_gaps_holes_limits_spikes_and_segments_across_borders_are_as_in_the_whol
     segment[6 * ROWS + 100 :] = 1.0
     time = log.time.copy()
     time[4 * ROWS + 500 :] += 1.0
-    damaged = dataclasses.replace(log, q=q, tau=tau, time=time, segment=segment,
-                                  missing={"q1": 5, "q2": 340, "tau1": 20})  # fmt: skip
+    damaged = dataclasses.replace(log, q=q, tau=tau, time=time, segment=segment)
     whole, chunked, told, told_chunked = both(damaged)
     for one, other in zip(told.logs, told_chunked.logs, strict=True):
         for name in ("rows", "missing", "saturated", "gaps", "pieces", "short"):
