@@ -48,6 +48,11 @@ class SignalReference(Brief):
         return np.where([kind == "inertial" for kind in kinds], self.beta, 0.0)
 
     @cached_property
+    def tilts(self) -> list[tuple[np.ndarray, np.ndarray]] | None:
+        """`tilt_basis` about this model."""
+        return tilt_basis(self)
+
+    @cached_property
     def drives(self) -> np.ndarray:
         """(2, J) viscous friction and rotor inertia of each joint, where they stand alone."""
         spec = self.compiled.spec
@@ -264,19 +269,11 @@ def tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
     The others belong to first moments that the model's gravity hides (those of a vertical first
     axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
     """
-    weights = tilt_weights(signals.reference)
-    q = signals.q[window]
-    if weights is None:
-        return np.zeros((*q.shape, 0))
-    return frame_slopes(signals.reference.compiled, q).reshape(*q.shape, -1) @ weights
-
-
-def tilt_weights(reference: SignalReference) -> np.ndarray | None:
-    """(rows 3 4, k): `tilt_columns` of the entries of `frame_slopes`; None if it has none."""
-    basis = tilt_basis(reference)
+    basis, q = signals.reference.tilts, signals.q[window]
     if basis is None:
-        return None
-    return -np.column_stack([_weights(axis, chi) for axis, chi in basis])
+        return np.zeros((*q.shape, 0))
+    slopes = frame_slopes(signals.reference.compiled, q)
+    return np.stack([gravity_torque(slopes, axis, chi) for axis, chi in basis], axis=-1)
 
 
 def frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
@@ -296,13 +293,9 @@ def gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.
         axis: (3,) m/s^2 in frame 0.
         chi: (rows, 4) M, MX, MY, MZ of every moving row.
     """
-    return -slopes.reshape(*slopes.shape[:2], -1) @ _weights(axis, chi)
-
-
-def _weights(axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
-    """(rows 3 4,) of the frames' entries in axis . sum (M p + R MS)."""
     moments = np.column_stack([chi[:, 1:], chi[:, 0]])
-    return (axis[None, :, None] * moments[:, None, :]).ravel()
+    weights = axis[None, :, None] * moments[:, None, :]
+    return -slopes.reshape(*slopes.shape[:2], -1) @ weights.ravel()
 
 
 def tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]] | None:

@@ -24,7 +24,7 @@ from modeler.diagnosis.ranking import (
     rank,
     sigma_of,
 )
-from modeler.diagnosis.signals import SignalReference, frame_slopes, tilt_weights
+from modeler.diagnosis.signals import SignalReference
 from modeler.effects import Acts
 from modeler.estimation import Prior, prior_of, remembered
 from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
@@ -350,10 +350,7 @@ def all_columns_of(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]
     # Joint after joint: the slopes along the motion of one joint serve all its effects.
     for places in sorted(groups.values(), key=lambda own: candidates[own[0]].index):
         every = [candidates[i] for i in places]
-        if every[0].effect.acts is Acts.GRAVITY:
-            made = [_tilt(rows) for _ in every]
-        else:
-            made = rows.many(every) if len(every) > 1 else [rows.columns(every[0])]
+        made = rows.many(every) if len(every) > 1 else [rows.columns(every[0])]
         new = zip(every, made, strict=True)
         rows.cache.update({column_key(rows, c): own for c, own in new if _fixed(c)})
         found |= dict(zip(places, made, strict=True))
@@ -379,23 +376,6 @@ def column_key(rows: Rows, candidate: Candidate) -> tuple[Any, ...]:
 
 _FIXED = (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE, Acts.LINK)
 """What reads the motion only, if its equations do."""
-
-
-def _tilt(rows: Rows) -> Columns:
-    """`tilt_columns`: the model only weighs the slopes of the frames, which are filtered once."""
-    weights = tilt_weights(rows.signals[0].reference)
-    if weights is None:
-        return (None,) * rows.joints
-    key = "frame slopes"
-    if key not in rows.cache:
-
-        def slopes(stretch: int, window: slice) -> np.ndarray:
-            signals = rows.signals[stretch]
-            found = frame_slopes(signals.reference.compiled, signals.q[window])
-            return found.reshape(*found.shape[:2], -1)
-
-        rows.cache[key] = rows.spread(slopes, width=1000)
-    return tuple(None if own is None else own @ weights for own in rows.cache[key])
 
 
 def visible(columns: Columns) -> bool:
