@@ -30,6 +30,7 @@ from modeler.estimation import Prior, prior_of, remembered
 from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
 from modeler.observation import (
     HIGHEST,
+    ChosenProcessing,
     Log,
     LogRepair,
     Look,
@@ -37,7 +38,6 @@ from modeler.observation import (
     Prepared,
     Processing,
     choose_cutoffs,
-    observe,
     observed,
     prepare,
     quiet,
@@ -459,11 +459,11 @@ def analysed(
 
 
 def again(
-    compiled: "CompiledModel", logs: Sequence[Log], processing: Processing,
-    mending: LogRepair | None = None,
-) -> Observation:  # fmt: skip
+    compiled: "CompiledModel", logs: Sequence[Log], processing: ChosenProcessing
+) -> Observation:
     """Other logs in the band of a diagnosis."""
-    return _whole(observe(compiled, logs, processing, True, mending))
+    prepared = prepare(compiled.spec, logs, processing)
+    return _whole(observed(compiled, logs, prepared, every_joint=True))
 
 
 def cutoff(data: SearchData) -> float:

@@ -4,6 +4,7 @@ import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import reduce
+from itertools import chain
 
 import numpy as np
 
@@ -106,22 +107,19 @@ def chunks(source: Source, own: int, beside: int) -> Iterator[Chunk]:
         own: rows of each, but for the last.
         beside: rows of its margins.
     """
-    held, first, number = list[Log](), 0, 0  # first: row of the log that held begins with
-    rows = 0
-    for block in source.blocks(own):
-        held.append(block)
-        rows += block.rows
-        while first + rows > (number + 1) * own + beside:
+    held, first, rows, number = list[Log](), 0, 0, 0  # first: row of the log that held begins with
+    for block in chain(source.blocks(own), [None]):
+        if block is not None:
+            held.append(block)
+            rows += block.rows
+        # behind the last block there is no margin to wait for
+        while first + rows > number * own + (own + beside if block is not None else 0):
             log = joined(held)
-            yield _chunk(log, first, number, own, beside, False)
+            last = block is None and first + rows <= (number + 1) * own
+            yield _chunk(log, first, number, own, beside, last)
             number += 1
             kept = max(0, number * own - beside) - first
             held, first, rows = [cut(log, slice(kept, None))], first + kept, log.rows - kept
-    while first + rows > number * own:
-        log = joined(held)
-        held = [log]
-        yield _chunk(log, first, number, own, beside, first + rows <= (number + 1) * own)
-        number += 1
 
 
 def chunks_between(source: Source, numbers: range, own: int, beside: int) -> Iterator[Chunk]:

@@ -21,7 +21,7 @@ from modeler.observation.low_speed import floors_of, shafts
 from modeler.observation.motion import HIGHEST, Segment, segment_of
 from modeler.observation.motion_noise import ChannelNoise, MotionNoise
 from modeler.observation.observation import Observation, observed, stacked
-from modeler.observation.prepare import LogRepair, Prepared, closed, prepare, two_digits
+from modeler.observation.prepare import Prepared, closed, prepare, two_digits
 from modeler.observation.report import Bands, DataReport
 from modeler.observation.settings import Processing
 from modeler.observation.stretch import stretch
@@ -56,11 +56,7 @@ SAMPLES = 2**15
 
 
 def observe(
-    model: CompiledModel,
-    logs: Sequence[Log],
-    processing: Processing | None = None,
-    every_joint: bool = False,
-    mending: LogRepair | None = None,
+    model: CompiledModel, logs: Sequence[Log], processing: Processing | None = None
 ) -> Observation:
     """The observation of logs: W, y, and which row is which.
 
@@ -71,16 +67,14 @@ def observe(
         model: the compiled robot.
         logs: read with the same manifest.
         processing: None: automatic. For held-out logs `report.processing` of the fit.
-        every_joint: mask low speeds also on joints whose dry friction the model lacks.
-        mending: of the same logs, where it is shared.
 
     Raises:
         DataError: no logs, of another robot, or no usable row.
         LoopError: hardly a sample closes the loops.
     """
     asked = processing or Processing()
-    prepared = prepare(model.spec, logs, asked, mending)
-    return observed(model, logs, lowered(model, prepared, asked), every_joint)
+    prepared = prepare(model.spec, logs, asked)
+    return observed(model, logs, lowered(model, prepared, asked))
 
 
 def lowered(model: CompiledModel, prepared: Prepared, asked: Processing) -> Prepared:
@@ -241,16 +235,18 @@ class Look(Brief):
     def fit(self, position: float, parallel: float) -> "WeightedFit | None":
         """The weighted fit of the rows behind filters of these cut-offs, Hz; None without rows."""
         if (position, parallel) not in self._fits:
-            segments, parts = self.segments(position), shafts(self.model)
-            chosen = self.prepared.with_cutoffs(position, parallel).processing
-            floors = floors_of(chosen, parts, segments) if segments else {}
-            chosen = dataclasses.replace(chosen, speed_floors=floors)
-            some = tuple(stretch(segment, parts, chosen) for segment in segments)
-            report = DataReport(chosen, (), (), ())
-            self._fits[position, parallel] = (
-                WeightedFit(self.model, stacked(self.model, (), some, report)) if some else None
-            )
+            self._fits[position, parallel] = self._fit(position, parallel)
         return self._fits[position, parallel]
+
+    def _fit(self, position: float, parallel: float) -> "WeightedFit | None":
+        segments, parts = self.segments(position), shafts(self.model)
+        if not segments:
+            return None
+        chosen = self.prepared.with_cutoffs(position, parallel).processing
+        chosen = dataclasses.replace(chosen, speed_floors=floors_of(chosen, parts, segments))
+        some = tuple(stretch(segment, parts, chosen) for segment in segments)
+        report = DataReport(chosen, (), (), ())
+        return WeightedFit(self.model, stacked(self.model, (), some, report))
 
     def trembling(
         self, beta: np.ndarray | None, position: float, parallel: float
