@@ -378,6 +378,24 @@ def test_uneven_stamps_fit_as_well_in_chunks():
     assert told_chunked.logs[0].jitter == pytest.approx(told.logs[0].jitter, rel=0.05)
 
 
+@pytest.mark.parametrize("each", [1.25, 2.0, 3.3])
+def test_rows_that_repeat_are_left_out_of_chunks_as_of_the_whole_log(each):
+    """A recorder that is `each` times as fast as the robot; rows lie elsewhere, and say the same."""
+    log = noisy_log(rate=100)
+    rows = (np.arange(int(each * log.rows)) / each).astype(int)
+    time = np.arange(len(rows)) / (100.0 * each)
+    whole, chunked, told, told_chunked = both(dataclasses.replace(cut(log, rows), time=time))
+    (one,), (other,) = told.logs, told_chunked.logs
+    assert [d.line for d in one.damages] == [d.line for d in other.damages]
+    assert len(one.damages) == 1 and "gave about 100 rows a second" in one.damages[0].line
+    assert one.samples == pytest.approx(other.samples, rel=0.02)
+    assert (one.decimation, one.resampled) == (other.decimation, other.resampled)
+    sigma = np.array([parameter.sigma for parameter in whole.parameters])
+    assert np.abs((chunked.beta - whole.beta) / sigma).max() < 3.0
+    found = [parameter.sigma for parameter in chunked.parameters]
+    np.testing.assert_allclose(found, sigma, rtol=0.3)
+
+
 def written_in_parts(path, rows, part=100_000):
     """Noise on a motion that no fit has to like, at 1 kHz."""
     random, writer = np.random.default_rng(1), None
