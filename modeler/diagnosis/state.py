@@ -40,7 +40,6 @@ from modeler.observation import (
     choose_cutoffs,
     observed,
     prepare,
-    quiet,
 )
 
 if TYPE_CHECKING:
@@ -446,12 +445,7 @@ def analysed(
         position = 1.25 * parallel if band else wide.position_cutoff
     prepared = dataclasses.replace(prepared, processing=wide)
     prepared = prepared.with_cutoffs(given or min(position, highest), parallel)
-    look, wide = Look(compiled, prepared), prepared.processing
-    least, beta = look.narrow(noise, wide.position_cutoff)
-    found = quiet(
-        look, beta, (wide.position_cutoff, wide.parallel_cutoff), (motion, least),
-        given is not None,
-    )  # fmt: skip
+    found = Look(compiled, prepared).quiet(motion, given is not None)
     prepared = prepared.with_cutoffs(found.position, found.parallel)
     if any(log.check is not None for log in prepared.logs):  # in the band of the rows
         prepared = prepare(compiled.spec, logs, prepared.processing, mending)

@@ -48,7 +48,6 @@ from .observe import (
     TREMBLES as TREMBLES,
     Look as Look,
     observe as observe,
-    quiet as quiet,
     trembling as trembling,
 )
 from .prepare import (

@@ -97,16 +97,15 @@ def lowered(model: CompiledModel, prepared: Prepared, asked: Processing) -> Prep
     """
     if asked.parallel_cutoff is not None or not prepared.noise.moving:
         return prepared
-    look, given = Look(model, prepared), asked.position_cutoff is not None
-    prepared = farther(look, prepared, given)
-    noise, wide = prepared.noise, prepared.processing
-    position, parallel = wide.position_cutoff, wide.parallel_cutoff
-    least, beta = look.narrow(noise, position)
-    met = meeting_cutoff(look, noise, position, (least, parallel))
-    widest = look.fit(position, parallel)
-    found = quiet(look, beta, (position, parallel), (met.cutoff, least), given)
+    given = asked.position_cutoff is not None
+    look = farther(Look(model, prepared), given)
+    prepared, noise, wide = look.prepared, look.prepared.noise, look.prepared.processing
+    position = wide.position_cutoff
+    met = meeting_cutoff(look, position)
+    widest = look.fit(position, wide.parallel_cutoff)
+    found = look.quiet(met.cutoff, given)
     if found.position < position:
-        met = meeting_cutoff(look, noise, found.position, (least, parallel))
+        met = meeting_cutoff(look, found.position)
     parallel = two_digits(min(met.cutoff, found.parallel))
     if not given:
         position = two_digits(max(min(noise.cutoff, found.position), 2.0 * parallel))
@@ -129,28 +128,28 @@ def lowered(model: CompiledModel, prepared: Prepared, asked: Processing) -> Prep
     return dataclasses.replace(prepared, choices=(*prepared.choices, *said), lowered=bands)
 
 
-def farther(look: "Look", prepared: Prepared, given: bool) -> Prepared:
+def farther(look: "Look", given: bool) -> "Look":
     """The logs with later floors of the noise, where the torques answer to what lies before them.
 
     What a controller leaves of a motion may be flat for octaves before it falls, and so may the
     noise of a slow sensor: positions do not tell which it is, torques do.
 
     Args:
-        look: at the logs.
-        prepared: the logs, with the first floors.
+        look: at the logs, with the first floors.
         given: the position cut-off is the user's.
     """
-    later, wide = prepared.noise.of_last_floors(), prepared.processing
+    prepared, later = look.prepared, look.prepared.noise.of_last_floors()
     if later.cutoff <= prepared.noise.cutoff:
-        return prepared
-    _, beta = look.narrow(prepared.noise, wide.position_cutoff)
-    position = wide.position_cutoff if given else later.cutoff
+        return look
+    _, beta = look.narrow
+    position = prepared.processing.position_cutoff if given else later.cutoff
     position = min(position, HIGHEST / max(piece.step for piece in prepared.pieces))
-    fit = look.fit(position, wide.parallel_cutoff)
+    parallel = prepared.processing.parallel_cutoff
+    fit = look.fit(position, parallel)
     if fit is None or beta is None or answer(fit.rows, fit.rows.predicted(beta)) < ANSWERED:
-        return prepared
-    wider = prepared.with_cutoffs(two_digits(position), wide.parallel_cutoff)
-    return dataclasses.replace(wider, noise=later)
+        return look
+    wider = prepared.with_cutoffs(two_digits(position), parallel)
+    return Look(look.model, dataclasses.replace(wider, noise=later))
 
 
 def _sentences(
@@ -193,16 +192,12 @@ class Look(Brief):
     model: CompiledModel
     prepared: Prepared
 
-    def narrow(self, noise: MotionNoise, position: float) -> tuple[float, np.ndarray | None]:
-        """The lowest parallel cut-off that leaves rows enough, Hz, and beta (c,) of its fit.
-
-        Args:
-            noise: of the motion.
-            position: highest cut-off of the position filter, Hz.
-        """
-        highest = self.prepared.processing.parallel_cutoff
+    @cached_property
+    def narrow(self) -> tuple[float, np.ndarray | None]:
+        """The lowest parallel cut-off that leaves rows enough, Hz, and beta (c,) of its fit."""
+        noise, widest = self.prepared.noise, self.prepared.processing
+        highest, own = widest.parallel_cutoff, min(noise.cutoff, widest.position_cutoff)
         least = min(max(LEAST_BANDS * noise.band, LEAST_CUTOFF), highest)
-        own = min(noise.cutoff, position)
         while True:
             fit = self.fit(max(own, 2.0 * least), least)
             if least >= highest or (fit is not None and fit.determined):
@@ -248,15 +243,58 @@ class Look(Brief):
         report = DataReport(chosen, (), (), ())
         return WeightedFit(self.model, stacked(self.model, (), some, report))
 
-    def trembling(
-        self, beta: np.ndarray | None, position: float, parallel: float
-    ) -> tuple[float, int | None]:
-        """How much more than the measured torque that of beta (c,) trembles; joint where most."""
-        fit = self.fit(position, parallel)
+    def trembling(self, position: float, parallel: float) -> tuple[float, int | None]:
+        """How much more than the measured torque that of `narrow` trembles; joint where most."""
+        fit, (_, beta) = self.fit(position, parallel), self.narrow
         if fit is None or beta is None:
             return 0.0, None
         found = trembling(fit.rows, fit.rows.predicted(beta))
         return max(((most, j) for j, most in found.items()), default=(0.0, None))
+
+    def quiet(self, floor: float, given: bool) -> "Quiet":
+        """Cut-offs lowered while the model's torque trembles `TREMBLES` times as much as measured.
+
+        The model is that of `narrow`. First the parallel filter, then that of the positions, then
+        both.
+
+        Args:
+            floor: Hz to which the parallel filter is lowered before that of the positions is.
+            given: the position filter is the user's, and stays.
+        """
+        widest, (least, _) = self.prepared.processing, self.narrow
+        position, parallel = widest.position_cutoff, widest.parallel_cutoff
+        most, joint = 0.0, None
+        while True:
+            left, worst = self.trembling(position, parallel)
+            if left <= TREMBLES or parallel <= least:
+                return Quiet(position, parallel, left, most, joint)
+            if left > most:
+                most, joint = left, worst
+            if parallel > floor:
+                parallel = max(floor, LOWER * parallel)
+                continue
+            if given or position <= APART * parallel:
+                parallel = max(least, LOWER * parallel)
+            if not given:
+                position *= LOWER
+
+
+@dataclass(frozen=True)
+class Quiet(Brief):
+    """Cut-offs behind which a model's torque does not tremble.
+
+    Attributes:
+        position, parallel: Hz.
+        left: how many times as much as the measured torque that of the model trembles there.
+        most: the same behind the first filters of which it is too much; 0 if behind none.
+        joint: of that; None without.
+    """
+
+    position: float
+    parallel: float
+    left: float
+    most: float
+    joint: int | None
 
 
 def _part(segment: Segment, place: slice) -> Segment:
@@ -386,56 +424,6 @@ def bends(rows: Observation, model: np.ndarray) -> Iterator[tuple[int, np.ndarra
             yield j, np.diff(both, 2)[:, kept], np.sqrt(np.mean(both[:, used] ** 2, axis=1))
 
 
-@dataclass(frozen=True)
-class Quiet(Brief):
-    """Cut-offs behind which a model's torque does not tremble.
-
-    Attributes:
-        position, parallel: Hz.
-        left: how many times as much as the measured torque that of the model trembles there.
-        most: the same behind the first filters of which it is too much; 0 if behind none.
-        joint: of that; None without.
-    """
-
-    position: float
-    parallel: float
-    left: float
-    most: float = 0.0
-    joint: int | None = None
-
-
-def quiet(
-    look: Look, beta: np.ndarray | None, cutoffs: tuple[float, float], down: tuple[float, float],
-    given: bool,
-) -> Quiet:  # fmt: skip
-    """Cut-offs lowered while the torque of beta trembles `TREMBLES` times as much as the measured.
-
-    First the parallel filter, then that of the positions, then both.
-
-    Args:
-        look: at the logs.
-        beta: (c,) of a model that narrow filters gave; None: nothing is known.
-        cutoffs: position and parallel filter to begin with, Hz.
-        down: Hz to which the parallel filter is lowered first, and last.
-        given: the position filter is the user's, and stays.
-    """
-    (position, parallel), (floor, least) = cutoffs, down
-    most, joint = 0.0, None
-    while True:
-        left, worst = look.trembling(beta, position, parallel)
-        if left <= TREMBLES or parallel <= least:
-            return Quiet(position, parallel, left, most, joint)
-        if left > most:
-            most, joint = left, worst
-        if parallel > floor:
-            parallel = max(floor, LOWER * parallel)
-            continue
-        if given or position <= APART * parallel:
-            parallel = max(least, LOWER * parallel)
-        if not given:
-            position *= LOWER
-
-
 _EXACT = 1e-6  # of a torque's rms: a residual that is less is none
 _WEIGHTINGS = 4
 _SEEN = 1e-8  # of the largest singular value, columns scaled
@@ -489,9 +477,7 @@ class Meeting(Brief):
         return tuple(channels)
 
 
-def meeting_cutoff(
-    look: Look, noise: MotionNoise, position: float, span: tuple[float, float]
-) -> Meeting:
+def meeting_cutoff(look: Look, position: float) -> Meeting:
     """Where the noise of the motion, as torque, meets that of the drives.
 
     And no more than where a drive that answers the same noise could bend the inertias by one
@@ -502,11 +488,13 @@ def meeting_cutoff(
 
     Args:
         look: at the logs.
-        noise: of the motion.
         position: highest cut-off of the position filter, Hz.
-        span: Hz that the answer lies between.
     """
-    least, highest = span
+    noise, highest, (least, _) = (
+        look.prepared.noise,
+        look.prepared.processing.parallel_cutoff,
+        look.narrow,
+    )
     power = 2 * noise.order
     at, own = least, min(noise.cutoff, position)
     torques = dict[int, tuple[float, float]]()

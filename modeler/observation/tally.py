@@ -174,6 +174,9 @@ def _contradictions(
 # The counts in the words of a report.
 
 
+_TOLD = ("rows", "gaps", "pieces", "resampled", "short", "samples", "contradicted")
+
+
 def log_report(
     log: Log, spec: ModuleSpec, prepared: PreparedLog, facts: Tally, defects: Defects,
     contradictions: Sequence[Contradiction], decimation: int,
@@ -189,27 +192,21 @@ def log_report(
         contradictions: of logged derivatives.
         decimation: samples per row.
     """
-    check, rows = prepared.check, facts.count("rows")
+    counts: dict[str, Any] = {name: facts.count(name) for name in _TOLD}
     clipped = zip(log.joints, facts.sums["clipped"], strict=True)
     return LogReport(
         name=log.name,
-        rows=rows,
         missing=dict(facts.sums["missing"]),
         saturated={name: int(count) for name, count in clipped if count},
         rate=1.0 / log.step,
         jitter=float(facts.most["jitter"]),
-        gaps=facts.count("gaps"),
         longest_gap=float(facts.most["gap"]),
-        pieces=facts.count("pieces"),
-        resampled=facts.count("resampled"),
-        short=facts.count("short"),
         derivatives=prepared.derivatives,
         decimation=decimation,
-        samples=facts.count("samples"),
-        notes=log.notes + prepared.rings + (check.notes if check else ()),
+        notes=log.notes + prepared.rings + (prepared.check.notes if prepared.check else ()),
         contradictions=tuple(contradictions),
-        contradicted=facts.count("contradicted"),
-        damages=damages(log, rows, spec, defects),
+        **counts,
+        damages=damages(log, counts["rows"], spec, defects),
         content=log.content,
         span=log.span,
         torque_source=log.torque_source,

@@ -380,7 +380,7 @@ def test_uneven_stamps_fit_as_well_in_chunks():
 
 @pytest.mark.parametrize("each", [1.25, 2.0, 3.3])
 def test_rows_that_repeat_are_left_out_of_chunks_as_of_the_whole_log(each):
-    """A recorder that is `each` times as fast as the robot; rows lie elsewhere, and say the same."""
+    """A recorder that is `each` times as fast as the robot; its rows lie elsewhere."""
     log = noisy_log(rate=100)
     rows = (np.arange(int(each * log.rows)) / each).astype(int)
     time = np.arange(len(rows)) / (100.0 * each)
