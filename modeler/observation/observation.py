@@ -243,10 +243,9 @@ def observed(
         own = [part for part in stretches if part.segment.run == run]
         whole = tally(whole_log(log), of.pieces, of.cuts, own, of.check)
         wrong = of.check.contradictions if of.check else ()
-        decimation = next((part.decimation for part in own if len(part.rows.centres) > 1), 1)
-        found = log_report(log, model.spec, of, whole, of.defects, wrong, decimation)
+        decimation = max((part.decimation for part in own), default=1)
         tallies.append(whole)
-        reports.append(dataclasses.replace(found, open_times=times))
+        reports.append(log_report(log, model.spec, of, whole, of.defects, wrong, decimation, times))
     report = DataReport(
         processing=chosen,
         choices=prepared.choices,

@@ -425,7 +425,6 @@ def _log_report(model: CompiledModel, source: Source, k: int, passes: Passes) ->
     log = dataclasses.replace(first, name=source.name, notes=notes, content=content)
     report = log_report(
         log, model.spec, found.logs[k], counts, facts.defects, facts.contradictions,
-        chosen.decimation,
+        chosen.decimation, facts.open_times,
     )  # fmt: skip
-    rate, times = 1.0 / chosen.step, facts.open_times
-    return dataclasses.replace(report, rate=rate, span=facts.span, open_times=times)
+    return dataclasses.replace(report, rate=1.0 / chosen.step, span=facts.span)

@@ -179,7 +179,7 @@ _TOLD = ("rows", "gaps", "pieces", "resampled", "short", "samples", "contradicte
 
 def log_report(
     log: Log, spec: ModuleSpec, prepared: PreparedLog, facts: Tally, defects: Defects,
-    contradictions: Sequence[Contradiction], decimation: int,
+    contradictions: Sequence[Contradiction], decimation: int, open_times: tuple[float, ...],
 ) -> LogReport:  # fmt: skip
     """What became of the rows of a log.
 
@@ -191,6 +191,7 @@ def log_report(
         defects: values that no robot can have made.
         contradictions: of logged derivatives.
         decimation: samples per row.
+        open_times: of samples with which the loops cannot be closed, s.
     """
     counts: dict[str, Any] = {name: facts.count(name) for name in _TOLD}
     clipped = zip(log.joints, facts.sums["clipped"], strict=True)
@@ -210,6 +211,7 @@ def log_report(
         content=log.content,
         span=log.span,
         torque_source=log.torque_source,
+        open_times=open_times,
     )
 
 
