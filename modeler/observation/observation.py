@@ -195,9 +195,9 @@ class Evaluated:
     def triangles(self, part: Stretch, use: np.ndarray, state: Triangles | None) -> Triangles:
         """Triangles of the rows of a stretch whose rows are samples; use (rows, n) bool."""
         some = np.flatnonzero(use.any(axis=1))
-        s, w = part.segment, near(part.rows.centres[some])
+        s, w = part.segment, part.rows.centres[some]
         found = self._model.triangles(
-            s.q[w], s.qd[w], s.qdd[w], s.tau[w], use[near(some)], self._read(s, w), state=state
+            s.q[w], s.qd[w], s.qdd[w], s.tau[w], use[some], self._read(s, w), state=state
         )
         if found.left_out.any():  # the regressor says of which sample, and why
             bad = part.rows.centres[some][found.left_out]
@@ -206,7 +206,7 @@ class Evaluated:
 
     def products(self, part: Stretch, use: np.ndarray, last: Sequence[int]) -> list[np.ndarray]:
         """Products of rows 1 .. last_j apart, of a stretch whose rows are samples."""
-        s, w = part.segment, near(part.rows.centres)
+        s, w = part.segment, part.rows.centres
         return self._model.products(
             s.q[w], s.qd[w], s.qdd[w], s.tau[w], last, use, self._read(s, w), first=1
         )
@@ -214,13 +214,6 @@ class Evaluated:
     def _read(self, s: Segment, w: slice | np.ndarray) -> np.ndarray | None:
         read = self._signals[id(s)]
         return None if read is None else read[w]
-
-
-def near(places: np.ndarray) -> slice | np.ndarray:
-    """The same places as a slice where they are neighbours: no copy."""
-    if len(places) and places[-1] - places[0] == len(places) - 1:
-        return slice(int(places[0]), int(places[-1]) + 1)
-    return places
 
 
 def observed(
