@@ -254,31 +254,20 @@ def rows_of(observation: Observation, reference: SignalReference) -> Rows:
     """
     cutoff = observation.report.processing.parallel_cutoff
     signals = tuple(_signals(part, reference, cutoff) for part in observation.stretches)
-    joints = len(observation.joints)
-    full = [
-        [
-            _normed(only(part.rows.weights, part.usable[:, j])[part.used[:, j]])
-            for j in range(joints)
-        ]
-        for part in observation.stretches
-    ]  # weights over usable samples, each row summing to one
-    filters = tuple(  # the same over every k-th sample
-        tuple(own if s.every == 1 else _normed(csr_array(own[:, :: s.every])) for own in part)
-        for part, s in zip(full, signals, strict=True)
-    )
+    filters = []  # weights of usable samples, every k-th of them, each row summing to one
+    for part, s in zip(observation.stretches, signals, strict=True):
+        pairs = zip(part.used.T, part.usable.T, strict=True)
+        own = [only(part.rows.weights, usable)[used] for used, usable in pairs]
+        filters.append(tuple(_normed(csr_array(every[:, :: s.every])) for every in own))
     blocks = tuple(_blocks(own, len(s.q)) for own, s in zip(filters, signals, strict=True))
-    used = [observation.used[:, j] for j in range(joints)]
-    torque = [part.segment.tau for part in observation.stretches]
+    counted = list(observation.used.T)
     return Rows(
-        y=tuple(
-            np.concatenate([f[j] @ tau[:, j] for f, tau in zip(full, torque, strict=True)])
-            for j in range(joints)
-        ),
+        y=tuple(observation.torque[rows, j] for j, rows in enumerate(counted)),
         W=base_columns(blocks, signals),
-        time=tuple(observation.time[rows] for rows in used),
-        run=tuple(observation.run[rows] for rows in used),
-        segment=tuple(observation.segment[rows] for rows in used),
-        filters=filters,
+        time=tuple(observation.time[rows] for rows in counted),
+        run=tuple(observation.run[rows] for rows in counted),
+        segment=tuple(observation.segment[rows] for rows in counted),
+        filters=tuple(filters),
         blocks=blocks,
         signals=signals,
     )
