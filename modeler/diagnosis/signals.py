@@ -1,6 +1,6 @@
 """What the equations of effects read: motion, loads and states of one stretch at full rate."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
@@ -106,16 +106,13 @@ class Signals(Brief):
         read = None if self.read is None else self.read[window]
         return self.q[window], self.v[window], self.a[window], read
 
-    def windows(self) -> Iterator[slice]:
-        """Of few samples each: what is evaluated over one of them stays in the cache."""
-        for start in range(0, len(self.q), WINDOW):
-            yield slice(start, min(start + WINDOW, len(self.q)))
-
     @cached_property
     def largest(self) -> np.ndarray:
         """(p,) magnitude that each column of a standard parameter reaches."""
-        every = [np.abs(self.regressor(w)).max(axis=(0, 1)) for w in self.windows()]
-        return np.asarray(np.max(every, axis=0))
+        windows = [slice(k, k + WINDOW) for k in range(0, len(self.q), WINDOW)]
+        return np.asarray(
+            np.max([np.abs(self.regressor(w)).max(axis=(0, 1)) for w in windows], axis=0)
+        )
 
     @cached_property
     def load(self) -> np.ndarray:

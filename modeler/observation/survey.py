@@ -11,7 +11,7 @@ from modeler.numerics.filters import spacing
 from modeler.observation.chunk import Chunk, chunk_rows, margin
 from modeler.observation.consistency import consistency
 from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_of, fingers
-from modeler.observation.low_speed import IDLE_TRAVEL, TOP, FrictionShaft, shafts
+from modeler.observation.low_speed import FrictionShaft, shafts, top_speeds
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.observation import Observation, observed
 from modeler.observation.observe import lowered
@@ -342,15 +342,10 @@ def _clipped(log: Log, pieces: Sequence[Piece]) -> np.ndarray:
 
 def _awake(segments: Sequence[Segment], chosen: LogChoices) -> dict[str, float]:
     """Top speeds of the shafts that move, and were taken to stand still."""
-    moves: dict[str, float] = {}
-    for part in chosen.shafts:
-        if chosen.processing.speed_floors[part.name] < float("inf"):
-            continue
-        for s in (one for one in segments if one.whole.any()):
-            if np.ptp(part.speed(s.q[s.whole])) >= IDLE_TRAVEL[part.unit]:
-                top = float(np.quantile(np.abs(part.speed(s.qd[s.whole])), TOP))
-                moves[part.name] = max(moves.get(part.name, 0.0), top)
-    return moves
+    floors, moving = chosen.processing.speed_floors, [s for s in segments if s.whole.any()]
+    still = [part for part in chosen.shafts if floors[part.name] == float("inf")]
+    tops = top_speeds(still, moving) if moving else []
+    return {part.name: top for part, top in zip(still, tops, strict=False) if top > 0.0}
 
 
 # The report of all rows.
