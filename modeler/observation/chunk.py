@@ -89,16 +89,6 @@ def margin(processing: ChosenProcessing, step: float) -> int:
     return _BESIDE + int(np.ceil(max(memory, edge) + reach + window + delay))
 
 
-def chunk_rows(beside: int, rows: int = FINGER) -> int:
-    """Rows of a chunk of its own: a multiple of those of a fingerprint, and most of what is read.
-
-    Args:
-        beside: rows of its margins.
-        rows: at least.
-    """
-    return rows * max(1, -(-4 * beside // rows))
-
-
 def chunks(source: Source, own: int, beside: int) -> Iterator[Chunk]:
     """All rows of a log as chunks.
 

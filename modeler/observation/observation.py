@@ -249,7 +249,7 @@ def observed(
         joints=joint_reports(model.spec.joints, parts, floors, tallies),
     )
     if not any(part.used.any() for part in stretches):
-        raise no_row_left(report, [f"{log.name}: {note}" for log in logs for note in log.notes])
+        raise no_row_left(report)
     rows = stacked(model, [log.name for log in logs], stretches, report)
     if every_joint or not parts:
         return rows
@@ -261,8 +261,9 @@ def observed(
     return dataclasses.replace(rows, steady=np.concatenate(far))
 
 
-def no_row_left(report: DataReport, notes: Sequence[str] = ()) -> DataError:
+def no_row_left(report: DataReport) -> DataError:
     """What is told of logs without a usable row."""
+    notes = [f"{log.name}: {note}" for log in report.logs for note in log.notes]
     return DataError(
         f"{', '.join(log.name for log in report.logs)}: no usable row is left: "
         + "; ".join([*(joint.line() for joint in report.joints), *notes])

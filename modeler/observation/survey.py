@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.numerics.filters import spacing
-from modeler.observation.chunk import Chunk, chunk_rows, margin
+from modeler.observation.chunk import Chunk, margin
 from modeler.observation.consistency import consistency
 from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_of, fingers
 from modeler.observation.low_speed import FrictionShaft, shafts, top_speeds
@@ -67,7 +67,7 @@ class LogChoices:
         extremes: (J,) smallest and largest torque known so far.
         shafts: of the robot.
         step: of the log, s.
-        own: rows of a chunk.
+        own: rows of a chunk: a multiple of those of a fingerprint.
         beside: rows of its margins.
     """
 
@@ -170,7 +170,7 @@ def survey(
                 extremes=known.extremes.get(k) or ranges.torques,
                 shafts=parts,
                 step=log.step,
-                own=chunk_rows(beside, rows),
+                own=rows * max(1, -(-4 * beside // rows)),  # most of what is read
                 beside=beside,
             )
         )
