@@ -142,8 +142,7 @@ def prepare(
     mended = (mending or LogRepair(logs, spec)).mended
     if not processing.keep_damaged:
         logs = [log for log, _, _ in mended]
-    logged = [processing.derivatives != "position" and log.qd is not None for log in logs]
-    cut = [split(log, run, logged[run]) for run, log in enumerate(logs)]
+    cut = [split(log, run, _speeds_used(log, processing)) for run, log in enumerate(logs)]
     pieces = [piece for own, _ in cut for piece in own]
     if not pieces:
         raise DataError(
@@ -156,19 +155,16 @@ def prepare(
     bands = joint_bands(pieces, spectra)
     positions = motion_noise(spec.joints, [without_speeds(piece) for piece in pieces], bands)
     chosen, _ = choose_cutoffs(processing, pieces, positions)
-    checks = [
-        consistency(log, own, chosen.parallel_cutoff, not chosen.keep_contradicted) if use else None
-        for log, (own, _), use in zip(logs, cut, logged, strict=True)
-    ]
-    rated = [piece for (own, _), use in zip(cut, logged, strict=True) if use for piece in own]
+    rated = [piece for piece in pieces if piece.qd is not None]
     noisy = processing.derivatives == "auto" and quieter(rated, chosen.position_cutoff)
-    prepared = []
-    for run, (log, (own, cuts), check) in enumerate(zip(logs, cut, checks, strict=True)):
-        found, check, source = _derived(log, own, check, processing, noisy)
-        _, damage, usual = mended[run]
+    steps, prepared = [joint.step for joint in positions.joints], []
+    for run, (log, (own, cuts), (_, damage, usual)) in enumerate(
+        zip(logs, cut, mended, strict=True)
+    ):
+        found, check, source = _derived(log, own, chosen, noisy)
         # what is left of rows that repeat comes unevenly, as it was stamped
         seen = [s for p, s in zip(pieces, spectra, strict=True) if p.run == run]
-        rings = [] if usual.repeats else what_rings(seen, [own.step for own in positions.joints])
+        rings = [] if usual.repeats else what_rings(seen, steps)
         said = tuple(ring.sentence(spec.joints[ring.joint].name) for ring in rings)
         prepared.append(PreparedLog(found, cuts, source, check, said, damage, usual))
     pieces = [piece for log in prepared for piece in log.pieces]
@@ -178,20 +174,24 @@ def prepare(
     return Prepared(chosen, choices, tuple(prepared), noise, shown_band(noise.band, pieces))
 
 
+def _speeds_used(log: Log, processing: Processing) -> bool:
+    return processing.derivatives != "position" and log.qd is not None
+
+
 def _derived(
-    log: Log, pieces: tuple[Piece, ...], check: Consistency | None, processing: Processing,
-    noisy: bool,
-) -> tuple[tuple[Piece, ...], Consistency | None, str]:  # fmt: skip
+    log: Log, pieces: tuple[Piece, ...], processing: ChosenProcessing, noisy: bool
+) -> tuple[tuple[Piece, ...], Consistency | None, str]:
     """The pieces of a log with the logged velocities that are used; their check, and their source.
 
     Args:
         log: mended.
         pieces: of it.
-        check: of its logged velocities; None if they are not used.
-        processing: what is asked.
+        processing: of all logs.
         noisy: positions that are differentiated have less noise.
     """
-    keep = processing.keep_contradicted
+    keep, check = processing.keep_contradicted, None
+    if _speeds_used(log, processing):
+        check = consistency(log, pieces, processing.parallel_cutoff, refuse=not keep)
     late = check is not None and check.harmful and processing.derivatives == "auto"
     if check is not None and not noisy and (keep or not late):
         source = "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
