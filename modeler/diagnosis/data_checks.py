@@ -13,11 +13,11 @@ from modeler.diagnosis.drive_gains import with_gains
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.plausible import SMOOTH, is_computed
 from modeler.diagnosis.search import Search
-from modeler.diagnosis.state import SearchData, State, state_of, trembling
+from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import CONVENTION
 from modeler.effects import Acts, Effect
 from modeler.estimation import IdentifiedModel, faults, suspects
-from modeler.observation import TREMBLES, Fault
+from modeler.observation import TREMBLES, Fault, trembling
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""
@@ -139,7 +139,8 @@ def without_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None
 
 def _noisy(state: State) -> list[str]:
     """Joints whose model trembles from row to row, and whose torque does not."""
-    found = {name: ratio for name, ratio in trembling(state).items() if ratio > TREMBLES}
+    ratios = trembling(state.data.observation, state.torque)
+    found = {state.names[j]: ratio for j, ratio in ratios.items() if ratio > TREMBLES}
     if not found:
         return []
     cutoff = state.data.observation.report.processing.position_cutoff

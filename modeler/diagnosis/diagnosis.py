@@ -253,9 +253,5 @@ def _masked(data: SearchData, window: Window) -> SearchData:
     observation = data.observation
     hit = (observation.run == window.log) & (observation.time > window.start - MARGIN)
     hit &= observation.time < window.end + MARGIN
-    used = observation.used & ~hit[:, None]
-    ends = np.cumsum([len(part.used) for part in observation.stretches])[:-1]
-    pairs = zip(observation.stretches, np.split(used, ends), strict=True)
-    parts = tuple(dataclasses.replace(part, used=own) for part, own in pairs)
-    rest = dataclasses.replace(observation, used=used, stretches=parts)
+    rest = observation.with_rows(observation.used & ~hit[:, None])
     return dataclasses.replace(data, observation=rest)

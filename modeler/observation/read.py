@@ -1,7 +1,6 @@
 """A log of any format as a `Log`, in the columns of the log format."""
 
 import dataclasses
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -80,7 +79,6 @@ def log_of(table: LogTable, spec: ModuleSpec) -> Log:
         segment=_segment(table),
         extra=_extra(table, spec, notes),
         torque_source=tuple(source for _, source in torques),
-        missing=_missing(table, spec),
         notes=tuple(notes),
     )
 
@@ -222,12 +220,6 @@ def _temperatures(
     return found
 
 
-def _missing(table: LogTable, spec: ModuleSpec) -> dict[str, int]:
-    names = [name for name in table.names if name in _used_names(spec) and table.is_numeric(name)]
-    counts = {name: int(np.isnan(table.measured(name)).sum()) for name in names}
-    return {name: count for name, count in counts.items() if count}
-
-
 @dataclass(frozen=True, eq=False)
 class Ranges:
     """Between which values the channels of a log lie; J joints, infinite without any.
@@ -302,7 +294,7 @@ class Ranges:
 # A log as blocks of rows: a file of any length, or a log that is in memory already.
 
 
-_COLUMNS = ("time", "q", "tau", "qd", "qdd", "commanded")
+_COLUMNS = ("time", "q", "tau", "qd", "qdd", "commanded", "segment")
 _FIRST = 1000  # rows that tell which columns a file has
 
 
@@ -406,7 +398,14 @@ def source_of(path: Path, spec: ModuleSpec, mapping: LogMap | None = None) -> Fi
 
 def joined(logs: Sequence[Log]) -> Log:
     """Consecutive rows of one log, put together."""
-    return logs[0] if len(logs) == 1 else _joined(logs, _whole(logs, "segment"))
+    if len(logs) == 1:
+        return logs[0]
+    columns: dict[str, Any] = {}
+    for name in _COLUMNS:
+        own = [getattr(log, name) for log in logs]
+        columns[name] = None if any(part is None for part in own) else np.concatenate(own)
+    extra = {name: np.concatenate([log.extra[name] for log in logs]) for name in logs[0].extra}
+    return dataclasses.replace(logs[0], **columns, extra=extra)
 
 
 def windows_joined(logs: Sequence[Log]) -> Log:
@@ -415,25 +414,12 @@ def windows_joined(logs: Sequence[Log]) -> Log:
     for log in logs:
         numbers.append(first + log.piece_number)
         first = int(numbers[-1][-1]) + 1
-    return _joined(logs, np.concatenate(numbers))
-
-
-def _joined(logs: Sequence[Log], segment: np.ndarray | None) -> Log:
-    columns = {name: _whole(logs, name) for name in _COLUMNS}
-    extra = {name: np.concatenate([log.extra[name] for log in logs]) for name in logs[0].extra}
-    missing = dict(sum((Counter(log.missing) for log in logs), Counter[str]()))
-    changed: dict[str, Any] = {**columns, "segment": segment, "extra": extra, "missing": missing}
-    return dataclasses.replace(logs[0], **changed)
-
-
-def _whole(logs: Sequence[Log], name: str) -> np.ndarray | None:
-    found = [getattr(log, name) for log in logs]
-    return None if any(values is None for values in found) else np.concatenate(found)
+    return dataclasses.replace(joined(logs), segment=np.concatenate(numbers))
 
 
 def cut(log: Log, rows: slice | np.ndarray) -> Log:
     """Some rows of a log: consecutive ones, or those of a mask (n,)."""
-    whole = {name: getattr(log, name) for name in (*_COLUMNS, "segment")}
+    whole = {name: getattr(log, name) for name in _COLUMNS}
     parts: dict[str, Any] = {n: v if v is None else v[rows] for n, v in whole.items()}
     extra = {name: values[rows] for name, values in log.extra.items()}
     return dataclasses.replace(log, **parts, extra=extra)

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from modeler.observation.motion import Segment
-from modeler.observation.observation import Evaluated, Observation, near
+from modeler.observation.observation import Evaluated, Observation
 from modeler.observation.stretch import Stretch
 from modeler.runtime import NonzeroPattern, Triangles, no_rows, of_rows
 
@@ -55,19 +55,10 @@ def fitted_torque(
 ) -> np.ndarray:
     """(s, n) torque of the model, `columns beta`; 0 where keep (s, n) is given and False."""
     regressor = observation.regressor
-    if not isinstance(regressor, Evaluated):
+    if isinstance(regressor, Evaluated):
+        found = observation.filtered(partial(regressor.torque, beta=beta))
+    else:
         found = np.concatenate([columns @ beta for _, columns in blocks(observation)])
-        return found if keep is None else np.where(keep, found, 0.0)
-    found = np.zeros(observation.used.shape)
-    for part, own in _stretches(observation):
-        if keep is not None and not keep[own].any():
-            continue
-        if is_unfiltered(part):
-            every = np.ones(len(part.used), dtype=bool) if keep is None else keep[own].any(axis=1)
-            some = near(np.flatnonzero(every))
-            found[own][some] = regressor.torque(part.segment, near(part.rows.centres[some]), beta)
-        else:
-            found[own] = part.filtered(partial(regressor.torque, part.segment, beta=beta))
     return found if keep is None else np.where(keep, found, 0.0)
 
 
