@@ -116,7 +116,7 @@ def judged(
         way: how.
         data: all rows that were fitted, where the observation has a part of them only.
     """
-    told = [*way.told, *estimation.findings_of_fit(compiled, observation)]
+    told = [*way.told, *estimation.log_findings(compiled, observation)]
     return estimation.with_verdict(
         compiled, observation, way.result, told, way.equations, way.refit, data
     )

@@ -12,12 +12,7 @@ from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, 
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
-from modeler.estimation import (
-    IdentifiedModel,
-    findings_of_prediction,
-    load_model,
-    with_essential_only,
-)
+from modeler.estimation import IdentifiedModel, load_model, log_findings, with_essential_only
 from modeler.observation import Fault, Observation, check_apart
 from modeler.report import Origin, after_compare, comparison as pages
 from modeler.runtime import CompiledModel
@@ -66,7 +61,7 @@ def judged(
         f"{model.fit.error_told()}"
     ]
     lines += [*model.warning, *_training(model, observation), *observation.report.lines()]
-    found = findings_of_prediction(compiled, observation, model.beta)
+    found = log_findings(compiled, observation, model)
     lines += [fault.line for fault in found if fault.certain]
     return comparison, lines, found
 

@@ -78,14 +78,6 @@ def likeliest(state: State, candidates: Sequence[Candidate]) -> Candidate | None
     return min(found, key=lambda pair: pair[1])[0] if found else None
 
 
-def with_gains(state: State, joints: Sequence[int]) -> tuple[np.ndarray, np.ndarray] | None:
-    """Base parameters (c,) and g (J,) with the gains of these joints; None if one is a unit."""
-    found = _best(_problem(state, joints))
-    if found is None or not np.all((found.g > 1.0 / TENFOLD) & (found.g < TENFOLD)):
-        return None
-    return found.beta, found.g
-
-
 def _best(problem: "_GainProblem") -> "_Solution | None":
     """The likeliest of the solutions from all starts, with the weights given and with none."""
     level = problem.reweighed(problem.torque)  # every joint weighs by its torque: no model bent it

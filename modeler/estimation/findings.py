@@ -14,22 +14,13 @@ itself, a fault that raises the sum by no more is one that these logs cannot sho
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import combinations
+from itertools import chain, combinations
 
 import numpy as np
 
+from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
-from modeler.numerics.least_squares import whitening
-from modeler.observation import (
-    Fault,
-    Observation,
-    ThinnedRows,
-    Turn,
-    model_torque,
-    thinned,
-    turns,
-    zeros,
-)
+from modeler.observation import Fault, Observation, ThinnedRows, Turn, thinned, turns, zeros
 from modeler.runtime import CompiledModel
 
 HALF = 0.5
@@ -63,8 +54,7 @@ _MILLI = 1e-3  # N m in mN m
 _UNITS = 1e9  # units are no farther apart
 _LEAST_ROWS = 20  # of a joint whose torque is exchanged
 _FOR_EACH = 3  # rows for every parameter, at least: fewer are described by anything
-_FEW = 400  # rows for a motion that is changed
-_TOLD = 1e-11  # eigenvalue over the largest
+_RIDGE = 1e-11  # of the normal equations, of columns of length one
 _TURNS = 4  # of weights; they settle by a digit each time
 _SUBSETS = 8  # joints of which every subset is tried
 _MACHINES = 8  # subsets of which the machine is asked for
@@ -141,9 +131,14 @@ class Judge:
 
 
 def _fitted(data: Products, weights: np.ndarray) -> np.ndarray:
-    # Many fits of a few digits: normal equations, without what the data cannot tell.
-    turn = whitening(np.tensordot(weights, data.gram, 1), _TOLD)
-    return np.asarray(turn @ (turn.T @ (weights @ data.cross)))
+    return _solved(np.tensordot(weights, data.gram, 1), weights @ data.cross)
+
+
+def _solved(gram: np.ndarray, cross: np.ndarray) -> np.ndarray:
+    """Of normal equations: many fits of a few digits; a ridge for what the data cannot tell."""
+    size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    scaled = gram / np.outer(size, size) + _RIDGE * np.eye(len(gram))
+    return np.asarray(np.linalg.solve(scaled, cross / size) / size)
 
 
 def _score(errors: np.ndarray) -> float:
@@ -190,19 +185,9 @@ class Evidence:
     joints: tuple[int, ...]
 
     @cached_property
-    def few(self) -> ThinnedRows:
-        """Fewer rows, for motions that are changed."""
-        return thinned(self.compiled, self.observation, _FEW)
-
-    @cached_property
     def data(self) -> Products:
         """Of the log as it is."""
         return _products(self.rows.W, self.rows.tau, self.rows.used, self.joints)
-
-    @cached_property
-    def few_data(self) -> Products:
-        """The same of fewer rows."""
-        return _products(self.few.W, self.few.tau, self.few.used, self.joints)
 
     @cached_property
     def errors(self) -> np.ndarray:
@@ -220,12 +205,9 @@ class Evidence:
 
 
 def _evidence(
-    compiled: CompiledModel, observation: Observation, beta: np.ndarray | None = None,
-    gains: np.ndarray | None = None,
-) -> Evidence:  # fmt: skip
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray | None = None
+) -> Evidence:
     rows = thinned(compiled, observation)
-    if gains is not None:
-        rows = replace(rows, tau=rows.tau / gains)
     joints = [j for j, joint in enumerate(observation.joints) if joint.actuated]
     joints = [j for j in joints if rows.tau[rows.used[:, j], j].any()]
     enough = bool(joints) and rows.used[:, joints].sum() >= _FOR_EACH * rows.W.shape[2]
@@ -236,61 +218,42 @@ def _evidence(
 # What contradicts.
 
 
-def findings_of_fit(compiled: CompiledModel, observation: Observation) -> tuple[Fault, ...]:
-    """Doubts about the channels and the samples of logs that a model was fitted to.
+def log_findings(
+    compiled: CompiledModel, observation: Observation, model: IdentifiedModel | None = None
+) -> tuple[Fault, ...]:
+    """What is wrong with the channels and the samples of logs; alike wherever it is asked for.
+
+    The one fault that explains most of what a fit to the logs leaves; if there is none, and no
+    model either, which faults could not be seen in any case. A model that was fitted to other logs
+    is asked first, for the joints that it misses by more than half.
 
     Args:
         compiled: the robot.
-        observation: that was fitted.
+        observation: of the logs.
+        model: whose torques are compared, or explained; None: the logs are fitted.
     """
-    found = faults_of_fit(compiled, observation)
+    others = model is not None and not any(
+        used.shares_rows(log) for used in model.logs for log in observation.report.logs
+    )
+    found = _by_prediction(compiled, observation, model.beta) if model and others else []
+    found = found or _by_fit(compiled, observation, unseen=model is None)
     return (*found, *(Fault(line, False) for line in observation.report.doubts()))
 
 
-def findings_of_prediction(
-    compiled: CompiledModel, observation: Observation, beta: np.ndarray
-) -> tuple[Fault, ...]:
-    """Doubts about the channels and the samples of logs whose torque a model predicts.
-
-    Where the prediction blames none, those of a fit to the same logs are asked for.
-
-    Args:
-        compiled: the robot.
-        observation: of the logs.
-        beta: (c,) base parameters of the model.
-    """
-    found = faults(compiled, observation, beta) or faults_of_fit(compiled, observation)
-    doubts = (Fault(line, False) for line in observation.report.doubts())
-    return (*(one for one in found if not one.unseen), *doubts)
-
-
-def faults_of_fit(compiled: CompiledModel, observation: Observation) -> tuple[Fault, ...]:
-    """The one fault of logs that explains most; or which of them could not be seen in any case.
-
-    Args:
-        compiled: the robot.
-        observation: that was fitted.
-    """
+def _by_fit(compiled: CompiledModel, observation: Observation, unseen: bool) -> list[Fault]:
     seen = _evidence(compiled, observation)
     if not seen.joints:
-        return ()
+        return []
     told = _explained(seen) if seen.errors.max() > FLOOR / HALF else None
-    return _unseen(seen) if told is None else (told.fault,)
+    if told is None:
+        return _unseen(seen) if unseen else []
+    return [told.fault]
 
 
-def faults(
-    compiled: CompiledModel, observation: Observation, beta: np.ndarray,
-    gains: np.ndarray | None = None,
-) -> tuple[Fault, ...]:  # fmt: skip
-    """Faults of logs by the prediction of a model; of joints that it misses by more than half.
-
-    Args:
-        compiled: the robot.
-        observation: of the logs.
-        beta: (c,) base parameters of the model.
-        gains: (J,) what the torques of the model are multiplied by, if drive gains are wrong.
-    """
-    seen, found = _evidence(compiled, observation, beta, gains), list[Fault]()
+def _by_prediction(
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray
+) -> list[Fault]:
+    seen, found = _evidence(compiled, observation, beta), list[Fault]()
     while seen.joints and seen.errors.max() > WRONG:
         told = _explained(seen)
         if told is None:
@@ -298,28 +261,15 @@ def faults(
         found.append(told.fault)
         rest = [j for j in seen.joints if told.touches and j not in told.touches]
         seen = replace(seen, joints=tuple(rest))
-    return tuple(found)
-
-
-def suspects(compiled: CompiledModel, observation: Observation, beta: np.ndarray) -> list[int]:
-    """Indices of the joints whose torque the model misses by more than half."""
-    predicted, found = model_torque(observation, compiled, beta), []
-    for j, (y, p) in enumerate(zip(observation.torque.T, predicted.T, strict=True)):
-        used = observation.used[:, j]
-        size = float(np.linalg.norm(y[used]))
-        if used.sum() >= _LEAST_ROWS and np.linalg.norm((y - p)[used]) > WRONG * size > 0.0:
-            found.append(j)
     return found
 
 
 def _explained(seen: Evidence) -> Hypothesis | None:
     """The hypothesis that explains most, with those that do as well in its words."""
-    before, few = seen.errors, seen.judge.errors(seen.few_data)
     found = [
         (score, one)
-        for hypotheses, base in ((_torques(seen), before), (_motions(seen), few))
-        for one in hypotheses
-        if (score := _lowered(seen, base, one.data)) >= ENOUGH
+        for one in chain(_torques(seen), _motions(seen))
+        if (score := _lowered(seen, one.data)) >= ENOUGH
     ]
     if not found:
         return None
@@ -334,12 +284,12 @@ def _explained(seen: Evidence) -> Hypothesis | None:
     return Hypothesis(replace(best.fault, line=line, certain=certain), best.data, tuple(touches))
 
 
-def _lowered(seen: Evidence, before: np.ndarray, data: Products) -> float:
+def _lowered(seen: Evidence, data: Products) -> float:
     """By how much a hypothesis lowers the sum of logarithms; minus infinity if it is none."""
     none, score = -float("inf"), 0.0
     for possible in (False, True):  # machines that can be built leave more, and take longer
         errors = seen.judge.errors(data, possible)
-        score = _evidence_for(errors, before)
+        score = _evidence_for(errors, seen.errors)
         if score < ENOUGH or errors.max() > WRONG:
             return none
     return score
@@ -392,8 +342,7 @@ def _gain(seen: Evidence, place: int) -> float:
         own, side = weights[place], -weights[place] * data.cross[place]
         gram = np.tensordot(weights, data.gram, 1)
         whole = np.block([[gram, side[:, None]], [side[None], np.array([[own]])]])
-        turn = whitening(whole, _TOLD)
-        solved = turn @ (turn.T @ np.append(weights @ data.cross + side, 0.0))
+        solved = _solved(whole, np.append(weights @ data.cross + side, 0.0))
         gain = float(solved[-1])
         if not 1.0 / _UNITS < abs(gain) < _UNITS:
             break
@@ -450,8 +399,8 @@ def _motions(seen: Evidence) -> Iterator[Hypothesis]:
             f"the clock seems to be wrong: with all motion {factor:g} times as fast, torques are "
             "those of a machine; check the time column, its unit and rate"
         )
-        W = seen.few.timed(seen.compiled, factor)
-        data = _products(W, seen.few.tau, seen.few.used, seen.joints)
+        W = seen.rows.timed(seen.compiled, factor)
+        data = _products(W, seen.rows.tau, seen.rows.used, seen.joints)
         yield Hypothesis(Fault(line, True), data)
     if seen.tree:
         grave = turns(seen.observation) if seen.errors.max() > SUSPECT else ()
@@ -465,10 +414,10 @@ def _motions(seen: Evidence) -> Iterator[Hypothesis]:
 
 def _turned(seen: Evidence, turn: Turn) -> Products | None:
     """Of other positions; None where too few rows count."""
-    used = seen.few.used & seen.few.used[:, turn.torque]
+    used = seen.rows.used & seen.rows.used[:, turn.torque]
     if used[:, list(seen.joints)].sum(axis=0).min() < _LEAST_ROWS:
         return None
-    W, tau = seen.few.turned(seen.compiled, turn), seen.few.tau[:, turn.torque]
+    W, tau = seen.rows.turned(seen.compiled, turn), seen.rows.tau[:, turn.torque]
     return _products(W, tau, used, seen.joints)
 
 
@@ -525,15 +474,15 @@ def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
     A channel whose shift, to first order, does not help is given up; where torques are missed by
     far, a long delay is looked for too.
     """
-    few, judge = seen.few, seen.judge
+    rows, judge = seen.rows, seen.judge
 
     def data_of(W: np.ndarray) -> Products:
-        return _products(W, few.tau, few.used, seen.joints)
+        return _products(W, rows.tau, rows.used, seen.joints)
 
     def left(data: Products) -> float:
         return _score(judge.errors(data, possible=False))
 
-    tried = [(left(seen.few_data), 0.0, few.W)]
+    tried = [(left(seen.data), 0.0, rows.W)]
     if seen.errors.max() > SUSPECT:
         tried += [(left(data_of(W := columns(start))), start, W) for start in _STARTS]
     least, shift, W = min(tried, key=lambda one: one[0])
@@ -557,25 +506,25 @@ def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
 def _channels(seen: Evidence) -> list[_Channel]:
     """What may be late."""
     n = len(seen.observation.joints)
-    compiled, few = seen.compiled, seen.few
+    compiled, rows = seen.compiled, seen.rows
     kept: dict[float, np.ndarray] = {}
 
     def all_later(shift: float) -> np.ndarray:
         if shift not in kept:
-            kept[shift] = few.shifted(compiled, np.full(n, shift))
+            kept[shift] = rows.shifted(compiled, np.full(n, shift))
         return kept[shift]
 
     def torque_earlier(j: int, shift: float) -> np.ndarray:
-        W = few.W.copy()
+        W = rows.W.copy()
         W[:, j] = all_later(shift)[:, j]
         return W
 
     def one_later(j: int, shift: float) -> np.ndarray:
-        return few.shifted(compiled, shift * np.eye(n)[j])
+        return rows.shifted(compiled, shift * np.eye(n)[j])
 
     def both_later(j: int, shift: float) -> np.ndarray:
         W = one_later(j, shift)
-        W[:, j] = few.shifted(compiled, shift * (np.eye(n)[j] - 1.0))[:, j]
+        W[:, j] = rows.shifted(compiled, shift * (np.eye(n)[j] - 1.0))[:, j]
         return W
 
     found = [_Channel("all torques come", "the positions", -1.0, all_later)]
@@ -601,13 +550,13 @@ _DELAY = 0.01  # s; a shorter one is not asked for
 _SHOWN = 0.02  # s; from what it does that of others is taken: it grows with the delay
 
 
-def _unseen(seen: Evidence) -> tuple[Fault, ...]:
+def _unseen(seen: Evidence) -> list[Fault]:
     """Faults that torques of the machine itself would not show, beside what is left of them."""
     if seen.errors.max() > WRONG:
-        return ()
+        return []
     beta = seen.judge.possible(seen.data, *seen.judge.solved(seen.data))
     every = range(len(seen.joints))
-    made = _machine_data(seen, seen.rows, seen.rows.W, beta)
+    made = _machine_data(seen, seen.rows.W, beta)
     told = []
     for what, gain in (("a torque twice as large", 0.5), ("a torque of the other sign", -1.0)):
         scaled = (made.scaled(np.where(np.arange(len(every)) == k, gain, 1.0)) for k in every)
@@ -616,8 +565,8 @@ def _unseen(seen: Evidence) -> tuple[Fault, ...]:
     if seen.tree:
         told += _unseen_motions(seen, beta)
     if not told:
-        return ()
-    return (Fault(f"could not be seen in these logs: {'; '.join(told)}", False, unseen=True),)
+        return []
+    return [Fault(f"could not be seen in these logs: {'; '.join(told)}", False, unseen=True)]
 
 
 def _unseen_motions(seen: Evidence, beta: np.ndarray) -> list[str]:
@@ -629,14 +578,14 @@ def _unseen_motions(seen: Evidence, beta: np.ndarray) -> list[str]:
         zeros(seen.observation, (90,)), strict=True)}  # fmt: skip
     hidden, told, short = list[str](), list[str](), list[str]()
     for place in turning:
-        W = seen.few.turned(seen.compiled, every[seen.name(place)])
-        if _hides(seen, _machine_data(seen, seen.few, W, beta)):
+        W = seen.rows.turned(seen.compiled, every[seen.name(place)])
+        if _hides(seen, _machine_data(seen, W, beta)):
             hidden.append(seen.name(place))
     if hidden:
         told.append(f"a zero that is off by 90 degrees of joint {', '.join(hidden)}")
     for place, j in enumerate(seen.joints) if len(seen.joints) > 1 else ():
         shift = _SHOWN * np.eye(len(seen.observation.joints))[j]
-        data = _machine_data(seen, seen.few, seen.few.shifted(seen.compiled, shift), beta)
+        data = _machine_data(seen, seen.rows.shifted(seen.compiled, shift), beta)
         least = _least_delay(seen, seen.judge.errors(data, possible=False))
         if least > _DELAY:
             short.append(f"{1e3 * least:.0f} ms of joint {seen.name(place)}")
@@ -661,6 +610,6 @@ def _hides(seen: Evidence, data: Products) -> bool:
     return True
 
 
-def _machine_data(seen: Evidence, rows: ThinnedRows, W: np.ndarray, beta: np.ndarray) -> Products:
+def _machine_data(seen: Evidence, W: np.ndarray, beta: np.ndarray) -> Products:
     """Of columns W and the torques that a machine makes in the logs as they are."""
-    return _products(W, rows.W @ beta, rows.used, seen.joints)
+    return _products(W, seen.rows.W @ beta, seen.rows.used, seen.joints)

@@ -14,8 +14,8 @@ from modeler.observation.prepare import nearest_closed
 from modeler.observation.reduce import columns_at
 from modeler.runtime import CompiledModel
 
-MOST = 1200
-"""Rows: enough for any fit, and quick with every change that is tried."""
+MOST = 400
+"""Rows: enough for any fit, and quick with every motion that is tried."""
 
 _CELLS = 8000  # joints times rows, at most: many joints make many pairs to exchange
 _TAPS = 16  # samples of each row, of the many over which the parallel filter takes its mean
@@ -95,9 +95,9 @@ class ThinnedRows:
         return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
 
 
-def thinned(compiled: CompiledModel, observation: Observation, most: int = MOST) -> ThinnedRows:
+def thinned(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
     """At most so many of the rows of the observation, evenly; fewer of many joints."""
-    most = max(1, min(most, _CELLS // len(observation.joints)))
+    most = max(1, min(MOST, _CELLS // len(observation.joints)))
     every = max(1, -(-len(observation.time) // most))
     means: list[list[csr_array]] = [[] for _ in observation.joints]
     samples, read, chosen, at = [], [], [], 0

@@ -257,7 +257,7 @@ def test_what_an_effect_explains_is_no_matter_of_the_channel(
     monkeypatch: pytest.MonkeyPatch, left: float, certain: bool, told: int
 ) -> None:
     start, end = (SimpleNamespace(residual=[np.full(10, size)], data=None) for size in (1.0, left))
-    for name in ("sensor_delay_lines", "_moved", "data_lines"):
+    for name in ("_moved", "data_lines"):
         monkeypatch.setattr(doubts, name, lambda *a: [])
     faults = [Fault("torque 1 is 0.7 times the predicted", certain, 0)]
     found = SimpleNamespace(start=start, end=end)

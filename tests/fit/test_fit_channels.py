@@ -3,6 +3,7 @@
 import json
 from collections import Counter
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pyarrow as pa
@@ -11,7 +12,7 @@ import pytest
 
 from modeler.api import observe
 from modeler.cli import main
-from modeler.estimation.findings import findings_of_fit, findings_of_prediction
+from modeler.estimation.findings import log_findings
 from modeler.estimation.identify import identify
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, simulate, write_log
@@ -65,17 +66,12 @@ MISTAKES = {
 UNSEEN = {"zero": "90 degrees", "twice": "twice as large", "torque sign": "other sign"}
 
 
-def fitted(machine, log):
-    observation = observe(machine, [log])
-    return observation, identify(observation).beta
-
-
 @pytest.mark.parametrize("name", ROBOTS)
 def test_a_fit_to_sound_channels_is_not_doubted(runs, name):
     machine, logs = runs[name]
     for log in logs:
         observation = observe(machine, [log])
-        assert all(found.unseen for found in findings_of_fit(machine, observation))
+        assert all(found.unseen for found in log_findings(machine, observation))
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
@@ -96,7 +92,7 @@ def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(runs, mistak
             q, tau = log.q.copy(), log.tau.copy()
             change(machine, q, tau, j, k)
             observation = observe(machine, [replace(log, q=q, tau=tau)])
-            (first, *_) = findings_of_fit(machine, observation)
+            (first, *_) = log_findings(machine, observation)
             named = words in first.line
             if named and mistake in ("unit", "position sign", "torque sign", "zero", "twice"):
                 named = f"joint {log.joints[j]}:" in first.line
@@ -112,7 +108,7 @@ def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(runs, mistak
 def test_the_torque_in_another_unit_is_named_where_joints_are_coupled(runs):
     machine, (log, _) = runs["demo-arm"]
     observation = observe(machine, [replace(log, tau=log.tau * [1.0, 1.0, 1000.0])])
-    (found, *_) = findings_of_fit(machine, observation)
+    (found, *_) = log_findings(machine, observation)
     assert found.certain
     head, _, tail = found.line.partition(" times what it should be (is it in mN m?)")
     assert head.startswith("joint 3: the measured torque is ") and tail
@@ -121,11 +117,11 @@ def test_the_torque_in_another_unit_is_named_where_joints_are_coupled(runs):
 
 def test_compare_says_what_diagnose_says(runs):
     machine, (train, other) = runs["demo-arm"]
-    _, beta = fitted(machine, train)
+    model = SimpleNamespace(beta=identify(observe(machine, [train])).beta, logs=())
     swapped = observe(machine, [replace(other, tau=other.tau[:, [1, 0, 2]])])
-    lines = [found.line for found in findings_of_prediction(machine, swapped, beta)]
+    lines = [found.line for found in log_findings(machine, swapped, model)]
     assert any("joints 1 and 2: their torques look exchanged" in line for line in lines)
-    assert findings_of_prediction(machine, observe(machine, [other]), beta) == ()
+    assert log_findings(machine, observe(machine, [other]), model) == ()
 
 
 @pytest.fixture(scope="module")
