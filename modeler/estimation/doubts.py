@@ -48,14 +48,11 @@ class Doubt:
         certain: True if the model is not usable for it.
         values: True if it leaves the prediction of torques of like motion untouched, and only the
             values of parameters are in doubt.
-        explains: True if it is why the fit does not describe or foretell some torques; what is
-            usually to blame for that is then not told.
     """
 
     line: str
     certain: bool = False
     values: bool = False
-    explains: bool = False
 
 
 LogFinding = Fault | Doubt

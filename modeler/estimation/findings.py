@@ -20,7 +20,7 @@ import numpy as np
 
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
-from modeler.observation import Fault, Observation, ThinnedRows, Turn, thinned, turns, zeros
+from modeler.observation import Fault, Observation, ThinnedRows, Turn, thinned, turns, zero
 from modeler.runtime import CompiledModel
 
 HALF = 0.5
@@ -30,7 +30,7 @@ HALF = 0.5
 ALSO = 1.3
 """Times the least that another fault may leave and still explain the logs as well."""
 
-FLOOR = 0.005
+FLOOR = 0.001
 """Relative error below which all are alike."""
 
 SUSPECT = 0.1
@@ -159,11 +159,13 @@ class Hypothesis:
         fault: in words.
         data: of the log with the fault undone.
         touches: joints that it concerns; empty: all.
+        least: what it must add to the sum of logarithms.
     """
 
     fault: Fault
     data: Products
     touches: tuple[int, ...] = ()
+    least: float = ENOUGH
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,7 +271,7 @@ def _explained(seen: Evidence) -> Hypothesis | None:
     found = [
         (score, one)
         for one in chain(_torques(seen), _motions(seen))
-        if (score := _lowered(seen, one.data)) >= ENOUGH
+        if (score := _lowered(seen, one)) >= one.least
     ]
     if not found:
         return None
@@ -284,13 +286,13 @@ def _explained(seen: Evidence) -> Hypothesis | None:
     return Hypothesis(replace(best.fault, line=line, certain=certain), best.data, tuple(touches))
 
 
-def _lowered(seen: Evidence, data: Products) -> float:
+def _lowered(seen: Evidence, one: Hypothesis) -> float:
     """By how much a hypothesis lowers the sum of logarithms; minus infinity if it is none."""
     none, score = -float("inf"), 0.0
     for possible in (False, True):  # machines that can be built leave more, and take longer
-        errors = seen.judge.errors(data, possible)
+        errors = seen.judge.errors(one.data, possible)
         score = _evidence_for(errors, seen.errors)
-        if score < ENOUGH or errors.max() > WRONG:
+        if score < one.least or errors.max() > WRONG:
             return none
     return score
 
@@ -312,7 +314,7 @@ def _torques(seen: Evidence) -> Iterator[Hypothesis]:
             )
             j = seen.joints[place]
             fault = Fault(line, not 1.0 / SCALE < gain < SCALE, j)
-            yield Hypothesis(fault, _with_gain(seen, place, gain), (j,))
+            yield Hypothesis(fault, _with_gain(seen.data, place, gain), (j,))
     yield from _signs(seen)
     if seen.errors.max() <= SUSPECT:
         return
@@ -346,14 +348,14 @@ def _gain(seen: Evidence, place: int) -> float:
         gain = float(solved[-1])
         if not 1.0 / _UNITS < abs(gain) < _UNITS:
             break
-        weights = 1.0 / np.maximum(_with_gain(seen, place, gain).left(solved[:-1]), FLOOR) ** 2
+        weights = 1.0 / np.maximum(_with_gain(seen.data, place, gain).left(solved[:-1]), FLOOR) ** 2
         weights[place] /= gain**2
     return gain
 
 
-def _with_gain(seen: Evidence, place: int, gain: float) -> Products:
-    """Of the log with the torque of a joint multiplied by a gain."""
-    return seen.data.scaled(np.where(np.arange(len(seen.joints)) == place, gain, 1.0))
+def _with_gain(data: Products, places: int | Sequence[int], gain: float) -> Products:
+    """Of the log with the torques of some joints multiplied by a gain."""
+    return data.scaled(np.where(np.isin(np.arange(len(data.gram)), places), gain, 1.0))
 
 
 def _signs(seen: Evidence) -> Iterator[Hypothesis]:
@@ -369,7 +371,7 @@ def _signs(seen: Evidence) -> Iterator[Hypothesis]:
     for own in tried:
         rest = tuple(k for k in range(count) if k not in own)
         if seen.judge.beta is not None or rest not in scores:
-            data = _signed(seen.data, own)
+            data = _with_gain(seen.data, own, -1.0)
             scores[own] = _score(seen.judge.errors(data, possible=False))
         else:
             scores[own] = scores[rest]
@@ -382,11 +384,7 @@ def _signs(seen: Evidence) -> Iterator[Hypothesis]:
             whose = "all measured torques have"
         line = f"{whose} the other sign of what a machine that can be built needs; check the sign"
         j = tuple(seen.joints[k] for k in own)
-        yield Hypothesis(Fault(line, True), _signed(seen.data, own), j)
-
-
-def _signed(data: Products, own: Sequence[int]) -> Products:
-    return data.scaled(np.where(np.isin(np.arange(len(data.gram)), own), -1.0, 1.0))
+        yield Hypothesis(Fault(line, True), _with_gain(seen.data, own, -1.0), j)
 
 
 # Hypotheses about positions and times.
@@ -403,8 +401,7 @@ def _motions(seen: Evidence) -> Iterator[Hypothesis]:
         data = _products(W, seen.rows.tau, seen.rows.used, seen.joints)
         yield Hypothesis(Fault(line, True), data)
     if seen.tree:
-        grave = turns(seen.observation) if seen.errors.max() > SUSPECT else ()
-        for turn in (*grave, *zeros(seen.observation)):
+        for turn in turns(seen.observation, zeros_only=seen.errors.max() <= SUSPECT):
             turned = _turned(seen, turn)
             if turned is not None:
                 yield Hypothesis(Fault(turn.line, True), turned)
@@ -425,6 +422,7 @@ LONGEST = 0.15
 """s, the largest delay that is looked for: beyond it, channels do not look late but wrong."""
 
 _STARTS = (-0.1, -0.05, 0.05, 0.1)  # s; a step along the slope goes astray from farther away
+_SHOWN = 0.02  # s; from what it does that of other delays is taken: it grows with the delay
 _NEAR = 5e-3  # s between the motions of which a slope is taken
 _STEPS = 4  # of Gauss and Newton
 _HINT = 0.2  # of the sum of logarithms; what a small part of a shift explains at least
@@ -465,7 +463,12 @@ def _late(seen: Evidence) -> Iterator[Hypothesis]:
             f"{channel.other} {back}); check the clocks of the channels, and shift the column"
         )
         if abs(shift) > 0.5 * step:
-            yield Hypothesis(Fault(line, False), data)
+            yield Hypothesis(Fault(line, False), data, least=_enough_of(shift))
+
+
+def _enough_of(shift: float) -> float:
+    """What a delay must explain: the errors that it makes grow with it, those of physics do not."""
+    return ENOUGH + float(np.log(max(abs(shift) / _SHOWN, 1.0)))
 
 
 def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
@@ -547,7 +550,6 @@ SURELY = 1.5
 """Times the evidence that is told, below which a fault would not be seen for sure."""
 
 _DELAY = 0.01  # s; a shorter one is not asked for
-_SHOWN = 0.02  # s; from what it does that of others is taken: it grows with the delay
 
 
 def _unseen(seen: Evidence) -> list[Fault]:
@@ -555,48 +557,48 @@ def _unseen(seen: Evidence) -> list[Fault]:
     if seen.errors.max() > WRONG:
         return []
     beta = seen.judge.possible(seen.data, *seen.judge.solved(seen.data))
-    every = range(len(seen.joints))
-    made = _machine_data(seen, seen.rows.W, beta)
-    told = []
-    for what, gain in (("a torque twice as large", 0.5), ("a torque of the other sign", -1.0)):
-        scaled = (made.scaled(np.where(np.arange(len(every)) == k, gain, 1.0)) for k in every)
-        hidden = [seen.name(k) for k, data in zip(every, scaled, strict=True) if _hides(seen, data)]
-        told += [f"{what} of joint {', '.join(hidden)}"] if hidden else []
-    if seen.tree:
-        told += _unseen_motions(seen, beta)
-    if not told:
-        return []
-    return [Fault(f"could not be seen in these logs: {'; '.join(told)}", False, unseen=True)]
+    hidden: dict[str, list[str]] = {}
+    for place in range(len(seen.joints)):
+        for what, data in _made(seen, place, beta):
+            if _hides(seen, data):
+                hidden.setdefault(what, []).append(seen.name(place))
+    told = [f"{what} of joint {', '.join(hidden[what])}" for what in sorted(hidden)]
+    short = _short_delays(seen, beta) if seen.tree and len(seen.joints) > 1 else []
+    told += [f"a delay below {', '.join(short)}"] if short else []
+    line = f"could not be seen in these logs: {'; '.join(told)}"
+    return [Fault(line, False, unseen=True)] if told else []
 
 
-def _unseen_motions(seen: Evidence, beta: np.ndarray) -> list[str]:
-    """Another zero, and delays."""
-    driven = [seen.observation.joints[j] for j in seen.joints]
-    turning = [place for place, joint in enumerate(driven) if joint.unit == "rad"]
-    every = {joint.name: turn for joint, turn in zip(
-        (joint for joint in seen.observation.joints if joint.unit == "rad"),
-        zeros(seen.observation, (90,)), strict=True)}  # fmt: skip
-    hidden, told, short = list[str](), list[str](), list[str]()
-    for place in turning:
-        W = seen.rows.turned(seen.compiled, every[seen.name(place)])
-        if _hides(seen, _machine_data(seen, W, beta)):
-            hidden.append(seen.name(place))
-    if hidden:
-        told.append(f"a zero that is off by 90 degrees of joint {', '.join(hidden)}")
-    for place, j in enumerate(seen.joints) if len(seen.joints) > 1 else ():
+def _made(seen: Evidence, place: int, beta: np.ndarray) -> Iterator[tuple[str, Products]]:
+    """Logs of the machine with a fault of one joint."""
+    data, joint = (
+        _machine_data(seen, seen.rows.W, beta),
+        seen.observation.joints[seen.joints[place]],
+    )
+    yield "a torque of the other sign", _with_gain(data, place, -1.0)
+    yield "a torque twice as large", _with_gain(data, place, 0.5)
+    if seen.tree and joint.unit == "rad":
+        W = seen.rows.turned(seen.compiled, zero(seen.observation, seen.joints[place], 90))
+        yield "a zero that is off by 90 degrees", _machine_data(seen, W, beta)
+
+
+def _short_delays(seen: Evidence, beta: np.ndarray) -> list[str]:
+    """How late a joint may be without being seen."""
+    short = []
+    for place, j in enumerate(seen.joints):
         shift = _SHOWN * np.eye(len(seen.observation.joints))[j]
         data = _machine_data(seen, seen.rows.shifted(seen.compiled, shift), beta)
         least = _least_delay(seen, seen.judge.errors(data, possible=False))
         if least > _DELAY:
             short.append(f"{1e3 * least:.0f} ms of joint {seen.name(place)}")
-    return [*told, f"a delay below {', '.join(short)}"] if short else told
+    return short
 
 
 def _least_delay(seen: Evidence, errors: np.ndarray) -> float:
     """s that would be seen, by the errors (k,) that `_SHOWN` makes; `LONGEST` at most."""
     for delay in np.geomspace(_DELAY, LONGEST, 20):
         made = np.hypot(errors * delay / _SHOWN, seen.errors)
-        if _evidence_for(seen.errors, made) >= SURELY * ENOUGH:
+        if _evidence_for(seen.errors, made) >= SURELY * _enough_of(delay):
             return float(delay)
     return LONGEST
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.errors import TWO_STEPS
 from modeler.core.table import percent
-from modeler.estimation.doubts import LITTLE, Doubt
+from modeler.estimation.doubts import HALF, LITTLE, Doubt
 from modeler.estimation.essential import essential_parameters
 from modeler.estimation.identify import all_rows, base_equations, identify, joints_of, result_of
 from modeler.estimation.result import FitResult
@@ -155,15 +155,16 @@ class TwoStepFit:
         used = {c.joint for c in self.steps.configurations}
         never = [name for k, name in enumerate(self.steps.directions.names) if k not in used]
         short = all(why.startswith("too short") for why in self.steps.left_out)
-        poor = any((joint.relative_error or 0.0) > LITTLE for joint in self.result.joints)
-        if not (never and short and poor):
+        worst = max(joint.relative_error or 0.0 for joint in self.result.joints)
+        if not (never and short and worst > LITTLE):
             return []
         return [
             Doubt(
                 f"joint {', '.join(never)} never moved alone for long enough, and the two steps "
                 "use no other motion: what only its torque tells is not found; record more motion "
                 "of it alone, or take --method weighted",
-                explains=True,
+                certain=worst > HALF,
+                values=True,
             )
         ]
 

@@ -4,7 +4,7 @@ from .channels import (
     Turn as Turn,
     thinned as thinned,
     turns as turns,
-    zeros as zeros,
+    zero as zero,
 )
 from .chunk import (
     Chunk as Chunk,

@@ -1,6 +1,6 @@
 """Rows of logs as they would be with other channels: turned, in other units, at other times."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -147,21 +147,23 @@ class Turn:
     torque: np.ndarray
 
 
-def zeros(observation: Observation, degrees: Sequence[int] = (90, -90, 180)) -> Iterator[Turn]:
-    """Positions of joints that turn, counted from another zero."""
-    joints = observation.joints
-    for j, joint in enumerate(joints):
-        for angle in degrees if joint.unit == "rad" else ():
-            line = (
-                f"joint {joint.name}: its zero seems to be off by {angle} degrees, by gravity and "
-                "the other joints; check the zero of that encoder against the table"
-            )
-            offset = -np.deg2rad(angle) * np.eye(len(joints))[j]
-            yield Turn(line, np.eye(len(joints)), offset, np.arange(len(joints)))
+def zero(observation: Observation, j: int, degrees: int) -> Turn:
+    """Positions of a joint that turns, counted from another zero."""
+    line = (
+        f"joint {observation.joints[j].name}: its zero seems to be off by {degrees} degrees, by "
+        "gravity and the other joints; check the zero of that encoder against the table"
+    )
+    same = np.eye(len(observation.joints))
+    return Turn(line, same, -np.deg2rad(degrees) * same[j], np.arange(len(same)))
 
 
-def turns(observation: Observation) -> Iterator[Turn]:
-    """Positions in other units, reversed, exchanged, and exchanged together with the torques."""
+def turns(observation: Observation, zeros_only: bool = False) -> Iterator[Turn]:
+    """Positions from another zero; in other units, reversed, exchanged, or with the torques too."""
+    for j, joint in enumerate(observation.joints):
+        for degrees in (90, -90, 180) if joint.unit == "rad" else ():
+            yield zero(observation, j, degrees)
+    if zeros_only:
+        return
     joints, names = observation.joints, [joint.name for joint in observation.joints]
     same, none = np.arange(len(joints)), np.zeros(len(joints))
     expected = "expected rad and m; convert the position, and the speeds if they are logged"

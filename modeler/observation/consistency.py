@@ -125,8 +125,8 @@ def lateness(
 
     A delay is that which makes the sum of the absolute differences least, between the window means
     of the logged derivative and the difference quotients. Gross errors of a few samples do not
-    move it. It is believed where it halves that sum. One delay for all joints is tried first, and
-    given up if a joint is the worse for it.
+    move it. It is believed where it halves that sum. That of all joints is the median of theirs,
+    and given up if a joint is the worse for it.
 
     Args:
         pieces: with the column logged.
@@ -138,11 +138,11 @@ def lateness(
     errors = _Errors(pieces, column, lower, cutoff)
     none, step = np.zeros(len(joints)), pieces[0].step
     before = errors.sums(none)
-    common = errors.refined(none, together=True)
-    together = errors.sums(common)
     far = np.any((before > _FAR * errors.whole) & (errors.whole > 0.0))
-    own = errors.refined(errors.scanned(before) if far else none, together=False)
+    own = errors.refined(errors.scanned(before) if far else none)
     left = errors.sums(own)
+    common = np.full(len(joints), np.median(own[errors.size > 0.0]) if errors.size.any() else 0.0)
+    together = errors.sums(common)
     told = (np.abs(own) >= _TOLD * step) & (left <= _BELIEVED * before)
     own = np.where(told & (left < _LEFT_OF_MEAN * errors.whole), own, 0.0)
     halves = together.sum() <= _BELIEVED * before.sum()
@@ -185,20 +185,15 @@ class _Errors:
             best[better], least[better] = candidate, sums[better]
         return best
 
-    def refined(self, delay: np.ndarray, together: bool) -> np.ndarray:
+    def refined(self, delay: np.ndarray) -> np.ndarray:
         """(joints,) the delays after a few steps of least absolute values, error + delay slope."""
-        kept = self.size > 0.0
-        groups = [kept] if together else [np.eye(len(kept), dtype=bool)[j] & kept
-                                          for j in np.flatnonzero(kept)]  # fmt: skip
         delay = delay.copy()
         for _ in range(_TURNS):
             _, error, slope = self._parts(delay)
-            for group in groups:
-                e, v = error[:, group] / self.size[group], slope[:, group] / self.size[group]
-                there = v != 0.0
-                if there.any():
-                    move = weighted_median(-e[there] / v[there], np.abs(v[there]))
-                    delay[group if not together else slice(None)] += move
+            for j in np.flatnonzero(self.size):
+                there = slope[:, j] != 0.0
+                e, v = error[there, j], slope[there, j]
+                delay[j] += weighted_median(-e / v, np.abs(v)) if v.size else 0.0
         return delay
 
 

@@ -20,7 +20,6 @@ from modeler.numerics.noise import (
     nearby,
     resolution,
     running_median,
-    spread,
     threshold,
 )
 from modeler.observation.log import Log
@@ -114,21 +113,6 @@ def floors(walks: Sequence[LeapWalk], resolution: np.ndarray) -> np.ndarray:
     top = np.quantile(np.abs(steps), _TOP, axis=0)
     lonely = [threshold(own, one, RARE) for own, one in zip(excess.T, resolution, strict=True)]
     return np.maximum(lonely, top)
-
-
-def cannot_leap(time: np.ndarray, q: np.ndarray, known: np.ndarray) -> bool:
-    """True if no step of a stretch can be a leap, as its slopes hardly change over 11 samples.
-
-    Args:
-        time: (n,) s.
-        q: (n, J) rad or m, all finite.
-        known: (J,) `floors` of the whole log.
-    """
-    if len(time) <= LEAST:
-        return True
-    dt = np.diff(time)[:, None]
-    most = spread(np.diff(q, axis=0) / dt) * dt  # at least the excess of any step
-    return bool(np.all(most.max(axis=0) <= np.minimum(known, 0.5 * _TURN)))
 
 
 def floors_here(walks: Sequence[LeapWalk], known: np.ndarray) -> np.ndarray:
@@ -398,10 +382,6 @@ def _positions(
     revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
     steps = np.array([resolution(own) for own in log.q.T]) if usual is None else usual.steps
     stretches = list(_stretches(log, np.isfinite(log.q).all(axis=1)))
-    if usual is not None and all(
-        cannot_leap(log.time[rows], log.q[rows], usual.leaps) for rows in stretches
-    ):
-        return q, segment, positions, steps, usual.leaps
     walks = [walked(log.time[rows], log.q[rows], revolute, steps) for rows in stretches]
     long = [(r, walk) for r, walk in zip(stretches, walks, strict=True) if walk is not None]
     every = [walk for _, walk in long]

@@ -9,12 +9,10 @@ import numpy as np
 from modeler.numerics.noise import (
     REACH,
     departures,
-    departures_near,
     floor_here,
     lone,
     nearby,
     resolution,
-    spread,
     threshold,
 )
 
@@ -37,7 +35,6 @@ _MEAN = 5  # samples before and after a spike over which the speed is taken
 _RARELY = 0.95  # quantile of the changes of the speed over that time
 _STARTS = 2.0  # times the changes just before: something began
 _SLOW = 0.05  # of the top speed: at a reversal and at rest, friction makes peaks of its own
-_FEW = 0.02  # of the values that may be spikes, or all are looked at
 
 Kind = Literal["wrap", "spike", "frozen", "zero", "lost", "clipped", "repeated"]
 
@@ -137,7 +134,7 @@ def torque_glitches(
     """
     if not stretches:
         return [], usual
-    departed = [_departed(tau, usual) for tau in stretches]
+    departed = [np.column_stack([departures(own) for own in tau.T]) for tau in stretches]
     channels = [
         ([tau[:, j] for tau in stretches], [own[:, j] for own in departed])
         for j in range(stretches[0].shape[1])
@@ -163,15 +160,6 @@ def torque_glitches(
             for spikes, size, speed in zip(by_stretch, sizes, speeds, strict=True)
         ]  # fmt: skip
     return found, usual
-
-
-def _departed(tau: np.ndarray, usual: TorqueNoise | None) -> np.ndarray:
-    """(n, J) departures of the torques of a stretch; 0 where they are surely no spikes."""
-    if usual is not None:
-        places = np.flatnonzero((spread(tau) > usual.floors).any(axis=1))
-        if len(places) < _FEW * len(tau):
-            return departures_near(tau, places)
-    return np.column_stack([departures(own) for own in tau.T])
 
 
 def _blow(sizes: np.ndarray, j: int, spike: Defect) -> bool:
