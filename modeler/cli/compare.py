@@ -13,7 +13,7 @@ from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
 from modeler.estimation import IdentifiedModel, load_model, log_findings, with_essential_only
-from modeler.observation import Fault, Observation, check_apart
+from modeler.observation import Doubt, Observation, check_apart
 from modeler.report import Origin, after_compare, comparison as pages
 from modeler.runtime import CompiledModel
 
@@ -50,7 +50,7 @@ def run_compare(args: argparse.Namespace) -> Json:
 def judged(
     model: IdentifiedModel, logs: list[str], compiled: CompiledModel, mapping: Mapped = (),
     share: Callable[[float], None] = lambda share: None,
-) -> tuple[validation.Comparison, list[str], tuple[Fault, ...]]:  # fmt: skip
+) -> tuple[validation.Comparison, list[str], tuple[Doubt, ...]]:  # fmt: skip
     """The comparison on logs, where everything came from, in lines, and what is wrong with it."""
     comparison, observation = checks.compared(model, logs, compiled, mapping, share, note)
     fitted = ", ".join(log.name for log in model.logs)

@@ -8,13 +8,14 @@ import numpy as np
 from modeler.core.manifest import JointSpec
 from modeler.core.table import percent
 from modeler.diagnosis.candidates import StatedEffects
+from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.plausible import SMOOTH, is_computed
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import SearchData, State, state_of, trembling
 from modeler.effects import Acts, Effect
 from modeler.estimation import IdentifiedModel, log_findings
-from modeler.observation import TREMBLES, Fault
+from modeler.observation import TREMBLES, Doubt
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""
@@ -154,7 +155,7 @@ MENDED = 0.25
 
 
 def doubts(
-    model: IdentifiedModel, found: Search, other: SearchData | None, contradicting: Sequence[Fault],
+    model: IdentifiedModel, found: Search, other: SearchData | None, contradicting: Sequence[Doubt],
     window: Window | None = None,
 ) -> tuple[str, ...]:  # fmt: skip
     """Sentences on the logs.
@@ -181,9 +182,11 @@ def doubts(
 
 
 def _explained(found: Search, j: int) -> bool:
-    """True if the effects named explain most of what a joint's torque differs by."""
+    """True if a gain is named, or the effects explain most of what a joint's torque differs by."""
     if j < 0 or not found.start.residual[j].size:
         return False
+    if any(map(is_gain, found.end.picks)):
+        return True
     before, after = (float(np.mean(s.residual[j] ** 2)) for s in (found.start, found.end))
     return after < MENDED * before
 
@@ -235,7 +238,7 @@ def _fitted_before(model: IdentifiedModel, other: SearchData) -> list[str]:
 
 def faults_of(
     model: IdentifiedModel, data: SearchData, other: SearchData | None
-) -> tuple[Fault, ...]:
+) -> tuple[Doubt, ...]:
     """Of the logs, then of the held-out ones.
 
     Args:

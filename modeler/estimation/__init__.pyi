@@ -10,12 +10,7 @@ from .direct_model import (
     DirectModel as DirectModel,
     scaled_inertia as scaled_inertia,
 )
-from .doubts import (
-    Doubt as Doubt,
-    LogFinding as LogFinding,
-    not_together as not_together,
-    remounted as remounted,
-)
+from .doubts import not_together as not_together, remounted as remounted
 from .drive_gains import (
     GainFit as GainFit,
     are_currents as are_currents,

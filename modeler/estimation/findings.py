@@ -20,7 +20,7 @@ import numpy as np
 
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
-from modeler.observation import Fault, Observation, ThinnedRows, Turn, thinned, turns, zero
+from modeler.observation import Doubt, Observation, ThinnedRows, Turn, clocks, thinned, turns, zero
 from modeler.runtime import CompiledModel
 
 HALF = 0.5
@@ -49,7 +49,6 @@ GAIN = 1.4
 SCALE = 5.0
 """A torque that is off by this factor is a matter of units, not of a drive gain or a load."""
 
-_CLOCKS = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # they are off by
 _MILLI = 1e-3  # N m in mN m
 _UNITS = 1e9  # units are no farther apart
 _LEAST_ROWS = 20  # of a joint whose torque is exchanged
@@ -84,13 +83,10 @@ class Products:
 
 def _products(W: np.ndarray, tau: np.ndarray, used: np.ndarray, joints: Sequence[int]) -> Products:
     """Of rows W (m, n, c), tau (m, n), used (m, n)."""
-    grams, crosses = [], []
-    for j in joints:
-        X, y = W[used[:, j], j], tau[used[:, j], j]
-        size = max(float(np.linalg.norm(y)), 1e-300)
-        grams.append(X.T @ X / size**2)
-        crosses.append(X.T @ y / size**2)
-    return Products(np.stack(grams), np.stack(crosses))
+    y = np.where(used, tau, 0.0)[:, joints]
+    length = np.maximum(np.linalg.norm(y, axis=0), 1e-300)
+    X = (np.where(used[..., None], W, 0.0)[:, joints] / length[:, None]).transpose(1, 2, 0)
+    return Products(X @ X.transpose(0, 2, 1), np.einsum("kcm,mk->kc", X, y / length))
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +158,7 @@ class Hypothesis:
         least: what it must add to the sum of logarithms.
     """
 
-    fault: Fault
+    fault: Doubt
     data: Products
     touches: tuple[int, ...] = ()
     least: float = ENOUGH
@@ -222,7 +218,7 @@ def _evidence(
 
 def log_findings(
     compiled: CompiledModel, observation: Observation, model: IdentifiedModel | None = None
-) -> tuple[Fault, ...]:
+) -> tuple[Doubt, ...]:
     """What is wrong with the channels and the samples of logs; alike wherever it is asked for.
 
     The one fault that explains most of what a fit to the logs leaves; if there is none, and no
@@ -239,10 +235,10 @@ def log_findings(
     )
     found = _by_prediction(compiled, observation, model.beta) if model and others else []
     found = found or _by_fit(compiled, observation, unseen=model is None)
-    return (*found, *(Fault(line, False) for line in observation.report.doubts()))
+    return (*found, *(Doubt(line) for line in observation.report.doubts()))
 
 
-def _by_fit(compiled: CompiledModel, observation: Observation, unseen: bool) -> list[Fault]:
+def _by_fit(compiled: CompiledModel, observation: Observation, unseen: bool) -> list[Doubt]:
     seen = _evidence(compiled, observation)
     if not seen.joints:
         return []
@@ -254,8 +250,8 @@ def _by_fit(compiled: CompiledModel, observation: Observation, unseen: bool) -> 
 
 def _by_prediction(
     compiled: CompiledModel, observation: Observation, beta: np.ndarray
-) -> list[Fault]:
-    seen, found = _evidence(compiled, observation, beta), list[Fault]()
+) -> list[Doubt]:
+    seen, found = _evidence(compiled, observation, beta), list[Doubt]()
     while seen.joints and seen.errors.max() > WRONG:
         told = _explained(seen)
         if told is None:
@@ -304,16 +300,17 @@ def _torques(seen: Evidence) -> Iterator[Hypothesis]:
     """Torques of another scale or sign, and exchanged ones."""
     every = range(len(seen.joints))
     for place in every if len(seen.joints) > 1 or seen.judge.beta is not None else ():
-        for gain in (_gain(seen, place), _MILLI):
+        own = _gain(seen, place)
+        for gain in (_MILLI,) if abs(own - _MILLI) < 0.1 * _MILLI else (own, _MILLI):
             if not 1.0 / _UNITS < gain < _UNITS or 1.0 / GAIN < gain < GAIN:
                 continue
-            unit = " (is it in mN m?)" if abs(_MILLI / gain - 1.0) < 0.1 else ""
+            unit = " (is it in mN m?)" if gain == _MILLI else ""
             line = (
                 f"joint {seen.name(place)}: the measured torque is {1.0 / gain:.3g} times what it "
                 f"should be{unit}; check unit and drive gain of that channel"
             )
             j = seen.joints[place]
-            fault = Fault(line, not 1.0 / SCALE < gain < SCALE, j)
+            fault = Doubt(line, not 1.0 / SCALE < gain < SCALE, joint=j)
             yield Hypothesis(fault, _with_gain(seen.data, place, gain), (j,))
     yield from _signs(seen)
     if seen.errors.max() <= SUSPECT:
@@ -329,7 +326,7 @@ def _torques(seen: Evidence) -> Iterator[Hypothesis]:
                 "the order of the columns"
             )
             data = _products(rows.W, rows.tau[:, order], both, seen.joints)
-            yield Hypothesis(Fault(line, True), data, (j, k))
+            yield Hypothesis(Doubt(line, True), data, (j, k))
 
 
 def _gain(seen: Evidence, place: int) -> float:
@@ -384,7 +381,7 @@ def _signs(seen: Evidence) -> Iterator[Hypothesis]:
             whose = "all measured torques have"
         line = f"{whose} the other sign of what a machine that can be built needs; check the sign"
         j = tuple(seen.joints[k] for k in own)
-        yield Hypothesis(Fault(line, True), _with_gain(seen.data, own, -1.0), j)
+        yield Hypothesis(Doubt(line, True), _with_gain(seen.data, own, -1.0), j)
 
 
 # Hypotheses about positions and times.
@@ -392,19 +389,13 @@ def _signs(seen: Evidence) -> Iterator[Hypothesis]:
 
 def _motions(seen: Evidence) -> Iterator[Hypothesis]:
     """Positions in other units, reversed, exchanged, from another zero; what comes late."""
-    for factor in _CLOCKS if seen.errors.max() > SUSPECT else ():
-        line = (
-            f"the clock seems to be wrong: with all motion {factor:g} times as fast, torques are "
-            "those of a machine; check the time column, its unit and rate"
-        )
-        W = seen.rows.timed(seen.compiled, factor)
-        data = _products(W, seen.rows.tau, seen.rows.used, seen.joints)
-        yield Hypothesis(Fault(line, True), data)
-    if seen.tree:
-        for turn in turns(seen.observation, zeros_only=seen.errors.max() <= SUSPECT):
-            turned = _turned(seen, turn)
-            if turned is not None:
-                yield Hypothesis(Fault(turn.line, True), turned)
+    grave, logs = seen.errors.max() > SUSPECT, seen.observation
+    tried = [*clocks(logs)] if grave else []
+    tried += turns(logs, zeros_only=not grave) if seen.tree else []
+    for turn in tried:
+        turned = _turned(seen, turn)
+        if turned is not None:
+            yield Hypothesis(Doubt(turn.line, True), turned)
     if seen.judge.beta is None:
         yield from _late(seen)
 
@@ -422,6 +413,7 @@ LONGEST = 0.15
 """s, the largest delay that is looked for: beyond it, channels do not look late but wrong."""
 
 _STARTS = (-0.1, -0.05, 0.05, 0.1)  # s; a step along the slope goes astray from farther away
+_DELAY = 0.01  # s; a shorter one is not asked for where nothing is late
 _SHOWN = 0.02  # s; from what it does that of other delays is taken: it grows with the delay
 _NEAR = 5e-3  # s between the motions of which a slope is taken
 _STEPS = 4  # of Gauss and Newton
@@ -463,12 +455,13 @@ def _late(seen: Evidence) -> Iterator[Hypothesis]:
             f"{channel.other} {back}); check the clocks of the channels, and shift the column"
         )
         if abs(shift) > 0.5 * step:
-            yield Hypothesis(Fault(line, False), data, least=_enough_of(shift))
+            yield Hypothesis(Doubt(line), data, least=_enough_of(shift))
 
 
 def _enough_of(shift: float) -> float:
-    """What a delay must explain: the errors that it makes grow with it, those of physics do not."""
-    return ENOUGH + float(np.log(max(abs(shift) / _SHOWN, 1.0)))
+    """What a delay must explain; more the less usual it is: physics looks like any delay."""
+    seconds = abs(shift)
+    return ENOUGH + float(np.log(max(seconds / _SHOWN, _DELAY / seconds, 1.0)))
 
 
 def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
@@ -549,10 +542,8 @@ def _channels(seen: Evidence) -> list[_Channel]:
 SURELY = 1.5
 """Times the evidence that is told, below which a fault would not be seen for sure."""
 
-_DELAY = 0.01  # s; a shorter one is not asked for
 
-
-def _unseen(seen: Evidence) -> list[Fault]:
+def _unseen(seen: Evidence) -> list[Doubt]:
     """Faults that torques of the machine itself would not show, beside what is left of them."""
     if seen.errors.max() > WRONG:
         return []
@@ -566,7 +557,7 @@ def _unseen(seen: Evidence) -> list[Fault]:
     short = _short_delays(seen, beta) if seen.tree and len(seen.joints) > 1 else []
     told += [f"a delay below {', '.join(short)}"] if short else []
     line = f"could not be seen in these logs: {'; '.join(told)}"
-    return [Fault(line, False, unseen=True)] if told else []
+    return [Doubt(line, unseen=True)] if told else []
 
 
 def _made(seen: Evidence, place: int, beta: np.ndarray) -> Iterator[tuple[str, Products]]:

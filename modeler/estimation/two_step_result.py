@@ -8,12 +8,12 @@ import numpy as np
 
 from modeler.core.errors import TWO_STEPS
 from modeler.core.table import percent
-from modeler.estimation.doubts import HALF, LITTLE, Doubt
+from modeler.estimation.doubts import HALF, LITTLE
 from modeler.estimation.essential import essential_parameters
 from modeler.estimation.identify import all_rows, base_equations, identify, joints_of, result_of
 from modeler.estimation.result import FitResult
 from modeler.estimation.two_step import Configuration, Directions, TwoStep, two_steps
-from modeler.observation import Observation
+from modeler.observation import Doubt, Observation
 from modeler.runtime import CompiledModel
 
 # Persistent excitation of a two-step fit: the singular values of Phi, joint by joint.

@@ -10,7 +10,7 @@ from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
 from modeler.estimation import doubts
 from modeler.estimation.covariance import autocorrelation
-from modeler.estimation.doubts import LITTLE, WIDE, Doubt, LogFinding
+from modeler.estimation.doubts import LITTLE, WIDE
 from modeler.estimation.identify import (
     CrossValidation,
     Equations,
@@ -25,7 +25,7 @@ from modeler.estimation.nearest_body import carried_by, machine_of, nearest_poss
 from modeler.estimation.prior import prior_of
 from modeler.estimation.result import FitResult, JointFit, Verdict, friction_by_direction
 from modeler.numerics.least_squares import Compressed, independent_columns, triangle
-from modeler.observation import Fault, Observation, nearest_closed
+from modeler.observation import Doubt, Observation, nearest_closed
 from modeler.runtime import CompiledModel
 
 # Is the time of the logs in seconds? The clock that a robot carries with it is gravity.
@@ -143,7 +143,7 @@ def with_verdict(
     model: CompiledModel,
     observation: Observation,
     result: FitResult,
-    told: Sequence[LogFinding] = (),
+    told: Sequence[Doubt] = (),
     equations: Equations | None = None,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
     data: Compressed | None = None,
@@ -170,8 +170,8 @@ def with_verdict(
     part, data = data is not None, data or equations.compressed(rows)
     sigma, prior = np.array([joint.sigma for joint in result.joints]), prior_of(model.spec)
     seen = crossed(equations, rows, sigma, refit, prior)
-    unseen = tuple(i.line for i in told if isinstance(i, Fault) and i.unseen)
-    found = _doubts_of(told)
+    unseen = tuple(doubt.line for doubt in told if doubt.unseen)
+    found = [doubt for doubt in told if not doubt.unseen]
     if not any(doubt.certain for doubt in found):  # else what the fit says is said of the fault
         found += [*time_doubts(model, observation, result), *doubts.noisy_motion(observation)]
         found += [*doubts.scarce(result, seen), *doubts.undescribed(result)]
@@ -185,14 +185,6 @@ def with_verdict(
     directions = friction_by_direction(model.spec, result)
     verdict = dataclasses.replace(verdict, unseen=unseen)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
-
-
-def _doubts_of(told: Sequence[LogFinding]) -> list[Doubt]:
-    """What is told of logs, as doubts."""
-    return [
-        i if isinstance(i, Doubt) else Doubt(i.line, i.certain)
-        for i in told if isinstance(i, Doubt) or not i.unseen
-    ]  # fmt: skip
 
 
 def _predicts(
@@ -230,7 +222,7 @@ def contradictions(
     model: CompiledModel,
     observation: Observation,
     result: FitResult,
-    told: Sequence[LogFinding] = (),
+    told: Sequence[Doubt] = (),
     data: Compressed | None = None,
 ) -> list[str]:
     """Why a fit is certainly not usable, other than for want of data.
@@ -244,7 +236,7 @@ def contradictions(
         told: findings of other stages about the logs.
         data: all rows that were fitted; None: those of the observation.
     """
-    found = _doubts_of(told)
+    found = list(told)
     if not any(doubt.certain for doubt in found):
         found += [*time_doubts(model, observation, result), *doubts.undescribed(result)]
         found += _impossible(model.spec, result, data or all_rows(observation))

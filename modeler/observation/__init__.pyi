@@ -1,7 +1,8 @@
 from .channels import (
-    Fault as Fault,
+    Doubt as Doubt,
     ThinnedRows as ThinnedRows,
     Turn as Turn,
+    clocks as clocks,
     thinned as thinned,
     turns as turns,
     zero as zero,

@@ -18,22 +18,27 @@ MOST = 400
 """Rows: enough for any fit, and quick with every motion that is tried."""
 
 _CELLS = 8000  # joints times rows, at most: many joints make many pairs to exchange
+_CLOCKS = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # are off by
 _TAPS = 16  # samples of each row, of the many over which the parallel filter takes its mean
 
 
 @dataclass(frozen=True)
-class Fault:
-    """A doubt about a log.
+class Doubt:
+    """Why a log, or a fit to it, may not be what it looks like.
 
     Attributes:
-        line: where, what, and what to do.
-        certain: True if no physics can look like it: then nothing can be said of physics.
+        line: where and what; after the last semicolon what to do.
+        certain: True if no physics can look like it: then the model is not usable, and nothing can
+            be said of physics.
+        values: True if it leaves the prediction of torques of like motion untouched, and only the
+            values of parameters are in doubt.
         joint: index of the joint whose torque has another scale; -1 for other doubts.
         unseen: True if it is no doubt, but tells which faults these logs would not show.
     """
 
     line: str
-    certain: bool
+    certain: bool = False
+    values: bool = False
     joint: int = -1
     unseen: bool = False
 
@@ -59,16 +64,10 @@ class ThinnedRows:
     read: np.ndarray | None
 
     def turned(self, compiled: CompiledModel, turn: "Turn") -> np.ndarray:
-        """(m, n, c) columns of the motion with other positions."""
+        """(m, n, c) columns of the motion with other positions, or by another clock."""
         every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
         q, qd, qdd = np.concatenate(every, axis=1) @ turn.motion
-        return self._columns(compiled, q + turn.offset, qd, qdd)
-
-    def timed(self, compiled: CompiledModel, factor: float) -> np.ndarray:
-        """(m, n, c) columns of the motion by a clock that is slower by a factor."""
-        every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
-        q, qd, qdd = np.concatenate(every, axis=1)
-        return self._columns(compiled, q, factor * qd, factor**2 * qdd)
+        return self._columns(compiled, q + turn.offset, turn.speed * qd, turn.speed**2 * qdd)
 
     def shifted(self, compiled: CompiledModel, shift: np.ndarray) -> np.ndarray:
         """(m, n, c) columns of the motion of each joint, shift (n,) s later."""
@@ -132,19 +131,32 @@ def thinned(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
 
 @dataclass(frozen=True)
 class Turn:
-    """What may be wrong with positions, and what mends it.
+    """What may be wrong with positions, or with the clock, and what mends it.
 
     Attributes:
         line: what, and what to do.
         motion: (J, J) q = measured q motion + offset, and its derivatives alike.
         offset: (J,) rad or m.
         torque: (J,) tau_j = measured tau[torque[j]].
+        speed: times that of the log.
     """
 
     line: str
     motion: np.ndarray
     offset: np.ndarray
     torque: np.ndarray
+    speed: float = 1.0
+
+
+def clocks(observation: Observation) -> Iterator[Turn]:
+    """All motion faster or slower than it is logged."""
+    same = np.eye(len(observation.joints))
+    for speed in _CLOCKS:
+        line = (
+            f"the clock seems to be wrong: with all motion {speed:g} times as fast, torques are "
+            "those of a machine; check the time column, its unit and rate"
+        )
+        yield Turn(line, same, np.zeros(len(same)), np.arange(len(same)), speed)
 
 
 def zero(observation: Observation, j: int, degrees: int) -> Turn:

@@ -14,7 +14,6 @@ from modeler.numerics.noise import (
     LEAST,
     NEAR,
     STEPS,
-    departures,
     floor_here,
     lone,
     nearby,
@@ -25,14 +24,7 @@ from modeler.numerics.noise import (
 from modeler.observation.log import Log
 from modeler.observation.read import cut
 from modeler.observation.segments import runs
-from modeler.observation.spikes import (
-    Defect,
-    Kind,
-    TorqueNoise,
-    glitch_floor,
-    glitches,
-    torque_glitches,
-)
+from modeler.observation.spikes import Defect, Kind, Usual, glitches, unexplained, usual_of
 
 # Positions that leap from one sample to the next, as no joint can: wraps, spikes, new zeros.
 
@@ -272,8 +264,9 @@ class ChannelScales:
     Attributes:
         steps: (J,) smallest step of each position.
         leaps: (J,) what a step must have too much to be a leap.
-        torque: of the torques; None where none is measured.
-        rates: (J,) departure below which no value is a spike, of logged "qd" and "qdd".
+        torque: and the speeds; None where no torque is measured.
+        floors: (J,) departure below which no value is a spike, of "tau" and logged "qd" and "qdd";
+            None where the log has no stretch of them.
         repeats: True if rows repeat, as the recorder is faster than the robot.
         clips: (J,) ends of the range at which each position is cut off.
         held: (J,) samples for which each torque may stay the same.
@@ -281,8 +274,8 @@ class ChannelScales:
 
     steps: np.ndarray
     leaps: np.ndarray
-    torque: TorqueNoise | None
-    rates: Mapping[str, np.ndarray]
+    torque: Usual | None
+    floors: Mapping[str, np.ndarray | None]
     repeats: bool
     clips: tuple[tuple[Clip, ...], ...]
     held: tuple[int, ...]
@@ -316,14 +309,11 @@ def defects(
     q, segment, leaps, steps, least = _positions(
         dataclasses.replace(fresh, q=_without(fresh.q, clipped)), spec, usual
     )
-    torques, noise = _torques(fresh, None if usual is None else usual.torque)
     held = tuple(map(longest_usual, fresh.tau.T)) if usual is None else usual.held
-    torques = torques or [[] for _ in spec.joints]
-    for own, stuck in zip(torques, _frozen(fresh, held), strict=True):
+    others, lonely, torque = _spikes(fresh, usual)
+    for own, stuck in zip(others["tau"], _frozen(fresh, held), strict=True):
         own += stuck
-    rates, levels = _rates(fresh, {} if usual is None else usual.rates)
     positions = [both[0] + both[1] for both in zip(clipped, leaps, strict=True)]
-    others = {"tau": torques, **rates}
     new = segment if (segment != fresh.piece_number).any() else fresh.segment
     mended = dataclasses.replace(
         fresh,
@@ -340,7 +330,7 @@ def defects(
     if again.any():
         every = [Defect("repeated", *run, 0.0, float(log.time[run[0]])) for run in runs(again)]
         found["rows"] = [every]
-    scales = ChannelScales(steps, least, noise, levels, bool(again.any()), clips, held)
+    scales = ChannelScales(steps, least, torque, lonely, bool(again.any()), clips, held)
     return mended, found, usual or scales
 
 
@@ -434,37 +424,29 @@ def _mended(walk: LeapWalk, j: int, leaps: Sequence[Defect]) -> np.ndarray:
     return np.asarray(q - (offset - offset[longest]))
 
 
-def _torques(log: Log, usual: TorqueNoise | None) -> tuple[list[list[Defect]], TorqueNoise | None]:
-    """Spikes of the measured torques by joint; and what is usual in them."""
-    there = np.isfinite(log.tau).all(axis=1) & np.isfinite(log.q).all(axis=1)
-    stretches = [rows for rows in _stretches(log, there) if len(rows) >= LEAST]
-    spikes, noise = torque_glitches(
-        [log.tau[rows] for rows in stretches],
-        lambda: [np.gradient(log.q[rows], log.time[rows], axis=0) for rows in stretches],
-        usual,
-    )
-    return [_placed(by_joint, stretches, log) for by_joint in spikes], noise
-
-
-def _rates(log: Log, usual: Mapping[str, np.ndarray]) -> tuple[Defects, dict[str, np.ndarray]]:
-    """Spikes of logged velocities and accelerations, by column and joint; and their floors."""
+def _spikes(
+    log: Log, usual: ChannelScales | None
+) -> tuple[Defects, dict[str, np.ndarray | None], Usual | None]:
+    """Spikes of torques, logged velocities and accelerations, by joint; and what is usual."""
     found: Defects = {}
-    levels: dict[str, np.ndarray] = {}
-    for name in ("qd", "qdd"):
+    floors: dict[str, np.ndarray | None] = {}
+    torque = None if usual is None else usual.torque
+    for name in ("tau", "qd", "qdd"):
         values = getattr(log, name)
         if values is None:
             continue
-        floors_of_name = []
-        for j, channel in enumerate(values.T):
-            rows = [r for r in _stretches(log, np.isfinite(channel)) if len(r) >= LEAST]
-            stretches = [channel[r] for r in rows]
-            departed = [departures(own) for own in stretches]
-            floor = usual[name][j] if name in usual else glitch_floor(stretches, departed)
-            floors_of_name.append(floor)
-            spikes = glitches(stretches, departed, floor)
-            found.setdefault(name, []).append(_placed(spikes, rows, log))
-        levels[name] = np.array(floors_of_name)
-    return found, levels
+        there = np.isfinite(values).all(axis=1)
+        if name == "tau":
+            there &= np.isfinite(log.q).all(axis=1)
+        rows = [own for own in _stretches(log, there) if len(own) >= LEAST]
+        parts = [values[own] for own in rows]
+        spikes, floors[name] = glitches(parts, None if usual is None else usual.floors[name])
+        if name == "tau" and parts:
+            speeds = [np.gradient(log.q[own], log.time[own], axis=0) for own in rows]
+            torque = torque or usual_of(parts, speeds)
+            spikes = unexplained(spikes, parts, speeds, torque)
+        found[name] = [_placed(own, rows, log) for own in spikes] or [[] for _ in log.joints]
+    return found, floors, torque
 
 
 def _without(values: np.ndarray, found: Sequence[Sequence[Defect]]) -> np.ndarray:
