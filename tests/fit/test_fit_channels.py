@@ -156,6 +156,34 @@ def test_the_commands_print_and_write_the_doubts(arm, capsys, command):
     assert any(line.startswith("bad.parquet: tau1: a spike") for line in content["doubts"])
 
 
+@pytest.mark.parametrize("mistake", ["late", "turns", "sign"])
+def test_every_command_says_the_same(arm, capsys, mistake):
+    """Of a log beside a model of another one, and of a log beside its own model."""
+    table = pq.read_table(arm / "other.parquet")
+    columns = {name: table[name].to_numpy().copy() for name in table.column_names}
+    columns["q2"] = {
+        "late": np.interp(columns["time"] - 0.03, columns["time"], columns["q2"]),
+        "turns": columns["q2"] / (2.0 * np.pi),
+        "sign": columns["q2"],
+    }[mistake]
+    columns["tau1"] *= -1.0 if mistake == "sign" else 1.0
+    log, own = arm / f"{mistake}.parquet", arm / f"{mistake}.json"
+    pq.write_table(pa.table(columns), log)
+    said = {
+        "late": "joint 2: its position comes ",
+        "turns": "joint 2: its position looks like turns",
+        "sign": "joint 1: the measured torque has the other sign of what a machine",
+    }[mistake]
+    for words in (
+        ["fit", "demo-arm", log, "--out", own],
+        ["log", log, "--robot", "demo-arm"],
+        *([command, model, log] for command in ("compare", "diagnose")
+          for model in (arm / "m.json", own)),
+    ):  # fmt: skip
+        assert main([str(word) for word in words]) == 0
+        assert said in capsys.readouterr().out, words
+
+
 def test_sound_logs_leave_the_doubts_empty(arm, capsys):
     words = ["compare", arm / "m.json", arm / "other.parquet", "--json", arm / "out.json"]
     assert main([str(word) for word in words]) == 0
