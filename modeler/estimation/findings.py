@@ -242,10 +242,10 @@ def _by_fit(compiled: CompiledModel, observation: Observation, unseen: bool) -> 
     seen = _evidence(compiled, observation)
     if not seen.joints:
         return []
-    told = _explained(seen) if seen.errors.max() > FLOOR / HALF else None
-    if told is None:
-        return _unseen(seen) if unseen else []
-    return [told.fault]
+    told = _explained(seen)
+    if told is not None:
+        return [told.fault]
+    return _unseen(seen) if unseen else []
 
 
 def _by_prediction(
@@ -272,24 +272,22 @@ def _explained(seen: Evidence) -> Hypothesis | None:
     if not found:
         return None
     most = max(score for score, _ in found)
-    likely = sorted((x for x in found if x[0] >= most - np.log(ALSO)), key=lambda x: -x[0])
-    best = likely[0][1]
-    if len(likely) == 1:
-        return best
-    line = "; or: ".join(dict.fromkeys(one.fault.line for _, one in likely[:3]))
-    certain = all(one.fault.certain for _, one in likely)
-    touches = {j for _, one in likely for j in one.touches}
-    return Hypothesis(replace(best.fault, line=line, certain=certain), best.data, tuple(touches))
+    found.sort(key=lambda pair: -pair[0])
+    likely = [one for score, one in found if score >= most - np.log(ALSO)]
+    line = "; or: ".join(dict.fromkeys(one.fault.line for one in likely[:3]))
+    certain = all(one.fault.certain for one in likely)
+    fault = replace(likely[0].fault, line=line, certain=certain)
+    return Hypothesis(fault, likely[0].data, tuple({j for one in likely for j in one.touches}))
 
 
 def _lowered(seen: Evidence, one: Hypothesis) -> float:
-    """By how much a hypothesis lowers the sum of logarithms; minus infinity if it is none."""
-    none, score = -float("inf"), 0.0
+    """By how much a hypothesis lowers the sum of logarithms; 0 if it is none."""
+    score = 0.0
     for possible in (False, True):  # machines that can be built leave more, and take longer
         errors = seen.judge.errors(one.data, possible)
         score = _evidence_for(errors, seen.errors)
         if score < one.least or errors.max() > WRONG:
-            return none
+            return 0.0
     return score
 
 
