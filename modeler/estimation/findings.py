@@ -13,7 +13,7 @@ itself, a fault that raises the sum by no more is one that these logs cannot sho
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 from itertools import chain, combinations
 
 import numpy as np
@@ -501,12 +501,10 @@ def _channels(seen: Evidence) -> list[_Channel]:
     """What may be late."""
     n = len(seen.observation.joints)
     compiled, rows = seen.compiled, seen.rows
-    kept: dict[float, np.ndarray] = {}
 
+    @cache
     def all_later(shift: float) -> np.ndarray:
-        if shift not in kept:
-            kept[shift] = rows.shifted(compiled, np.full(n, shift))
-        return kept[shift]
+        return rows.shifted(compiled, np.full(n, shift))
 
     def torque_earlier(j: int, shift: float) -> np.ndarray:
         W = rows.W.copy()

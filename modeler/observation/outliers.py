@@ -66,17 +66,15 @@ class LeapWalk:
 
 def walked(
     time: np.ndarray, q: np.ndarray, revolute: np.ndarray, resolution: np.ndarray
-) -> LeapWalk | None:
-    """The steps of one stretch without gaps; None if it is too short to tell.
+) -> LeapWalk:
+    """The steps of one stretch without gaps.
 
     Args:
-        time: (n,) s.
+        time: (n,) s, more than `LEAST`: a shorter one does not tell.
         q: (n, J) rad or m, all finite.
         revolute: (J,) joints that may wrap.
         resolution: (J,) smallest step of each.
     """
-    if len(time) <= LEAST:
-        return None
     steps, dt = np.diff(q, axis=0), np.diff(time)
     usual = float(np.median(dt))
     turns, speed, excess = np.zeros_like(steps), np.zeros_like(steps), np.zeros_like(steps)
@@ -109,8 +107,6 @@ def floors(walks: Sequence[LeapWalk], resolution: np.ndarray) -> np.ndarray:
 
 def floors_here(walks: Sequence[LeapWalk], known: np.ndarray) -> np.ndarray:
     """(J,) `floors` of a whole log for a part of it, higher where the part is rougher."""
-    if not walks:
-        return known
     return np.array([
         floor_here([walk.excess[:, j] for walk in walks], floor, RARE)
         for j, floor in enumerate(known)
@@ -371,12 +367,11 @@ def _positions(
     positions: list[list[Defect]] = [[] for _ in spec.joints]
     revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
     steps = np.array([resolution(own) for own in log.q.T]) if usual is None else usual.steps
-    stretches = list(_stretches(log, np.isfinite(log.q).all(axis=1)))
+    there = np.isfinite(log.q).all(axis=1)
+    stretches = [rows for rows in _stretches(log, there) if len(rows) > LEAST]
     walks = [walked(log.time[rows], log.q[rows], revolute, steps) for rows in stretches]
-    long = [(r, walk) for r, walk in zip(stretches, walks, strict=True) if walk is not None]
-    every = [walk for _, walk in long]
-    least = floors(every, steps) if usual is None else floors_here(every, usual.leaps)
-    for rows, walk in long:
+    least = floors(walks, steps) if usual is None else floors_here(walks, usual.leaps)
+    for rows, walk in zip(stretches, walks, strict=True):
         for j in range(len(spec.joints)):
             leaps = leaps_of(walk, log.time[rows], j, least[j])
             if log.robot_steps is not None:  # rows of such a log come when they come
