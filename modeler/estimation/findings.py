@@ -192,6 +192,12 @@ class Evidence:
         """(k,) of the log as it is."""
         return self.judge.errors(self.data)
 
+    @cached_property
+    def grave(self) -> bool:
+        """True if much is left, or no machine that could be built leaves as little as the fit."""
+        free = self.judge.errors(self.data, possible=False)
+        return bool(self.errors.max() > SUSPECT) or _evidence_for(free, self.errors) > ENOUGH
+
     @property
     def tree(self) -> bool:
         """True if joints move on their own: positions that do not close loops have no torque."""
@@ -311,7 +317,7 @@ def _torques(seen: Evidence) -> Iterator[Hypothesis]:
             fault = Doubt(line, not 1.0 / SCALE < gain < SCALE, joint=j)
             yield Hypothesis(fault, _with_gain(seen.data, place, gain), (j,))
     yield from _signs(seen)
-    if seen.errors.max() <= SUSPECT:
+    if not seen.grave:
         return
     rows, J = seen.rows, len(seen.observation.joints)
     for a, b in combinations(every, 2):
@@ -387,9 +393,8 @@ def _signs(seen: Evidence) -> Iterator[Hypothesis]:
 
 def _motions(seen: Evidence) -> Iterator[Hypothesis]:
     """Positions in other units, reversed, exchanged, from another zero; what comes late."""
-    grave, logs = seen.errors.max() > SUSPECT, seen.observation
-    tried = [*clocks(logs)] if grave else []
-    tried += turns(logs, zeros_only=not grave) if seen.tree else []
+    tried = [*clocks(seen.observation)] if seen.grave else []
+    tried += turns(seen.observation, zeros_only=not seen.grave) if seen.tree else []
     for turn in tried:
         turned = _turned(seen, turn)
         if turned is not None:
@@ -477,7 +482,7 @@ def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
         return _score(judge.errors(data, possible=False))
 
     tried = [(left(seen.data), 0.0, rows.W)]
-    if seen.errors.max() > SUSPECT:
+    if seen.grave:
         tried += [(left(data_of(W := columns(start))), start, W) for start in _STARTS]
     least, shift, W = min(tried, key=lambda one: one[0])
     for _ in range(_STEPS):
