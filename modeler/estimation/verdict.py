@@ -74,9 +74,10 @@ def time_doubts(model: CompiledModel, observation: Observation, result: FitResul
     if not found and ratio > ABSURD:
         found.append(
             Doubt(
-                f"the inertias are {ratio:.2g} times those of links of this reach under this "
-                f"gravity: the time of the logs runs about {ratio**0.5:.2g} times too slowly, or "
-                "the lengths of the table are not in metres; give seconds and metres",
+                f"the clock seems to be wrong: the inertias are {ratio:.2g} times those of links "
+                f"of this reach under this gravity, as if all motion were {ratio**0.5:.2g} times "
+                "as fast, or the lengths of the table not in metres; check the time column, its "
+                "unit and rate",
                 certain=True,
             )
         )
