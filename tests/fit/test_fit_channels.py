@@ -14,6 +14,7 @@ from modeler.api import observe
 from modeler.cli import main
 from modeler.estimation.findings import log_findings
 from modeler.estimation.identify import identify
+from modeler.estimation.verdict import with_verdict
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.modules import compiled, module
@@ -113,6 +114,19 @@ def test_the_torque_in_another_unit_is_named_where_joints_are_coupled(runs):
     head, _, tail = found.line.partition(" times what it should be (is it in mN m?)")
     assert head.startswith("joint 3: the measured torque is ") and tail
     assert float(head.split()[-1]) == pytest.approx(1000.0, rel=0.05)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_clock_that_is_wrong_is_named_without_speeds(runs, name):
+    """By the rule, or, where rotors of any inertia would do, by inertias beyond all measure."""
+    machine, (log, _) = runs[name]
+    observation = observe(machine, [replace(log, time=20.0 * log.time)])
+    told = log_findings(machine, observation)
+    fit = with_verdict(machine, observation, identify(observation, "weighted", machine), told)
+    assert fit.verdict.line.startswith("not usable: the clock seems to be wrong: ")
+    assert not any(
+        "clock" in found.line for found in log_findings(machine, observe(machine, [log]))
+    )
 
 
 def test_compare_says_what_diagnose_says(runs):
