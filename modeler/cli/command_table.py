@@ -62,7 +62,7 @@ def _logs(text: str, nargs: str = "+") -> Argument:
 
 
 def _report(kind: type[places.Output] = places.Output) -> Argument:
-    """It may be called `--page`, as `derive` and `log` call it."""
+    """It may be called `--page`, as `derive` calls it."""
     page = value("--report", "PAGE.html", kind, _PAGE)
     return Argument(("--report", "--page"), page.settings)
 
@@ -208,14 +208,14 @@ _LOG = Command(
     "Lists what FILE holds: topics and columns, rate, jitter, gaps, ranges, resolution, missing "
     "values, limits. Names doubts, and suggests a [log] to start from, guessed from names and "
     "ranges. With a robot: fits it, and says what contradicts it.",
-    "modeler log run1.mat --robot arm.toml --page run1.html",
+    "modeler log run1.mat --robot arm.toml --report run1.html",
     (
         value("log", "FILE", places.LogFile,
               f"Parquet, CSV, MAT, HDF5, numpy or MCAP file, or ROS bag; {_WINDOW}"),
         value("--robot", "ROBOT", places.RobotFile,
               f"{_ROBOT_FILE}: its [log], its joints, and doubts that a fit shows"),
         _MAP,
-        value("--page", "PAGE.html", places.Output, "write one page"),
+        _report(),
         value("--pictures", "DIR", places.LogPictures, _PICTURES),
     ),
     "write what is in it for machines",

@@ -58,9 +58,9 @@ def run_log(args: argparse.Namespace) -> Json:
     said = [*noise.channel_lines(), *bands.chosen_by] if noise is not None else []
     say_lines(_lines(seen, doubts, said))
     places = []
-    if args.page is not None:
+    if args.report is not None:
         with working("drawing the page"):
-            places.append(str(write_page(Path(args.page), log_page(seen, doubts, [], bands))))
+            places.append(str(write_page(Path(args.report), log_page(seen, doubts, [], bands))))
     if args.pictures is not None:
         with progress("drawing pictures") as bar:
             written = write_files(Path(args.pictures), log_pictures(seen, bands), bar)

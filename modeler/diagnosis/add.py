@@ -15,6 +15,7 @@ from modeler.core.table import percent, printed
 from modeler.diagnosis.added_model import (
     HoldoutRows,
     Logs,
+    catalogue_of,
     described,
     left_of,
     left_out,
@@ -57,21 +58,19 @@ def reads_speed_only(effect: Effect) -> bool:
 _JOINTED = (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
 
 
-def requested_effect(
-    model: IdentifiedModel, name: str, joint: str | None, catalogue: Sequence[Effect]
-) -> Effect:
+def requested_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effect:
     """The effect of that name, if it can go into the model on that joint.
 
     Args:
         model: as it is.
         name: id or alias of the effect.
         joint: name; None: whichever, or the whole robot.
-        catalogue: the effects there are, with those of the robot file.
 
     Raises:
         DataError: no such effect or joint, one that cannot be added, that is there already, or
             that acts on the whole robot while a joint is named.
     """
+    catalogue = catalogue_of(model)
     effect = effect_named(name, catalogue)
     if effect is None:
         raise DataError(
@@ -93,11 +92,10 @@ def requested_effect(
     if effect.several or not jointed:  # there may be several orders of ripples
         return effect
     present = {p.joint for p in model.spec.standard if p.effect == effect.id}
-    if joint in present:
-        raise DataError(f"{effect.id}: joint {joint} has it in this model already")
     motors = {joint.name for joint in model.spec.joints if joint.actuated}
-    if joint is None and present and present >= motors:
-        raise DataError(f"{effect.id}: every joint has it in this model already")
+    if joint in present or (joint is None and present and present >= motors):
+        where_it_is = "every joint" if joint is None else f"joint {joint}"
+        raise DataError(f"{effect.id}: {where_it_is} has it in this model already")
     return effect
 
 
@@ -109,13 +107,9 @@ def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
             f"--joint {joint}: {effect.id} acts on the whole robot, not on one joint; leave "
             "--joint out"
         )
-    names = [own.name for own in spec.joints if own.actuated]
-    if effect.acts is Acts.LINK:
-        names = links_of(spec)
-    elif effect.acts is Acts.PASSIVE:
-        names = passive
-    elif reads_speed_only(effect):
-        names += passive
+    usual = [own.name for own in spec.joints if own.actuated]
+    usual += passive if reads_speed_only(effect) else []
+    names = {Acts.LINK: links_of(spec), Acts.PASSIVE: passive}.get(effect.acts, usual)
     if joint not in names and joint in passive and jointed:
         raise DataError(
             f"--joint {joint}: it has no motor, and there {effect.id} cannot be found from logs; "
@@ -173,9 +167,7 @@ def add_effect(
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    effect = requested_effect(
-        model, name, joint, robot_from_text(model.robot_text, "robot").catalogue
-    )
+    effect = requested_effect(model, name, joint)
     before = _Fitted(model, rows_of(compiled, logs, model.processing))
     pick = _found(before, effect, joint)
     after, score = _judged(before, pick)
@@ -214,8 +206,7 @@ def add_findings(
     best, findings = _with_gains(best, [f for f in findings if not f.doubt])
     for finding in findings:
         try:
-            catalogue = robot_from_text(best.model.robot_text, "robot").catalogue
-            requested_effect(best.model, finding.effect, finding.joint, catalogue)
+            requested_effect(best.model, finding.effect, finding.joint)
             assert finding.pick is not None  # `requested_effect` refuses what is no column
             after, score = _judged(best, finding.pick)
         except (DataError, RobotError) as error:
@@ -304,13 +295,13 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
             f"{effect.id}: these logs show nothing of it; `modeler effects {effect.id}` says which "
             "motion would"
         )
-    best = ranked[0]
+    candidate, visible = ranked[0].candidate, ranked[0].visible
     if effect.acts is Acts.TORQUE:  # least squares make delays too small
-        values = instrumental(state, best.candidate)[0]
-        return Pick(best.candidate, values, state, best.visible)
-    later = extended(state, best.candidate)  # a wrong gain bends the model whose torques it scales
-    visible = gain_visible(later, 0) if is_gain(best.candidate) else best.visible
-    return Pick(best.candidate, later.values[0], later, visible)
+        return Pick(candidate, instrumental(state, candidate)[0], state, visible)
+    later = extended(state, candidate)  # a wrong gain bends the model whose torques it scales
+    if is_gain(candidate):
+        visible = gain_visible(later, 0)
+    return Pick(candidate, later.values[0], later, visible)
 
 
 def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:

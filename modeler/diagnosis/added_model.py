@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.profile import Profile, ProfileProblem, profile
+from modeler.diagnosis.profile import Profile, profile
 from modeler.diagnosis.ranking import base_of, blocks_of
 from modeler.diagnosis.score import Residuals, error_changes
 from modeler.diagnosis.sentences import where
@@ -16,6 +16,7 @@ from modeler.diagnosis.signals import SignalReference, tilt_basis
 from modeler.diagnosis.state import SearchData, State, columns_of, state_of
 from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Acts, Effect, effect_named
 from modeler.estimation import Addition, IdentifiedModel, prior_of, spread_text
+from modeler.numerics.least_squares import column_lengths
 from modeler.observation import (
     Log,
     Observation,
@@ -44,16 +45,15 @@ def with_shapes(
         compiled: its robot.
         observation: of the logs that it was fitted to, in the band in which shapes are found.
     """
-    catalogue = robot_from_text(model.robot_text, "robot of the model").catalogue
     state = None
     history = list(model.history)
     for i, step in enumerate(history):
-        pick = _candidate(model, step, catalogue)
+        pick = _candidate(model, step)
         if pick is None:
             continue
         state = state or state_of(SearchData(compiled, observation), (), model.beta)
         own = _own_columns(model, state, pick)
-        along = profile(ProfileProblem.of(state, pick, own), pick) if own else None
+        along = profile(state, pick, own) if own else None
         if along is None:
             continue
         model = _widened(model, along, own)
@@ -63,11 +63,14 @@ def with_shapes(
     return dataclasses.replace(model, history=tuple(history))
 
 
-def _candidate(
-    model: IdentifiedModel, step: Addition, catalogue: Sequence[Effect]
-) -> Candidate | None:
+def catalogue_of(model: IdentifiedModel) -> tuple[Effect, ...]:
+    """The effects that there are for its robot."""
+    return robot_from_text(model.robot_text, "robot of the model").catalogue
+
+
+def _candidate(model: IdentifiedModel, step: Addition) -> Candidate | None:
     """The effect of a step, if it has shapes on a joint."""
-    effect = effect_named(step.effect, catalogue) if step.effect else None
+    effect = effect_named(step.effect, catalogue_of(model))
     if effect is None or effect.acts is not Acts.JOINT or not step.shapes:
         return None
     forms = [f for f in effect.forms if {s.name for s in f.shapes} == set(step.shapes)]
@@ -79,22 +82,16 @@ def _candidate(
 
 def _own_columns(model: IdentifiedModel, state: State, pick: Candidate) -> list[int]:
     """Base columns of the effect, in the order of its own; of several ripples, those alike."""
+    from scipy.optimize import linear_sum_assignment  # it takes long to load
+
     found = columns_of(state.rows, pick)[pick.index]
     effect = {p.name: (p.effect, p.joint) for p in model.spec.standard}
     free = [i for i, b in enumerate(model.spec.base) if effect[b.column_of] == pick.key]
     if found is None or len(free) < found.shape[1]:
         return []
-    base = state.rows.W[pick.index]
-    own: list[int] = []
-    for column in found.T:
-        left = [i for i in free if i not in own]
-        own.append(max(left, key=lambda i: _alike(base[:, i], column)))
-    return own
-
-
-def _alike(one: np.ndarray, other: np.ndarray) -> float:
-    size = float(np.linalg.norm(one) * np.linalg.norm(other))
-    return abs(float(one @ other)) / size if size > 0.0 else 0.0
+    base = state.rows.W[pick.index][:, free]
+    alike = (found / column_lengths(found)).T @ (base / column_lengths(base))
+    return [free[i] for i in linear_sum_assignment(-np.abs(alike))[1]]
 
 
 def _widened(model: IdentifiedModel, along: Profile, own: Sequence[int]) -> IdentifiedModel:
@@ -160,9 +157,9 @@ def described(text: str, pick: Candidate, values: np.ndarray, reference: SignalR
 
 def _shapes(pick: Candidate, reference: SignalReference) -> dict[str, float]:
     """The shapes of a joint's effect, and where its temperature or time is 0."""
-    shapes = {} if pick.effect.acts is Acts.MOTOR else dict(pick.shapes)
     fixed = {s.name: s.grid[0] for s in pick.form.shapes if len(s.grid) == 1}
-    shapes = {name: value for name, value in shapes.items() if fixed.get(name) != value}
+    own = {} if pick.effect.acts is Acts.MOTOR else pick.shapes
+    shapes = {name: value for name, value in own.items() if fixed.get(name) != value}
     moments = [shape.name for shape in pick.form.shapes if shape.scale == "moment"]
     if moments and _is_first_moment(pick, reference):
         shapes |= dict.fromkeys(moments, 0.0)
@@ -239,22 +236,18 @@ def added(model: IdentifiedModel) -> list[str]:
         for p in model.fit.parameters if p.name in base
     ]  # fmt: skip
     if lines and last.shapes:
-        units = _units(model, last)
+        units, sigmas, ends = _units(model, last), last.shape_sigmas, last.shape_intervals
         texts = [
-            f"{k} = {v:.4g}{_spread(last, k)}{units.get(k, '')}" for k, v in last.shapes.items()
+            f"{k} = {v:.4g}{spread_text(v, sigmas.get(k, 0.0), ends.get(k))}{units.get(k, '')}"
+            for k, v in last.shapes.items()
         ]
         lines.append("with " + ", ".join(texts))
     return lines
 
 
-def _spread(step: Addition, name: str) -> str:
-    sigma, interval = step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name)
-    return spread_text(step.shapes[name], sigma, interval)
-
-
 def _units(model: IdentifiedModel, step: Addition) -> dict[str, str]:
     """What stands behind the values of the shapes."""
-    effect = effect_named(step.effect, robot_from_text(model.robot_text, "robot").catalogue)
+    effect = effect_named(step.effect, catalogue_of(model))
     assert effect is not None
     linear = any(j.name == step.joint and j.unit == "m" for j in model.spec.joints)
     shapes = [shape for form in effect.forms for shape in form.shapes]
@@ -271,8 +264,7 @@ def notes(model: IdentifiedModel, since: int = -1) -> list[str]:
     """
     if len(model.history) < 2:
         return []
-    catalogue = robot_from_text(model.robot_text, "robot").catalogue
-    found = []
+    catalogue, found = catalogue_of(model), []
     for step in model.history[since:]:
         effect = effect_named(step.effect, catalogue)
         assert effect is not None
@@ -384,20 +376,17 @@ def left_out(
         observation: of its logs.
         free: (c, k) the directions of beta that are fitted, beside the model; None: all of it.
     """
-    used = observation.used.T
+    used, blocks, known = observation.used.T, blocks_of(observation), None
     W = [observation.columns[own, j] for j, own in enumerate(used)]
     y = [observation.torque[own, j] for j, own in enumerate(used)]
+    sigma = np.array([joint.sigma if joint.sigma > 0.0 else 1.0 for joint in model.fit.joints])
     if free is not None:
         y = [tau - w @ model.beta for w, tau in zip(W, y, strict=True)]
         W = [w @ free for w in W]
-    blocks = blocks_of(observation)
+    elif (prior := prior_of(model.spec)) is not None:
+        weighted = np.concatenate([w / s for w, s in zip(W, sigma, strict=True)])
+        known = prior.beside(np.linalg.norm(weighted, axis=0))
     number = [blocks.number[own] for own in used]
-    sigma = np.array([joint.sigma if joint.sigma > 0.0 else 1.0 for joint in model.fit.joints])
-    prior = prior_of(model.spec) if free is None else None
-    known = None
-    if prior is not None:
-        lengths = sum(np.sum((w / s) ** 2, axis=0) for w, s in zip(W, sigma, strict=True)) ** 0.5
-        known = prior.beside(lengths)
     base = base_of(W, y, sigma, number, blocks.fold, prior=known)
     return _unseen_of(observation, [s * e for s, e in zip(sigma, base.left_out, strict=True)])
 

@@ -18,21 +18,20 @@ weighted by L, about the value that is told; for a narrow L it is that of the de
 
 import dataclasses
 import itertools
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate, JointScale, coded
-from modeler.diagnosis.effect_columns import Columns, Rows, body_parameters, dense
+from modeler.diagnosis.effect_columns import Columns, body_parameters, dense
 from modeler.diagnosis.ranking import blocks_of
 from modeler.diagnosis.signals import tilt_basis
 from modeler.diagnosis.state import State
 from modeler.effects import Acts, Shape
-from modeler.estimation import autocorrelation, repeated
+from modeler.estimation import autocorrelation, repeated_whole
 from modeler.numerics.least_squares import turn_of
-from modeler.observation import Observation
 
 # The fit of an effect with given shapes, beside all else that a model has.
 
@@ -58,39 +57,23 @@ class Point:
     weight: float = 1.0
 
 
-@dataclass(frozen=True, eq=False)
 class ProfileProblem:
-    """What a profile is made from; J joints.
+    """What a profile is made from: an effect in a state, and all columns but its own; J joints.
 
     Attributes:
         rows: where columns come from.
         observation: the rows' samples and segments.
-        others: (rows_j, c) by joint: columns of all else.
+        scale: what is large on its joint.
         y: (rows_j,) by joint.
         sigma: (J,) rms residual with the effect in.
-        scale: what is large on its joint.
+        others: (rows_j, c) by joint: columns of all else.
         prior: (k, c + 1) rows of what is known beforehand of all else, of weight 1.
     """
 
-    rows: Rows
-    observation: Observation
-    others: Sequence[np.ndarray]
-    y: Sequence[np.ndarray]
-    sigma: np.ndarray
-    scale: JointScale
-    prior: np.ndarray
-
-    @classmethod
-    def of(cls, state: State, pick: Candidate, own: slice | list[int]) -> "ProfileProblem":
-        """Of an effect in a state, by all columns but its own."""
-        observation, scale = state.data.observation, state.scales[pick.scaled]
-        *others, prior = (np.delete(w, own, axis=1) for w in (*state.W, state.prior))
-        return cls(state.rows, observation, others, state.y, state.sigma, scale, prior)
-
-    @cached_property
-    def block(self) -> np.ndarray:
-        """(samples,) number of the block of time of each sample."""
-        return blocks_of(self.observation).number
+    def __init__(self, state: State, pick: Candidate, own: slice | list[int]) -> None:
+        self.rows, self.observation = state.rows, state.data.observation
+        self.scale, self.y, self.sigma = state.scales[pick.scaled], state.y, state.sigma
+        *self.others, self.prior = (np.delete(w, own, axis=1) for w in (*state.W, state.prior))
 
     @cached_property
     def base(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
@@ -117,17 +100,15 @@ class ProfileProblem:
 
     def at(self, candidate: Candidate) -> Point | None:
         """The fit with these shapes; None where the columns cannot be told from all else."""
-        columns = self.rows.columns(candidate)
-        if not all(c is None or np.isfinite(c).all() for c in columns):
+        columns = enumerate(self.rows.columns(candidate))
+        felt = {j: np.asarray(c) / self.sigma[j] for j, c in columns if c is not None}
+        if not felt or not all(np.isfinite(c).all() for c in felt.values()):
             return None
-        if all(c is None for c in columns):
-            return None
-        y, u, left = self.target
-        felt = [j for j, c in enumerate(columns) if c is not None]
-        own = [np.asarray(columns[j]) / self.sigma[j] for j in felt]
-        T = sum(self.base[0][j].T @ c for j, c in zip(felt, own, strict=True))
+        (y, u, left), base = self.target, self.base[0]
+        own = felt.values()
+        T = sum(base[j].T @ c for j, c in felt.items())
         M = sum(c.T @ c for c in own) - T.T @ T
-        h = sum(c.T @ y[j] for j, c in zip(felt, own, strict=True)) - T.T @ u
+        h = sum(c.T @ y[j] for j, c in felt.items()) - T.T @ u
         length = np.sqrt(sum(np.sum(c**2, axis=0) for c in own))
         if not (length > 0.0).all():
             return None
@@ -142,13 +123,6 @@ class ProfileProblem:
         """(rows of all joints, k) what all else leaves of weighted columns."""
         T = sum(q.T @ c for q, c in zip(self.base[0], columns, strict=True))
         return np.concatenate([c - q @ T for q, c in zip(self.base[0], columns, strict=True)])
-
-    def by_joint(self) -> Iterator[tuple[slice, np.ndarray]]:
-        """Where the rows of each joint stand among all, and their samples."""
-        first = 0
-        for j, y in enumerate(self.y):
-            yield slice(first, first + len(y)), np.flatnonzero(self.observation.used[:, j])
-            first += len(y)
 
 
 CHI2_95 = 3.841458820694124
@@ -182,6 +156,11 @@ class Profile:
     shape_factor: float
 
     @cached_property
+    def values(self) -> np.ndarray:
+        """(points, k) parameters."""
+        return np.array([point.values for point in self.points])
+
+    @cached_property
     def rise(self) -> np.ndarray:
         """(points,) (S - S*) / f^2."""
         squares = np.array([point.squares for point in self.points])
@@ -201,7 +180,7 @@ class Profile:
         parameter may be anything.
         """
         own = np.array([point.deviations for point in self.points]) * self.factor
-        apart = np.array([point.values for point in self.points]) - self.told.values
+        apart = self.values - self.told.values
         reach = np.abs(self.intervals() - self.told.values[:, None]).max(axis=1)
         return np.minimum(np.sqrt(self.share @ (own**2 + apart**2)), reach)
 
@@ -210,7 +189,7 @@ class Profile:
         every = [*self.points, self.told]
         rise = np.append(self.rise, 0.0)
         half = np.sqrt(np.maximum(CHI2_95 - rise, 0.0))[:, None] * self.factor
-        values = np.array([point.values for point in every])
+        values = np.vstack([self.values, self.told.values])
         reach = half * np.array([point.deviations for point in every])
         allowed = rise < CHI2_95
         low, high = (values - reach)[allowed], (values + reach)[allowed]
@@ -218,11 +197,10 @@ class Profile:
 
     def shape_deviations(self) -> dict[str, float]:
         """Standard deviations of the shapes by name."""
-        found = {}
-        for name, value in self.told.shapes.items():
-            apart = np.array([point.shapes[name] for point in self.points]) - value
-            found[name] = float(np.sqrt(self.share @ apart**2))
-        return found
+        return {
+            name: float(np.sqrt(self.share @ [(p.shapes[name] - value) ** 2 for p in self.points]))
+            for name, value in self.told.shapes.items()
+        }
 
     def shape_intervals(self) -> dict[str, tuple[float, float]]:
         """95 % intervals of the shapes by name: all that the data do not refuse."""
@@ -237,13 +215,15 @@ class Profile:
         return np.asarray((apart * self.share[:, None]).T @ apart)
 
 
-def profile(problem: ProfileProblem, told: Candidate) -> Profile | None:
+def profile(state: State, told: Candidate, own: slice | list[int]) -> Profile | None:
     """The likelihood along the shapes of an effect; None if it has none that could be others.
 
     Args:
-        problem: the rows.
+        state: the rows.
         told: the effect with the shapes that are told.
+        own: its columns in the state.
     """
+    problem = ProfileProblem(state, told, own)
     smooth = [shape for shape in told.form.shapes if told.refinable(shape)]
     fixed = {  # shapes of which only some values make sense
         shape.name: shape.grid for shape in told.form.shapes
@@ -277,12 +257,15 @@ def _explored(
 ) -> list[Point]:
     """Points with weights, the smooth shapes over all that makes sense."""
     if not smooth:
-        point = problem.at(start)
-        return [] if point is None else [point]
+        return [point for point in [problem.at(start)] if point is not None]
     lines = [_line(problem.scale, start, shape) for shape in smooth]
     if len(smooth) == 1:
         return _along(lambda x: problem.at(start.moved(smooth, [x])), lines[0], least)
     return _around(problem, start, smooth, lines)
+
+
+def _coded(shapes: Sequence[Shape], candidate: Candidate) -> np.ndarray:
+    return np.array([coded(shape, candidate.shapes[shape.name]) for shape in shapes])
 
 
 def _line(scale: JointScale, start: Candidate, shape: Shape) -> list[float]:
@@ -291,8 +274,9 @@ def _line(scale: JointScale, start: Candidate, shape: Shape) -> list[float]:
     if shape.scale == "waves":
         near = told + np.pi / scale.range * np.linspace(-_BESIDE, _BESIDE, 4 * _BESIDE + 1)
         return [float(m) for m in near if m > 0.0]
-    low, high = (coded(shape, scale.value(shape, end)) for end in shape.limits)
-    inner = {coded(shape, scale.value(shape, entry)) for entry in shape.grid}
+    low, high, *inner = (
+        coded(shape, scale.value(shape, entry)) for entry in (*shape.limits, *shape.grid)
+    )
     return sorted({low, high, *(x for x in (*inner, told) if low < x < high)})
 
 
@@ -306,18 +290,15 @@ def _along(at: Callable[[float], Point | None], line: Sequence[float], least: fl
         likely = np.exp(-0.5 * (squares - min(least, squares.min())))
         # a peak may hide between two points: cells count by their better end
         cells = np.diff(x) * np.maximum(likely[:-1], likely[1:])
-        total = cells.sum()
         biggest = int(np.argmax(cells))
-        if not total > 0.0 or cells[biggest] < _FINE * total:
-            break
-        middle = 0.5 * (x[biggest] + x[biggest + 1])
-        if middle in (x[biggest], x[biggest + 1]):
+        ends = x[biggest], x[biggest + 1]
+        middle = 0.5 * (ends[0] + ends[1])
+        if not cells[biggest] > 0.0 or cells[biggest] < _FINE * cells.sum() or middle in ends:
             break
         seen[middle] = at(middle)
     x = np.array(sorted(seen))
     edges = np.concatenate([x[:1], 0.5 * (x[1:] + x[:-1]), x[-1:]])
-    widths = np.diff(edges)
-    found = zip((seen[value] for value in x), widths, strict=True)
+    found = zip((seen[value] for value in x), np.diff(edges), strict=True)
     return [dataclasses.replace(p, weight=float(w)) for p, w in found if p is not None]
 
 
@@ -328,22 +309,18 @@ def _around(
     lines: Sequence[Sequence[float]],
 ) -> list[Point]:
     """Points on a grid about the told shapes, along the axes of the likelihood there."""
-    middle = np.array([coded(shape, start.shapes[shape.name]) for shape in smooth])
+    middle = _coded(smooth, start)
     low, high = (np.array([line[end] for line in lines]) for end in (0, -1))
-
-    def at(x: np.ndarray) -> Point | None:
-        if np.any(x < low) or np.any(x > high):
-            return None
-        return problem.at(start.moved(smooth, x))
-
     # a root of the covariance of the coded shapes, by the slopes of the columns
     _, slopes = _slopes(problem, start, smooth)
     values, vectors = np.linalg.eigh(slopes.T @ slopes)
     floor = 1e-9 * max(float(values.max(initial=0.0)), 1e-300)
     axes = vectors / np.sqrt(np.maximum(values, floor)) * _REACHED
     steps = np.linspace(-1.0, 1.0, _LINE)
-    places = (middle + axes @ np.array(z) for z in itertools.product(steps, repeat=len(smooth)))
-    return [point for point in map(at, places) if point is not None]
+    places = [middle + axes @ np.array(z) for z in itertools.product(steps, repeat=len(smooth))]
+    inside = [x for x in places if np.all((low <= x) & (x <= high))]
+    found = [problem.at(start.moved(smooth, x)) for x in inside]
+    return [point for point in found if point is not None]
 
 
 def _slopes(
@@ -356,16 +333,13 @@ def _slopes(
     here = problem.at(told)
     assert here is not None
     own = problem.off(problem.weighted(problem.rows.columns(told)))
-    slopes = []
-    for i in range(len(smooth)):
-        ends = []
-        for sign in (-1.0, 1.0):
-            x = np.array([coded(shape, told.shapes[shape.name]) for shape in smooth])
-            x[i] += sign * _STEP
-            moved = problem.rows.columns(told.moved(smooth, x))
-            ends.append(problem.off(problem.weighted(moved)) @ here.values)
-        slopes.append((ends[1] - ends[0]) / (2.0 * _STEP))
-    slope = np.column_stack(slopes) if slopes else np.zeros((len(own), 0))
+    middle, slope = _coded(smooth, told), np.zeros((len(own), len(smooth)))
+    for i, step in enumerate(_STEP * np.eye(len(smooth))):
+        low, high = (
+            problem.off(problem.weighted(problem.rows.columns(told.moved(smooth, x)))) @ here.values
+            for x in (middle - step, middle + step)
+        )
+        slope[:, i] = (high - low) / (2.0 * _STEP)
     return own, slope - own @ np.linalg.lstsq(own, slope, rcond=1e-9)[0]
 
 
@@ -386,15 +360,15 @@ def _factors(
     both = np.column_stack([own, slopes])
     influence = both @ np.linalg.pinv(both.T @ both, rcond=1e-12, hermitian=True)
     white = np.sum(influence**2, axis=0)
-    extra, number = np.zeros(len(white)), []
-    segment = problem.observation.segment
-    for rows, sample in problem.by_joint():
-        number.append(problem.block[sample])
-        if rows.stop > rows.start:
-            r = autocorrelation(left[rows], sample, segment)
-            extra += repeated(influence[rows], r, sample, segment)
-    sums = np.zeros((problem.block.max() + 1, len(white)))
-    np.add.at(sums, np.concatenate(number), influence * left[:, None])
+    extra, segment = np.zeros(len(white)), problem.observation.segment
+    joint, every = np.nonzero(problem.observation.used.T)
+    for j in np.unique(joint):
+        rows, sample = joint == j, every[joint == j]
+        r = autocorrelation(left[rows], sample, segment)
+        extra += np.diag(repeated_whole(influence[rows], r, sample, segment))
+    number = blocks_of(problem.observation).number
+    sums = np.zeros((number.max() + 1, len(white)))
+    np.add.at(sums, number[every], influence * left[:, None])
     safe = np.where(white > 0.0, white, 1.0)
     ratio = np.maximum(1.0 + extra / safe, np.sum(sums**2, axis=0) / safe)
     return np.sqrt(np.maximum(ratio, 1.0))
@@ -450,9 +424,7 @@ def profile_of(state: State, place: int) -> Profile | None:
     """
     sizes = [len(values) for values in state.values]
     first = state.W[0].shape[1] - sum(sizes[place:])
-    own = slice(first, first + sizes[place])
-    pick = state.picks[place]
-    return profile(ProfileProblem.of(state, pick, own), pick)
+    return profile(state, state.picks[place], slice(first, first + sizes[place]))
 
 
 def named_intervals(along: Profile, named: EffectValues) -> dict[str, tuple[float, float]]:

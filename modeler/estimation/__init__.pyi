@@ -2,7 +2,6 @@ from . import long_logs as long_logs, model_file as model_file, two_step_result 
 from .covariance import (
     autocorrelation as autocorrelation,
     remembered as remembered,
-    repeated as repeated,
     repeated_whole as repeated_whole,
 )
 from .direct_model import (

@@ -21,9 +21,15 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
-from modeler.estimation.least_squares import Estimate, least_squares
-from modeler.estimation.nearest_body import CORNER, PREFIXES, Machine, machine_of, scales
-from modeler.estimation.problem import Problem
+from modeler.estimation.least_squares import Estimate, Problem, least_squares
+from modeler.estimation.nearest_body import (
+    PREFIXES,
+    Machine,
+    machine_of,
+    parameters_of,
+    pseudo_inertia_of,
+    scales,
+)
 from modeler.numerics.least_squares import Rank, column_lengths
 
 WEIGHT = 0.01
@@ -94,34 +100,15 @@ def consistent(
     )  # fmt: skip
 
 
-def parameters_of(body: np.ndarray) -> dict[str, float]:
-    """The ten standard parameters of a pseudo-inertia (4, 4), by prefix."""
-    return {prefix: float(np.sum(_PICKS[prefix] * body)) for prefix in PREFIXES}
+_GRADIENT = parameters_of(np.eye(16).reshape(4, 4, 4, 4))
+_PICKS = (_GRADIENT + _GRADIENT.transpose(0, 2, 1)) / 2.0
+"""(10, 4, 4) symmetric: each parameter is its inner product with the pseudo-inertia."""
 
-
-def pseudo_inertia_of(values: Mapping[str, float]) -> np.ndarray:
-    """(4, 4) [[int x x' dm, int x dm], [., M]] of ten standard parameters, by prefix."""
-    body = np.zeros((4, 4))
-    for (i, j), terms in CORNER.items():
-        body[i, j] = body[j, i] = sum(factor * values[prefix] for prefix, factor in terms.items())
-    half = (values["XX"] + values["YY"] + values["ZZ"]) / 2.0  # the solver's last digits hang on it
-    body[[0, 1, 2], [0, 1, 2]] = [half - values[prefix] for prefix in ("XX", "YY", "ZZ")]
-    return body
-
-
-def _picks() -> dict[str, np.ndarray]:
-    """Symmetric matrices: each parameter is their inner product with the pseudo-inertia."""
-    found = {prefix: np.zeros((4, 4)) for prefix in PREFIXES}
-    for (i, j), terms in CORNER.items():
-        for prefix, factor in terms.items():
-            # A second moment is the sum of two others: its factor in them is 1 for both.
-            found[prefix][i, j] = found[prefix][j, i] = (
-                factor / 2.0 if i != j else 1.0 if factor > 0.0 else 0.0
-            )
-    return found
-
-
-_PICKS = _picks()
+_ROW, _COLUMN = np.triu_indices(4)
+_BASIS = np.zeros((10, 4, 4))
+_BASIS[range(10), _ROW, _COLUMN] = np.where(_ROW == _COLUMN, 1.0, np.sqrt(0.5))
+_BASIS[range(10), _COLUMN, _ROW] = _BASIS[range(10), _ROW, _COLUMN]
+"""Of the symmetric matrices, orthonormal."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,8 +124,13 @@ class _Problem:
     @cached_property
     def others(self) -> list[int]:
         """Places in chi of what is no link's: friction, rotor inertias, offsets, loads."""
-        inertial = {place for own in self.machine.links.values() for place in own.values()}
-        return [i for i in range(self.A.shape[1]) if i not in inertial]
+        inertial = [place for own in self.machine.links.values() for place in own]
+        return np.setdiff1d(np.arange(self.A.shape[1]), inertial).tolist()
+
+    @cached_property
+    def positive(self) -> np.ndarray:
+        """(others,) True for those that cannot be negative."""
+        return np.isin(self.others, list(self.machine.positive.values()))
 
     @cached_property
     def scale(self) -> np.ndarray:
@@ -149,16 +141,14 @@ class _Problem:
         """(m,) all unknowns."""
         found = np.zeros(self.A.shape[1])
         for name, own in self.machine.links.items():
-            for prefix, value in parameters_of(bodies[name]).items():
-                found[own[prefix]] = value
+            found[own] = parameters_of(bodies[name])
         found[self.others] = others
         return found
 
     def columns(self, name: str, root: np.ndarray) -> np.ndarray:
         """(r, 16) rows of a link's X, where P = root X root'."""
-        own = self.machine.links[name]
-        picks = np.stack([root.T @ _PICKS[prefix] @ root for prefix in PREFIXES])
-        return np.asarray(self.A[:, [own[p] for p in PREFIXES]] @ picks.reshape(len(PREFIXES), 16))
+        picks = root.T @ _PICKS @ root
+        return np.asarray(self.A[:, self.machine.links[name]] @ picks.reshape(-1, 16))
 
     def answer(self) -> tuple[dict[str, np.ndarray], np.ndarray]:
         """Roots of the bodies, and the other values.
@@ -191,11 +181,7 @@ class _Problem:
         error = -self.z + self.A[:, self.others] @ others
         step = cp.Variable(len(others))
         total = (self.A[:, self.others] * scale) @ step
-        bounds = [
-            others[i] + scale[i] * step[i] >= 0.0
-            for i, place in enumerate(self.others)
-            if place in self.machine.positive.values()
-        ]
+        bounds = [others[i] + scale[i] * step[i] >= 0.0 for i in np.flatnonzero(self.positive)]
         X = {name: cp.Variable((4, 4), PSD=True) for name in roots}
         divergence = cp.Constant(0.0)
         for name, root in roots.items():
@@ -214,17 +200,12 @@ class _Problem:
             return None
         found = {name: root @ _root(np.asarray(X[name].value)) for name, root in roots.items()}
         moved = others if step.value is None else others + scale * step.value
-        least = np.where(np.isin(self.others, list(self.machine.positive.values())), 0.0, -np.inf)
-        return found, np.maximum(moved, least)
+        return found, np.maximum(moved, np.where(self.positive, 0.0, -np.inf))
 
     def at_zero(self, others: np.ndarray) -> set[int]:
         """Places of the parameters at their bound: less than a millionth of the torque."""
         size = _AT_ZERO * max(float(np.linalg.norm(self.z)), 1e-300) * self.scale
-        positive = set(self.machine.positive.values())
-        return {
-            place for place, value, least in zip(self.others, others, size, strict=True)
-            if place in positive and value <= least
-        }  # fmt: skip
+        return {self.others[i] for i in np.flatnonzero(self.positive & (others <= size))}
 
     def covariance(self, roots: Mapping[str, np.ndarray]) -> np.ndarray:
         """(m, m) inverse of the curvature.
@@ -232,24 +213,17 @@ class _Problem:
         Around X = 1 the curvature of -log det X is the identity in an orthonormal basis of the
         symmetric matrices.
         """
-        moves, stiffness = [], []
+        unknowns = self.A.shape[1]
+        moves, stiffness = [np.eye(unknowns)[:, self.others] * self.scale], [0.0 * self.scale]
         for name, root in roots.items():
-            own = self.machine.links[name]
-            for i in range(4):
-                for j in range(i, 4):
-                    E = np.zeros((4, 4))
-                    E[i, j] = E[j, i] = 1.0 if i == j else np.sqrt(0.5)
-                    move = np.zeros(self.A.shape[1])
-                    for prefix, value in parameters_of(root @ E @ root.T).items():
-                        move[own[prefix]] = value
-                    moves.append(move)
-                    stiffness.append(self.gamma[name])
-        moves += [*(np.eye(self.A.shape[1])[self.others] * self.scale[:, None])]
-        stiffness += [0.0] * len(self.others)
-        T = np.array(moves).T
-        root = np.vstack([self.A @ T, np.diag(np.sqrt(stiffness))])
-        inverse = np.linalg.pinv(root, rcond=1e-12)
-        spread = T @ inverse
+            move = np.zeros((unknowns, len(_BASIS)))
+            moved = root @ _BASIS @ root.T
+            move[self.machine.links[name]] = parameters_of(moved.transpose(1, 2, 0))
+            moves.append(move)
+            stiffness.append(np.full(len(_BASIS), self.gamma[name]))
+        T = np.hstack(moves)
+        root = np.vstack([self.A @ T, np.diag(np.sqrt(np.hstack(stiffness)))])
+        spread = T @ np.linalg.pinv(root, rcond=1e-12)
         return np.asarray(spread @ spread.T)
 
 
@@ -262,8 +236,7 @@ def _references(
     count = max(1, len(machine.links))
     found = {}
     for name, own in machine.links.items():
-        mass = scale[own["M"]] / count
-        metre = scale[own["MX"]] / scale[own["M"]]
+        mass, metre = scale[own[9]] / count, scale[own[6]] / scale[own[9]]
         found[name] = known.get(name, mass * np.diag([metre**2, metre**2, metre**2, 1.0]))
     return found
 
@@ -297,30 +270,24 @@ def buildable(problem: Problem) -> Estimate:
     known = references(model.spec)
     found = consistent(machine, problem.data.whole(start.sigma), known)
     told = np.isin(np.arange(len(found.beta)), start.rank.kept)
-    names = {i: parameter.name for i, parameter in enumerate(model.spec.standard)}
-    for link, own in machine.links.items():
-        names |= {place: f"{prefix}{link}" for prefix, place in own.items()}
     return dataclasses.replace(
         start,
         beta=found.beta,
         covariance=found.covariance * np.outer(told, told),
         rank=Rank(start.rank.kept, (), start.rank.last_kept, start.rank.first_dropped),
-        standard={names[i]: float(value) for i, value in enumerate(found.chi)},
+        standard=dict(zip(machine.names, found.chi.tolist(), strict=True)),
         sentences=tuple(_sentences(model.spec, found, start, known)),
     )
 
 
 def references(spec: ModuleSpec) -> dict[str, np.ndarray]:
     """(4, 4) pseudo-inertias of the links of which the robot file states all ten parameters."""
-    stated: dict[str, dict[str, float]] = {}
-    for parameter in spec.standard:
-        if parameter.effect == "rigid_body" and parameter.nominal is not None:
-            prefix = parameter.name.removesuffix(parameter.joint)
-            stated.setdefault(parameter.joint, {})[prefix] = parameter.nominal
+    nominal = {p.name: p.nominal for p in spec.standard if p.nominal is not None}
     found = {}
-    for link, values in stated.items():
-        if len(values) == len(PREFIXES) and values["M"] > 0.0:
-            body = pseudo_inertia_of(values)
+    for link in dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"):
+        ten = [nominal[name] for p in PREFIXES if (name := f"{p}{link}") in nominal]
+        if len(ten) == len(PREFIXES) and ten[-1] > 0.0:
+            body = pseudo_inertia_of(np.array(ten))
             size = np.sqrt(np.maximum(np.diag(body), 0.0))
             size = np.maximum(size, 1e-3 * size[:3].max() * np.array([1.0, 1.0, 1.0, 0.0]))
             body = body + _LEAST * np.diag(size**2)

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.estimation.least_squares import Estimate, solve_by_qr
-from modeler.estimation.problem import Neighbours, residual_of
+from modeler.estimation.least_squares import Estimate, Rows, solve_by_qr
 from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import Compressed, triangle
 from modeler.observation import Observation
@@ -36,16 +35,12 @@ class Colour:
 
     def raised(self, white: np.ndarray) -> np.ndarray:
         """(c, c) the covariance with it: in no direction less than that of white residuals."""
-        at = np.flatnonzero(np.diag(white))
-        size = np.sqrt(np.diag(white)[at])
-        own, more = (x[np.ix_(at, at)] / np.outer(size, size) for x in (white, self.extra))
-        values, vectors = np.linalg.eigh(own)
-        root = vectors * np.sqrt(np.maximum(values, 1e-15 * values.max(initial=1.0)))
-        inverse = np.linalg.inv(root) if at.size else root
-        ratio, turn = np.linalg.eigh(inverse @ more @ inverse.T)
-        turned = size[:, None] * (root @ turn) * np.sqrt(1.0 + np.maximum(ratio, 0.0))
+        at = np.ix_(*[np.flatnonzero(np.diag(white))] * 2)
+        root, inverse = roots(white[at])
+        ratio, turn = np.linalg.eigh(inverse @ self.extra[at] @ inverse.T)
+        turned = root @ turn * np.sqrt(1.0 + np.maximum(ratio, 0.0))
         found = np.zeros(white.shape)
-        found[np.ix_(at, at)] = turned @ turned.T
+        found[at] = turned @ turned.T
         return found
 
     def sentences(self) -> list[str]:
@@ -60,13 +55,19 @@ class Colour:
         ]
 
 
+def roots(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(k, k) R R^T = V and R^-1, of V (k, k) without zeros on its diagonal.
+
+    Nothing is known better than rounding lets V say.
+    """
+    size = np.sqrt(np.diag(V))
+    values, vectors = np.linalg.eigh(V / np.outer(size, size))
+    half = np.sqrt(np.maximum(values, 1e-15 * values.max(initial=1.0)))
+    return size[:, None] * vectors * half, (vectors / half).T / size
+
+
 def coloured(
-    observation: Observation,
-    W: np.ndarray | Neighbours,
-    y: np.ndarray,
-    counted: np.ndarray,
-    estimate: Estimate,
-    at: Sequence[int] | None = None,
+    rows: Rows, estimate: Estimate, at: Sequence[int] | None = None, share: float = 1.0
 ) -> Colour:
     """By how much autocorrelated residuals raise the standard deviations.
 
@@ -77,58 +78,56 @@ def coloured(
 
     w_j(t) the row of joint j at sample t (Newey and West 1987, weights replaced by truncation: the
     sum over k ends with the first r_j below one standard deviation of that of white noise). r_j is
-    at least that of white noise through the parallel filter. An estimator with an influence has
-    pull_t rms_j in place of C w_t / sigma_j. Each sigma is multiplied by the square root of the
-    ratio of the diagonals, never by less than 1.
+    at least that of white noise through the parallel filter. An estimator with a bread or a pull
+    has bread w_t rms_j or pull_t rms_j in place of C w_t / sigma_j. Each sigma is multiplied by the
+    square root of the ratio of the diagonals, never by less than 1.
 
     Args:
-        observation: says which row is which sample and joint.
-        W: (rows, c), or that of the observation while its rows pass, of the same counted.
-        y: (rows,).
-        counted: (rows,) rows that were fitted.
+        rows: of which the counted ones were fitted.
         estimate: of those rows; its covariance is for white residuals.
-        at: (c,) columns of the observation that W would have, in order; None: all.
+        at: (c,) columns of the rows that were fitted, in order; None: all.
+        share: of the fitted rows that these are.
     """
-    own_way, c = estimate.influence, len(estimate.beta)
-    places: Sequence[int] | np.ndarray = np.arange(c) if at is None else at
-    if isinstance(W, Neighbours):
-        c = len(observation.names)
-        beta = np.zeros(c)
-        beta[places] = estimate.beta
-        residual = residual_of(observation, beta)
-    else:
-        residual = y - W @ estimate.beta if own_way is None else own_way.residual
-    extra, memory = np.zeros((len(estimate.beta),) * 2), []  # C (B - C^-1) C
-    lasting, pull = np.zeros(len(observation.joints)), np.zeros(0)
-    pulls = np.zeros((len(observation.joints), c, len(estimate.beta)))
+    observation, W = rows.observation, rows
+    own_way = estimate.pull is not None or estimate.bread is not None
+    columns = len(observation.names) if rows.streamed else rows.W.shape[1]
+    picked = np.eye(columns) if at is None else np.eye(columns)[:, at]
+    residual = estimate.residual
+    if residual is None:
+        residual = rows.residual(picked @ estimate.beta)
+    matrix = picked @ (estimate.covariance if estimate.bread is None else estimate.bread)
+    if estimate.pull is not None:
+        W, matrix = Rows(observation, estimate.pull, rows.y, rows.counted), picked
+    joints, memory = len(observation.joints), []
+    lasting, pulls = np.zeros(joints), np.zeros((joints, *picked.shape))
     correlations = [np.ones(1) for _ in observation.joints]
     for j, joint in enumerate(observation.joints):
-        if not (own := counted & (observation.row_joint == j)).any():
+        if not (own := rows.counted & (rows.joint == j)).any():
             continue
-        sample = observation.row_sample[own]
-        correlations[j] = r = remembered(observation, residual[own], sample)
+        correlations[j] = r = remembered(observation, residual[own], observation.row_sample[own])
         lasting[j] = r[1] if len(r) > 1 else 0.0
         if told := int(np.sum(r > _TOLD)) - 1:
             memory.append((joint.name, told * _spacing(observation)))
         size = float(np.sqrt(np.mean(residual[own] ** 2)))
-        if own_way is None:
-            pull = estimate.covariance / estimate.sigma[j]
-        elif own_way.bread is not None:
-            pull = own_way.bread * size
-        if isinstance(W, Neighbours):
-            pulls[j][places] = pull
-        else:
-            rows = (
-                W[own] @ pull
-                if own_way is None or own_way.pull is None
-                else own_way.pull[own] * size
-            )
-            extra += repeated_whole(rows, r, sample, observation.segment)
-    if isinstance(W, Neighbours):
-        extra = W.repeated([*pulls], correlations)
+        pulls[j] = matrix * (size if own_way else 1.0 / estimate.sigma[j])
+    extra = _repeated_rows(W, pulls, correlations) / share  # C (B - C^-1) C
     white = np.diag(estimate.covariance)
     ratio = 1.0 + np.diag(extra) / np.where(white > 0.0, white, 1.0)
     return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory), lasting, extra)
+
+
+def _repeated_rows(
+    rows: Rows, matrices: np.ndarray, correlations: Sequence[np.ndarray]
+) -> np.ndarray:
+    """(k, k) `repeated_whole` of the counted rows of all joints, each times its matrix (c, k)."""
+    if rows.streamed:
+        return rows.neighbours.repeated([*matrices], correlations)
+    total, observation = np.zeros((matrices.shape[2],) * 2), rows.observation
+    for j, r in enumerate(correlations):
+        own = rows.counted & (rows.joint == j)
+        sample = observation.row_sample[own]
+        total += repeated_whole(rows.W[own] @ matrices[j], r, sample, observation.segment)
+    return total
 
 
 def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> np.ndarray:
@@ -157,7 +156,7 @@ def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> n
 def repeated_whole(
     rows: np.ndarray, r: np.ndarray, sample: np.ndarray, segment: np.ndarray
 ) -> np.ndarray:
-    """(c, c) sum_k r(k) sum_t (rows(t) rows(t + k)^T + its transpose); `repeated` is its diagonal.
+    """(c, c) sum_k r(k) sum_t (rows(t) rows(t + k)^T + its transpose).
 
     With rows^T rows it is the middle of the covariance of least squares over these rows.
     """
@@ -166,17 +165,6 @@ def repeated_whole(
         left, right = _pairs(sample, segment, lag)
         total += r[lag] * (rows[left].T @ rows[right])
     return total + total.T
-
-
-def repeated(
-    rows: np.ndarray, r: np.ndarray, sample: np.ndarray, segment: np.ndarray
-) -> np.ndarray:
-    """(c,) 2 sum_k r(k) sum_t rows(t) rows(t + k)."""
-    total = np.zeros(rows.shape[1])
-    for lag in range(1, len(r)):
-        left, right = _pairs(sample, segment, lag)
-        total += 2.0 * r[lag] * np.einsum("tc,tc->c", rows[left], rows[right])
-    return total
 
 
 def autocorrelation(e: np.ndarray, sample: np.ndarray, segment: np.ndarray) -> np.ndarray:
@@ -284,6 +272,7 @@ def halves(
         loaded: (rows,) True where a load is carried; None: nowhere.
     """
     kept, row = np.array(estimate.rank.kept, dtype=int), observation.row_sample
+    weighted = _weighted(compressed, estimate)
     every = {"speed": np.abs(observation.qd), "position": observation.q,
              "torque": np.abs(observation.torque)}  # fmt: skip
     signals = {name: values[row, observation.row_joint] for name, values in every.items()}
@@ -293,23 +282,19 @@ def halves(
         count = np.bincount(observation.row_joint[counted], None, len(estimate.sigma))
         total = np.bincount(observation.row_joint[counted], values[counted], len(count))
         low = values < (total / np.maximum(count, 1))[observation.row_joint]
-        parts = [compressed(counted & own) for own in (low, ~low)]
-        R = [part.triangles / estimate.sigma[:, None, None] for part in parts]
-        R = [own[:, :, [*kept, -1]] for own in R]
+        R = [weighted(counted & own) for own in (low, ~low)]
         beta, var = _solved([*R[0], *R[1]])
         if beta is None:
             break
         raised = np.maximum((sigma[kept] ** 2) / var, 1.0)
         for j in range(len(observation.joints)):
             found = [_solved([*np.delete(R[k], j, 0), *R[1 - k]]) for k in (0, 1)]
-            if any(b is None for b, _ in found) or not all(part.rows[j] for part in parts):
+            if any(b is None for b, _ in found) or not all(own[j].any() for own in R):
                 continue
-            d = np.array([b - beta for b, _ in found])
-            noise = raised * np.maximum(np.array([v for _, v in found]) - var, 1e-6 * var)
-            z = np.abs(d) / np.sqrt(noise)
-            weight = 1.0 / np.array([v for _, v in found])
-            more = np.sum(weight * (d**2 - noise), axis=0) / weight.sum(axis=0)
-            z = z.max(axis=0)
+            d, own = np.array([b - beta for b, _ in found]), np.array([v for _, v in found])
+            noise = raised * np.maximum(own - var, 1e-6 * var)
+            z = (np.abs(d) / np.sqrt(noise)).max(axis=0)
+            more = np.sum((d**2 - noise) / own, axis=0) / np.sum(1.0 / own, axis=0)
             if z.max() < (_NEAR if lasting[j] > _MOST else _FAR):
                 continue
             added[kept] = np.maximum(added[kept], np.where(z > _FELT, more, 0.0))
@@ -349,9 +334,9 @@ def beside_reversals(
     if observation.steady is None:
         return added
     kept, steady = np.array(estimate.rank.kept, dtype=int), observation.steady[observation.used]
+    weighted = _weighted(compressed, estimate)
     (whole, var), (far, far_var) = (
-        _solved([*(compressed(rows).triangles / estimate.sigma[:, None, None])[:, :, [*kept, -1]]])
-        for rows in (counted, counted & steady)
+        _solved([*weighted(rows)]) for rows in (counted, counted & steady)
     )
     if whole is None or far is None:
         return added
@@ -360,6 +345,14 @@ def beside_reversals(
     d = (far - whole) ** 2
     added[kept] = np.maximum(d - _DOUBTED**2 * noise, 0.0)
     return added
+
+
+def _weighted(
+    compressed: Callable[[np.ndarray], Compressed], estimate: Estimate
+) -> Callable[[np.ndarray], np.ndarray]:
+    """(n, ., k + 1) triangles of some rows, over the sigmas of an estimate; its kept columns."""
+    scale, columns = estimate.sigma[:, None, None], [*estimate.rank.kept, -1]
+    return lambda rows: (compressed(rows).triangles / scale)[:, :, columns]
 
 
 def _solved(blocks: list[np.ndarray]) -> tuple[np.ndarray | None, np.ndarray]:

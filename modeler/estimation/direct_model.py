@@ -14,6 +14,7 @@ fit best.
 """
 
 import dataclasses
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -98,11 +99,9 @@ class DirectModel:
 
         def evaluate(segment: Segment, window: slice) -> np.ndarray:
             i = places[id(segment)]
+            signals = None if (own := self.signals[i]) is None else own[window]
             q, qd, qdd = motions[i][:, window]
-            signals = self.signals[i]
-            return self.model.base_regressor(
-                q, qd, qdd, None if signals is None else signals[window]
-            )
+            return self.model.base_regressor(q, qd, qdd, signals)
 
         return self.observation.filtered(evaluate)[self.observation.used]
 
@@ -114,18 +113,16 @@ class DirectModel:
         pieces = self._pieces()
         pieces = [pieces[i] for i in sorted({*np.linspace(0, len(pieces) - 1, _TRIED).astype(int)})]
         step, speeds = self._speeds()
-        rough = self._nearest(
-            beta, pieces,
-            [ControlLoop(speed, *kind, forward) for speed in speeds for kind in KINDS
-             for forward in (0.0, 1.0)],
-        )  # fmt: skip
+        tried = itertools.product(speeds, KINDS, (0.0, 1.0))
+        rough = self._nearest(beta, pieces, [ControlLoop(kv, *kind, f) for kv, kind, f in tried])
         for width in _FINER if np.isfinite(rough.distance) else ():
             factors = width ** np.linspace(-1.0, 1.0, 5)
-            rough = self._nearest(
-                beta, pieces,
-                [dataclasses.replace(rough, speed=rough.speed * a, ratio=rough.ratio * b)
-                 for a in factors for b in factors if rough.speed * a * step < _STABLE],
-            )  # fmt: skip
+            finer = [
+                dataclasses.replace(rough, speed=rough.speed * a, ratio=rough.ratio * b)
+                for a, b in itertools.product(factors, repeat=2)
+                if rough.speed * a * step < _STABLE
+            ]
+            rough = self._nearest(beta, pieces, finer)
         if not np.isfinite(rough.distance) or rough.distance > 1.0:
             return ControlLoop(np.inf, 0.0, 0.0, 1.0, 1.0)
         return rough
@@ -138,10 +135,9 @@ class DirectModel:
         action, which holds friction and gravity from the first sample on, and feedforward is
         taken, and its speed by `misfit`, the criterion of the fit along a motion.
         """
-        ratio, integral = KINDS[0]
         found = ControlLoop(np.inf, 0.0, 0.0, 1.0, np.inf)
         for speed in self._speeds()[1]:
-            loop = ControlLoop(speed, ratio, integral, 1.0)
+            loop = ControlLoop(speed, *KINDS[0], 1.0)
             try:
                 far = misfit(self.followed(beta, loop))
             except DataError:
@@ -158,11 +154,9 @@ class DirectModel:
     def _nearest(
         self, beta: np.ndarray, pieces: list[_Piece], loops: list[ControlLoop]
     ) -> ControlLoop:
+        count = len(pieces)
         ways = self._walked(beta, pieces * len(loops), [loop for loop in loops for _ in pieces])
-        far = [
-            self._distance(pieces, ways[i : i + len(pieces)])
-            for i in range(0, len(ways), len(pieces))
-        ]
+        far = [self._distance(pieces, ways[i : i + count]) for i in range(0, len(ways), count)]
         best = int(np.argmin(far))
         return dataclasses.replace(loops[best], distance=far[best])
 
@@ -192,12 +186,10 @@ class DirectModel:
 
     def error(self, motions: list[Motion]) -> np.ndarray:
         """(joints,) rms of simulated less logged position, as a share of the range of motion."""
-        away = np.concatenate([
-            (motion[0] - segment.q)[segment.whole]
-            for segment, motion in zip(self.segments, motions, strict=True)
-        ])  # fmt: skip
-        every = np.concatenate([segment.q[segment.whole] for segment in self.segments])
-        extent = np.ptp(every, axis=0)
+        whole = np.concatenate([segment.whole for segment in self.segments])
+        logged = np.concatenate([segment.q for segment in self.segments])[whole]
+        away = np.concatenate([motion[0] for motion in motions])[whole] - logged
+        extent = np.ptp(logged, axis=0)
         return np.sqrt(np.mean(away**2, axis=0)) / np.where(extent > 0.0, extent, 1.0)
 
     def _reference(self, segment: Segment) -> Motion:
@@ -223,15 +215,14 @@ class DirectModel:
 
     def _distance(self, pieces: list[_Piece], ways: list[Motion]) -> float:
         """rms of simulated less logged position, each joint in units of its own tracking error."""
-        errors, scales = [], []
+        error, scale = np.zeros((2, len(self.observation.joints)))
         for piece, way in zip(pieces, ways, strict=True):
             segment, kept = self.segments[piece.segment], slice(piece.start, piece.stop)
             logged, whole = segment.q[kept], segment.whole[kept]
-            errors.append((way[0] - logged)[whole] ** 2)
-            scales.append((self.references[piece.segment][0, kept] - logged)[whole] ** 2)
-        scale = np.sum(np.concatenate(scales), axis=0)
+            error += np.sum((way[0] - logged)[whole] ** 2, axis=0)
+            reference = self.references[piece.segment][0, kept]
+            scale += np.sum((reference - logged)[whole] ** 2, axis=0)
         moved = scale > 0.0
-        error = np.sum(np.concatenate(errors), axis=0)
         total = float(np.mean(error[moved] / scale[moved])) if moved.any() else 0.0
         return float(np.sqrt(total)) if np.isfinite(total) else np.inf
 
@@ -252,9 +243,8 @@ class DirectModel:
             start = np.stack([np.stack([s.q[at], s.qd[at]]) for s, at in logged], axis=1)
             motion = robot.walk(start, reference, signals, step, [loops[i] for i in own])
             for place, i in enumerate(own):
-                piece = pieces[i]
-                kept = slice(piece.start - piece.first, piece.stop - piece.first)
-                ways[i] = motion[:, kept, place]
+                first = pieces[i].first
+                ways[i] = motion[:, pieces[i].start - first : pieces[i].stop - first, place]
         return [ways[i] for i in range(len(pieces))]
 
     def _stacked(self, pieces: list[_Piece]) -> tuple[np.ndarray, np.ndarray | None]:

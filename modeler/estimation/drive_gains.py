@@ -24,7 +24,7 @@ from modeler.core.table import percent
 from modeler.estimation.covariance import Colour, coloured
 from modeler.estimation.doubts import not_together
 from modeler.estimation.identify import Equations, dead_joints, fit_equations
-from modeler.estimation.least_squares import Estimate, least_squares, solve_by_qr
+from modeler.estimation.least_squares import Estimate, Rows, least_squares, solve_by_qr
 from modeler.estimation.payload import Loaded, Payload, loaded_equations
 from modeler.estimation.result import FitResult, ParameterEstimate
 from modeler.numerics.least_squares import Compressed, Rank, independent_columns, triangle
@@ -327,7 +327,7 @@ def _colour(observation: Observation, equations: Equations, estimate: GainEstima
         0, estimate.settled, 0.0, 0.0, 0,
     )  # fmt: skip
     every = np.ones(len(residual), dtype=bool)
-    return coloured(observation, J, residual + J @ values, every, white)
+    return coloured(Rows(observation, J, residual + J @ values, every), white)
 
 
 def _untold(observation: Observation, estimate: GainEstimate, colour: Colour) -> str:

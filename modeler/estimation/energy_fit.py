@@ -1,7 +1,6 @@
 """The energy model: work of the motors over windows, and its fit (Houda et al., section 4)."""
 
 import dataclasses
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -9,17 +8,10 @@ import numpy as np
 
 from modeler.core.errors import DataError, Method
 from modeler.core.table import percent
-from modeler.estimation.covariance import autocorrelation, repeated
+from modeler.estimation.covariance import autocorrelation, repeated_whole
 from modeler.estimation.essential import Essential, essential_parameters
-from modeler.estimation.identify import (
-    SEEN,
-    base_equations,
-    dead_joints,
-    identify,
-    joints_of,
-    result_of,
-)
-from modeler.estimation.least_squares import Estimate, condition_numbers
+from modeler.estimation.identify import SEEN, base_equations, dead_joints, identify, result_of
+from modeler.estimation.least_squares import Estimate, condition_numbers, placed
 from modeler.estimation.methods import method_of
 from modeler.estimation.result import KNOWN_BELOW_PERCENT, EnergyReport, FitResult, ModelFigures
 from modeler.numerics.least_squares import (
@@ -67,15 +59,13 @@ class EnergyRows:
     run: np.ndarray
     window: float
 
+    def estimate(self, names: tuple[str, ...], method: Method) -> "Unequal":
+        """By `unequal_least_squares`."""
+        return unequal_least_squares(self.W, self.y, self.spread, names, self.stretch, method)
 
-@dataclass(frozen=True)
-class _Tiles:
-    """Windows of one segment: first samples, intervals of each, and their stretches."""
 
-    segment: Segment
-    starts: np.ndarray
-    intervals: int
-    stretch: np.ndarray
+_Windows = tuple[Segment, np.ndarray, np.ndarray]
+"""A segment, the samples (r, k) of its windows, and the number (r,) of the stretch of each."""
 
 
 def energy_rows(
@@ -105,9 +95,9 @@ def energy_rows(
         DataError: a window longer than any motion, no window without a missing sample, or a robot
             that stands still.
     """
-    tiles = _tiles(observation, window)
-    count = sum(len(part.starts) for part in tiles)
-    if not count:
+    windows = _windows(observation, window)
+    counts = [len(at) for _, at, _ in windows]
+    if not sum(counts):
         valid = np.concatenate([part.segment.valid for part in observation.stretches])
         bad = [
             f"joint {joint.name} has {percent(share)} of its samples"
@@ -118,7 +108,7 @@ def energy_rows(
             f"measurement ({', '.join(bad)}); the energy is that of the whole machine: mend the "
             "log, give a shorter --window, or take --model torque"
         )
-    rows = [_rows(model, part, rule) for part in tiles if len(part.starts)]
+    rows = [_rows(model, segment, at, rule) for segment, at, _ in windows if len(at)]
     W, y, balance, spread, time = (np.concatenate(group) for group in zip(*rows, strict=True))
     # J are compared with the largest torque over a unit of travel:
     least = _STILL * float(np.abs(observation.torque).max(initial=0.0))
@@ -129,39 +119,35 @@ def energy_rows(
         )
     return EnergyRows(
         W=W, y=y, balance=balance, spread=spread, time=time,
-        stretch=np.concatenate([part.stretch for part in tiles]),
-        run=np.repeat([part.segment.run for part in tiles], [len(part.starts) for part in tiles]),
-        window=tiles[0].intervals * tiles[0].segment.step,
+        stretch=np.concatenate([stretch for _, _, stretch in windows]),
+        run=np.repeat([segment.run for segment, _, _ in windows], counts),
+        window=(windows[0][1].shape[1] - 1) * windows[0][0].step,
     )  # fmt: skip
 
 
-def _tiles(observation: Observation, window: float | None) -> list[_Tiles]:
+def _windows(observation: Observation, window: float | None) -> list[_Windows]:
     """Windows of all segments, laid into the uninterrupted stretches of good samples."""
     found, number = [], 0
-    _check_window(observation, window)
+    if window is not None:
+        _check_window(observation, window)
     for part in observation.stretches:
-        s = part.segment
-        centres = part.rows.centres
+        s, centres = part.segment, part.rows.centres
         spacing = int(centres[1] - centres[0]) if len(centres) > 1 else 2
-        wanted = spacing if window is None else window / s.step
-        intervals = 2 * max(1, round(wanted / 2))
-        starts: list[np.ndarray] = [np.zeros(0, dtype=int)]
-        stretch = [np.zeros(0, dtype=int)]
+        intervals = 2 * max(1, round((spacing if window is None else window / s.step) / 2))
+        inside = np.arange(intervals + 1)
+        every, stretch = [np.zeros((0, len(inside)), dtype=int)], [np.zeros(0, dtype=int)]
         for first, stop in runs(s.whole & s.valid.all(axis=1)):
-            fitting = (stop - first - 1) // intervals
-            if fitting < 1:
-                continue
-            rest = (stop - first - 1 - fitting * intervals) // 2
-            starts.append(first + rest + intervals * np.arange(fitting))
-            stretch.append(np.full(fitting, number))
-            number += 1
-        found.append(_Tiles(s, np.concatenate(starts), intervals, np.concatenate(stretch)))
+            fitting, rest = divmod(stop - first - 1, intervals)
+            if fitting:
+                starts = first + rest // 2 + intervals * np.arange(fitting)
+                every.append(starts[:, None] + inside)
+                stretch.append(np.full(fitting, number))
+                number += 1
+        found.append((s, np.concatenate(every), np.concatenate(stretch)))
     return found
 
 
-def _check_window(observation: Observation, window: float | None) -> None:
-    if window is None:
-        return
+def _check_window(observation: Observation, window: float) -> None:
     parts = observation.stretches
     step = min(part.segment.step for part in parts)
     longest = max(part.segment.step * max(0, int(part.segment.whole.sum()) - 1) for part in parts)
@@ -186,15 +172,16 @@ def weights(intervals: int, step: float, rule: Rule) -> np.ndarray:
     return inner * unit
 
 
-def _rows(model: CompiledModel, tiles: _Tiles, rule: Rule) -> tuple[np.ndarray, ...]:
+def _rows(
+    model: CompiledModel, s: Segment, windows: np.ndarray, rule: Rule
+) -> tuple[np.ndarray, ...]:
     """W, y, balance, spread and times of the windows of one segment."""
-    s, n = tiles.segment, tiles.intervals
-    w = weights(n, s.step, rule)
+    w = weights(windows.shape[1] - 1, s.step, rule)
     signals = signals_of(model.spec, s)
-    per_block = max(1, _BLOCK // (n + 1))
+    per_block = max(1, _BLOCK // len(w))
     blocks = []
-    for first in range(0, len(tiles.starts), per_block):
-        at = tiles.starts[first : first + per_block, None] + np.arange(n + 1)
+    for first in range(0, len(windows), per_block):
+        at = windows[first : first + per_block]
         flat = at.ravel()
         read = None if signals is None else signals[flat]
         total, power, energy = _powers(model, s.q[flat], s.qd[flat], s.qdd[flat], read)
@@ -228,8 +215,7 @@ def _powers(
 
 def kinetic_columns(model: CompiledModel) -> np.ndarray:
     """(c,) True for base parameters of bodies and rotors."""
-    kinds: Sequence[str] = [base.kind for base in model.spec.base]
-    return np.array([kind in _ENERGY for kind in kinds])
+    return np.array([base.kind in _ENERGY for base in model.spec.base])
 
 
 # The fit.
@@ -289,16 +275,14 @@ def unequal_least_squares(
     used = shares[:, shares.max(axis=0) > 0.0]
     sources = np.column_stack([used / used.mean(axis=0), np.ones(len(y))])  # the last: all alike
     deviation, settled = _settled_deviations(X, y, sources, method)
-    A = _influence(X, 1.0 / deviation if method == "weighted" else np.ones(len(y)))
-    beta, covariance = np.zeros(len(names)), np.zeros((len(names),) * 2)
-    beta[kept] = A @ y
-    C = (A * deviation**2) @ A.T
+    A = _influence(X, deviation, method)
+    values, C = A @ y, (A * deviation**2) @ A.T
     # As in `coloured`; neighbours share the sample between them, so a little is always there.
-    sample, white = np.arange(len(y)), (y - W @ beta) / deviation
+    sample, white = np.arange(len(y)), (y - X @ values) / deviation
     r = autocorrelation(white, sample, stretch)
-    extra = repeated((A * deviation).T, r, sample, stretch)
-    factors = np.sqrt(np.maximum(1.0 + extra / np.diag(C), 1.0))
-    covariance[np.ix_(kept, kept)] = C * np.outer(factors, factors)
+    extra = repeated_whole((A * deviation).T, r, sample, stretch)
+    factors = np.sqrt(np.maximum(1.0 + np.diag(extra) / np.diag(C), 1.0))
+    beta, covariance = placed(len(names), kept, values, C * np.outer(factors, factors))
     raw, scaled = condition_numbers(X)
     return Unequal(
         beta, covariance, np.ones(1), rank, 0, settled, raw, scaled, max(1, len(y) - len(kept)),
@@ -316,7 +300,7 @@ def _settled_deviations(
     least = max(_LEAST * float(np.mean(y**2)), np.finfo(float).tiny)
     for _ in range(_ROUNDS):
         weight = 1.0 / deviation**2
-        A = _influence(X, 1.0 / deviation if method == "weighted" else np.ones(len(y)))
+        A = _influence(X, deviation, method)
         leverage = np.clip(np.einsum("rc,cr->r", X, A), 0.0, 0.99)
         squares = (y - X @ (A @ y)) ** 2 / (1.0 - leverage)
         scale = float(np.mean(squares * weight)) or 1.0
@@ -328,8 +312,9 @@ def _settled_deviations(
     return deviation, False
 
 
-def _influence(X: np.ndarray, weight: np.ndarray) -> np.ndarray:
+def _influence(X: np.ndarray, deviation: np.ndarray, method: Method) -> np.ndarray:
     """(c, rows) A of beta = A y."""
+    weight = 1.0 / deviation if method == "weighted" else np.ones(len(X))
     lengths = np.linalg.norm(X * weight[:, None], axis=0)
     q, r = np.linalg.qr(X * weight[:, None] / lengths)
     return np.asarray(np.linalg.solve(r, q.T) / lengths[:, None] * weight)
@@ -401,11 +386,9 @@ def identify_energy(
             f"{', '.join(observation.logs)}: {len(rows.y)} windows of {rows.window:.4g} s for "
             f"{len(observation.names)} parameters; record more motion, or give a shorter --window"
         )
-    found = unequal_least_squares(
-        rows.W, rows.y, rows.spread, observation.names, rows.stretch, method
-    )
+    found = rows.estimate(observation.names, method)
     torques = base_equations(observation).compressed(np.ones(len(observation.y), dtype=bool))
-    essential = _essential(rows, observation.names, found, below).judged_on(torques, found.beta)
+    essential = _essential(rows, observation.names, found, below)
     said = [tangle.sentence() for tangle in found.rank.aside]
     if not found.settled:
         said.append("the variances of the windows still change; record more rows")
@@ -414,11 +397,10 @@ def identify_energy(
             "neighbouring windows repeat each other, and the sigmas are raised for it, by up to a "
             f"factor {found.memory:.2g}"
         )
-    said.append(essential.sentence())
+    said.append(essential.sentence(torques, found.beta))
     result = result_of(
-        base_equations(observation), method, found, essential,
+        base_equations(observation), method, found, essential, torques,
         rows=len(rows.y),
-        joints=joints_of(observation, torques, found.beta),
         sentences=tuple(said),
         reduced=np.ones(len(essential.names)),
         energy=_report(model, observation, rows, found, window, method),
@@ -452,29 +434,20 @@ def _report(
 ) -> EnergyReport:
     torque = identify(observation, method)
     rough = energy_rows(model, observation, window, "trapezoid")
-    coarse = unequal_least_squares(
-        rough.W, rough.y, rough.spread, observation.names, rough.stretch, method
-    )
+    coarse = rough.estimate(observation.names, method)
     figures = [_figures("torque", observation, torque.rows, torque)]
     for name, part, fit in (("energy, Simpson", rows, found), ("energy, trapezoid", rough, coarse)):
-        missed = np.linalg.norm((part.balance - part.W) @ found.beta) / np.linalg.norm(part.y)
-        own = _figures(name, observation, len(part.y), fit)
+        missed, kept = (part.balance - part.W) @ found.beta, list(fit.rank.kept)
+        share = float(np.linalg.norm(missed) / np.linalg.norm(part.y))
         # What the energy that integration misses moves at most, in sigmas.
-        kept, deviation = list(fit.rank.kept), fit.deviation
-        moved = scaled_least_squares(
-            part.W[:, kept] / deviation[:, None],
-            (part.balance - part.W) @ found.beta / deviation,
-            SEEN,
-        )
+        weighted = part.W[:, kept] / fit.deviation[:, None]
+        moved = scaled_least_squares(weighted, missed / fit.deviation, SEEN)
         sigma = np.sqrt(np.diag(fit.covariance)[kept])
         bias = float(np.max(np.abs(moved) / sigma, initial=0.0))
-        figures.append(dataclasses.replace(own, imbalance=float(missed), bias=bias))
-    return EnergyReport(
-        window=rows.window,
-        relative_error=float(np.linalg.norm(rows.y - rows.W @ found.beta) / np.linalg.norm(rows.y)),
-        figures=tuple(figures),
-        parameters=len(found.rank.kept),
-    )
+        own = _figures(name, observation, len(part.y), fit)
+        figures.append(dataclasses.replace(own, imbalance=share, bias=bias))
+    error = float(np.linalg.norm(rows.y - rows.W @ found.beta) / np.linalg.norm(rows.y))
+    return EnergyReport(rows.window, error, tuple(figures), len(found.rank.kept))
 
 
 def _figures(
@@ -483,7 +456,7 @@ def _figures(
     W, y, beta, covariance = observation.W, observation.y, fit.beta, fit.covariance
     sigma = np.sqrt(np.diag(covariance))
     squares = np.einsum("rc,cd,rd->r", W, covariance, W, optimize=True)
-    owners = [(k, observation.row_joint == k) for k in range(len(observation.joints))]
+    joint = observation.row_joint
     return ModelFigures(
         model=name,
         rows=rows,
@@ -492,8 +465,7 @@ def _figures(
         torque_error=float(np.linalg.norm(y - W @ beta) / np.linalg.norm(y)),
         torque_sigma=float(np.sqrt(squares.sum()) / np.linalg.norm(y)),
         joint_sigma={
-            observation.joints[k].name: float(np.sqrt(squares[own].mean()))
-            for k, own in owners
-            if own.any()
+            observation.joints[k].name: float(np.sqrt(squares[joint == k].mean()))
+            for k in np.unique(joint)
         },
     )

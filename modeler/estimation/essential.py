@@ -10,6 +10,7 @@ from scipy.special import fdtri
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, Method
+from modeler.core.json import entries
 from modeler.core.table import percent, printed
 from modeler.estimation.least_squares import Estimate, least_squares, solve_by_qr
 from modeler.estimation.parameter import ParameterEstimate
@@ -29,8 +30,6 @@ class Essential:
         names: essential parameters, in column order.
         dropped: the others that were kept by the rank, in the order of leaving.
         beta: (c,) values with the dropped ones at 0.
-        error_before: relative error ||y - W beta|| / ||y|| with all parameters.
-        error_after: with the essential ones.
         ratio: F statistic of all dropped parameters together.
         limit: the F quantile, which rules unless sigmas do.
         reduced: the estimate of the essential parameters alone, columns as `names`.
@@ -39,28 +38,22 @@ class Essential:
     names: tuple[str, ...]
     dropped: tuple[str, ...]
     beta: np.ndarray
-    error_before: float
-    error_after: float
     ratio: float
     limit: float
     reduced: Estimate
 
-    def sentence(self) -> str:
-        """What was found."""
+    def errors(self, data: Compressed, full: np.ndarray) -> tuple[float, float]:
+        """What all parameters (c,) and the essential ones leave of rows, relative."""
+        return relative_error(data, full), relative_error(data, self.beta)
+
+    def sentence(self, data: Compressed, full: np.ndarray) -> str:
+        """What was found, and what it costs on rows beside all parameters (c,)."""
         if not self.dropped:
             return f"all {len(self.names)} parameters are essential"
         return (
             f"{len(self.names)} of {len(self.names) + len(self.dropped)} parameters are "
             "essential; leaving the others out changes the relative error from "
-            + " to ".join(printed(self.error_before, self.error_after))
-        )
-
-    def judged_on(self, data: Compressed, full: np.ndarray) -> "Essential":
-        """The same, with the errors that these and all parameters (c,) leave of other rows."""
-        return dataclasses.replace(
-            self,
-            error_before=relative_error(data, full),
-            error_after=relative_error(data, self.beta),
+            + " to ".join(printed(*self.errors(data, full)))
         )
 
 
@@ -103,16 +96,8 @@ def essential_parameters(
         reduced = dataclasses.replace(reduced, beta=values, covariance=root @ root.T)
     beta = np.zeros(len(data.names))
     beta[kept] = reduced.beta
-    return Essential(
-        names=tuple(data.names[i] for i in kept),
-        dropped=left,
-        beta=beta,
-        error_before=relative_error(data, full.beta),
-        error_after=relative_error(data, beta),
-        ratio=float(ratio),
-        limit=limit,
-        reduced=reduced,
-    )
+    names = tuple(data.names[i] for i in kept)
+    return Essential(names, left, beta, float(ratio), limit, reduced)
 
 
 def relative_error(data: Compressed, beta: np.ndarray) -> float:
@@ -202,12 +187,11 @@ class Reduced(Brief):
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        parameters = [parameter.to_json() for parameter in self.parameters]
-        return vars(self) | {"parameters": parameters, "dropped": list(self.dropped)}
+        return vars(self) | {"parameters": [parameter.to_json() for parameter in self.parameters]}
 
 
 def reduced_model(
-    essential: Essential, factors: np.ndarray, units: Mapping[str, str]
+    essential: Essential, factors: np.ndarray, units: Mapping[str, str], error: float
 ) -> Reduced | None:
     """The reduced model of a fit; None if no parameter is left.
 
@@ -215,20 +199,17 @@ def reduced_model(
         essential: which are, what leaving out the others costs, and the estimate of them alone.
         factors: (essential,) on its standard deviations, where residuals repeat each other.
         units: by name.
+        error: relative, of them alone.
     """
     reduced = essential.reduced
     if not np.isfinite(reduced.condition_number):
         return None
     sigma = factors * np.sqrt(np.diag(reduced.covariance))
+    values = zip(essential.names, reduced.beta.tolist(), sigma.tolist(), strict=True)
     return Reduced(
-        parameters=tuple(
-            ParameterEstimate(name, units[name], float(value), float(deviation), True, "estimated")
-            for name, value, deviation in zip(essential.names, reduced.beta, sigma, strict=True)
-        ),
-        dropped=essential.dropped,
-        condition_number=reduced.condition_number,
-        condition_scaled=reduced.condition_scaled,
-        relative_error=essential.error_after,
-        ratio=essential.ratio,
+        tuple(ParameterEstimate(n, units[n], x, s, True, "estimated") for n, x, s in values),
+        **entries(essential, "dropped ratio"),
+        **entries(reduced, "condition_number condition_scaled"),
+        relative_error=error,
         limit=essential.limit if essential.dropped else None,
     )

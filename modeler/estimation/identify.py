@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError, Method
-from modeler.estimation.covariance import Colour, Halves, coloured, halves
+from modeler.core.json import entries
+from modeler.estimation.covariance import Halves, coloured, halves
 from modeler.estimation.essential import Essential, essential_parameters, reduced_model
-from modeler.estimation.least_squares import MAX_ITERATIONS, Estimate, least_sigma
+from modeler.estimation.least_squares import Estimate, Problem, kept_rows, least_sigma, residual_of
 from modeler.estimation.methods import method_of
 from modeler.estimation.parameter import ParameterEstimate
 from modeler.estimation.prior import Prior, prior_of, refuse_prior
-from modeler.estimation.problem import Neighbours, Problem, kept_rows, residual_of
 from modeler.estimation.result import FitResult, JointFit
 from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
 from modeler.observation import SAMPLES, Observation, is_streamed, triangles
@@ -147,12 +147,13 @@ def fit_equations(
             "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
         )
     problem = Problem(observation, equations.kept, equations.y, alive, equations.names, data, model)
-    prior = None if model is None or noise_only else prior_of(model.spec)
-    if prior is not None and model is not None and not estimator.takes_prior:
-        refuse_prior(model.spec, f"method {method}")
+    prior = None
+    if model is not None and not noise_only:
+        prior = prior_of(model.spec)
+        if not estimator.takes_prior:
+            refuse_prior(model.spec, f"method {method}")
     estimate = estimator.estimate(problem)
-    rows = Neighbours(observation, alive) if equations.kept is None else equations.kept
-    colour = _coloured(problem, rows, estimate, share)
+    colour = coloured(problem, estimate, share=share)
     white = np.sqrt(np.diag(estimate.covariance))
     differ = Halves(np.ones(len(white)))
     if not noise_only:
@@ -167,7 +168,7 @@ def fit_equations(
     if prior is None:
         essential = essential_parameters(data, estimate, method, below)
         at = [equations.names.index(name) for name in essential.names]
-        reduced = raised[at] * _coloured(problem, rows, essential.reduced, share, at).factors
+        reduced = raised[at] * coloured(problem, essential.reduced, at, share).factors
         estimate = dataclasses.replace(estimate, covariance=covariance)
     else:  # rows that repeat each other weigh less beside it
         full = colour.raised(estimate.covariance)
@@ -176,12 +177,11 @@ def fit_equations(
         essential = essential_parameters(data, estimate, method, below)
         reduced = np.ones(len(essential.names))
     return result_of(
-        equations, method, estimate, essential,
+        equations, method, estimate, essential, data, estimate.sigma,
         rows=count,
-        joints=joints_of(observation, data, estimate.beta, estimate.sigma),
         sentences=(*equations.sentences, *_not_connected(observation, dead), *estimate.sentences,
-                   *(tangle.sentence() for tangle in estimate.rank.aside), *_unsettled(estimate),
-                   essential.sentence(), *colour.sentences(),
+                   *(tangle.sentence() for tangle in estimate.rank.aside), *estimate.unsettled(),
+                   essential.sentence(data, estimate.beta), *colour.sentences(),
                    *differ.sentences(equations.names, [j.name for j in observation.joints]),
                    *bands_disagree(observation, estimate)),
         reduced=reduced,
@@ -194,33 +194,13 @@ def fit_equations(
     )  # fmt: skip
 
 
-def _coloured(
-    problem: Problem,
-    rows: np.ndarray | Neighbours,
-    estimate: Estimate,
-    share: float,
-    at: Sequence[int] | None = None,
-) -> Colour:
-    """The colour that a share of the rows shows; the estimate, of columns `at`, is of all of them.
-
-    The covariance of that share alone is larger by its inverse, and so is the pull of its rows.
-    """
-    if share < 1.0:
-        pull = None if estimate.influence is None else estimate.influence.times(1.0 / share)
-        covariance = estimate.covariance / share
-        estimate = dataclasses.replace(estimate, covariance=covariance, influence=pull)
-    W = rows if at is None or isinstance(rows, Neighbours) else rows[:, at]
-    return coloured(problem.observation, W, problem.y, problem.counted, estimate, at)
-
-
 def result_of(
     equations: Equations,
     method: str,
     estimate: Estimate,
     essential: Essential,
-    rows: int,
-    joints: tuple[JointFit, ...],
-    sentences: tuple[str, ...],
+    data: Compressed,
+    sigma_of_rows: np.ndarray | None = None,
     reduced: np.ndarray | None = None,
     **further: Any,
 ) -> FitResult:
@@ -231,14 +211,16 @@ def result_of(
         method: id.
         estimate: its solution, the covariance raised where residuals repeat each other.
         essential: of its parameters.
-        rows: that were fitted.
-        joints: what is left of each.
-        sentences: what a reader must know.
+        data: the torques that its errors are of.
+        sigma_of_rows: (n,) of each joint; None: what is left of it.
         reduced: (essential,) factors on the sigmas of the reduced model; None: it has none.
         **further: fields of the result.
     """
     observation, count = equations.observation, len(equations.observation.names)
+    before, after = essential.errors(data, estimate.beta)
     labels = list(zip(equations.names, equations.units, strict=True))
+    alone = None if reduced is None else reduced_model(essential, reduced, dict(labels), after)
+    settled = "ok" if estimate.settled else "not settled"
     sigma, told = np.sqrt(np.diag(estimate.covariance)), set(estimate.rank.kept)
     every = tuple(
         ParameterEstimate(
@@ -255,26 +237,18 @@ def result_of(
     return FitResult(
         robot=observation.robot,
         method=method,
-        status="rank deficient"
-        if estimate.rank.aside
-        else "ok"
-        if estimate.settled
-        else "not settled",
+        status="rank deficient" if estimate.rank.aside else settled,
         samples=len(observation.time),
-        rows=rows,
-        condition_number=estimate.condition_number,
-        condition_scaled=estimate.condition_scaled,
-        relative_error=essential.error_before,
-        essential_error=essential.error_after,
-        joints=joints,
+        **entries(estimate, "condition_number condition_scaled contradicted"),
+        relative_error=before,
+        essential_error=after,
+        joints=joints_of(observation, data, estimate.beta, sigma_of_rows),
         parameters=every[:count],
         covariance=estimate.covariance[:count, :count],
         loads=every[count:],
-        sentences=sentences,
         processing=observation.report.processing,
         bands=observation.report.bands,
-        contradicted=estimate.contradicted,
-        essential=None if reduced is None else reduced_model(essential, reduced, dict(labels)),
+        essential=alone,
         **further,
     )
 
@@ -360,15 +334,6 @@ def bands_disagree(observation: Observation, estimate: Estimate) -> list[str]:
     ]
 
 
-def _unsettled(estimate: Estimate) -> list[str]:
-    if estimate.settled or estimate.iterations < MAX_ITERATIONS:
-        return []
-    return [
-        f"the joint weights still change after {MAX_ITERATIONS} iterations; "
-        'record more rows, or use method "ordinary"'
-    ]
-
-
 # Does the fit predict motion like that of its logs? What was left out answers.
 
 
@@ -401,7 +366,7 @@ def errors_on(equations: Equations, residual: np.ndarray, rows: np.ndarray) -> n
     joint, count = equations.observation.row_joint[rows], len(equations.observation.joints)
     left = np.bincount(joint, residual[rows] ** 2, count)
     total = np.bincount(joint, equations.y[rows] ** 2, count)
-    return np.sqrt(np.where(total > 0.0, left / np.where(total > 0.0, total, 1.0), np.nan))
+    return np.sqrt(np.divide(left, total, out=np.full(count, np.nan), where=total > 0.0))
 
 
 def crossed(

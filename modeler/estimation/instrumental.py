@@ -9,8 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.table import percent
 from modeler.estimation.direct_model import ControlLoop, DirectModel
-from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
-from modeler.estimation.problem import Problem
+from modeler.estimation.least_squares import Estimate, Problem, least_sigma, least_squares, placed
 from modeler.numerics.least_squares import column_lengths, compress, independent_columns, triangle
 
 # Instrumental variables: what the noise of the measured motion cannot bias.
@@ -67,12 +66,10 @@ def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
         before, sigma = sigma, np.maximum(spread, least_sigma(data))
         settled = bool(np.all(np.abs(sigma / before - 1.0) < _SETTLED))
         iterations += 1
-    beta, covariance = np.zeros_like(start.beta), np.zeros_like(start.covariance)
-    beta[kept], covariance[np.ix_(kept, kept)] = found.beta, found.P @ found.P.T
+    beta, covariance = placed(len(start.beta), kept, found.beta, found.P @ found.P.T)
     # Qz^T S^-1/2 W beta = Qz^T S^-1/2 y, which beta satisfies, above what it leaves.
-    c = len(problem.names)
-    whole = np.zeros((c + 1, c + 1))
-    whole[np.ix_(np.arange(len(kept)), np.append(kept, c))] = found.whole
+    whole = np.zeros((len(kept) + 1, len(beta) + 1))
+    whole[:-1, [*kept, -1]] = found.whole
     whole[-1, -1] = np.linalg.norm((y - W @ found.beta) / sigma[joint])
     weak = (
         f"the instruments are weak: of one combination of parameters they carry {found.cosine:.2g} "
@@ -86,9 +83,7 @@ def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
         iterations=iterations,
         settled=settled,
         sentences=weak if found.cosine <= _WEAK else (),
-        influence=Influence(
-            problem.scattered(kept, (found.P / sigma[joint]).T), problem.y - problem.W @ beta
-        ),
+        pull=problem.scattered(kept, (found.P / sigma[joint]).T),
         whole=whole,
     )
 
@@ -99,9 +94,8 @@ def _solved(W: np.ndarray, Z: np.ndarray, y: np.ndarray, sigma: np.ndarray) -> _
     instruments = Z / sigma[:, None]
     Qz, _ = np.linalg.qr(instruments / column_lengths(instruments))
     Qw, Rw = np.linalg.qr(X)
-    across = Qz.T @ Qw
-    cosine = float(np.linalg.svd(across, compute_uv=False).min(initial=1.0))
-    across = across @ Rw
+    cosine = float(np.linalg.svd(Qz.T @ Qw, compute_uv=False).min(initial=1.0))
+    across = Qz.T @ Qw @ Rw
     worst = int(np.argmin(np.linalg.norm(across, axis=0)))
     P = np.linalg.lstsq(across, Qz.T, rcond=None)[0] / lengths[:, None]
     whole = np.column_stack([across * lengths, Qz.T @ y])
@@ -182,7 +176,8 @@ def _along(problem: Problem, W: np.ndarray) -> Estimate:
     return dataclasses.replace(
         found,
         covariance=found.covariance + np.outer(shift, shift),
-        influence=Influence(pull, problem.y - W @ found.beta),
+        pull=pull,
+        residual=problem.y - W @ found.beta,
         whole=data.whole(found.sigma),
     )
 
@@ -229,15 +224,15 @@ def _repeated(
         beta, settled = found.beta, bool(step.max(initial=0.0) < _NEAR)
         if settled or np.isinf(loop.speed):
             break
-    said = _sentences(problem, robot, loop, robot.error(motions))
+    said = []
     before, after = (_misfit(problem, start, problem.W, own) for own in (start.beta, beta))
     if after > _WORSE * before:
-        said.insert(
-            0,
+        said.append(
             f"along the logged motion the values leave {after / before:.3g} times the error of "
             f'"weighted", from which method "{method}" starts: the simulated motion is not that of '
-            'the log; take the values of method "weighted"',
+            'the log; take the values of method "weighted"'
         )
+    said += _sentences(problem, robot, loop, robot.error(motions))
     if not settled and np.isfinite(loop.speed):
         said.append(
             f"the values still move by up to {step.max():.2g} sigma from one simulation to the "
@@ -245,7 +240,7 @@ def _repeated(
         )
     return dataclasses.replace(
         found,
-        settled=found.settled and (settled or bool(np.isinf(loop.speed))),
+        settled=found.settled and (settled or not np.isfinite(loop.speed)),
         sentences=(*said, *found.sentences),
     )
 
@@ -265,8 +260,8 @@ def _sentences(
             "motion, smoothed, stands for the simulated one"
         )
     else:
-        parts = [("integral action", loop.integral), ("feedforward", loop.forward)]
-        fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts)
+        parts = {"integral action": loop.integral, "feedforward": loop.forward}
+        fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts.items())
         best = "comes nearest to the log" if robot.commanded else "explains the torques best"
         how = (
             f"the simulated one that {best} has speed loops of "

@@ -1,5 +1,6 @@
 """What a fit takes for known, tested against the data: weights of loads, drive gains."""
 
+import contextlib
 import dataclasses
 from collections.abc import Sequence
 
@@ -42,19 +43,17 @@ def known_doubts(
     if apart or not any(payload.mass is not None for payload in payloads):
         return [Doubt(line, values=True) for line in apart]
     found = _weights(observation, loaded_equations(model, observation, payloads), currents)
+    lines: list[str] = []
     if currents:
-        try:
-            lines = deviations(
-                model.spec, identify_gains(model, observation, payloads), only_doubtful=True
-            )
-        except DataError:
-            lines = []  # logs that do not tell the gains contradict none
-        if lines:
-            line = (
-                "by the weight of the load, the drive gains are not those of the robot file: "
-                f"{'; '.join(lines)}; check them, or let --method tls take the ones found"
-            )
-            found.append(Doubt(line, values=True))
+        with contextlib.suppress(DataError):  # logs that do not tell the gains contradict none
+            gains = identify_gains(model, observation, payloads)
+            lines = deviations(model.spec, gains, only_doubtful=True)
+    if lines:
+        line = (
+            "by the weight of the load, the drive gains are not those of the robot file: "
+            f"{'; '.join(lines)}; check them, or let --method tls take the ones found"
+        )
+        found.append(Doubt(line, values=True))
     return found
 
 
@@ -81,13 +80,11 @@ def _weights(observation: Observation, loaded: Loaded, currents: bool) -> list[D
             else f"or all torques are logged {factor.value:.3g} times as large as they are: the "
             "drive gains that the controller assumes are wrong by that"
         )
-        found.append(
-            Doubt(
-                f"payload {payload.name}: the logs say that it weighs {mass:.4g} +- {sigma:.1g} "
-                f"kg, {more} than the {payload.mass:g} kg given; check the weight, {gains}",
-                values=True,
-            )
+        line = (
+            f"payload {payload.name}: the logs say that it weighs {mass:.4g} +- {sigma:.1g} kg, "
+            f"{more} than the {payload.mass:g} kg given; check the weight, {gains}"
         )
+        found.append(Doubt(line, values=True))
     return found
 
 
@@ -103,16 +100,14 @@ def deviations(spec: ModuleSpec, found: GainFit, only_doubtful: bool = False) ->
             continue
         sigma, stated = found.sigmas[joint.name], joint.drive_gain
         told = f"joint {joint.name} {gain:.4g} +- {sigma:.1g}"
-        if stated is None and gain >= 0.0:
-            continue
-        if (
-            stated is not None
-            and only_doubtful
-            and not _contradicts(gain / stated, sigma / abs(stated))
-        ):
+        if stated is None:
+            fits, beside = gain >= 0.0, "negative"
+        else:
+            fits = only_doubtful and not _contradicts(gain / stated, sigma / abs(stated))
+            beside = f"of the other sign than {stated:.4g}"
+        if fits:
             continue
         if stated is None or gain * stated < 0.0:
-            beside = "negative" if stated is None else f"of the other sign than {stated:.4g}"
             lines.append(
                 f"{told}, {beside}: current{joint.name} or q{joint.name} is counted the other way "
                 "round; if that is a mistake of the log, give the one that is wrong sign = -1 in "

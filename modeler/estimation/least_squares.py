@@ -1,39 +1,203 @@
-"""Least squares of y = W beta by joints: weights, iterations, standard deviations."""
+"""What an estimator is given, what it gives, and least squares of y = W beta by joints.
+
+Rows of an observation with or without W; weights, iterations, standard deviations.
+"""
 
 import dataclasses
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
-from modeler.core.errors import Method
-from modeler.estimation.problem import Problem, residual_of
+from modeler.core.errors import DataError, Method
 from modeler.numerics.least_squares import Compressed, Rank, independent_columns
+from modeler.observation import Evaluated, Observation, blocks, fitted_torque, is_streamed, products
+from modeler.runtime import CompiledModel
 
 MAX_ITERATIONS = 500
 _SETTLED = 1e-9  # relative change of the weights
 _LEAST = 1e-9  # a joint's standard deviation is at least this share of its torque
+_PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows times a matrix
+
+
+def residual_of(
+    observation: Observation, beta: np.ndarray, counted: np.ndarray | None = None
+) -> np.ndarray:
+    """y - W beta of the base parameters, for all rows or those that are counted (rows,)."""
+    keep = observation.used if counted is None else kept_rows(observation, counted)
+    return np.asarray((observation.torque - fitted_torque(observation, beta, keep))[keep])
+
+
+class Neighbours:
+    """Rows of the base parameters that are counted, beside those before them in their segment.
+
+    Attributes:
+        observation: of the rows.
+        keep: (s, n) True where they are counted.
+    """
+
+    def __init__(self, observation: Observation, counted: np.ndarray) -> None:
+        self.observation, self.keep = observation, kept_rows(observation, counted)
+        # Of rows up to so far apart; kept, as most fits ask twice.
+        self._products: tuple[list[int], list[np.ndarray] | None] | None = None
+
+    def repeated(self, matrices: Sequence[np.ndarray], r: Sequence[np.ndarray]) -> np.ndarray:
+        """(k, k) sum_j sum_l r_j(l) sum_t a_j(t) a_j(t + l)^T and its transpose; l = 1, 2, ...
+
+        a_j(t) = w_j(t) A_j, w_j(t) the row of joint j at sample t, 0 where it is not counted.
+
+        Args:
+            matrices: A_j (c, k) of each joint.
+            r: r_j(0), r_j(1), ... of each joint; one value and no more for a joint to leave out.
+        """
+        last = [len(own) - 1 for own in r]
+        found = None
+        if max(last) <= _PRODUCTS:
+            if self._products is None or np.any(np.array(last) > self._products[0]):
+                self._products = last, products(self.observation, self.keep, last)
+            found = self._products[1]
+        if found is None:
+            return _by_blocks(self.observation, self.keep, matrices, r)
+        total = np.zeros((matrices[0].shape[1],) * 2)
+        for j, own in enumerate(found):
+            A = matrices[j][_columns(self.observation, j)]
+            for weight, product in zip(r[j][1:], own, strict=False):
+                total += weight * (A.T @ product @ A)
+        return total + total.T
+
+
+def kept_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
+    """(s, n) True for the rows that are counted (rows,)."""
+    keep = np.zeros(observation.used.shape, dtype=bool)
+    keep[observation.used] = counted
+    return keep
+
+
+def _columns(observation: Observation, joint: int) -> np.ndarray:
+    """Columns that can differ from 0 in the rows of a joint."""
+    regressor = observation.regressor
+    if isinstance(regressor, Evaluated):
+        return regressor.pattern.columns[joint]
+    return np.arange(len(observation.names))
+
+
+def _by_blocks(
+    observation: Observation,
+    keep: np.ndarray,
+    matrices: Sequence[np.ndarray],
+    r: Sequence[np.ndarray],
+) -> np.ndarray:
+    """As `Neighbours.repeated`, from the columns of samples, and the last rows before them."""
+    k, longest = matrices[0].shape[1], max(len(own) - 1 for own in r)
+    total = np.zeros((k, k))
+    before: list[np.ndarray] = []
+    own_columns = [_columns(observation, j) for j in range(len(r))]
+    at = -1
+    for samples, columns in blocks(observation):
+        if observation.segment[samples.start] != at:
+            before = [np.zeros((longest, k))] * len(r)
+        at = int(observation.segment[samples.start])
+        for j, correlation in enumerate(r):
+            if len(correlation) < 2:
+                continue
+            own = own_columns[j]
+            now = (columns[:, j, own] * keep[samples, j, None]) @ matrices[j][own]
+            rows = np.concatenate([before[j], now])
+            for lag, weight in enumerate(correlation[1:], start=1):
+                earlier = rows[longest - lag : len(rows) - lag]
+                total += weight * (earlier.T @ now)
+            before[j] = rows[len(rows) - longest :]
+    return total + total.T
+
+
+# What an estimator is given.
 
 
 @dataclass(frozen=True, eq=False)
-class Influence:
-    """How rows act on an estimate that is no least squares over W: d beta = sum_i pull_i e_i.
+class Rows:
+    """Row for row those of an observation; c columns.
 
     Attributes:
-        pull: (rows, c) in units of beta per unit of row i; 0 for rows that were not fitted. None:
-            W bread.
-        residual: (rows,) what was left of each row, N m or N, weighed as the estimator does.
-        bread: (c, c) where the pull is not kept.
+        observation: says which row is which joint and sample, and holds the motion.
+        given: (rows, c) W; None: that of the observation.
+        y: (rows,) N m or N.
+        counted: (rows,) rows to fit; the others are of joints without a torque.
     """
 
-    pull: np.ndarray | None
-    residual: np.ndarray
-    bread: np.ndarray | None = None
+    observation: Observation
+    given: np.ndarray | None
+    y: np.ndarray
+    counted: np.ndarray
 
-    def times(self, factor: float) -> "Influence":
-        """The same rows, each with a pull so many times as large."""
-        pull, bread = (None if x is None else x * factor for x in (self.pull, self.bread))
-        return replace(self, pull=pull, bread=bread)
+    @property
+    def W(self) -> np.ndarray:
+        """(rows, c)."""
+        return self.observation.W if self.given is None else self.given
+
+    @property
+    def streamed(self) -> bool:
+        """True if W is better not asked for: it is large."""
+        return self.given is None and is_streamed(self.observation)
+
+    @cached_property
+    def neighbours(self) -> Neighbours:
+        """The rows where W is not asked for."""
+        return Neighbours(self.observation, self.counted)
+
+    @property
+    def joint(self) -> np.ndarray:
+        """(rows,) index of the joint of each row."""
+        return self.observation.row_joint
+
+    def residual(self, beta: np.ndarray) -> np.ndarray:
+        """(rows,) y - W beta."""
+        if self.streamed:
+            return residual_of(self.observation, beta)
+        return np.asarray(self.y - self.W @ beta)
+
+
+@dataclass(frozen=True, eq=False)
+class Problem(Rows):
+    """y = W beta + rho.
+
+    Attributes:
+        names: (c,) base parameters first, then those of loads.
+        data: the counted rows, compressed.
+        model: the compiled robot; None where nobody gave it.
+    """
+
+    names: tuple[str, ...]
+    data: Compressed
+    model: CompiledModel | None = None
+
+    def scattered(self, kept: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """(rows, c) of values (counted rows, kept columns); 0 elsewhere."""
+        every = np.zeros((len(self.y), len(self.names)))
+        every[np.ix_(self.counted, kept)] = values
+        return every
+
+    def robot(self, method: str) -> CompiledModel:
+        """The compiled robot, for an estimator that cannot do without it.
+
+        Raises:
+            DataError: it was not given, or there are loads beside it.
+        """
+        if self.model is None:
+            raise DataError(
+                f'method "{method}" evaluates the robot; got no compiled model; give it as '
+                "identify(observation, method, model)"
+            )
+        if len(self.names) != len(self.observation.names):
+            extra = ", ".join(self.names[len(self.observation.names) :])
+            raise DataError(
+                f'method "{method}" knows the columns of the bare robot only; got {extra} besides; '
+                'fit logs without a load, or use method "weighted"'
+            )
+        return self.model
+
+
+# The estimate.
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +215,11 @@ class Estimate:
         condition_scaled: with columns of length one.
         degrees: rows less parameters.
         sentences: what a reader must know of this estimate.
-        influence: of the rows; None for least squares over W with weights 1/sigma.
+        bread: (c, c) of beta = bread W^T y; None for weights 1/sigma, where it is the covariance.
+        pull: (rows, c) of d beta = sum_i pull_i e_i, in units of beta per unit of row i, 0 for rows
+            that were not fitted; None for least squares over W.
+        residual: (rows,) what was left of each row, N m or N, weighed as the estimator does; None:
+            y - W beta.
         whole: (c + 1, c + 1) triangle of the weighted equations whose least squares this is; None
             for those of the data with weights 1/sigma.
         standard: all standard parameters by name, SI, where the estimator ends in them.
@@ -70,12 +238,23 @@ class Estimate:
     condition_scaled: float
     degrees: int
     sentences: tuple[str, ...] = ()
-    influence: Influence | None = None
+    bread: np.ndarray | None = None
+    pull: np.ndarray | None = None
+    residual: np.ndarray | None = None
     whole: np.ndarray | None = None
     standard: Mapping[str, float] = field(default_factory=dict)
     share: np.ndarray | None = None
     held: tuple[str, ...] = ()
     contradicted: tuple[str, ...] = ()
+
+    def unsettled(self) -> list[str]:
+        """A sentence where the weights of joints do not reach their fixed point."""
+        if self.settled or self.iterations < MAX_ITERATIONS:
+            return []
+        return [
+            f"the joint weights still change after {MAX_ITERATIONS} iterations; "
+            'record more rows, or use method "ordinary"'
+        ]
 
 
 def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:
@@ -153,13 +332,19 @@ def _weighed(data: Compressed, spread: np.ndarray, cancelling: np.ndarray) -> np
 
 def _solve(data: Compressed, kept: np.ndarray, sigma: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """beta and (W^T S^-1 W)^-1 over all columns."""
-    c = len(data.names)
-    beta, covariance = np.zeros(c), np.zeros((c, c))
-    if kept.size:
-        whole = data.whole(sigma)
-        beta[kept], root = solve_by_qr(whole[:, kept], whole[:, -1])
-        covariance[np.ix_(kept, kept)] = root @ root.T
-    return beta, covariance
+    whole = data.whole(sigma)
+    values, root = solve_by_qr(whole[:, kept], whole[:, -1])
+    return placed(len(data.names), kept, values, root @ root.T)
+
+
+def placed(
+    columns: int, kept: Sequence[int] | np.ndarray, values: np.ndarray, covariance: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """(c,) values and (c, c) covariance of the kept columns among all c; 0 elsewhere."""
+    at = np.asarray(kept, dtype=int)
+    beta, every = np.zeros(columns), np.zeros((columns, columns))
+    beta[at], every[np.ix_(at, at)] = values, covariance
+    return beta, every
 
 
 def _spread(
@@ -198,14 +383,7 @@ def ordinary(problem: Problem) -> Estimate:
     bread = found.covariance / found.sigma[0] ** 2
     own = data.triangles[:, :, :-1]
     squares = np.einsum("jik,jil->jkl", own, own)
-    share = np.einsum("kl,jlk->j", bread, squares)
-    spread = data.residual_norms(found.beta) / np.sqrt(np.maximum(data.rows - share, 0.5))
+    spread = _spread(data, found.beta, found.covariance, found.sigma)
     spread = np.maximum(spread, least_sigma(data))
     middle = np.einsum("j,jkl->kl", spread**2, squares)
-    if problem.streamed:
-        residual = problem.y - problem.observation.y + residual_of(problem.observation, found.beta)
-        influence = Influence(None, residual, bread)
-    else:
-        pull = problem.W @ bread * problem.counted[:, None]
-        influence = Influence(pull, problem.y - problem.W @ found.beta)
-    return dataclasses.replace(found, covariance=bread @ middle @ bread, influence=influence)
+    return dataclasses.replace(found, covariance=bread @ middle @ bread, bread=bread)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import reduce
+from itertools import accumulate
 from os import cpu_count
 from pathlib import Path
 from typing import Any
@@ -176,12 +177,9 @@ def identify_long(
     """
     method_of(method, "triangles")
     observation, data = streamed.observation, streamed.data
-    gone = np.isin(np.arange(len(data.rows)), dead_joints(observation))
-    data = dataclasses.replace(
-        data,
-        triangles=np.where(gone[:, None, None], 0.0, data.triangles),
-        rows=np.where(gone, 0, data.rows),
-    )
+    alive = ~np.isin(np.arange(len(data.rows)), dead_joints(observation))
+    triangles = data.triangles * alive[:, None, None]
+    data = dataclasses.replace(data, triangles=triangles, rows=data.rows * alive)
     equations = base_equations(observation)
     fit = fit_equations(observation, equations, method, model, data=data, share=streamed.share)
     return dataclasses.replace(fit, samples=streamed.samples, reading=streamed.reading)
@@ -210,15 +208,13 @@ def all_rows(
         found = survey(model, sources, processing or Processing(), known, rows)
         begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
         every: list[Any] = []
-        done = 0
         for source, parts in zip(sources, begun, strict=True):
             whole: Any = None
-            for part in parts:
-                whole = part if whole is None else whole.merged_with(part)
-                progress(min(1.0, (done + whole.facts.tally.count("rows")) / total))
+            for whole in accumulate(parts, lambda before, part: before.merged_with(part)):
+                done = sum(part.facts.tally.count("rows") for part in (*every, whole))
+                progress(min(1.0, done / total))
             if whole is None:
                 raise DataError(f"{source.name}: no rows; expected a motion; leave it out")
-            done += whole.facts.tally.count("rows")
             every.append(whole)
         facts = tuple(part.facts for part in every)
         again = _again(facts, found, known)
@@ -289,9 +285,9 @@ def _repeats(model: CompiledModel, j: int) -> bool:
     joints, signals = len(model.spec.joints), model.spec.signals
     q, qd, qdd = np.random.default_rng(2).uniform(0.2, 1.0, (3, 1, joints))
     read = np.full((1, len(signals)), 0.5) if signals else None
+    turned = q + 2.0 * np.pi * np.eye(joints)[j]
     try:
-        here = model.base_regressor(q, qd, qdd, read)
-        there = model.base_regressor(q + 2.0 * np.pi * np.eye(joints)[j], qd, qdd, read)
+        here, there = (model.base_regressor(x, qd, qdd, read) for x in (q, turned))
     except LoopError:
         return True
     return bool(np.allclose(here, there, rtol=1e-6, atol=1e-6))

@@ -7,8 +7,7 @@ from modeler.core.errors import DataError, Method
 from modeler.core.estimators import ABOUT, About
 from modeler.estimation.consistent import buildable
 from modeler.estimation.instrumental import didim, iv, iv_direct
-from modeler.estimation.least_squares import Estimate, least_squares, ordinary
-from modeler.estimation.problem import Problem
+from modeler.estimation.least_squares import Estimate, Problem, least_squares, ordinary
 from modeler.estimation.ridge import ridge
 from modeler.estimation.robust import robust
 
@@ -35,7 +34,7 @@ class Estimator:
 
     about: About
     estimate: Callable[[Problem], Estimate]
-    works_on: tuple[str, ...] = ("rows",)
+    works_on: tuple[str, ...]
 
     @property
     def takes_prior(self) -> bool:
@@ -43,17 +42,15 @@ class Estimator:
         return self.about.id not in ("ridge", "consistent")
 
 
-_EVERYTHING = tuple(_REFUSALS)
-_ROWS: dict[Method, Callable[[Problem], Estimate]] = {
-    "robust": robust, "ridge": ridge, "iv": iv, "iv-direct": iv_direct, "didim": didim,
-    "consistent": buildable,
+_EVERYTHING, _FEW = tuple(_REFUSALS), ("weighted", "ordinary")
+_ESTIMATES: dict[Method, Callable[[Problem], Estimate]] = {
+    "weighted": lambda problem: least_squares(problem.data, "weighted"),
+    "ordinary": ordinary, "robust": robust, "ridge": ridge, "iv": iv, "iv-direct": iv_direct,
+    "didim": didim, "consistent": buildable,
 }  # fmt: skip
 METHODS: dict[Method, Estimator] = {
-    "weighted": Estimator(
-        ABOUT["weighted"], lambda problem: least_squares(problem.data, "weighted"), _EVERYTHING
-    ),
-    "ordinary": Estimator(ABOUT["ordinary"], ordinary, _EVERYTHING),
-    **{id: Estimator(ABOUT[id], estimate) for id, estimate in _ROWS.items()},
+    id: Estimator(ABOUT[id], estimate, _EVERYTHING if id in _FEW else ("rows",))
+    for id, estimate in _ESTIMATES.items()
 }
 """By id, in the order in which they are told."""
 

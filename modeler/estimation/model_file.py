@@ -6,13 +6,14 @@ each other. A checksum tells an edited value from a saved one; it is no proof of
 
 import dataclasses
 import hashlib
+import itertools
 import json
 import shlex
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
 import numpy as np
 
@@ -113,14 +114,11 @@ class Addition(Presented):
         """Plain data, without the robot file."""
         return {
             "effect": self.effect or None,
-            **entries(self, "joint error training_error"),
-            "shapes": dict(self.shapes),
-            "shape_sigmas": dict(self.shape_sigmas),
-            "shape_intervals": {name: list(ends) for name, ends in self.shape_intervals.items()},
-            "held_out": list(self.held_out),
+            **entries(
+                self, "joint error training_error shapes shape_sigmas shape_intervals held_out"
+            ),
             "joints": {j: {"before": a, "after": b} for j, (a, b) in self.joints.items()},
-            "changed": list(self.changed),
-            **entries(self, "falls doubt"),
+            **entries(self, "changed falls doubt"),
         }
 
 
@@ -221,9 +219,8 @@ def load_model(path: str | Path) -> IdentifiedModel:
     check_checksums(raw, where)
     spec = module_from_plain(_entry(raw, "manifest", Any, where), f"{where}, manifest")
     if _entry(raw, "signature", str, where) != spec.signature():
-        raise ManifestError(
-            f"{where}: the manifest does not match its signature, so it was changed after it was "
-            "saved; fit the model again"
+        raise _refused(
+            where, "the manifest does not match its signature, so it was changed after it was saved"
         )
     fit = _fit(raw, where)
     expected = [base.name for base in spec.base]
@@ -232,19 +229,19 @@ def load_model(path: str | Path) -> IdentifiedModel:
         or fit.covariance.shape != (len(expected),) * 2
         or spec.robot != _entry(raw, "robot", str, where)
     ):
-        raise ManifestError(
-            f"{where}: the values are not those of the {len(expected)} base parameters of its "
-            "manifest; fit the model again"
+        raise _refused(
+            where,
+            f"the values are not those of the {len(expected)} base parameters of its manifest",
         )
     check_estimate(fit, where)
-    return IdentifiedModel(
-        robot_text=_entry(raw, "robot_text", str, where),
-        spec=spec,
-        sources=_entry(raw, "sources", Mapping[str, str], where),
-        fit=fit,
-        logs=_entry(raw, "logs", tuple[LogProvenance, ...], where),
-        history=_entry(raw, "history", tuple[Addition, ...], where),
-    )
+    kinds = get_type_hints(IdentifiedModel)
+    as_saved = ("robot_text", "sources", "logs", "history")
+    further = {name: _entry(raw, name, kinds[name], where) for name in as_saved}
+    return IdentifiedModel(spec=spec, fit=fit, **further)
+
+
+def _refused(where: str, what: str) -> ManifestError:
+    return ManifestError(f"{where}: {what}; fit the model again")
 
 
 def _fit(raw: Mapping[str, Any], where: str) -> FitResult:
@@ -252,7 +249,7 @@ def _fit(raw: Mapping[str, Any], where: str) -> FitResult:
     rows = _entry(raw, "covariance", tuple[tuple[float, ...], ...], where)
     fitted = _entry(raw, "fit", Mapping[str, Any], where)
     if any(len(row) != len(rows) for row in rows):
-        raise ManifestError(f"{where}: damaged, covariance is not square; fit the model again")
+        raise _refused(where, "damaged, covariance is not square")
     try:
         return fit_from_json(fitted, np.array(rows, dtype=float).reshape(len(rows), len(rows)))
     except ManifestError as error:
@@ -295,11 +292,11 @@ def _is_robot_file(path: Path) -> bool:
 
 def _entry(raw: Mapping[str, Any], name: str, kind: Any, where: str) -> Any:
     if name not in raw:
-        raise ManifestError(f"{where}: damaged, {name} is missing; fit the model again")
+        raise _refused(where, f"damaged, {name} is missing")
     try:
         return plain(kind, raw[name], name)
     except UndeclaredEntry as error:
-        raise ManifestError(f"{where}: damaged, {error}; fit the model again") from None
+        raise _refused(where, f"damaged, {error}") from None
 
 
 def checksums(content: Mapping[str, Any]) -> dict[str, str]:
@@ -321,16 +318,11 @@ def check_checksums(content: Mapping[str, Any], where: str) -> None:
     """
     given = content.get(CHECKSUMS)
     if not isinstance(given, dict):
-        raise ManifestError(
-            f"{where}: damaged, {CHECKSUMS} is "
-            f"{'missing' if CHECKSUMS not in content else 'not as saved'}; fit the model again"
-        )
+        what = "not as saved" if CHECKSUMS in content else "missing"
+        raise _refused(where, f"damaged, {CHECKSUMS} is {what}")
     expected = checksums(content)
-    wrong = [
-        name
-        for name in dict.fromkeys([*expected, *given])
-        if (name in expected, expected.get(name)) != (name in given, given.get(name))
-    ]
+    every = dict.fromkeys([*expected, *given])
+    wrong = [name for name in every if expected.get(name, "none") != given.get(name, "missing")]
     if wrong:
         told = ", ".join(_MEANING.get(name, shown(name)) for name in wrong[:3])
         more = f" and {len(wrong) - 3} more" if len(wrong) > 3 else ""
@@ -346,52 +338,42 @@ def check_estimate(fit: FitResult, where: str) -> None:
     Raises:
         ManifestError: names the first parameter that is wrong, and how.
     """
+    for what in itertools.chain(_wrong_values(fit), _wrong_covariance(fit)):
+        raise _refused(where, what)
+
+
+def _wrong_values(fit: FitResult) -> Iterator[str]:
     for p in (*fit.gains, *fit.parameters, *fit.loads):
         for what, number in (("value", p.value), ("sigma", p.sigma)):
             if number is not None and not np.isfinite(number):
-                raise _wrong(where, f"the {what} of {p.name} is {number!r}; expected a finite one")
+                yield f"the {what} of {p.name} is {number!r}; expected a finite one"
         if p.sigma is not None and p.sigma < 0.0:
-            raise _wrong(where, f"the sigma of {p.name} is {p.sigma:g}; expected 0 or more")
-    _check_variances(fit, where)
-    _check_correlations(fit, where)
+            yield f"the sigma of {p.name} is {p.sigma:g}; expected 0 or more"
 
 
-def _check_variances(fit: FitResult, where: str) -> None:
+def _wrong_covariance(fit: FitResult) -> Iterator[str]:
     names, C = [p.name for p in fit.parameters], fit.covariance
-    if not np.isfinite(C).all():
-        i, j = np.argwhere(~np.isfinite(C))[0]
-        raise _wrong(where, f"the covariance of {names[i]} and {names[j]} is not finite")
+    for i, j in np.argwhere(~np.isfinite(C)):
+        yield f"the covariance of {names[i]} and {names[j]} is not finite"
     for p, variance in zip(fit.parameters, np.diag(C), strict=True):
         if variance < 0.0:
-            raise _wrong(where, f"the variance of {p.name} is {variance:g}; expected 0 or more")
+            yield f"the variance of {p.name} is {variance:g}; expected 0 or more"
         deviation = float(np.sqrt(variance))
         if abs((p.sigma or 0.0) - deviation) > _SAME * deviation:
             got = "none" if p.sigma is None else f"{p.sigma:g}"
-            raise _wrong(
-                where, f"the sigma of {p.name} is {got}, the root of its variance {deviation:g}"
-            )
-
-
-def _check_correlations(fit: FitResult, where: str) -> None:
-    names, C = [p.name for p in fit.parameters], fit.covariance
+            yield f"the sigma of {p.name} is {got}, the root of its variance {deviation:g}"
     deviations = np.sqrt(np.diag(C))
     known = deviations > 0.0
-    loose = ~known & np.any(C != 0.0, axis=1)
-    if loose.any():
-        raise _wrong(
-            where, f"{names[int(np.argmax(loose))]} varies with others, but its variance is 0"
-        )
-    correlation = C[np.ix_(known, known)] / np.outer(deviations[known], deviations[known])
+    for i in np.flatnonzero(~known & np.any(C != 0.0, axis=1)):
+        yield f"{names[i]} varies with others, but its variance is 0"
+    safe = np.where(known, deviations, 1.0)
+    correlation = np.where(np.outer(known, known), C / np.outer(safe, safe), 0.0)
     uneven = np.abs(correlation - correlation.T)
     if uneven.max(initial=0.0) > _SYMMETRIC:
-        i, j = np.flatnonzero(known)[list(np.unravel_index(int(np.argmax(uneven)), uneven.shape))]
-        raise _wrong(where, f"the covariance of {names[i]} and {names[j]} is not symmetric")
+        i, j = np.unravel_index(int(np.argmax(uneven)), uneven.shape)
+        yield f"the covariance of {names[i]} and {names[j]} is not symmetric"
     if np.linalg.eigvalsh(correlation).min(initial=0.0) < _INDEFINITE:
-        raise _wrong(where, "the covariance gives a sum of parameters a negative variance")
-
-
-def _wrong(where: str, what: str) -> ManifestError:
-    return ManifestError(f"{where}: {what}; fit the model again")
+        yield "the covariance gives a sum of parameters a negative variance"
 
 
 # What of a fit goes into the C of a controller.
@@ -427,11 +409,8 @@ def _remarks(model: IdentifiedModel) -> list[str]:
         f"Values by the method {fit.method}{energy}, {fit.samples} samples, relative error "
         f"{percent(fit.relative_error)}."
     ]
-    added = [
-        step.effect if step.joint is None else f"{step.effect} (joint {step.joint})"
-        for step in model.history
-        if step.effect
-    ]
+    steps = [step for step in model.history if step.effect]
+    added = [f"{s.effect} (joint {s.joint})" if s.joint is not None else s.effect for s in steps]
     if added:
         told.append(f"Effects added since the first fit: {', '.join(added)}.")
     if fit.processing.delay:
@@ -463,19 +442,12 @@ def with_essential_only(model: IdentifiedModel, where: str) -> IdentifiedModel:
             "fit it again"
         )
     found = {parameter.name: parameter for parameter in reduced.parameters}
-    values = tuple(
-        found.get(
-            p.name, dataclasses.replace(p, value=0.0, sigma=None, essential=False, interval=None)
-        )
-        for p in fit.parameters
-    )
-    deviations = np.array([p.sigma or 0.0 for p in values])
+    none: Any = {"value": 0.0, "sigma": None, "essential": False, "interval": None}
+    values = [found.get(p.name, dataclasses.replace(p, **none)) for p in fit.parameters]
     fit = dataclasses.replace(
         fit,
-        parameters=values,
-        covariance=np.diag(deviations**2),
-        relative_error=reduced.relative_error,
-        condition_number=reduced.condition_number,
-        condition_scaled=reduced.condition_scaled,
+        parameters=tuple(values),
+        covariance=np.diag([(p.sigma or 0.0) ** 2 for p in values]),
+        **entries(reduced, "relative_error condition_number condition_scaled"),
     )
     return dataclasses.replace(model, fit=fit)

@@ -21,19 +21,7 @@ from modeler.core.manifest import ModuleSpec, ParameterSpec
 from modeler.numerics.least_squares import column_lengths
 
 PREFIXES = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-CORNER = {
-    (0, 0): {"XX": -0.5, "YY": 0.5, "ZZ": 0.5},
-    (0, 1): {"XY": -1.0},
-    (1, 1): {"XX": 0.5, "YY": -0.5, "ZZ": 0.5},
-    (0, 2): {"XZ": -1.0},
-    (1, 2): {"YZ": -1.0},
-    (2, 2): {"XX": 0.5, "YY": 0.5, "ZZ": -0.5},
-    (0, 3): {"MX": 1.0},
-    (1, 3): {"MY": 1.0},
-    (2, 3): {"MZ": 1.0},
-    (3, 3): {"M": 1.0},
-}
-"""Upper triangle of P, column after column: {prefix: factor}."""
+"""The ten standard parameters of a body, in this order."""
 
 _ANSWERS = ("Solved", "AlmostSolved")
 
@@ -56,13 +44,15 @@ class Machine:
     """The unknowns of the problem: chi, those that no torque feels included.
 
     Attributes:
+        names: (m,) of chi.
         K: (c, m) beta = K chi.
-        links: by link, the places in chi of its ten parameters, by prefix.
+        links: by link, (10,) the places in chi of its ten parameters.
         positive: names and places of the other parameters that cannot be negative.
     """
 
+    names: tuple[str, ...]
     K: np.ndarray
-    links: Mapping[str, Mapping[str, int]]
+    links: Mapping[str, np.ndarray]
     positive: Mapping[str, int]
 
     @property
@@ -74,31 +64,44 @@ class Machine:
 def machine_of(spec: ModuleSpec) -> Machine:
     """The unknowns of a robot; a link has all ten parameters, whichever the torques feel."""
     place = {parameter.name: i for i, parameter in enumerate(spec.standard)}
-    links: dict[str, dict[str, int]] = {}
-    count = len(place)
-    for parameter in spec.standard:
-        if parameter.effect == "rigid_body":
-            links.setdefault(parameter.joint, {})
-    for joint, own in links.items():
-        for prefix in PREFIXES:
-            own[prefix] = place.get(f"{prefix}{joint}", count)
-            count += own[prefix] == count
-    K = np.zeros((len(spec.base), count))
+    links = {}
+    for link in dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"):
+        own = [place.setdefault(f"{prefix}{link}", len(place)) for prefix in PREFIXES]
+        links[link] = np.array(own)
+    K = np.zeros((len(spec.base), len(place)))
     for row, base in zip(K, spec.base, strict=True):
         for term in base.terms:
             row[place[term.parameter]] += term.value
     positive = {
         p.name: place[p.name] for p in spec.standard if p.nonnegative and p.effect != "rigid_body"
     }
-    return Machine(K, links, positive)
+    return Machine(tuple(place), K, links, positive)
 
 
 def body(felt: Sequence[ParameterSpec]) -> Machine:
     """The unknowns of one body; beta are those of its parameters that are felt."""
-    place = {p.name.removesuffix(p.joint): i for i, p in enumerate(felt)}
-    unfelt = [prefix for prefix in PREFIXES if prefix not in place]
-    place |= {prefix: len(felt) + i for i, prefix in enumerate(unfelt)}
-    return Machine(np.eye(len(felt), len(place)), {"body": place}, {})
+    names = [p.name.removesuffix(p.joint) for p in felt]
+    names += [prefix for prefix in PREFIXES if prefix not in names]
+    places = np.array([names.index(prefix) for prefix in PREFIXES])
+    return Machine(tuple(names), np.eye(len(felt), len(names)), {"body": places}, {})
+
+
+def pseudo_inertia_of(ten: np.ndarray) -> np.ndarray:
+    """(4, 4, ...) P of ten standard parameters (10, ...)."""
+    xx, xy, xz, yy, yz, zz, mx, my, mz, m = ten
+    half = (xx + yy + zz) / 2.0
+    return np.array([
+        [half - xx, -xy, -xz, mx],
+        [-xy, half - yy, -yz, my],
+        [-xz, -yz, half - zz, mz],
+        [mx, my, mz, m],
+    ])  # fmt: skip
+
+
+def parameters_of(P: np.ndarray) -> np.ndarray:
+    """(10, ...) the standard parameters of P (4, 4, ...)."""
+    (x, xy, xz, mx), (_, y, yz, my), (_, _, z, mz), (_, _, _, m) = P
+    return np.array([y + z, -xy, -xz, x + z, -yz, x + y, mx, my, mz, m])
 
 
 def nearest_possible(
@@ -155,42 +158,35 @@ def scales(machine: Machine, matrix: np.ndarray) -> np.ndarray:
     length = np.linalg.norm(matrix, axis=0)
     scale = 1.0 / column_lengths(matrix)
     for own in machine.links.values():
-        inertia, moment = (
-            max(length[own[p]] for p in prefixes) for prefixes in (PREFIXES[:6], PREFIXES[6:9])
-        )
+        inertia, moment, weight = (length[own[i:j]].max() for i, j in ((0, 6), (6, 9), (9, 10)))
         metre = moment / inertia if moment > 0.0 and inertia > 0.0 else 1.0
-        largest = max(inertia * metre**2, moment * metre, length[own["M"]])
+        largest = max(inertia * metre**2, moment * metre, weight)
         kilogram = 1.0 / largest if largest > 0.0 else 1.0
-        for power, prefixes in ((2, PREFIXES[:6]), (1, PREFIXES[6:9]), (0, ("M",))):
-            scale[[own[p] for p in prefixes]] = kilogram * metre**power
+        scale[own] = kilogram * metre ** np.repeat([2, 1, 0], [6, 3, 1])
     return scale
+
+
+_UPPER = np.tril_indices(4)[::-1]  # of P, column after column, as the solver has it
 
 
 def _bounds(machine: Machine, scale: np.ndarray, free: set[str]) -> tuple[csc_array, list]:
     """Matrix of the bounds, -B x in the cones, and the cones."""
     import clarabel
 
-    rows: list[dict[int, float]] = []
+    unknowns = len(scale)
     alone = [place for name, place in machine.positive.items() if name not in free]
-    rows += [{place: -1.0} for place in alone]
+    rows = [-np.eye(unknowns)[alone]]
     cones: list = [clarabel.NonnegativeConeT(len(alone))] if alone else []
     for name, own in machine.links.items():
-        if name in free:
-            continue
-        kilogram = scale[own["M"]]
-        for (i, j), terms in CORNER.items():
-            outside = 1.0 if i == j else np.sqrt(2.0)
-            power = (i < 3) + (j < 3)
-            metre = scale[own["MX"]] / kilogram
-            units = kilogram * metre**power
-            rows.append({own[p]: -outside * v * scale[own[p]] / units for p, v in terms.items()})
-        cones.append(clarabel.PSDTriangleConeT(4))
-    entries = [(r, c, v) for r, row in enumerate(rows) for c, v in row.items()]
-    shape = (len(rows), machine.K.shape[1])
-    if not entries:
-        return csc_array(shape), cones
-    r, c, v = zip(*entries, strict=True)
-    return csc_array((v, (r, c)), shape=shape), cones
+        if name not in free:
+            kilogram, metre = scale[own[9]], scale[own[6]] / scale[own[9]]
+            size = np.array([metre, metre, metre, 1.0])
+            twice = np.where(np.eye(4), 1.0, np.sqrt(2.0)) / (kilogram * np.outer(size, size))
+            block = np.zeros((10, unknowns))
+            block[:, own] = -(twice[:, :, None] * pseudo_inertia_of(np.diag(scale[own])))[_UPPER]
+            rows.append(block)
+            cones.append(clarabel.PSDTriangleConeT(4))
+    return csc_array(np.vstack(rows)), cones
 
 
 def carried_by(

@@ -47,9 +47,8 @@ class ParameterEstimate:
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        names = "name value sigma relative_sigma_percent essential unit status prior"
-        interval = None if self.interval is None else list(self.interval)
-        return entries(self, names) | {"interval": interval}
+        names = "name value sigma relative_sigma_percent essential unit status prior interval"
+        return entries(self, names)
 
 
 def read_back(kind: type[T], raw: Mapping[str, Any], place: str) -> T:

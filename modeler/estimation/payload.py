@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError, Method
 from modeler.estimation.identify import Equations, base_equations, fit_equations
 from modeler.estimation.result import FitResult
-from modeler.numerics.least_squares import scaled_least_squares
+from modeler.numerics.least_squares import column_lengths, scaled_least_squares, triangle
 from modeler.observation import Observation, Segment, signals_of
 from modeler.runtime import CompiledModel
 
@@ -96,14 +96,13 @@ def loaded_equations(
     """
     _check(model, observation, payloads)
     equations = base_equations(observation)
-    stacked = np.zeros((len(equations.y), 0))
+    sides = [equations.y]
     for payload in payloads:
-        before = equations.y
         equations = _with_load(equations, model, observation, payload)
-        if payload.mass is not None:
-            stacked = np.column_stack([stacked, before - equations.y])
-    weighed = tuple(payload for payload in payloads if payload.mass is not None)
-    loaded = Loaded(equations, weighed, stacked)
+        sides.append(equations.y)
+    known = [i for i, payload in enumerate(payloads) if payload.mass is not None]
+    weighed = tuple(payloads[i] for i in known)
+    loaded = Loaded(equations, weighed, -np.diff(sides, axis=0)[known].T)
     blind = [
         f"{payload.name}: its mass of {payload.mass:g} kg is taken as given: these logs do not "
         "tell it from its other parameters"
@@ -146,8 +145,8 @@ def _with_load(
     sums = _sums(equations.W, columns, names, kept)
     own = [f"{names[i]}{'R' if i in sums else ''}_{payload.name}" for i in kept]
     remarks = _remarks(payload, columns, names, kept, sums)
-    return Equations(
-        observation=observation,
+    return dataclasses.replace(
+        equations,
         extra=np.column_stack([equations.extra, columns[:, kept]]),
         y=y,
         names=(*equations.names, *own),
@@ -225,17 +224,6 @@ def _remarks(
 
 def independent(base: np.ndarray, columns: np.ndarray) -> list[int]:
     """Indices of the columns that neither `base` nor earlier columns reproduce."""
-    lengths = np.linalg.norm(base, axis=0)
-    basis = np.linalg.qr(base[:, lengths > 0.0] / lengths[lengths > 0.0])[0]
-    kept: list[int] = []
-    for i in range(columns.shape[1]):
-        length = np.linalg.norm(columns[:, i])
-        if length == 0.0:
-            continue
-        rest = columns[:, i] / length
-        for _ in range(2):  # Gram and Schmidt twice: once is not enough beside a long basis
-            rest = rest - basis @ (basis.T @ rest)
-        if np.linalg.norm(rest) > _TOLERANCE:
-            kept.append(i)
-            basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
-    return kept
+    every = np.column_stack([base, columns])
+    left = np.diag(triangle(every / column_lengths(every)))[base.shape[1] :]
+    return np.flatnonzero(np.abs(left) > _TOLERANCE).tolist()

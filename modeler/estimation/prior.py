@@ -26,8 +26,9 @@ from scipy.special import chdtrc, chdtri
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
-from modeler.estimation.least_squares import Estimate, solve_by_qr
-from modeler.estimation.nearest_body import CORNER, PREFIXES, machine_of
+from modeler.estimation.covariance import roots
+from modeler.estimation.least_squares import Estimate, placed, solve_by_qr
+from modeler.estimation.nearest_body import machine_of, parameters_of, pseudo_inertia_of
 from modeler.numerics.least_squares import (
     Compressed,
     column_lengths,
@@ -42,6 +43,7 @@ HELD = 1e-5
 CHANCE = 1e-3
 """Probability with which data contradict a true prior of some body."""
 
+_LEFT_OUT = ", and it is left out of the prior"
 _NONE = 1e-9  # share of a column's length that is rounding
 
 
@@ -86,16 +88,15 @@ class Prior:
             S[:, own] *= factor
         return dataclasses.replace(self, S=S)
 
-    def known(self, M: np.ndarray, but: str = "") -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def known(self, M: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """What is known of M beta: N (r, k), N M K chi_0 (r,), and a root (r, m) of its covariance.
 
         The rows of N are orthonormal and see nothing of parameters that are free.
 
         Args:
             M: (k, c).
-            but: a group that is let go too.
         """
-        every = [i for name, own in self.groups.items() if name != but for i in own]
+        every = [i for own in self.groups.values() for i in own]
         K = M @ self.K
         loose = np.delete(K, every, axis=1)
         loose = loose / column_lengths(loose)
@@ -158,34 +159,35 @@ class Prior:
             covariance: (k, k) V.
         """
 
-        def misfit(but: str = "") -> tuple[float, int]:
-            N, mean, root = self.known(M, but)
+        def misfit(prior: "Prior") -> tuple[float, int]:
+            N, mean, root = prior.known(M)
             d, total = mean - N @ value, root @ root.T + N @ covariance @ N.T
             size = np.sqrt(np.maximum(np.diag(total), 1e-300))
             apart = np.linalg.lstsq(total / np.outer(size, size), d / size, rcond=1e-12)[0]
             return float(d / size @ apart), len(d)
 
-        whole, degrees = misfit()
-        falls, lines = {}, {}
+        whole, degrees = misfit(self)
+        chance = CHANCE / max(1, len(self.groups))
+        falls = {}
         for name in self.groups:
-            left, rest = misfit(name)
-            if degrees > rest and chdtrc(degrees - rest, max(whole - left, 0.0)) < (
-                CHANCE / len(self.groups)
-            ):
-                falls[name] = whole - left, degrees - rest
+            left, rest = misfit(self.but([name]))
+            lost, fall = degrees - rest, max(whole - left, 0.0)
+            if lost and chdtrc(lost, fall) < chance:
+                falls[name] = fall**0.5, chdtri(lost, chance) ** 0.5
         most = max((fall for fall, _ in falls.values()), default=0.0)
-        for name, (fall, lost) in sorted(falls.items(), key=lambda item: -item[1][0]):
-            if fall >= 0.5 * most:
-                limit = chdtri(lost, CHANCE / len(self.groups)) ** 0.5
-                kept = not self.S[np.ix_(self.groups[name], self.groups[name])].any()
-                lines[name] = (
-                    f"{name}: the data contradict what the robot file says of it, by "
-                    f"{fall**0.5:.3g} sigmas where {limit:.2g} are chance"
-                    f"{'' if kept else ', and it is left out of the prior'}; correct [parameters] "
-                    "or its uncertainty, or let `modeler diagnose` look for an effect that is "
-                    "missing"
-                )
-        return lines
+        named = sorted(falls.items(), key=lambda item: -item[1][0])
+        return {
+            name: f"{name}: the data contradict what the robot file says of it, by {fall:.3g} "
+            f"sigmas where {limit:.2g} are chance{'' if self._fixed(name) else _LEFT_OUT}; correct "
+            "[parameters] or its uncertainty, or let `modeler diagnose` look for an effect that is "
+            "missing"
+            for name, (fall, limit) in named
+            if fall**2 >= 0.5 * most**2
+        }
+
+    def _fixed(self, name: str) -> bool:
+        """True if a group is held as it is."""
+        return not self.S[self.groups[name]].any()
 
     def applied(self, estimate: Estimate, data: Compressed, covariance: np.ndarray) -> Estimate:
         """The estimate of data and prior together.
@@ -201,23 +203,17 @@ class Prior:
         """
         whole = data.whole(estimate.sigma)
         kept, c = np.asarray(estimate.rank.kept, dtype=int), len(estimate.beta)
-        M = np.zeros((len(kept), c))
+        M, V = np.zeros((len(kept), c)), covariance[np.ix_(kept, kept)]
         rest = np.setdiff1d(np.arange(c), kept)
         M[:, kept] = np.eye(len(kept))
         M[:, rest] = scaled_least_squares(whole[:, kept], whole[:, rest])
-        size = np.sqrt(np.diag(covariance)[kept])
-        values, vectors = np.linalg.eigh(covariance[np.ix_(kept, kept)] / np.outer(size, size))
-        root = (vectors / np.sqrt(np.maximum(values, 1e-15 * values.max(initial=1.0)))).T / size
-        told = np.column_stack([root @ M, root @ estimate.beta[kept]])
-        V = covariance[np.ix_(kept, kept)]
+        told = roots(V)[1] @ np.column_stack([M, estimate.beta[kept]])
         against = self.contradictions(M[:, : len(self.names)], estimate.beta[kept], V)
-        left = self.but([name for name, line in against.items() if "left out" in line])
+        left = self.but([name for name in against if not self._fixed(name)])
         both = np.vstack([told, left.beside(np.linalg.norm(told[:, :-1], axis=0))])
         rank = independent_columns(both[:, :-1], data.names)
-        beta, posterior = np.zeros(c), np.zeros((c, c))
-        at = list(rank.kept)
-        beta[at], half = solve_by_qr(both[:, at], both[:, -1])
-        posterior[np.ix_(at, at)] = half @ half.T
+        values, half = solve_by_qr(both[:, rank.kept], both[:, -1])
+        beta, posterior = placed(c, rank.kept, values, half @ half.T)
         before, after = np.full(c, np.inf), np.diag(posterior)
         before[kept] = np.diag(V)
         share = np.clip(1.0 - after / before, 0.0, 1.0)
@@ -250,52 +246,38 @@ class Prior:
 
 def prior_of(spec: ModuleSpec) -> Prior | None:
     """The prior that a robot file states; None without `[parameters.uncertainty]` and `held`."""
-    machine, every = machine_of(spec), spec.standard
-    if spec.inertial_uncertainty is None and all(p.deviation is None for p in every):
+    machine, every, share = machine_of(spec), spec.standard, spec.inertial_uncertainty
+    if share is None and all(p.deviation is None for p in every):
         return None
-    count = machine.K.shape[1]
+    count = len(machine.names)
     mean, S = np.zeros(count), np.zeros((count, count))
     groups: dict[str, list[int]] = {}
     without: dict[str, str] = {}
     value = {p.name: p.nominal for p in every}
-    if spec.inertial_uncertainty is not None:
-        for link, own in machine.links.items():
-            ten = [value.get(f"{prefix}{link}") for prefix in PREFIXES]
-            stated = {
-                prefix: worth
-                for prefix, worth in zip(PREFIXES, ten, strict=True)
-                if own[prefix] >= len(every) or worth is not None
-            }
+    for link, places in machine.links.items() if share else ():
+        ten = [value.get(machine.names[i], 0.0) for i in places]  # 0 where no torque feels it
+        given = np.array([worth or 0.0 for worth in ten])
+        why, block = body_covariance(given, share or 0.0)
+        if None in ten:
             why = "its ten parameters are not all stated"
-            if len(stated) == len(PREFIXES):
-                given = np.array([worth or 0.0 for worth in ten])
-                why, block = body_covariance(given, spec.inertial_uncertainty)
-                if not why and not block[0, 0] and max(own.values()) < len(every):
-                    why = "inertia of 0"
-            if why:
-                without[f"link {link}"] = why
-                continue
-            places = list(own.values())
+        elif not why and not block[0, 0] and max(places) < len(every):
+            why = "inertia of 0"
+        if why:
+            without[f"link {link}"] = why
+        else:
             mean[places], S[np.ix_(places, places)] = given, block
-            groups[f"link {link}"] = places
-    owner = {i: name for name, own in groups.items() for i in own}
+            groups[f"link {link}"] = places.tolist()
+    of_links = {i for own in groups.values() for i in own}
     for i, parameter in enumerate(every):
-        if parameter.deviation is None:
-            continue
-        S[i], S[:, i] = 0.0, 0.0
-        S[i, i], mean[i] = parameter.deviation**2, parameter.nominal or 0.0
-        if i not in owner:
-            groups[parameter.name] = [i]
+        if parameter.deviation is not None:
+            S[i], S[:, i] = 0.0, 0.0
+            S[i, i], mean[i] = parameter.deviation**2, parameter.nominal or 0.0
+            if i not in of_links:
+                groups[parameter.name] = [i]
     names = tuple(base.name for base in spec.base)
     held = {p.name for p in every if p.deviation == 0.0}
     fixed = tuple(b.name for b in spec.base if all(term.parameter in held for term in b.terms))
     return Prior(names, machine.K, mean, S, groups, fixed, without)
-
-
-_FROM_CORNER = np.linalg.inv(
-    np.array([[terms.get(prefix, 0.0) for prefix in PREFIXES] for terms in CORNER.values()])
-)
-"""(10, 10) the ten parameters from the upper triangle of P, in the order of `CORNER`."""
 
 
 def body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndarray]:
@@ -307,10 +289,7 @@ def body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndarray]:
         ten: in the order of `PREFIXES`, SI.
         share: relative uncertainty.
     """
-    none, mass = np.zeros((10, 10)), ten[9]
-    P = np.zeros((4, 4))
-    for (i, j), entry in zip(CORNER, np.linalg.solve(_FROM_CORNER, ten), strict=True):
-        P[i, j] = P[j, i] = entry
+    none, mass, P = np.zeros((10, 10)), ten[9], pseudo_inertia_of(ten)
     if mass <= 0.0:
         return "mass of 0" if mass == 0.0 else "negative mass", none
     centre = P[:3, 3] / mass
@@ -322,17 +301,11 @@ def body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndarray]:
         return "not physically possible", none
     metre = max(float(np.linalg.norm(centre)), (2.0 * moments / mass) ** 0.5)
     # About the centre: inertias, and with them Sigma; first moments; mass.
-    about = share * np.array([moments] * 6 + [mass * metre] * 3 + [mass])
+    about = share * np.repeat([moments, mass * metre, mass], [6, 3, 1])
     carry = np.eye(4)
     carry[:3, 3] = centre
-    jacobian = np.zeros((10, 10))
-    for k in range(10):
-        D = np.zeros((4, 4))
-        for (i, j), entry in zip(CORNER, np.linalg.solve(_FROM_CORNER, np.eye(10)[k]), strict=True):
-            D[i, j] = D[j, i] = entry
-        moved = carry @ D @ carry.T
-        jacobian[:, k] = _FROM_CORNER @ [moved[i, j] for i, j in CORNER]
-    turned = jacobian * about
+    moved = np.einsum("ai,ijk,bj->abk", carry, pseudo_inertia_of(np.diag(about)), carry)
+    turned = parameters_of(moved)
     return "", turned @ turned.T
 
 

@@ -13,6 +13,7 @@ from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Presented
 from modeler.core.table import POOLED, errors_by_unit, percent, text_by_unit
 from modeler.estimation.essential import Reduced
+from modeler.estimation.nearest_body import PREFIXES, pseudo_inertia_of
 from modeler.estimation.parameter import ParameterEstimate, parameter_lines, read_all, read_back
 from modeler.observation import Bands, Processing, processing_from_json
 
@@ -110,14 +111,11 @@ class EnergyReport(Brief):
     def lines(self) -> list[str]:
         """Lines of text."""
         head = ("rows", "cond", "known", "error", "sigma", "missed", "bias")
-        lines = [
+        return [
             f"energy model: windows of {self.window:.4g} s, energies met to "
             f"{percent(self.relative_error)}; beside the torque model on the same data:",
             _line("model", head),
             *(_line(item.model, item.cells()) for item in self.figures),
-        ]
-        return [
-            *lines,
             "cond: columns of length one; known: sigma below 10 %; error, sigma: of the predicted "
             "torques; missed: share of the energy that integrals and derivatives miss; bias: what "
             "that moves at most",
@@ -151,11 +149,7 @@ class EnergyReport(Brief):
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        return {
-            "window": self.window,
-            "relative_error": self.relative_error,
-            "parameters": self.parameters,
-            "ratio": self.ratio,
+        return entries(self, "window relative_error parameters ratio") | {
             "figures": [vars(item) for item in self.figures],
             "sentences": self.sentences(),
         }
@@ -212,11 +206,11 @@ def friction_by_direction(spec: ModuleSpec, fit: "FitResult") -> tuple[Directed,
         fit: its c base parameters, and the (c, c) covariance of their values.
     """
     parameters, covariance = fit.parameters, fit.covariance
-    kinds = {parameter.name: parameter for parameter in spec.standard}
+    own = {parameter.name: (parameter.effect, parameter.joint) for parameter in spec.standard}
     column = {
-        (kinds[base.column_of].effect, kinds[base.column_of].joint): i
+        own[base.column_of]: i
         for i, base in enumerate(spec.base)
-        if base.column_of in kinds and parameters[i].sigma is not None
+        if base.column_of in own and parameters[i].sigma is not None
     }
     found = []
     for joint in spec.joints:
@@ -241,13 +235,14 @@ def direction_lines(directions: tuple[Directed, ...]) -> list[str]:
     if not directions:
         return []
     width = max(9, *(len(item.name) for item in directions))
-    lines = [f"{'direction':<{width}} {'value':>13} {'sigma':>10}  unit"]
-    lines += [
-        f"{item.name:<{width}} {item.value:>13.6g} {item.sigma:>10.3g}  {item.unit:<10} "
-        f"{item.relation}"
-        for item in directions
+    return [
+        f"{'direction':<{width}} {'value':>13} {'sigma':>10}  unit",
+        *(
+            f"{item.name:<{width}} {item.value:>13.6g} {item.sigma:>10.3g}  {item.unit:<10} "
+            f"{item.relation}"
+            for item in directions
+        ),
     ]
-    return lines
 
 
 _ROUND = "{:.4g}".format
@@ -272,6 +267,12 @@ class JointFit:
     relative_error: float | None
     rms: float
     sigma: float
+
+    @property
+    def squares(self) -> tuple[float, float]:
+        """||tau - W chi||^2 and ||tau||^2; the latter 0 where nothing is known of it."""
+        left = self.rows * self.rms**2
+        return left, left / self.relative_error**2 if self.relative_error else 0.0
 
 
 @dataclass(frozen=True)
@@ -368,11 +369,7 @@ class FitResult(Presented):
     @property
     def by_unit(self) -> dict[str, float]:
         """Relative error over the joints of one unit, by unit; NaN without torque."""
-        return errors_by_unit(
-            (joint.unit, left, left / joint.relative_error**2 if joint.relative_error else 0.0)
-            for joint in self.joints
-            for left in [joint.rows * joint.rms**2]
-        )
+        return errors_by_unit((joint.unit, *joint.squares) for joint in self.joints)
 
     def error_told(self) -> str:
         """The relative error as text; of torques and forces apart where the robot has both."""
@@ -411,8 +408,8 @@ class FitResult(Presented):
         """The `fit` object that scripts read; numbers that mean nothing are null."""
         verdict = self.verdict
         return nulled({
-            **entries(self, "robot method status samples rows condition_number condition_scaled"),
-            "relative_error": self.relative_error,
+            **entries(self, "robot method status samples rows condition_number condition_scaled "
+                      "relative_error"),
             "relative_error_pools": POOLED,
             **entries(self, "by_unit essential_error"),
             "joints": _joints_to_json(self.joints),
@@ -421,13 +418,9 @@ class FitResult(Presented):
                 for name, own in self.by_load.items()
             },
             **entries(self, "parameters loads gains singular_values sentences processing"),
-            "standard": self.standard,
-            "essential": self.essential,
-            "contradicted": list(self.contradicted),
-            "directions": self.directions,
+            **entries(self, "standard essential contradicted directions"),
             "model": "torque" if self.energy is None else "energy",
-            "energy": self.energy,
-            "bands": self.bands,
+            **entries(self, "energy bands"),
             "usable": None if verdict is None else verdict.usable,
             "usable_for": None if verdict is None else verdict.usable_for,
             "verdict": None if verdict is None else verdict.line,
@@ -462,11 +455,8 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
         given: dict[str, Any] = {
             **{name: read_all(kind, raw, name) for name, kind in _LISTS.items() if name in raw},
             **{name: unknown for name, unknown in _NULLS.items() if raw[name] is None},
-            "joints": [{"name": name, **joint} for name, joint in raw["joints"].items()],
-            "by_load": {
-                load: [{"name": name, **joint} for name, joint in own["joints"].items()]
-                for load, own in raw.get("by_load", {}).items()
-            },
+            "joints": _named(raw["joints"]),
+            "by_load": {load: _named(x["joints"]) for load, x in raw.get("by_load", {}).items()},
             "essential": reduced,
             "energy": None if energy is None else read_back(EnergyReport, energy, "energy"),
             "covariance": covariance,
@@ -480,9 +470,8 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
 
 def pooled(joints: Sequence[JointFit]) -> float:
     """||y - W beta|| / ||y|| over joints; NaN without torque."""
-    seen = [joint for joint in joints if joint.relative_error]
-    left = sum(joint.rows * joint.rms**2 for joint in seen)
-    total = sum(j.rows * (j.rms / j.relative_error) ** 2 for j in seen if j.relative_error)
+    seen = [joint.squares for joint in joints if joint.relative_error]
+    left, total = np.sum(seen, axis=0) if seen else (0.0, 0.0)
     return float(np.sqrt(left / total)) if total else float("nan")
 
 
@@ -490,15 +479,15 @@ def _joints_to_json(joints: Sequence[JointFit]) -> dict[str, Any]:
     return {joint.name: entries(joint, "relative_error rms sigma rows unit") for joint in joints}
 
 
+def _named(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
+    return [{"name": name, **joint} for name, joint in joints.items()]
+
+
 def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
     """None where nobody has judged the fit, as in files of earlier versions."""
-    usable, line, doubts = raw.get("usable"), raw.get("verdict"), raw.get("doubts", [])
-    if usable is None:
+    if raw.get("usable") is None:
         return None
-    if not (isinstance(usable, bool) and isinstance(line, str) and isinstance(doubts, list)):
-        raise ValueError("its verdict is not as saved")
-    unseen = tuple(map(str, raw.get("unseen", ())))
-    return Verdict(usable, str(raw["usable_for"]), line, tuple(map(str, doubts)), unseen)
+    return read_back(Verdict, {"doubts": [], **raw, "line": raw["verdict"]}, "its verdict")
 
 
 def bodies_text(standard: Mapping[str, float]) -> list[str]:
@@ -509,17 +498,15 @@ def bodies_text(standard: Mapping[str, float]) -> list[str]:
             out.
     """
     lines = []
-    prefixes = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ")
     for name, mass in standard.items():
         link = name[1:]
-        ten = [standard.get(f"{prefix}{link}") for prefix in prefixes]
+        ten = [standard.get(f"{prefix}{link}") for prefix in PREFIXES]
         if not name.startswith("M") or mass <= 0.0 or None in ten:
             continue
-        xx, xy, xz, yy, yz, zz, *first = np.array(ten, dtype=float)
-        centre = np.array(first) / mass
-        origin = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-        about = origin - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
-        moments = np.linalg.eigvalsh(about)
+        P = pseudo_inertia_of(np.array(ten, dtype=float))
+        centre = P[:3, 3] / mass
+        second = P[:3, :3] - mass * np.outer(centre, centre)
+        moments = np.linalg.eigvalsh(np.trace(second) * np.eye(3) - second)
         lines.append(
             f"link {link}: {_ROUND(mass)} kg, centre ({', '.join(map(_ROUND, centre))}) m, "
             f"principal moments {', '.join(map(_ROUND, moments))} kg m2"

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.estimation.least_squares import Estimate, least_squares
-from modeler.estimation.problem import Problem
+from modeler.estimation.least_squares import Estimate, Problem, least_squares, placed
 from modeler.numerics.least_squares import Rank, triangle
 
 _RANGE = (-6.0, 9.0)
@@ -46,16 +45,15 @@ def ridge(problem: Problem) -> Estimate:
     start = least_squares(data, "weighted")
     whole = data.whole(start.sigma)
     lengths = np.linalg.norm(whole[:, :-1], axis=0)
-    idle = {tangle.name for tangle in start.rank.aside if not tangle.into}
-    kept = np.array([i for i, name in enumerate(data.names) if name not in idle], dtype=int)
+    aside = tuple(tangle for tangle in start.rank.aside if not tangle.into)
+    idle = {tangle.name for tangle in aside}
+    kept = [i for i, name in enumerate(data.names) if name not in idle]
     prior, known = prior_values(problem)
     X = whole[:, kept] / lengths[kept]
     left = whole[:, -1] - whole[:, kept] @ prior[kept]
     found = _posterior(X, left)
-    beta, covariance = np.zeros(len(prior)), np.zeros((len(prior), len(prior)))
-    beta[kept] = prior[kept] + found.mean / lengths[kept]
-    covariance[np.ix_(kept, kept)] = found.covariance / np.outer(lengths[kept], lengths[kept])
-    aside = tuple(tangle for tangle in start.rank.aside if not tangle.into)
+    own = found.covariance / np.outer(lengths[kept], lengths[kept])
+    beta, covariance = placed(len(prior), kept, prior[kept] + found.mean / lengths[kept], own)
     # The prior as further rows, D / t (beta - beta_0) = 0.
     rows = np.zeros((len(kept), whole.shape[1]))
     rows[np.arange(len(kept)), kept] = lengths[kept] / found.width
@@ -64,7 +62,7 @@ def ridge(problem: Problem) -> Estimate:
         start,
         beta=beta,
         covariance=covariance,
-        rank=Rank(tuple(map(int, kept)), aside, start.rank.last_kept, start.rank.first_dropped),
+        rank=Rank(tuple(kept), aside, start.rank.last_kept, start.rank.first_dropped),
         condition_scaled=float(np.sqrt(np.linalg.cond(found.covariance))),
         sentences=_sentences(problem, start, found, known),
         whole=triangle(np.vstack([whole, rows])),
@@ -76,12 +74,10 @@ def prior_values(problem: Problem) -> tuple[np.ndarray, tuple[str, ...]]:
     values, known = np.zeros(len(problem.names)), []
     if problem.model is not None:
         spec = problem.model.spec
-        nominal = {parameter.name: parameter.nominal for parameter in spec.standard}
+        nominal = {p.name: p.nominal for p in spec.standard if p.nominal is not None}
         for i, base in enumerate(spec.base):
-            terms = [(term.value, nominal.get(term.parameter)) for term in base.terms]
-            given = [factor * value for factor, value in terms if value is not None]
-            if terms and len(given) == len(terms):
-                values[i] = sum(given)
+            if base.terms and all(term.parameter in nominal for term in base.terms):
+                values[i] = sum(term.value * nominal[term.parameter] for term in base.terms)
                 known.append(base.name)
     return values, tuple(known)
 
@@ -126,10 +122,10 @@ def _sentences(
         f"data decide {found.told:.1f} of {len(found.mean)} directions, the prior the others; the "
         "sigmas hold if the values scatter about it as wide as these data say, and know no bias"
     ]
-    for tangle in start.rank.aside:
-        if tangle.into:
-            said.append(
-                f"{tangle.name} cannot be told from {', '.join(tangle.into)} on these data: ridge "
-                "shares their effect out by the prior"
-            )
+    said += [
+        f"{tangle.name} cannot be told from {', '.join(tangle.into)} on these data: ridge shares "
+        "their effect out by the prior"
+        for tangle in start.rank.aside
+        if tangle.into
+    ]
     return tuple(said)

@@ -1,13 +1,12 @@
 """Iteratively reweighted least squares: rows that do not fit lose their say."""
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from modeler.core.table import percent
-from modeler.estimation.least_squares import Estimate, Influence, least_sigma, least_squares
-from modeler.estimation.problem import Problem
+from modeler.estimation.least_squares import Estimate, Problem, least_sigma, least_squares, placed
 from modeler.numerics.least_squares import triangle
 from modeler.numerics.noise import robust_deviation
 
@@ -39,26 +38,33 @@ def robust(problem: Problem) -> Estimate:
     joint = problem.joint[problem.counted]
     W, y = problem.W[problem.counted], problem.y[problem.counted]
     fit = _Reweighted(W[:, kept], y, joint, start, kept)
-    settled = fit.huber(data.free, least_sigma(data)) and fit.tukey()
-    beta = np.zeros(len(data.names))
-    beta[kept] = fit.beta
-    covariance, pull, kept_residual = fit.sandwich()
-    whole_covariance = np.zeros((len(beta), len(beta)))
-    whole_covariance[np.ix_(kept, kept)] = covariance
+    driven = [int(j) for j in np.unique(joint) if not data.free[j]]
+    settled = fit.settle(_huber, driven, least_sigma(data)) and fit.settle(_tukey)
+    own, pull, kept_residual = fit.sandwich()
+    beta, covariance = placed(len(data.names), kept, fit.beta, own)
     residual = np.zeros(len(problem.y))
     residual[problem.counted] = kept_residual
     rows = np.column_stack([W, y]) * (np.sqrt(fit.weight) / fit.sigma[joint])[:, None]
     return dataclasses.replace(
         start,
         beta=beta,
-        covariance=whole_covariance,
+        covariance=covariance,
         sigma=fit.sigma,
         iterations=fit.iterations,
         settled=settled,
         sentences=_sentences(problem, fit.weight, joint),
-        influence=Influence(problem.scattered(kept, pull), residual),
+        pull=problem.scattered(kept, pull),
+        residual=residual,
         whole=triangle(rows),
     )
+
+
+def _huber(u: np.ndarray) -> np.ndarray:
+    return np.minimum(1.0, HUBER / np.maximum(u, HUBER))
+
+
+def _tukey(u: np.ndarray) -> np.ndarray:
+    return np.asarray((1.0 - np.minimum(u / TUKEY, 1.0) ** 2) ** 2)
 
 
 class _Reweighted:
@@ -83,34 +89,17 @@ class _Reweighted:
     def beta(self) -> np.ndarray:
         return self.start + self.root @ self.step
 
-    def huber(self, free: np.ndarray, least: np.ndarray) -> bool:
-        """To the fixed point of beta and scales; joints without a motor keep theirs."""
-
-        def reweigh() -> None:
-            left = self.residual - self.X @ self.step
-            for j in np.flatnonzero(~free):
-                own = self.joint == j
-                if own.any():
-                    self.sigma[j] = max(robust_deviation(left[own]), least[j])
-            self.weight = np.minimum(1.0, HUBER / np.maximum(np.abs(self._scaled()), HUBER))
-
-        return self._iterate(reweigh)
-
-    def tukey(self) -> bool:
-        """To the fixed point of beta, scales held."""
-
-        def reweigh() -> None:
-            inside = np.minimum(np.abs(self._scaled()) / TUKEY, 1.0)
-            self.weight = (1.0 - inside**2) ** 2
-
-        return self._iterate(reweigh)
-
-    def _scaled(self) -> np.ndarray:
-        return np.asarray((self.residual - self.X @ self.step) / self.sigma[self.joint])
-
-    def _iterate(self, reweigh: Callable[[], None]) -> bool:
+    def settle(
+        self,
+        weigh: Callable[[np.ndarray], np.ndarray],
+        scaled: Sequence[int] = (),
+        least: Sequence[float] | np.ndarray = (),
+    ) -> bool:
+        """To the fixed point of beta, and of the scales of some joints, at least so large."""
         for _ in range(_ITERATIONS):
-            reweigh()
+            for j in scaled:
+                self.sigma[j] = max(robust_deviation(self._left()[self.joint == j]), least[j])
+            self.weight = weigh(np.abs(self._left() / self.sigma[self.joint]))
             weighted = self.X * (self.weight / self.sigma[self.joint] ** 2)[:, None]
             step = np.linalg.lstsq(weighted.T @ self.X, weighted.T @ self.residual, rcond=None)[0]
             moved = float(np.max(np.abs(step - self.step), initial=0.0))
@@ -119,9 +108,12 @@ class _Reweighted:
                 return True
         return False
 
+    def _left(self) -> np.ndarray:
+        return np.asarray(self.residual - self.X @ self.step)
+
     def sandwich(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Covariance (k, k), pull (rows, k) and weighed residual (rows,)."""
-        u = self._scaled()
+        u = self._left() / self.sigma[self.joint]
         slope = np.where(np.abs(u) < TUKEY, (1 - (u / TUKEY) ** 2) * (1 - 5 * (u / TUKEY) ** 2), 0)
         counts = np.bincount(self.joint, minlength=len(self.sigma))
         means = np.bincount(self.joint, slope, len(self.sigma)) / np.maximum(counts, 1)

@@ -10,6 +10,7 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.errors import Method, ModelerError
 from modeler.core.estimators import ABOUT
+from modeler.core.json import entries
 from modeler.core.result import Presented
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
@@ -47,13 +48,11 @@ class Tried(Brief):
         """Plain data."""
         return {
             "method": self.method,
-            "title": ABOUT[self.method].title,
-            "avoid": ABOUT[self.method].avoid,
+            **entries(ABOUT[self.method], "title avoid"),
             "refusal": self.refusal or None,
             "seconds": self.seconds,
             "held_out_error": self.held_out,
-            "farthest": self.farthest,
-            "remarks": list(self.remarks),
+            **entries(self, "farthest remarks"),
             "fit": None if self.fit is None else self.fit.to_json(),
         }
 
@@ -106,17 +105,10 @@ def side_by_side(
             for own, other in zip((fit or first).parameters, first.parameters, strict=True)
             if fit and method != FIRST and own.sigma and other.sigma
         ]
-        tried.append(
-            Tried(
-                method=method,
-                fit=fit,
-                refusal=refusal,
-                seconds=seconds,
-                held_out=held_out_error(held_out, fit.beta) if fit and held_out else None,
-                farthest=max(apart, key=lambda pair: pair[1]) if apart else None,
-                remarks=fit.own if fit and fit.own else (f"not {ABOUT[method].avoid}",),
-            )
-        )
+        missed = held_out_error(held_out, fit.beta) if fit and held_out else None
+        farthest = max(apart, key=lambda pair: pair[1], default=None)
+        remarks = fit.own if fit and fit.own else (f"not {ABOUT[method].avoid}",)
+        tried.append(Tried(method, fit, refusal, seconds, missed, farthest, remarks))
         if progress is not None:
             progress(count / len(methods))
     return tuple(tried)
@@ -124,7 +116,6 @@ def side_by_side(
 
 def held_out_error(observation: Observation, beta: np.ndarray) -> float:
     """||y - W beta|| / ||y|| over the rows of joints that have a torque."""
-    y, rest = observation.y, observation.y - observation.W @ beta
-    norms = [np.linalg.norm(y[observation.row_joint == j]) for j in range(len(observation.joints))]
-    seen = (np.array(norms) > 0.0)[observation.row_joint]
+    y, rest, joint = observation.y, observation.y - observation.W @ beta, observation.row_joint
+    seen = (np.bincount(joint, y**2) > 0.0)[joint]
     return float(np.linalg.norm(rest[seen]) / max(float(np.linalg.norm(y)), 1e-300))

@@ -9,7 +9,8 @@ is the least squares of them, weighted by the covariance of step 1 (Hanssen, Hov
 """
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -113,10 +114,9 @@ def _episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
     before = _SEVERAL
     for start, stop in runs(labels != _NONE):
         joint = int(labels[start]) if np.ptp(labels[start:stop]) == 0 else _SEVERAL
-        if joint != _SEVERAL and joint == before:
-            found[-1] = (joint, slice(found[-1][1].start, stop))
-        elif joint != _SEVERAL:
-            found.append((joint, slice(start, stop)))
+        if joint != _SEVERAL:
+            first = found.pop()[1].start if joint == before else start
+            found.append((joint, slice(first, stop)))
         before = joint
     return found
 
@@ -243,7 +243,6 @@ class FirstStep:
         R: (p, p).
         projected: (p,) Q^T y.
         residual: (rows,) N m or N.
-        variance: of the residuals' noise, its memory counted.
     """
 
     joint: int
@@ -252,17 +251,11 @@ class FirstStep:
     R: np.ndarray
     projected: np.ndarray
     residual: np.ndarray
-    variance: float = 1.0
 
     @property
     def theta(self) -> np.ndarray:
         """(p,) coefficients."""
         return np.linalg.solve(self.R, self.projected)
-
-    @property
-    def sigma(self) -> np.ndarray:
-        """(p,) their standard deviations."""
-        return np.linalg.norm(np.linalg.inv(self.R), axis=1) * float(np.sqrt(self.variance))
 
 
 @dataclass(frozen=True, eq=False)
@@ -275,6 +268,7 @@ class Configuration:
         joint: index of the joint that moves.
         pose: (n,) positions of all joints, its own in the middle of its motion.
         felt: its own torque first, then those of other joints.
+        noise: (felt, felt) covariance of their residuals, memory counted.
     """
 
     log: str
@@ -283,6 +277,13 @@ class Configuration:
     joint: int
     pose: np.ndarray
     felt: tuple[FirstStep, ...]
+    noise: np.ndarray
+
+    def coefficients(self, k: int) -> list[tuple[str, float, float]]:
+        """Function, theta and its standard deviation, of the k-th torque that is felt."""
+        own = self.felt[k]
+        sigma = np.linalg.norm(np.linalg.inv(own.R), axis=1) * self.noise[k, k] ** 0.5
+        return list(zip(own.along.names, own.theta.tolist(), sigma.tolist(), strict=True))
 
     @property
     def key(self) -> tuple[int, ...]:
@@ -305,7 +306,7 @@ class TwoStep:
 
     directions: Directions
     configurations: tuple[Configuration, ...]
-    left_out: dict[str, int]
+    left_out: Mapping[str, int]
     several: float
     data: Compressed
     estimate: Estimate
@@ -323,14 +324,9 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
         DataError: no piece in which one joint moves and the others stand, or none that tells it.
     """
     moves, several, total = single_joint_moves(observation, directions)
-    found: list[Configuration] = []
-    left_out: dict[str, int] = {}
-    for move in moves:
-        step = _first_step(model, observation, directions, move)
-        if isinstance(step, str):
-            left_out[step] = left_out.get(step, 0) + 1
-        else:
-            found.append(step)
+    steps = [_first_step(model, observation, directions, move) for move in moves]
+    left_out = Counter(step for step in steps if isinstance(step, str))
+    found = [step for step in steps if isinstance(step, Configuration)]
     if not found:
         why = "".join(f"; {count} left out: {reason}" for reason, count in left_out.items())
         raise DataError(
@@ -340,37 +336,29 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
             "others, as `modeler simulate --motion one-joint` makes them; use --method weighted "
             "for these logs"
         )
-    configurations, rows, values = [], [], []
-    for key in dict.fromkeys(c.key for c in found):
-        alike, noise = _with_noise([c for c in found if c.key == key])
-        configurations += alike
-        for configuration in alike:
-            W, y = _whitened(configuration, noise)
-            rows.append(W)
-            values.append(y)
-    data, estimate = _second_step(observation, configurations, np.vstack(rows), np.hstack(values))
-    return TwoStep(
-        directions,
-        tuple(sorted(configurations, key=lambda c: (c.joint, c.log, c.start))),
-        left_out,
-        several,
-        data,
-        estimate,
-    )
+    configurations = [
+        configuration
+        for key in dict.fromkeys(c.key for c in found)
+        for configuration in _with_noise([c for c in found if c.key == key])
+    ]
+    data, estimate = _second_step(observation, configurations)
+    configurations.sort(key=lambda c: (c.joint, c.log, c.start))
+    return TwoStep(directions, tuple(configurations), left_out, several, data, estimate)
 
 
 def _second_step(
-    observation: Observation, configurations: list[Configuration], W: np.ndarray, y: np.ndarray
+    observation: Observation, configurations: Sequence[Configuration]
 ) -> tuple[Compressed, Estimate]:
     """The base parameters from rows of standard deviation 1, and their covariance.
 
     Its scale is 1 as far as the residuals of step 1 tell, which stand in the data as one row. It
     is raised where the configurations contradict each other by more.
     """
+    rows, values = zip(*map(_whitened, configurations), strict=True)
+    W, y = np.vstack(rows), np.hstack(values)
     spare = sum(len(f.residual) - len(f.projected) for c in configurations for f in c.felt)
-    last = np.zeros((1, W.shape[1]))
-    every, where = np.append(y, np.sqrt(spare)), np.zeros(len(y) + 1, dtype=int)
-    data = compress(np.vstack([W, last]), every, where, 1, observation.names)
+    every, alike = np.append(y, np.sqrt(spare)), np.zeros(len(y) + 1, dtype=int)
+    data = compress(np.vstack([W, 0.0 * W[:1]]), every, alike, 1, observation.names)
     data = dataclasses.replace(data, rows=np.array([len(y) + spare]))
     estimate = least_squares(data, "ordinary")
     degrees = len(y) - len(estimate.rank.kept)
@@ -418,7 +406,7 @@ def _first_step(
             )
     return Configuration(
         observation.logs[segment.run], float(segment.time[window][0]),
-        float(segment.time[window][-1]), i, pose, tuple(felt),
+        float(segment.time[window][-1]), i, pose, tuple(felt), np.eye(len(felt)),
     )  # fmt: skip
 
 
@@ -443,10 +431,8 @@ def _solved(joint: int, found: SingleJointMotion, filtered: np.ndarray) -> First
     """Step 1 from its columns and torque; None where the rows do not tell the coefficients."""
     X, y = filtered[:, :-1], filtered[:, -1]
     rows, count = X.shape
-    if not count or rows < _ROWS_PER_COLUMN * count:
-        return None
     lengths = np.linalg.norm(X, axis=0)
-    if not lengths.all():
+    if not count or rows < _ROWS_PER_COLUMN * count or not lengths.all():
         return None
     values = np.linalg.svd(X / lengths, compute_uv=False)
     if values[-1] < _SINGULAR * values[0]:
@@ -456,7 +442,7 @@ def _solved(joint: int, found: SingleJointMotion, filtered: np.ndarray) -> First
     return FirstStep(joint, found, Q, R, projected, y - Q @ projected)
 
 
-def _with_noise(alike: list[Configuration]) -> tuple[list[Configuration], np.ndarray]:
+def _with_noise(alike: list[Configuration]) -> list[Configuration]:
     """Configurations in which the same torques were used, with the covariance of their noise.
 
     Of one motion of the same joint the noise of its torques is the same at every configuration;
@@ -479,17 +465,12 @@ def _with_noise(alike: list[Configuration]) -> tuple[list[Configuration], np.nda
         longer = np.sqrt(max(1.0, 1.0 + 2.0 * float(np.sum(r[1:]))))
         noise[k] *= longer
         noise[:, k] *= longer
-    variances = np.diag(noise).tolist()
-    felt = [
-        tuple(dataclasses.replace(f, variance=v) for f, v in zip(c.felt, variances, strict=True))
-        for c in alike
-    ]
-    return [dataclasses.replace(c, felt=f) for c, f in zip(alike, felt, strict=True)], noise
+    return [dataclasses.replace(c, noise=noise) for c in alike]
 
 
-def _whitened(configuration: Configuration, noise: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _whitened(configuration: Configuration) -> tuple[np.ndarray, np.ndarray]:
     """Rows of step 2 of standard deviation 1: R V beta = Q^T y, their covariance taken out."""
-    felt = configuration.felt
+    felt, noise = configuration.felt, configuration.noise
     scale = np.sqrt(np.diag(noise))
     joined = np.hstack([f.Q for f in felt])
     which = np.repeat(np.arange(len(felt)), [len(f.projected) for f in felt])

@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import TWO_STEPS
+from modeler.core.json import entries
 from modeler.core.table import percent
 from modeler.estimation.doubts import HALF, LITTLE
 from modeler.estimation.essential import essential_parameters
-from modeler.estimation.identify import all_rows, base_equations, identify, joints_of, result_of
+from modeler.estimation.identify import all_rows, base_equations, identify, result_of
 from modeler.estimation.result import FitResult
 from modeler.estimation.two_step import Configuration, Directions, TwoStep, two_steps
 from modeler.observation import Doubt, Observation
@@ -31,52 +32,51 @@ class PersistentExcitation:
     Attributes:
         joint: name.
         configurations: at which it moved alone.
-        values: singular values of Phi, those that are 0 left out, largest first.
-        possible: rank of Phi at ever so many configurations.
-        usual: last of the singular values over the first at ever so many configurations.
+        singular_values: of Phi, those that are 0 left out, largest first.
+        possible_rank: of Phi at ever so many configurations.
+        usual_ratio: last of the singular values over the first at ever so many configurations.
     """
 
     joint: str
     configurations: int
-    values: tuple[float, ...]
-    possible: int
-    usual: float
+    singular_values: tuple[float, ...]
+    possible_rank: int
+    usual_ratio: float
+
+    @property
+    def rank(self) -> int:
+        """Of Phi at these configurations."""
+        return len(self.singular_values)
 
     @property
     def persistent(self) -> bool:
         """True if more configurations tell no further parameter."""
-        return len(self.values) >= self.possible
+        return self.rank >= self.possible_rank
 
     def line(self) -> str:
         """For people."""
-        values = " ".join(f"{value:.3g}" for value in self.values)
-        ratio = self.values[-1] / self.values[0] if self.values else 0.0
+        values = self.singular_values
+        listed = " ".join(f"{value:.3g}" for value in values)
+        ratio = values[-1] / values[0] if values else 0.0
         return (
             f"J of joint {self.joint} at {self.configurations} configurations: rank "
-            f"{len(self.values)} of {self.possible}, singular values of Phi {values} (last "
-            f"{ratio:.2g} of the first; {self.usual:.2g} at many random ones)"
+            f"{self.rank} of {self.possible_rank}, singular values of Phi {listed} (last "
+            f"{ratio:.2g} of the first; {self.usual_ratio:.2g} at many random ones)"
         )
 
     def sentence(self) -> str:
         """What to do where it is not persistent."""
-        missing = self.possible - len(self.values)
         return (
             f"joint {self.joint} moves alone at {self.configurations} configurations, which tell "
-            f"{len(self.values)} of the {self.possible} combinations in its inertia: not "
-            f"persistently exciting; move it at {missing} or more further configurations of the "
-            "other joints"
+            f"{self.rank} of the {self.possible_rank} combinations in its inertia: not "
+            f"persistently exciting; move it at {self.possible_rank - self.rank} or more further "
+            "configurations of the other joints"
         )
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        return {
-            "joint": self.joint,
-            "configurations": self.configurations,
-            "singular_values": list(self.values),
-            "rank": len(self.values),
-            "possible_rank": self.possible,
-            "usual_ratio": self.usual,
-        }
+        names = "joint configurations singular_values rank possible_rank usual_ratio"
+        return entries(self, names)
 
 
 def excitations(
@@ -100,11 +100,9 @@ def excitations(
     for i in sorted({c.joint for c in configurations}):
         own = np.array([c.pose for c in configurations if c.joint == i]) @ directions.rows
         rows, best = (inertia_rows(model, q, directions.rows[i]) for q in (own, poses))
-        every = _values(best)
+        name, every = directions.names[i], _values(best)
         usual = every[-1] / every[0]
-        found.append(
-            PersistentExcitation(directions.names[i], len(own), _values(rows), len(every), usual)
-        )
+        found.append(PersistentExcitation(name, len(own), _values(rows), len(every), usual))
     return tuple(found)
 
 
@@ -138,17 +136,19 @@ class TwoStepFit:
 
     def lines(self) -> list[str]:
         """Lines: step 1 by configuration, what Phi tells, both fits beside each other."""
-        lines = ["step 1: one joint moves, the others stand"]
-        lines += [f"  {self._line(c)}" for c in self.steps.configurations]
-        lines += [
-            f"  {count} piece{'s' * (count > 1)} not used: {why}"
+        unused = [
+            f"{count} piece{'s' * (count > 1)} not used: {why}"
             for why, count in self.steps.left_out.items()
         ]
         if self.steps.several > 0.0:
-            lines.append(f"  {self.steps.several:.3g} s not used: several joints move")
-        lines.append("step 2: theta = Phi beta")
-        lines += [f"  {excitation.line()}" for excitation in self.excitation]
-        return [*lines, *self._compared()]
+            unused.append(f"{self.steps.several:.3g} s not used: several joints move")
+        return [
+            "step 1: one joint moves, the others stand",
+            *(f"  {line}" for line in (*map(self._line, self.steps.configurations), *unused)),
+            "step 2: theta = Phi beta",
+            *(f"  {excitation.line()}" for excitation in self.excitation),
+            *self._compared(),
+        ]
 
     def doubts(self) -> list[Doubt]:
         """Joints that never moved alone, where torques are not described for want of them."""
@@ -156,24 +156,20 @@ class TwoStepFit:
         never = [name for k, name in enumerate(self.steps.directions.names) if k not in used]
         short = all(why.startswith("too short") for why in self.steps.left_out)
         worst = max(joint.relative_error or 0.0 for joint in self.result.joints)
-        if not (never and short and worst > LITTLE):
-            return []
-        return [
-            Doubt(
-                f"joint {', '.join(never)} never moved alone for long enough, and the two steps "
-                "use no other motion: what only its torque tells is not found; record more motion "
-                "of it alone, or take --method weighted",
-                certain=worst > HALF,
-                values=True,
-            )
-        ]
+        line = (
+            f"joint {', '.join(never)} never moved alone for long enough, and the two steps use no "
+            "other motion: what only its torque tells is not found; record more motion of it "
+            "alone, or take --method weighted"
+        )
+        doubt = Doubt(line, certain=worst > HALF, values=True)
+        return [doubt] if never and short and worst > LITTLE else []
 
     def _line(self, c: Configuration) -> str:
-        names, own = self.steps.directions.names, c.felt[0]
+        names = self.steps.directions.names
         where = ", ".join(f"q{name} {x:.2f}" for name, x in self._others(c).items())
         cells = [
             f"{'J' if name == 'qdd' else name} {x:.5g} +- {s:.2g}"
-            for name, x, s in zip(own.along.names, own.theta, own.sigma, strict=True)
+            for name, x, s in c.coefficients(0)
         ]
         further = [names[f.joint] for f in c.felt[1:]]
         also = f"; torque of joint {', '.join(further)} too" if further else ""
@@ -210,18 +206,15 @@ class TwoStepFit:
         return {
             "configurations": [
                 {
-                    "log": c.log,
-                    "start": c.start,
-                    "end": c.end,
+                    **entries(c, "log start end"),
                     "joint": names[c.joint],
                     "others": self._others(c),
                     "rows": len(c.felt[0].residual),
                     "torques": {
                         names[f.joint]: {
-                            name: {"value": float(x), "sigma": float(s)}
-                            for name, x, s in zip(f.along.names, f.theta, f.sigma, strict=True)
+                            name: {"value": x, "sigma": s} for name, x, s in c.coefficients(k)
                         }
-                        for f in c.felt
+                        for k, f in enumerate(c.felt)
                     },
                 }
                 for c in self.steps.configurations
@@ -254,14 +247,10 @@ def identify_in_two_steps(
     steps = two_steps(model, observation, directions)
     excitation = excitations(model, observation, directions, steps.configurations)
     estimate = steps.estimate
-    every = all_rows(observation)
-    essential = essential_parameters(steps.data, estimate, "ordinary", below).judged_on(
-        every, estimate.beta
-    )
+    essential = essential_parameters(steps.data, estimate, "ordinary", below)
     result = result_of(
-        base_equations(observation), TWO_STEPS, estimate, essential,
+        base_equations(observation), TWO_STEPS, estimate, essential, all_rows(observation),
         rows=sum(len(f.residual) for c in steps.configurations for f in c.felt),
-        joints=joints_of(observation, every, estimate.beta),
         sentences=(
             *(e.sentence() for e in excitation if not e.persistent),
             *(tangle.sentence() for tangle in estimate.rank.aside),

@@ -87,8 +87,7 @@ def _inertia(
 ) -> list[MethodTable]:
     """P = pinv(Phi) J11 with rows as sure as step 1 is of them."""
     moved = [c for c in steps.steps.configurations if c.joint == 0]
-    inertia = np.array([c.felt[0].theta[0] for c in moved])
-    sigma = np.array([c.felt[0].sigma[0] for c in moved])
+    inertia, sigma = np.array([c.coefficients(0)[0][1:] for c in moved]).T
     functions = [parse(text.strip().replace("^", "**").replace(" ", "*")) for text in monomials]
     phi = np.array([[f.number(_trigonometry(c.pose)) for f in functions] for c in moved])
     inverse = np.linalg.pinv(phi / sigma[:, None])

@@ -3,17 +3,19 @@
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, diagnose, fit, generate, observe
+from modeler.api import add, auto, compile_model, derive, diagnose, fit, generate, observe
 from modeler.robot import robot_from_text
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
 from tests.link_data import buildable, links, text
 
 NOMINAL = links(4)
+BALANCE = HiddenEffect("counterbalance", "2", {"lever": 0.12, "base": 0.3, "angle": 0.8,
+                                               "length": 0.1, "stiffness": 6000.0})  # fmt: skip
 LINE = "a counterbalance on joint 2 cannot be told from gravity: give link data"
 
 
-def looked_at(values, seed, hidden=(), uncertainty=None):
-    """The diagnosis of a machine whose links are about the stated ones."""
+def fitted(values, seed, hidden=(), uncertainty=None):
+    """A machine whose links are about the stated ones, its model, logs to fit and to judge on."""
     machine = buildable(0.1, np.random.default_rng(seed), NOMINAL)
     true = robot_from_text(text(machine), "true")
     runs = [
@@ -25,28 +27,39 @@ def looked_at(values, seed, hidden=(), uncertainty=None):
     emitted = generate(derivation)
     compiled = compile_model(emitted)
     model = fit(derivation, emitted, observe(compiled, runs[:1]))
-    return model, diagnose(model, runs[:1], runs[1:])
+    return machine, model, runs[:1], runs[1:]
 
 
 @pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_with_link_data_a_counterbalance_is_named(seed):
-    balance = HiddenEffect("counterbalance", "2", {"lever": 0.12, "base": 0.3, "angle": 0.8,
-                                                   "length": 0.1, "stiffness": 6000.0})  # fmt: skip
-    model, found = looked_at(NOMINAL, seed, (balance,), {"inertial": 0.1})
+    machine, model, *logs = fitted(NOMINAL, seed, (BALANCE,), {"inertial": 0.1})
+    found = diagnose(model, *logs)
     assert (found.effects[0].effect, found.effects[0].joint) == ("counterbalance", "2")
     assert found.effects[0].error_after < 0.2 * found.effects[0].error_before
     assert not any(LINE in line for line in found.sentences)
     assert any("link 2: the data contradict" in line for line in model.fit.verdict.doubts)
+    for better in (add(model, "counterbalance", *logs, "2"), auto(model, *logs)):
+        assert [step.effect for step in better.history] == ["", "counterbalance"]
+        assert better.history[-1].falls and not better.fit.contradicted
+        z = []
+        for base, p in zip(better.spec.base, better.fit.parameters, strict=True):
+            if all(term.parameter in machine for term in base.terms):
+                truth = sum(term.value * machine[term.parameter] for term in base.terms)
+                z.append((p.value - truth) / p.sigma)
+        assert len(z) == 15 and np.sqrt(np.mean(np.square(z))) < 1.6
+        assert max(p.prior for p in better.fit.parameters) > 0.2
 
 
 def test_with_free_inertias_it_is_said_that_gravity_looks_alike():
-    _, found = looked_at({}, 3)
+    _, model, *logs = fitted({}, 3)
+    found = diagnose(model, *logs)
     assert found.verdict == "nothing significant"
     assert any(line.startswith(LINE) for line in found.sentences)
 
 
 def test_a_true_machine_lacks_nothing_beside_its_link_data():
-    model, found = looked_at(NOMINAL, 5, (), {"inertial": 0.1})
+    _, model, *logs = fitted(NOMINAL, 5, (), {"inertial": 0.1})
+    found = diagnose(model, *logs)
     assert found.verdict == "nothing significant"
     assert not model.fit.contradicted
     assert not any("cannot be told from gravity" in line for line in found.sentences)

@@ -2,19 +2,22 @@
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from modeler.api import Load, fit_gains
 from modeler.api.fitting import FitRequest, estimated
 from modeler.codegen import derive
 from modeler.core.errors import DataError
-from modeler.estimation.identify import identify
+from modeler.estimation.identify import base_equations, fit_equations, identify
 from modeler.estimation.least_squares import least_squares
 from modeler.estimation.nearest_body import PREFIXES
+from modeler.estimation.payload import Payload, identify_with_payloads
 from modeler.estimation.prior import body_covariance, prior_of
 from modeler.estimation.result import fit_from_json
-from modeler.numerics.least_squares import compress
+from modeler.numerics.least_squares import compress, merged
 from modeler.observation import Log, observe
 from modeler.robot import robot_from_text
+from tests.bodies import ten_of_points
 from tests.link_data import compiled, drawn, links, text
 
 NOMINAL = links()
@@ -146,7 +149,7 @@ def test_a_true_prior_is_not_told_as_contradicted(model):
     assert sum(map(bool, told)) <= 2
 
 
-def seen_of(model, chi, seed=0, seconds=6.0, noise=None):
+def log_of(model, chi, seed=0, seconds=6.0, noise=None, name="made.csv"):
     rng = np.random.default_rng([seed, 1])
     t = np.arange(0.0, seconds, 0.002)
     w = 2.0 * np.pi * np.outer(t, [0.3, 0.7, 1.1])
@@ -155,7 +158,11 @@ def seen_of(model, chi, seed=0, seconds=6.0, noise=None):
     q, qd, qdd = np.sin(w) @ a, np.cos(w) * f @ a, -np.sin(w) * f**2 @ a
     tau = model.inverse_dynamics(q, qd, qdd, base_values(model, chi))
     tau = tau + (NOISE * rng.normal(size=tau.shape) if noise is None else noise)
-    return observe(model, [Log("made.csv", ("1", "2", "3"), t, q, tau)])
+    return Log(name, ("1", "2", "3"), t, q, tau)
+
+
+def seen_of(model, chi, *how):
+    return observe(model, [log_of(model, chi, *how)])
 
 
 @pytest.fixture(scope="module")
@@ -182,21 +189,58 @@ def test_held_values_hold_and_the_table_says_what_came_from_the_prior(model, see
     assert [p.prior for p in again.parameters] == shares
 
 
+def remembering(seed):
+    """(6000, 3) N m, of 0.2 s at 500 Hz."""
+    white, a = np.random.default_rng([seed, 3]).normal(size=(6000, 3)), np.exp(-0.002 / 0.2)
+    return lfilter([2.0 * (1.0 - a * a) ** 0.5], [1.0, -a], white, axis=0)
+
+
+def test_windows_of_long_logs_raise_the_sigmas_as_all_rows_do(model):
+    """All rows twice, of which the windows are half: as white noise, sigmas fall by a root of 2."""
+    seen = seen_of(model, true_chi(1), 1, 12.0, remembering(1))
+    data = base_equations(seen).compressed(np.ones(len(seen.y), dtype=bool))
+    every = {"data": merged(data, data), "share": 0.5}
+    once, twice = (
+        fit_equations(seen, base_equations(seen), "weighted", model, **how) for how in ({}, every)
+    )
+    pairs = {
+        own.name: own.sigma / other.sigma
+        for own, other in zip(twice.parameters, once.parameters, strict=True)
+    }
+    assert all(0.68 < pairs[name] < 0.78 for name in ("XZ2R", "MX2R")), pairs
+
+
 def test_rows_that_repeat_each_other_weigh_less(model):
     """Noise that remembers 0.2 s: sigmas of data and prior together stay honest."""
     z = []
     for seed in range(12):
         chi = true_chi(200 + seed)
-        rng = np.random.default_rng([seed, 3])
-        t = np.arange(0.0, 12.0, 0.002)
-        noise, a = np.zeros((len(t), 3)), np.exp(-0.002 / 0.2)
-        for k in range(1, len(t)):
-            noise[k] = a * noise[k - 1] + 2.0 * (1.0 - a * a) ** 0.5 * rng.normal(size=3)
-        fit = identify(seen_of(model, chi, seed, 12.0, noise), "weighted", model)
+        fit = identify(seen_of(model, chi, seed, 12.0, remembering(seed)), "weighted", model)
         sigma = np.array([p.sigma for p in fit.parameters])
         free = np.array([p.status != "held" for p in fit.parameters])
         z.append(((fit.beta - base_values(model, chi)) / sigma)[free])
     assert 0.8 < np.sqrt(np.mean(np.square(z))) < 1.25
+
+
+def test_a_load_is_found_beside_the_prior_of_the_robot(model):
+    """Its own parameters have none: what is known of link 3 is of the bare one."""
+    z, rng = [], np.random.default_rng(8)
+    for seed in range(3):
+        chi = true_chi(300 + seed)
+        body = ten_of_points(rng.uniform(0.5, 1.5, 6), rng.uniform(0.1, 0.5, (6, 3)))
+        loaded = chi | {f"{p}3": chi[f"{p}3"] + value for p, value in body.items()}
+        logs = [log_of(model, values, seed, name=name)
+                for values, name in ((chi, "bare.csv"), (loaded, "loaded.csv"))]  # fmt: skip
+        carried = [Payload(("loaded.csv",))]
+        fit = identify_with_payloads(model, observe(model, logs), carried)
+        assert not fit.contradicted and max(p.prior for p in fit.parameters) > 0.5
+        assert all(p.prior < 0.5 for p in fit.loads) and len(fit.loads) == 10
+        truth = np.append(base_values(model, chi), [body[p.name[:-6]] for p in fit.loads])
+        free = [p.status != "held" for p in (*fit.parameters, *fit.loads)]
+        every = [(p.value, p.sigma) for p in (*fit.parameters, *fit.loads)]
+        value, sigma = np.array(every).T
+        z.append(((value - truth) / sigma)[free])
+    assert 0.75 < np.sqrt(np.mean(np.square(z))) < 1.3
 
 
 @pytest.mark.parametrize("method", ["ridge", "consistent"])

@@ -11,8 +11,7 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.estimation.instrumental import with_instruments
-from modeler.estimation.least_squares import least_squares, ordinary
-from modeler.estimation.problem import Problem
+from modeler.estimation.least_squares import Problem, least_squares, ordinary
 from modeler.estimation.ridge import ridge
 from modeler.estimation.robust import robust
 from modeler.numerics.least_squares import compress

@@ -9,7 +9,7 @@ from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
-from modeler.estimation.energy_fit import energy_rows, identify_energy, unequal_least_squares
+from modeler.estimation.energy_fit import identify_energy, unequal_least_squares
 from modeler.estimation.identify import base_equations, crossed, identify
 from modeler.estimation.result import fit_from_json
 from modeler.observation.observe import observe
@@ -32,23 +32,21 @@ def noisy_log(arm, seed, noise=NOISE, **kw):
 
 @pytest.fixture(scope="module")
 def repeated(arm):
-    """Scores (beta - truth) / sigma by method."""
-    truth = some_beta(arm)
+    """Observations and fits, and the scores (beta - truth) / sigma by method."""
+    truth, fits = some_beta(arm), []
     scores = {"weighted": [], "ordinary": []}
     for seed in range(SEEDS):
         seen = observe(arm, [noisy_log(arm, seed, seconds=10)])
-        rows = energy_rows(arm, seen)
-        for method in ("weighted", "ordinary"):
-            found = unequal_least_squares(
-                rows.W, rows.y, rows.spread, seen.names, rows.stretch, method
-            )
+        fits.append((seen, identify_energy(arm, seen)))
+        ordinary = fits[-1][1].rows.estimate(seen.names, "ordinary")
+        for method, found in (("weighted", fits[-1][1].result), ("ordinary", ordinary)):
             scores[method].append((found.beta - truth) / np.sqrt(np.diag(found.covariance)))
-    return {method: np.array(values) for method, values in scores.items()}
+    return fits, {method: np.array(values) for method, values in scores.items()}
 
 
 @pytest.mark.parametrize("method", ["weighted", "ordinary"])
 def test_the_sigmas_cover_the_truth(repeated, method):
-    z = repeated[method]
+    z = repeated[1][method]
     assert 0.85 < np.sqrt(np.mean(z**2)) < 1.12
     assert 0.9 < np.mean(np.abs(z) < 2.0) < 0.99
     assert np.all(np.abs(z.mean(axis=0)) < 4.0 / SEEDS**0.5)
@@ -136,12 +134,10 @@ def test_both_verdicts_say_how_many_values_are_known(fitted):
     assert "knows 5 parameters where that knows 8" in first
 
 
-def test_the_stated_uncertainty_of_the_torques_is_the_true_one(arm):
-    """sqrt(tr(W C W^T)): mean square of the true error of predicted torques, over 20 fits."""
+def test_the_stated_uncertainty_of_the_torques_is_the_true_one(arm, repeated):
+    """sqrt(tr(W C W^T)): mean square of the true error of predicted torques, over all fits."""
     truth, errors, stated = some_beta(arm), {0: [], 1: []}, {0: [], 1: []}
-    for seed in range(20):
-        seen = observe(arm, [noisy_log(arm, 900 + seed, seconds=8)])
-        fit = identify_energy(arm, seen)
+    for seen, fit in repeated[0]:
         for k, beta in enumerate((identify(seen).beta, fit.result.beta)):
             miss = np.linalg.norm(seen.W @ (beta - truth)) / np.linalg.norm(seen.y)
             errors[k].append(miss**2)

@@ -72,7 +72,7 @@ def test_links_share_their_faults_as_their_parameters_do():
 
 def test_links_have_ten_parameters_each_even_if_torques_feel_two():
     machine = machine_of(compiled("scara").spec)
-    for own in machine.links.values():
-        assert tuple(sorted(own)) == tuple(sorted(INERTIAL))
-    places = [place for own in machine.links.values() for place in own.values()]
+    for link, own in machine.links.items():
+        assert {machine.names[place] for place in own} == {f"{p}{link}" for p in INERTIAL}
+    places = [place for own in machine.links.values() for place in own]
     assert len(set(places)) == len(places) <= machine.K.shape[1]

@@ -136,7 +136,7 @@ def test_the_inertias_have_the_rank_of_the_papers_functions(exact):
 
     The singular values of Phi in the paper's functions and in base parameters count alike.
     """
-    assert [e.possible for e in exact.excitation] == [7, 3, 1]
+    assert [e.possible_rank for e in exact.excitation] == [7, 3, 1]
     q = np.random.default_rng(4).uniform(-np.pi, np.pi, (8, 3))
     s2, c2, s3, c3 = np.sin(q[:, 1]), np.cos(q[:, 1]), np.sin(q[:, 2]), np.cos(q[:, 2])
     paper = np.column_stack([

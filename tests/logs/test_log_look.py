@@ -166,7 +166,7 @@ def test_topics_are_listed_without_choosing(case, capsys, tmp_path):
 
 def test_page_pictures_and_windows(capsys, tmp_path, table):
     path = parquet(tmp_path / "run.parquet", table)
-    argv = ["log", f"{path}@1:2", "--page", tmp_path / "page.html", "--pictures", tmp_path / "p"]
+    argv = ["log", f"{path}@1:2", "--report", tmp_path / "page.html", "--pictures", tmp_path / "p"]
     assert main([*map(str, argv)]) == 0
     out = capsys.readouterr().out
     assert out.startswith("run.parquet: 1000 rows") and "written: " in out

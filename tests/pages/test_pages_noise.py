@@ -36,7 +36,7 @@ def noisy(tmp_path_factory):
         table[name] = np.array(table[name]) + draw.normal(0.0, SIZE, len(table[name]))
     pq.write_table(pa.table(table), folder / "run.parquet")
     for command, more in (("fit two-link", "--out model.json --report"),
-                          ("log", "--page"), ("log", "--robot two-link --page")):  # fmt: skip
+                          ("log", "--report"), ("log", "--robot two-link --report")):  # fmt: skip
         name = f"{command.split()[0]}{'_robot' * ('--robot' in more)}"
         words = [*command.split(), str(folder / "run.parquet"), *more.split()]
         words = [str(folder / word) if word == "model.json" else word for word in words]
