@@ -37,7 +37,7 @@ from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import instrumental
 from modeler.effects import Acts, effect_named
 from modeler.estimation import IdentifiedModel
-from modeler.observation import Fault
+from modeler.observation import Doubt
 
 LOST = 1.0
 """Held-out error from which on a model says nothing about that motion, nor what it lacks."""
@@ -105,7 +105,7 @@ def band_search(
 
 def assembled(
     model: IdentifiedModel, bands: Sequence[BandSearch], window: Window | None,
-    faults: Sequence[Fault] = (),
+    faults: Sequence[Doubt] = (),
 ) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 

@@ -11,7 +11,7 @@ from modeler.core.errors import DataError
 from modeler.diagnosis.assemble import BandSearch, assembled, band_search
 from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.cross_checks import OtherLook, recheck_effects
-from modeler.diagnosis.data_checks import channel_faults, without_friction
+from modeler.diagnosis.data_checks import faults_of, without_friction
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
 from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.judge import vetoing
@@ -94,7 +94,7 @@ def diagnose(
         data = dataclasses.replace(data, known=fewer)
     other = _held_out(data, holdout)
     beyond = _other_band(data, model, mending)
-    doubted = channel_faults(model, data, other, beyond)
+    doubted = faults_of(model, data, other)
     limit = 0 if any(fault.certain for fault in doubted) else most
 
     def searched(data: SearchData, other: SearchData | None, given: Sequence[Step] = ()) -> Search:

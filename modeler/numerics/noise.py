@@ -33,7 +33,6 @@ END = 10
 """Samples at both ends of a stretch that are not judged."""
 
 _HALF = 5  # samples: the median of 11 is not moved by a few that are wrong
-_AROUND = 2 * REACH  # samples around a value that tell whether it stands alone
 LEAST = 4 * _HALF
 """Values below which nothing can be said."""
 
@@ -75,34 +74,6 @@ def threshold(departed: np.ndarray, resolution: float, share: float) -> float:
     rare = min(len(size) - 1, max(LEAST_RARE, round(share * len(size))))
     common = float(np.partition(size, len(size) - 1 - rare)[len(size) - 1 - rare])
     return max(NOISES * robust_deviation(departed), CROWD * common, STEPS * resolution)
-
-
-def spread(values: np.ndarray) -> np.ndarray:
-    """(n, ...) at least the largest departure that each value (n, ...) can have, n 11 or more.
-
-    The median of a window lies between its least and its largest value.
-    """
-    low, high = values, values
-    for step in (1, 2, 4, 3):  # windows of 2, 4, 8 and 11
-        low, high = np.minimum(low[:-step], low[step:]), np.maximum(high[:-step], high[step:])
-    width = high - low
-    return np.concatenate([np.repeat(width[:1], _HALF, axis=0), width,
-                           np.repeat(width[-1:], _HALF, axis=0)])  # fmt: skip
-
-
-def departures_near(values: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """(n, J) `departures` of channels (n, J) around some places, increasing; 0 elsewhere."""
-    found = np.zeros_like(values)
-    apart = np.flatnonzero(np.diff(places) > 2 * _AROUND)
-    for some in np.split(places, apart + 1) if places.size else ():
-        start, stop = max(0, some[0] - _AROUND), some[-1] + _AROUND + 1
-        low, high = max(0, start - _HALF), stop + _HALF
-        for j in range(values.shape[1]):
-            own = departures(values[low:high, j])
-            found[start:stop, j] = own[
-                start - low : len(own) - max(0, min(high, len(values)) - stop)
-            ]
-    return found
 
 
 def floor_here(departed: Sequence[np.ndarray], floor: float, share: float) -> float:

@@ -1,10 +1,11 @@
 from .channels import (
-    Fault as Fault,
+    Doubt as Doubt,
     ThinnedRows as ThinnedRows,
     Turn as Turn,
+    clocks as clocks,
     thinned as thinned,
     turns as turns,
-    zeros as zeros,
+    zero as zero,
 )
 from .chunk import (
     Chunk as Chunk,

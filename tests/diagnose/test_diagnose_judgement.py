@@ -19,7 +19,7 @@ from modeler.diagnosis.score import Change, Score
 from modeler.diagnosis.search import HypothesisScan
 from modeler.diagnosis.sentences import refused_lines
 from modeler.effects.catalogue import effect_named
-from modeler.observation.channels import Fault
+from modeler.observation.channels import Doubt
 from tests.diagnose.conftest import Case
 
 
@@ -256,10 +256,12 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
 def test_what_an_effect_explains_is_no_matter_of_the_channel(
     monkeypatch: pytest.MonkeyPatch, left: float, certain: bool, told: int
 ) -> None:
-    start, end = (SimpleNamespace(residual=[np.full(10, size)], data=None) for size in (1.0, left))
-    for name in ("sensor_delay_lines", "_moved", "data_lines"):
+    start, end = (
+        SimpleNamespace(residual=[np.full(10, size)], data=None, picks=()) for size in (1.0, left)
+    )
+    for name in ("_moved", "data_lines"):
         monkeypatch.setattr(doubts, name, lambda *a: [])
-    faults = [Fault("torque 1 is 0.7 times the predicted", certain, 0)]
+    faults = [Doubt("torque 1 is 0.7 times the predicted", certain, joint=0)]
     found = SimpleNamespace(start=start, end=end)
     assert len(doubts.doubts(None, found, None, faults)) == told  # type: ignore[arg-type]
 
