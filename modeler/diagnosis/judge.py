@@ -295,12 +295,18 @@ def holdout_residuals(state: State, other: SearchData | None) -> Residuals:
     return _of(state.data, tuple(left))
 
 
+def on_logs(state: State, data: SearchData) -> State:
+    """A state fitted to other logs, linearised about the same reference."""
+    rows = data.about(state.reference)
+    return State(data, state.picks, state.reference, rows, picked_columns(rows, state.picks))
+
+
 def left_of(state: State, data: SearchData) -> Residuals:
     """What a state leaves of logs, with its parameters as they are."""
-    rows = data.about(state.reference)
-    extra = picked_columns(rows, state.picks)
+    there = on_logs(state, data)
+    rows = there.rows
     found = [y - W @ state.beta for y, W in zip(rows.y, rows.W, strict=True)]
-    for columns, values in zip(extra, state.values, strict=True):
+    for columns, values in zip(there.extra, state.values, strict=True):
         for j, own in enumerate(columns):
             if own is not None:
                 found[j] = found[j] - own @ values
