@@ -13,6 +13,7 @@ from modeler.diagnosis.ranking import VISIBLE, Ranking, pool_of, total_falls
 from modeler.diagnosis.score import STANDARD_ERRORS, Residuals, Score, scored, standard_errors
 from modeler.diagnosis.state import SearchData, State, picked_columns
 from modeler.diagnosis.timing import confirmed
+from modeler.effects import Acts
 
 GATE = 0.03
 """Least share of the residual variance on held-out motion that is worth a name."""
@@ -25,7 +26,7 @@ NAMED_T_RATIO = 4.5
 chance with one candidate in a hundred thousand."""
 
 SAME = 0.3
-"""Share of a rival's fall that may be left with the best put in, if both explain the same."""
+"""Share of its fall that may be left for either with the other put in, if both explain the same."""
 
 NEARLY = 0.95
 """Share of the best fall with which a simpler effect is preferred, if the data do not tell."""
@@ -33,6 +34,9 @@ NEARLY = 0.95
 
 PLAIN = ("coulomb", "viscous")
 """Friction that all other friction refines."""
+
+EVERY = (*PLAIN, "offset", "rotor_inertia")
+"""Laws that every joint with a motor has."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,16 +213,24 @@ STEM = 0.5
 
 
 def refines(finer: Candidate, plain: Candidate) -> bool:
-    """True for friction of a joint beside the dry or viscous friction that it refines."""
-    friction = finer.effect.family == "friction" and finer.effect.id not in PLAIN
-    return friction and plain.effect.id in PLAIN and finer.joint == plain.joint
+    """True for what says more of a joint than a law that every joint has.
+
+    It is of the same family, or has more free numbers: where it explains no more, it is no rival.
+    """
+    laws = plain.effect.id in EVERY and finer.effect.id not in EVERY
+    own = finer.joint == plain.joint and finer.effect.acts in (Acts.JOINT, Acts.MOTOR)
+    more = finer.effect.family == plain.effect.family or numbers(finer) > numbers(plain)
+    return laws and own and more
 
 
 def _stem(best: Judged, judged: Sequence[Judged]) -> Judged | None:
-    """Dry or viscous friction of a joint that has none, before what refines it."""
+    """Dry or viscous friction of a joint that has none, before friction that refines it."""
+    if best.candidate.effect.family != "friction":
+        return None
     return next((
         j for j in judged
-        if refines(best.candidate, j.candidate) and j.significant and j.share > STEM * best.share
+        if j.candidate.effect.id in PLAIN and refines(best.candidate, j.candidate)
+        and j.significant and j.share > STEM * best.share
     ), None)  # fmt: skip
 
 
@@ -258,13 +270,20 @@ def numbers(candidate: Candidate) -> float:
 def alternatives(best: Judged, others: Sequence[Judged], after: Judgement) -> list[Judged]:
     """Tied ones that explain the same: with the best put in, little is left for them.
 
+    What only refines a law that every joint has is none, nor is a twin of other sign.
+
+
     Args:
         best: that was put in.
         others: its rivals then.
         after: the judgement with it.
     """
     left = {j.key: j.fall for j in after.ranked}
-    return [o for o in tied(best, others) if left.get(o.key, 0.0) < SAME * o.fall]
+    return [
+        o for o in tied(best, others)
+        if left.get(o.key, 0.0) < SAME * o.fall and not refines(o.candidate, best.candidate)
+        and o.candidate.effect.twin != best.candidate.effect.id
+    ]  # fmt: skip
 
 
 def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:

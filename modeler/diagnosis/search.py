@@ -6,7 +6,7 @@ And which spring hangs on a lever: a helical one, or one of constant force?
 import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from scipy.optimize import minimize, minimize_scalar
@@ -18,6 +18,7 @@ from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest,
 from modeler.diagnosis.generate import generate_candidates, ruled_out, slowest_ringing
 from modeler.diagnosis.judge import (
     NEARLY,
+    SAME,
     Judged,
     Judgement,
     Trial,
@@ -30,6 +31,7 @@ from modeler.diagnosis.judge import (
 from modeler.diagnosis.plausible import DRIVES, drives, objection
 from modeler.diagnosis.profile import values_of
 from modeler.diagnosis.ranking import fall, pool_of, total_falls
+from modeler.diagnosis.score import STANDARD_ERRORS, standard_errors
 from modeler.diagnosis.state import SearchData, State, all_columns_of, columns_of, state_of, visible
 from modeler.effects import Effect, Shape, effect_named
 
@@ -273,9 +275,7 @@ Veto = Callable[[State, State, Judged], bool]
 effect as it was judged."""
 
 CLEAR = 1.01
-"""Ratio of two falls that decides, and of what they leave of the squared residuals."""
-
-_STARTS = 4  # shapes of a sign that are refined
+"""Ratio of two errors that decides."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -376,12 +376,20 @@ def search(
         doubted, refused = _doubted(refused, best), survey.still_refused(refused)
         after = survey.judged(refused, tick)
         rivals = tuple(j for j in judgement.ranked if j.key != best.key)
-        ties = (*alternatives(best, rivals, after), *doubted)
+        twins = _twins(state, best.candidate, without)
+        equals = [o for o in alternatives(best, rivals, after) if _covers(state, o, best)]
+        ties = (*equals, *doubted, *twins)
         steps.append(Step(best, rivals, state, ties))
         state, judgement = later, after
     kept, state = _backward(state, steps, start.picks, tick)
     looked = judgement, tuple(every), tuple(without), tuple(given)
     return Search(start, tuple(kept), state, *looked)
+
+
+def _covers(state: State, other: Judged, best: Judged) -> bool:
+    """True if with the other effect put in, little is left for the best one."""
+    beside = state_of(state.data, [*state.picks, other.candidate], state.beta)
+    return _judged_again(beside, best.candidate).fall < SAME * best.fall
 
 
 def _doubted(refused: Sequence[Judged], best: Judged) -> list[Judged]:
@@ -470,14 +478,17 @@ def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequen
         every = generate_candidates(state, best.candidate.effect.id, without)
         gains = [c for c in every if not is_vetoed(c, vetoed)]
         return _judged_again(state, likeliest(state, gains) or best.candidate)
-    other = effect_named(best.candidate.effect.twin, state.data.known.catalogue)
-    joint = best.candidate.joint
-    if other is None or ruled_out(other.id, joint, without):
-        return best
-    pull = constant_force(state, best.candidate, other)
-    if pull is None or is_vetoed(pull, vetoed):
+    pull, ahead = constant_force(state, best.candidate, without)
+    if pull is None or ahead <= STANDARD_ERRORS or is_vetoed(pull, vetoed):
         return best
     return _judged_again(state, pull)
+
+
+def _twins(state: State, best: Candidate, without: Sequence[str]) -> list[Judged]:
+    """Its twin of another law, where the data do not tell which of them it is."""
+    pull, ahead = constant_force(state, best, without)
+    tied = pull is not None and abs(ahead) <= STANDARD_ERRORS
+    return [_judged_again(state, pull)] if pull is not None and tied else []
 
 
 def _judged_again(state: State, candidate: Candidate) -> Judged:
@@ -528,53 +539,47 @@ def _beside(state: State, given: Sequence[Candidate], kept: Sequence[Step], step
     return _judged_again(state_of(state.data, others, state.beta), step.pick)
 
 
-def constant_force(state: State, helical: Candidate, other: Effect) -> Candidate | None:
-    """The spring of constant force that explains more than any helical one; None if none does.
+def constant_force(
+    state: State, helical: Candidate, without: Sequence[str]
+) -> tuple[Candidate | None, float]:
+    """The best spring of constant force, and how surely it explains more than a helical one.
 
     With l the length of the spring, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq for a
     constant pull: in sin(q - q0) / l the first has the coefficient -k l0 b, the second +F b. The
-    rest of the first, k b sin(q - q0), is mostly that of the link's first moment.
+    rest of the first, k b sin(q - q0), is mostly that of the link's first moment. So the sign
+    decides, in standard errors of the paired differences over blocks.
 
     Args:
         state: without either.
-        helical: its candidate.
-        other: the effect of constant force.
+        helical: any effect; nothing is as good as what has no twin.
+        without: ids of effects, or id@joint, that the user rules out.
     """
-    pull = _best(state, helical, other, 1.0)
-    if pull is None:
-        return None
-    ranking = state.ranked([columns_of(state.rows, helical)])
-    total = float(ranking.before[helical.index])
-    if _better(float(ranking.drop.sum()), pull[1], total):
-        return None
-    spring = _best(state, helical, helical.effect, -1.0)
-    return pull[0] if spring is None or _better(pull[1], spring[1], total) else None
+    other = effect_named(helical.effect.twin, state.data.known.catalogue)
+    if other is None or ruled_out(other.id, helical.joint, without):
+        return None, -np.inf
+    key = "constant force", helical.joint
+    if key not in state.known:
+        pull, spring = (
+            _signed(state, helical, effect, sign)
+            for effect, sign in ((other, 1.0), (helical.effect, -1.0))
+        )
+        found = [c for c in (pull, spring) if c is not None]
+        drop = state.ranked(all_columns_of(state.rows, found)).drop.T if found else ()
+        ahead = standard_errors(drop[0] - drop[1]) if len(found) == 2 else np.inf
+        state.known[key] = pull, ahead if pull is not None else -np.inf
+    return cast(tuple[Candidate | None, float], state.known[key])
 
 
-def _better(fall: float, other: float, total: float) -> bool:
-    """True if a fall of the joint's squared residuals is clearly larger than another."""
-    left, others = (max(total - f, 1e-3 * total) for f in (fall, other))
-    return fall > CLEAR * other or CLEAR * left < others
-
-
-def _best(
-    state: State, like: Candidate, effect: Effect, sign: float
-) -> tuple[Candidate, float] | None:
-    """The best shapes with which the part sin / l has that sign, and the fall they give."""
+def _signed(state: State, like: Candidate, effect: Effect, sign: float) -> Candidate | None:
+    """The best shapes with which the part sin / l has that sign."""
     scale = state.scales[like.index]
     grid = list(over_grid(effect, effect.forms[0], str(like.joint), like.index, scale))
-    signed = _signed(state, grid, sign)[:_STARTS]
-    every = [*(refined(state, candidate) for candidate, _ in signed), *(c for c, _ in signed)]
-    return next(iter(_signed(state, every, sign)), None)
 
+    def ordered(candidates: Sequence[Candidate]) -> list[Candidate]:
+        pool = pool_of(state.folded, all_columns_of(state.rows, candidates))
+        fall, values = total_falls(state.folded, pool)
+        order = [k for k in np.argsort(-fall) if sign * values[k][-1] > 0.0 and fall[k] > 0.0]
+        return [candidates[k] for k in order]
 
-def _signed(
-    state: State, candidates: Sequence[Candidate], sign: float
-) -> list[tuple[Candidate, float]]:
-    """Those whose last parameter has that sign, and the fall of each, best first."""
-    if not candidates:
-        return []
-    pool = pool_of(state.folded, all_columns_of(state.rows, candidates))
-    fall, values = total_falls(state.folded, pool)
-    order = [k for k in np.argsort(-fall) if sign * values[k][-1] > 0.0 and fall[k] > 0.0]
-    return [(candidates[k], float(fall[k])) for k in order]
+    first = ordered(grid)[:STARTS]
+    return next(iter(ordered([*(refined(state, c) for c in first), *first])), None) if first else None
