@@ -228,10 +228,9 @@ def _finding(
 
 
 def _same(pick: Candidate, found: Search) -> list[Key]:
-    """Effects that no data tell from it; of twins the search has asked."""
-    effect, names = pick.effect, {e.id: e for e in found.catalogue}
-    others = [e for e in effect.same_as if e != effect.twin and names[e].twin != effect.id]
-    return [(e, pick.joint) for e in others if not ruled_out(e, pick.joint, found.without)]
+    """Effects that no data tell from it."""
+    same = [(other.id, pick.joint) for other in found.catalogue if pick.effect.is_like(other)]
+    return [key for key in same if not ruled_out(*key, found.without)]
 
 
 def _refines(found: Search, k: int) -> bool:

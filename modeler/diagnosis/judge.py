@@ -183,8 +183,15 @@ def _judged(state: State, candidate: Candidate, ranking: Ranking, i: int) -> Jud
 
 
 def possible(candidate: Candidate, values: np.ndarray) -> bool:
-    """False for a sign or a size of the candidate's parameters that physics forbids."""
-    return not any(
+    """False for a sign or a size of the candidate's parameters that physics forbids.
+
+    With l the length of a spring on a lever, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq
+    for one of constant force: in sin(q - q0) / l the first has the coefficient -k l0 b, the second
+    F b. The rest of the first, k b sin(q - q0), is mostly that of the link's first moment: the sign
+    tells them apart.
+    """
+    turned = candidate.effect.sign * float(values[-1]) < 0.0
+    return not turned and not any(
         (column.nonnegative and value < 0.0) or abs(value) > column.largest
         for value, column in zip(map(float, values), candidate.form.columns, strict=False)
     )
@@ -270,7 +277,7 @@ def numbers(candidate: Candidate) -> float:
 def alternatives(best: Judged, others: Sequence[Judged], after: Judgement) -> list[Judged]:
     """Tied ones that explain the same: with the best put in, little is left for them.
 
-    What only refines a law that every joint has is none, nor is a twin of other sign.
+    What only refines a law that every joint has is none.
 
 
     Args:
@@ -282,7 +289,6 @@ def alternatives(best: Judged, others: Sequence[Judged], after: Judgement) -> li
     return [
         o for o in tied(best, others)
         if left.get(o.key, 0.0) < SAME * o.fall and not refines(o.candidate, best.candidate)
-        and o.candidate.effect.twin != best.candidate.effect.id
     ]  # fmt: skip
 
 
@@ -292,7 +298,7 @@ def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
     for other in others:
         if other is best or not other.possible or other.gain < GATE:
             continue
-        same = other.candidate.effect.id in best.candidate.effect.same_as
+        same = best.candidate.effect.is_like(other.candidate.effect)
         if same or standard_errors(best.drop - other.drop) <= STANDARD_ERRORS:
             found.append(other)
     return found

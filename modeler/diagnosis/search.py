@@ -1,21 +1,18 @@
-"""The search: name the best effect, refine it, put it in, look again; drop what is not needed.
-
-And which spring hangs on a lever: a helical one, or one of constant force?
-"""
+"""The search: name the best effect, refine it, put it in, look again; drop what is not needed."""
 
 import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from scipy.optimize import minimize, minimize_scalar
 
 from modeler.core.brief import Brief
 from modeler.core.manifest import ModuleSpec
-from modeler.diagnosis.candidates import Candidate, coded, over_grid
+from modeler.diagnosis.candidates import Candidate, coded
 from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled_parameters
-from modeler.diagnosis.generate import generate_candidates, ruled_out, slowest_ringing
+from modeler.diagnosis.generate import generate_candidates, slowest_ringing
 from modeler.diagnosis.judge import (
     NEARLY,
     SAME,
@@ -30,10 +27,9 @@ from modeler.diagnosis.judge import (
 )
 from modeler.diagnosis.plausible import DRIVES, drives, objection
 from modeler.diagnosis.profile import values_of
-from modeler.diagnosis.ranking import fall, pool_of, total_falls
-from modeler.diagnosis.score import STANDARD_ERRORS, standard_errors
-from modeler.diagnosis.state import SearchData, State, all_columns_of, columns_of, state_of, visible
-from modeler.effects import Effect, Shape, effect_named
+from modeler.diagnosis.ranking import fall, pool_of
+from modeler.diagnosis.state import SearchData, State, state_of, visible
+from modeler.effects import Effect, Shape
 
 _STEPS = 8
 
@@ -376,9 +372,8 @@ def search(
         doubted, refused = _doubted(refused, best), survey.still_refused(refused)
         after = survey.judged(refused, tick)
         rivals = tuple(j for j in judgement.ranked if j.key != best.key)
-        twins = _twins(state, best.candidate, without)
         equals = [o for o in alternatives(best, rivals, after) if _covers(state, o, best)]
-        ties = (*equals, *doubted, *twins)
+        ties = (*equals, *doubted)
         steps.append(Step(best, rivals, state, ties))
         state, judgement = later, after
     kept, state = _backward(state, steps, start.picks, tick)
@@ -470,25 +465,15 @@ def _beside_prior(
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:
-    """The best effect, or its twin of another law where that explains the same with less.
+    """The best effect; of drive gains, the likeliest.
 
-    Of drive gains, the likeliest: ranks weigh the joints by what a model bent by it leaves.
+    Ranks weigh the joints by what a model bent by a wrong gain leaves.
     """
-    if is_gain(best.candidate):
-        every = generate_candidates(state, best.candidate.effect.id, without)
-        gains = [c for c in every if not is_vetoed(c, vetoed)]
-        return _judged_again(state, likeliest(state, gains) or best.candidate)
-    pull, ahead = constant_force(state, best.candidate, without)
-    if pull is None or ahead <= STANDARD_ERRORS or is_vetoed(pull, vetoed):
+    if not is_gain(best.candidate):
         return best
-    return _judged_again(state, pull)
-
-
-def _twins(state: State, best: Candidate, without: Sequence[str]) -> list[Judged]:
-    """Its twin of another law, where the data do not tell which of them it is."""
-    pull, ahead = constant_force(state, best, without)
-    tied = pull is not None and abs(ahead) <= STANDARD_ERRORS
-    return [_judged_again(state, pull)] if pull is not None and tied else []
+    every = generate_candidates(state, best.candidate.effect.id, without)
+    gains = [c for c in every if not is_vetoed(c, vetoed)]
+    return _judged_again(state, likeliest(state, gains) or best.candidate)
 
 
 def _judged_again(state: State, candidate: Candidate) -> Judged:
@@ -537,49 +522,3 @@ def _beside(state: State, given: Sequence[Candidate], kept: Sequence[Step], step
     """One of the effects, judged in the model with the others."""
     others = [*given, *(s.pick for s in kept if s is not step)]
     return _judged_again(state_of(state.data, others, state.beta), step.pick)
-
-
-def constant_force(
-    state: State, helical: Candidate, without: Sequence[str]
-) -> tuple[Candidate | None, float]:
-    """The best spring of constant force, and how surely it explains more than a helical one.
-
-    With l the length of the spring, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq for a
-    constant pull: in sin(q - q0) / l the first has the coefficient -k l0 b, the second +F b. The
-    rest of the first, k b sin(q - q0), is mostly that of the link's first moment. So the sign
-    decides, in standard errors of the paired differences over blocks.
-
-    Args:
-        state: without either.
-        helical: any effect; nothing is as good as what has no twin.
-        without: ids of effects, or id@joint, that the user rules out.
-    """
-    other = effect_named(helical.effect.twin, state.data.known.catalogue)
-    if other is None or ruled_out(other.id, helical.joint, without):
-        return None, -np.inf
-    key = "constant force", helical.joint
-    if key not in state.known:
-        pull, spring = (
-            _signed(state, helical, effect, sign)
-            for effect, sign in ((other, 1.0), (helical.effect, -1.0))
-        )
-        found = [c for c in (pull, spring) if c is not None]
-        drop = state.ranked(all_columns_of(state.rows, found)).drop.T if found else ()
-        ahead = standard_errors(drop[0] - drop[1]) if len(found) == 2 else np.inf
-        state.known[key] = pull, ahead if pull is not None else -np.inf
-    return cast(tuple[Candidate | None, float], state.known[key])
-
-
-def _signed(state: State, like: Candidate, effect: Effect, sign: float) -> Candidate | None:
-    """The best shapes with which the part sin / l has that sign."""
-    scale = state.scales[like.index]
-    grid = list(over_grid(effect, effect.forms[0], str(like.joint), like.index, scale))
-
-    def ordered(candidates: Sequence[Candidate]) -> list[Candidate]:
-        pool = pool_of(state.folded, all_columns_of(state.rows, candidates))
-        fall, values = total_falls(state.folded, pool)
-        order = [k for k in np.argsort(-fall) if sign * values[k][-1] > 0.0 and fall[k] > 0.0]
-        return [candidates[k] for k in order]
-
-    first = ordered(grid)[:STARTS]
-    return next(iter(ordered([*(refined(state, c) for c in first), *first])), None) if first else None
