@@ -43,10 +43,6 @@ LOST = 1.0
 """Held-out error from which on a model says nothing about that motion, nor what it lacks."""
 
 
-SAME_WAVES = 0.1
-"""Orders that differ by less than this share are one."""
-
-
 @dataclass(frozen=True, eq=False)
 class BandSearch(Brief):
     """A search in one band, and what is made of it.
@@ -248,21 +244,12 @@ def _refines(found: Search, k: int) -> bool:
         first, later = earlier.pick, step.pick
         if mends[i]:
             continue
-        if first.joint == later.joint and _same_waves(first, later):
-            return True
         alike = first.joint == later.joint and first.effect.family == later.effect.family
         moves = first.effect is later.effect and first.effect.acts is Acts.POSITION
         beside = moves and abs(first.index - later.index) <= 1
         if (alike or beside) and step.judged.felt < earlier.judged.felt:
             return True
     return mends[k]
-
-
-def _same_waves(first: Candidate, later: Candidate) -> bool:
-    """True for ripple and run-out of the same order: what one leaves looks like the other."""
-    waves = first.effect.orders is not None and later.effect.orders is not None
-    most = max(first.order, later.order)
-    return waves and abs(first.order - later.order) < SAME_WAVES * most
 
 
 def _joints(

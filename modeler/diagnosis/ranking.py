@@ -20,12 +20,6 @@ from modeler.observation import Observation
 RIDGE = 1e-10
 """Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""
 
-_FEW = 4
-"""Columns up to which their products are summed at once, and not block by block."""
-
-_MANY = 20
-"""Blocks from which on that is faster."""
-
 _AT_ONCE = 48
 """Candidates whose columns are multiplied at once: they stay in the cache."""
 
@@ -105,8 +99,7 @@ class GramFolds(Brief):
 
 def but_one(values: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
     """(F, ...) sums of values (blocks, ...) over all folds but one."""
-    whole = len(place) == count and bool((np.diff(place) == 1).all())
-    own = values if whole else np.stack([values[place == f].sum(axis=0) for f in range(count)])
+    own = np.stack([values[place == f].sum(axis=0) for f in range(count)])
     return np.asarray(own.sum(axis=0) - own)
 
 
@@ -240,26 +233,13 @@ def _add_joint(base: Base, pool: Pool, j: int, places: np.ndarray, columns: np.n
     where[places] = np.arange(len(places))
     here = np.flatnonzero((where[pairs] >= 0).all(axis=1))
     left, right = where[pairs[here, 0]], where[pairs[here, 1]]
-    small = len(places) <= _FEW and base.blocks >= _MANY
-    if small and np.all(np.diff(base.block[j]) >= 0):
-        number, start = np.unique(base.block[j], return_index=True)
-        products = base.columns[j].T[:, None] * columns
-        T[np.ix_(number, np.arange(len(products)), places)] += np.moveaxis(
-            _sums(products, start), -1, 0
-        )
-        w[np.ix_(number, places)] += _sums(columns * base.y[j], start).T
-        D[np.ix_(number, here)] += _sums(columns[left] * columns[right], start).T
-        return
     own = np.zeros((len(T), T.shape[1], len(places)))
     for b, rows in base.pieces[j]:
         part = columns[:, rows]
         own[b] += base.columns[j][rows].T @ part.T
         w[b, places] += part @ base.y[j][rows]
         D[b, here] += np.einsum("ij,ij->i", part[left], part[right])
-    if len(places) == T.shape[2]:
-        T += own
-    else:
-        T[:, :, places] += own
+    T[:, :, places] += own
 
 
 def sigma_of(
@@ -417,7 +397,7 @@ def rank(base: Base, pool: Pool) -> Ranking:
         pool: candidates.
     """
     every = _whole(base, pool)
-    cross, square = _by_fit(base, pool, every, slice(None), slice(None))
+    cross, square = _by_fit(base, pool, every, slice(None), slice(1))
     score = np.sum((cross - square) ** 2, axis=0)
     return Ranking(
         fall(base, pool),
@@ -436,14 +416,10 @@ def fall(base: Base, pool: Pool) -> np.ndarray:
     grams = [but_one(gram, *at) for gram in (base.u, pool.T, pool.w, pool.D)]
     grams[0] = grams[0] + base.prior[:, -1]
     held_out = _solve(pool, crossed.inverse, crossed.beta, grams)
-    place, count = at
-    if count == 1 or (len(place) == count and np.array_equal(place, np.arange(count))):
-        cross, square = _by_fit(base, pool, held_out, slice(None), slice(None))
-    else:
-        cross, square = np.zeros((2, base.blocks, pool.count))
-        for f in range(count):
-            here = place == f
-            cross[here], square[here] = _by_fit(base, pool, held_out, here, slice(f, f + 1))
+    cross, square = np.zeros((2, base.blocks, pool.count))
+    for f in range(len(crossed.beta)):
+        here = crossed.place == f
+        cross[here], square[here] = _by_fit(base, pool, held_out, here, slice(f, f + 1))
     return 2.0 * cross - square
 
 

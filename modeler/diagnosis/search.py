@@ -34,19 +34,6 @@ from modeler.effects import Effect, Shape
 _STEPS = 8
 
 
-WHOLE = 0.85
-"""Share of the best fall with which a whole number of waves per turn is preferred: teeth, poles and
-rollers are counted."""
-
-
-def best_refined(state: State, starts: Sequence[Candidate]) -> Candidate:
-    """The best of several shapes of one effect, each refined."""
-    found = [refined(state, start) for start in starts]
-    if len(found) == 1:
-        return found[0]
-    return max(found, key=lambda candidate: _explained(state, candidate))
-
-
 def refined(state: State, candidate: Candidate) -> Candidate:
     """The candidate at the shapes that explain most: variable projection, one shape at a time."""
     smooth = [shape for shape in candidate.form.shapes if candidate.refinable(shape)]
@@ -76,9 +63,6 @@ def refined(state: State, candidate: Candidate) -> Candidate:
             options={"maxiter": _STEPS},
         )
         x, score = np.array([found.x]), float(found.fun)
-        whole = np.round(x)
-        if smooth[0].scale == "waves" and lost(whole) < WHOLE * score:
-            return candidate.moved(smooth, whole)
     else:
         corners = np.vstack([start, start + 0.5 * np.diag(reach)])
         found = minimize(
@@ -196,15 +180,14 @@ class HypothesisScan:
 
     def at_best(self, judged: Judged, starts: Sequence[Candidate]) -> Judged:
         """An effect with its best shapes refined, or with the next best if these do better."""
-        better, first = best_refined(self.state, starts), judged.candidate
-        if better is first:
+        state, first = self.state, judged.candidate
+        better = [refined(state, start) for start in starts]
+        if better == [first]:
             return judged
         others = [t for t in self.trials if t.candidate.key == first.key]
-        trials = [
-            *tried(self.state, [(better, self.state.rows.columns(better))]),
-            *(t for t in others if t.candidate is not first),
-        ]
-        return judged_at(self.state, leading(trials))[0]
+        pairs = [(candidate, state.rows.columns(candidate)) for candidate in better]
+        shown = [pair for pair in pairs if visible(pair[1])]
+        return judged_at(state, leading([*tried(state, shown), *others]))[0]
 
     def starts(self, first: Candidate) -> list[Candidate]:
         """Shapes of one effect from which refining starts, the best first.
