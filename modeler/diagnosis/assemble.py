@@ -225,7 +225,7 @@ def _finding(
 
 def _same(pick: Candidate, found: Search) -> list[Key]:
     """Effects that no data tell from it."""
-    same = [(other.id, pick.joint) for other in found.catalogue if pick.effect.is_like(other)]
+    same = [(other, pick.joint) for other in pick.effect.same_as]
     return [key for key in same if not ruled_out(*key, found.without)]
 
 

@@ -199,7 +199,7 @@ def _named_first(
     for other in known.catalogue:
         if other is effect:
             return True
-        if effect.is_like(other) and allowed(other.id, joint):
+        if other.id in effect.same_as and allowed(other.id, joint):
             return False
     return False
 

@@ -188,7 +188,7 @@ def possible(candidate: Candidate, values: np.ndarray) -> bool:
     With l the length of a spring on a lever, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq
     for one of constant force: in sin(q - q0) / l the first has the coefficient -k l0 b, the second
     F b. The rest of the first, k b sin(q - q0), is mostly that of the link's first moment: the sign
-    tells them apart.
+    tells them apart, unless the second pushes.
     """
     turned = candidate.effect.sign * float(values[-1]) < 0.0
     return not turned and not any(
@@ -298,7 +298,7 @@ def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
     for other in others:
         if other is best or not other.possible or other.gain < GATE:
             continue
-        same = best.candidate.effect.is_like(other.candidate.effect)
+        same = other.candidate.effect.id in best.candidate.effect.same_as
         if same or standard_errors(best.drop - other.drop) <= STANDARD_ERRORS:
             found.append(other)
     return found

@@ -206,7 +206,7 @@ class Effect(Brief):
         shows: the axis on which it does.
         look_alikes: what it is mistaken for, and which motion tells them apart.
         same_as: ids of effects that no data tell from it.
-        sign: of its last parameter, where another effect has the same column with the other; or 0.
+        sign: of its last parameter, where that with the other is another effect; else 0.
         needs: what must be true of the robot for its values to be believed.
         rare: True if a rival that explains as much is likelier.
         several: True if a joint may have it several times, with other shapes.
@@ -254,10 +254,6 @@ class Effect(Brief):
     def mends(self, value: float) -> bool:
         """True if that value of its first parameter mends the form of a law in the model."""
         return self.negative != "" and value < 0.0
-
-    def is_like(self, other: "Effect") -> bool:
-        """True if no data tell it from another."""
-        return other.id in self.same_as and other.sign == self.sign
 
     @property
     def rings(self) -> bool:
