@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.diagnosis.effect_columns import Columns, Rows, width
+from modeler.diagnosis.effect_columns import Columns, width
 from modeler.numerics.least_squares import ReducedRows, turn_of, whitening
 from modeler.numerics.spectra import lap
 from modeler.observation import Observation
@@ -242,9 +242,7 @@ def _add_joint(base: Base, pool: Pool, j: int, places: np.ndarray, columns: np.n
     T[:, :, places] += own
 
 
-def sigma_of(
-    rows: Rows | ReducedRows, beta: np.ndarray | None = None, prior: np.ndarray | None = None
-) -> np.ndarray:
+def sigma_of(rows: ReducedRows, prior: np.ndarray | None = None) -> np.ndarray:
     """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
 
     Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
@@ -253,10 +251,9 @@ def sigma_of(
 
     Args:
         rows: of the analysis.
-        beta: (c,) parameters that are kept; None: fitted.
         prior: (k, c + 1) rows of what is known beforehand, of weight 1; None: nothing.
     """
-    count = rows.count if isinstance(rows, ReducedRows) else np.array([len(y) for y in rows.y])
+    count = rows.count
     size = np.array([_rms(y, n) if n else 1.0 for y, n in zip(rows.y, count, strict=True)])
     floor = 1e-6 * np.maximum(size, 1e-6 * size.max()) + 1e-300
     free = size == 0.0
@@ -269,7 +266,7 @@ def sigma_of(
     weights = np.ones(len(grams))
     for _ in range(50):
         weights[: len(sigma)] = sigma
-        found = beta if beta is not None else _least_squares(grams, sides, weights)
+        found = _least_squares(grams, sides, weights)
         every = zip(rows.y, rows.W, count, strict=True)
         updated = np.array([_rms(y - w @ found, n) if n else 1.0 for y, w, n in every])
         if free.any() and not free.all():
@@ -281,7 +278,7 @@ def sigma_of(
         updated = np.maximum(updated, floor)
         settled = np.all(np.abs(updated / sigma - 1.0) < 1e-4)
         sigma = updated
-        if settled or beta is not None:
+        if settled:
             break
     return sigma
 
