@@ -197,7 +197,8 @@ def _finding(
         deviations = along.deviations()
     named = values_of(end, pick, values, deviations)
     parameters = named.value | dict(pick.shapes)
-    ties = [*(tie.key for tie in step.ties), *_same(pick, found)]
+    rivals = [tie.candidate for tie in step.ties]
+    ties = [*(rival.key for rival in rivals), *_same(pick, found)]
     refines = _refines(found, k)
     against = objection(end, pick, parameters)
     sigmas = named.deviation | ({} if along is None else along.shape_deviations())
@@ -217,7 +218,7 @@ def _finding(
         refines=refines,
         objection=against,
         looks=looks,
-        doubt=doubt(pick, errors, against, sigmas, closed, looks, ties, refines),
+        doubt=doubt(pick, errors, against, sigmas, closed, looks, rivals, refines),
         first=first,
         pick=Pick(pick, values, end, visible),
     )

@@ -222,12 +222,12 @@ STEM = 0.5
 def refines(finer: Candidate, plain: Candidate) -> bool:
     """True for what says more of a joint than a law that every joint has.
 
-    It is of the same family, or has more free numbers: where it explains no more, it is no rival.
+    It is friction too, or has more free numbers: where it explains no more, it is no rival.
     """
     laws = plain.effect.id in EVERY and finer.effect.id not in EVERY
     own = finer.joint == plain.joint and finer.effect.acts in (Acts.JOINT, Acts.MOTOR)
-    more = finer.effect.family == plain.effect.family or numbers(finer) > numbers(plain)
-    return laws and own and more
+    friction = finer.effect.family == plain.effect.family == "friction"
+    return laws and own and (friction or numbers(finer) > numbers(plain))
 
 
 def _stem(best: Judged, judged: Sequence[Judged]) -> Judged | None:

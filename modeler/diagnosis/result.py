@@ -25,6 +25,7 @@ from modeler.diagnosis.state import State
 CLOSED = 0.95
 """Share of what is systematic that an effect must explain to be stated as the cause."""
 
+
 def explained_fraction(
     squares: Sequence[Sequence[float]], touched: Sequence[int], systematic: Sequence[float],
     sigma: np.ndarray,
@@ -79,7 +80,7 @@ _NONE: Mapping[str, float] = {}
 def doubt(
     pick: Candidate, errors: tuple[float, float], objection: str = "",
     sigmas: Mapping[str, float] = _NONE, closed: float | None = None,
-    looks: Sequence[CrossCheck] = (), ties: Sequence[Key] = (), refines: bool = False,
+    looks: Sequence[CrossCheck] = (), ties: Sequence[Candidate] = (), refines: bool = False,
 ) -> str:  # fmt: skip
     """Why an effect is perhaps missing and no more; empty if it is named.
 
@@ -104,9 +105,12 @@ def doubt(
         spread = COUNTED * max(sigmas.get(shape.name, math.inf) for shape in pick.form.shapes)
         if abs(pick.order - round(pick.order)) > spread:
             reasons.append(f"{pick.order:.1f} waves a turn are no number of teeth or poles")
-    elsewhere = sorted({joint for _, joint in ties if joint not in (None, pick.joint)})
-    if elsewhere and pick.joint is not None and not is_gain(pick):
-        reasons.append(f"it may as well be one of joint {', '.join(elsewhere)}")
+    joints = sorted({tie.joint for tie in ties if tie.joint not in (None, pick.joint)})
+    if joints and pick.joint is not None and not is_gain(pick):
+        reasons.append(f"it may as well be one of joint {', '.join(joints)}")
+    kinds = sorted({tie.effect.id for tie in ties if tie.effect.family != pick.effect.family})
+    if kinds and not is_gain(pick):
+        reasons.append(f"it may as well be of another kind: {', '.join(kinds)}")
     unit = bool(objection) and is_gain(pick)  # it bends what every look weighs the joints by
     for look in () if unit else looks:
         if not look.agrees and look.leads is not None:
