@@ -65,10 +65,12 @@ class OtherLook:
     Attributes:
         what: which, in words.
         data: the logs in it.
+        asks: True if an effect must show there; held-out logs have vetoed what does not.
     """
 
     what: str
     data: SearchData
+    asks: bool = True
 
 
 def recheck_effects(
@@ -121,15 +123,16 @@ def _observe_otherwise(look: OtherLook, found: Search, place: int) -> CrossCheck
     judged = _recheck(state, step, found)
     own = [j.gain for j in judged if j.key == step.pick.key]
     gain = own[0] if own else 0.0
+    expected = _expected(state, step) if look.asks else 0.0
     joint = step.pick.joint
     near = [j for j in judged if joint is None or j.key[1] in (None, joint)]
     best = decide(state, near).best
     if best is None:
-        return CrossCheck(what, None, True, gain, _expected(state, step))
+        return CrossCheck(what, None, True, gain, expected)
     alike = {best.key, *(j.key for j in tied(best, judged))}
     if refines(best.candidate, step.pick):
         alike.add(step.pick.key)
-    return CrossCheck(what, best.key, step.pick.key in alike, gain, _expected(state, step))
+    return CrossCheck(what, best.key, step.pick.key in alike, gain, expected)
 
 
 def _expected(state: State, step: Step) -> float:

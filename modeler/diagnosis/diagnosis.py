@@ -111,7 +111,7 @@ def diagnose(
                 continue
             found = searched(own, held, made[0].named if made else ())
             second = data if made else beyond
-            around = [] if held is None else [OtherLook("in the held-out logs", held)]
+            around = [] if held is None else [OtherLook("in the held-out logs", held, False)]
             if second is not None:
                 around.append(OtherLook(f"up to {cutoff(second):.2g} Hz", second))
             looks = recheck_effects(found, around, meter.tick)
