@@ -111,10 +111,9 @@ def diagnose(
                 continue
             found = searched(own, held, made[0].named if made else ())
             second = data if made else beyond
-            around = [] if held is None else [OtherLook("in the held-out logs", held)]
+            around = [] if held is None else [OtherLook("in the held-out logs", held, False)]
             if second is not None:
-                least = KEEPS if made or far is not None else -KEEPS
-                around.append(OtherLook(f"up to {cutoff(second):.2g} Hz", second, least))
+                around.append(OtherLook(f"up to {cutoff(second):.2g} Hz", second))
             looks = recheck_effects(found, around, meter.tick)
             made.append(band_search(found, held, looks, meter.tick))
         return made
@@ -140,10 +139,6 @@ def diagnose(
     line += _like_gravity(diagnosis, found[0].found, without)
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
-
-KEEPS = 0.02
-"""Fall of the residual variance that an effect must show in a wider band, and what was found in
-that in the narrower one; else it may not rise by more there."""
 
 WIDER = 1.3
 """Ratio of two cut-offs from which on one shows what the other does not."""

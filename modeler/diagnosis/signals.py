@@ -263,6 +263,7 @@ _SEEN = 1e-6
 def tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
     """(n, J, k): first the torques of unit gravity along two axes across the model's gravity.
 
+    Of an arm that moves in a plane, along the one that it feels.
     The others belong to first moments that the model's gravity hides (those of a vertical first
     axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
     """
@@ -323,8 +324,16 @@ def tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]
     across = first - down * (down @ first)
     across = across / np.linalg.norm(across)
     axes = (across, np.cross(down, across))
-    found = [(axis, chi) for axis in axes]
-    return found + _woken(slopes, axes, down, len(rows))
+    # an arm that moves in a plane does not feel gravity across it
+    felt = [axis for axis in axes if np.linalg.norm(gravity_torque(slopes, axis, chi)) > _SEEN]
+    return [(axis, chi) for axis in felt] + _woken(slopes, axes, down, len(rows))
+
+
+def tilt_axes(reference: SignalReference) -> np.ndarray:
+    """(k, 3) directions of the first of `tilt_columns`, those of the change of gravity itself."""
+    basis = tilt_basis(reference)
+    assert basis is not None, "there is gravity"
+    return np.array([axis for axis, chi in basis if chi is basis[0][1]])
 
 
 def _woken(

@@ -127,8 +127,12 @@ EVEN = 0.3
 """Median energy of a block over the mean from which on noise is even: with and without
 encoder noise, at rest and at top speed, joints without any hidden effect have 0.4 to 1."""
 
+SURE = 2.0
+"""Standard errors beyond which a share is more than chance."""
+
 _FEW = 100  # rows below which nothing is said
 _FEW_OF_LOG = 20
+_PARTS = 40  # of the rows in order
 
 
 def forgotten(cutoff: float) -> float:
@@ -145,6 +149,8 @@ def returning(
 ) -> float | None:
     """Share of a residual's variance that is there some time later: it lasts, or comes back.
 
+    0 where it is no more than two standard errors, from sums over parts of the rows: by chance.
+
     Args:
         time: (n,) s, increasing within each log.
         r: (n,) residual.
@@ -152,18 +158,23 @@ def returning(
         later: s by log: a lap, or what noise is forgotten in; 0 leaves a log out. None are left:
             None.
     """
-    product = square = 0.0
+    products, square = [np.zeros(0)], 0.0
     logs = [(run == k, step) for k, step in enumerate(later) if step]
     logs = [(own, step) for own, step in logs if own.sum() >= _FEW_OF_LOG]
     for own, step in logs:
         second = at(time[own], r[own], time[own] + step)
         both = np.isfinite(second)
         first, second = r[own][both], second[both]
-        product += float(first @ second)
+        products.append(first * second)
         square += 0.5 * float(first @ first + second @ second)
     if not logs:
         return None
-    return max(0.0, product / square) if square > 0.0 else 0.0
+    every = np.concatenate(products)
+    if not square > 0.0:
+        return 0.0
+    parts = [float(part.sum()) for part in np.array_split(every, _PARTS)]
+    total, scatter = sum(parts), float(np.sqrt(_PARTS) * np.std(parts, ddof=1))
+    return total / square if total > SURE * scatter else 0.0
 
 
 def at(time: np.ndarray, values: np.ndarray, then: np.ndarray) -> np.ndarray:
