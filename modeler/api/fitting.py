@@ -15,7 +15,7 @@ from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
 from modeler.core.manifest import Emitted
 from modeler.numerics.least_squares import Compressed
-from modeler.observation import Log, Observation, Processing, check_apart, observe
+from modeler.observation import Doubt, Log, Observation, Processing, check_apart, observe
 from modeler.robot import Robot, joint_directions, near, robot_from_text, with_drive_gains
 from modeler.runtime import CompiledModel
 
@@ -59,7 +59,7 @@ class FitOutcome:
     """
 
     result: estimation.FitResult
-    told: Sequence[estimation.LogFinding] = ()
+    told: Sequence[Doubt] = ()
     refit: Callable[[np.ndarray], np.ndarray] | None = None
     lines: Sequence[str] = ()
     further: Mapping[str, Any] = dataclasses.field(default_factory=dict)
@@ -116,7 +116,7 @@ def judged(
         way: how.
         data: all rows that were fitted, where the observation has a part of them only.
     """
-    told = [*way.told, *estimation.findings_of_fit(compiled, observation)]
+    told = [*way.told, *estimation.log_findings(compiled, observation)]
     return estimation.with_verdict(
         compiled, observation, way.result, told, way.equations, way.refit, data
     )
@@ -314,7 +314,7 @@ def found_with_gains(
         result = estimation.identify_gains(again, observation, payloads).result
     with working("judging the fit"):
         apart = estimation.not_together(again, observation, payloads)
-        told = [estimation.Doubt(line, values=True) for line in apart]
+        told = [Doubt(line, values=True) for line in apart]
         equations = estimation.loaded_equations(again, observation, payloads).equations
         result = judged(again, observation, FitOutcome(result, told, equations=equations))
     if lines := estimation.deviations(compiled.spec, found):

@@ -12,13 +12,8 @@ from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, 
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
-from modeler.estimation import (
-    IdentifiedModel,
-    findings_of_prediction,
-    load_model,
-    with_essential_only,
-)
-from modeler.observation import Fault, Observation, check_apart
+from modeler.estimation import IdentifiedModel, load_model, log_findings, with_essential_only
+from modeler.observation import Doubt, Observation, check_apart
 from modeler.report import Origin, after_compare, comparison as pages
 from modeler.runtime import CompiledModel
 
@@ -55,7 +50,7 @@ def run_compare(args: argparse.Namespace) -> Json:
 def judged(
     model: IdentifiedModel, logs: list[str], compiled: CompiledModel, mapping: Mapped = (),
     share: Callable[[float], None] = lambda share: None,
-) -> tuple[validation.Comparison, list[str], tuple[Fault, ...]]:  # fmt: skip
+) -> tuple[validation.Comparison, list[str], tuple[Doubt, ...]]:  # fmt: skip
     """The comparison on logs, where everything came from, in lines, and what is wrong with it."""
     comparison, observation = checks.compared(model, logs, compiled, mapping, share, note)
     fitted = ", ".join(log.name for log in model.logs)
@@ -66,7 +61,7 @@ def judged(
         f"{model.fit.error_told()}"
     ]
     lines += [*model.warning, *_training(model, observation), *observation.report.lines()]
-    found = findings_of_prediction(compiled, observation, model.beta)
+    found = log_findings(compiled, observation, model)
     lines += [fault.line for fault in found if fault.certain]
     return comparison, lines, found
 

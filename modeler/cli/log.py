@@ -16,7 +16,7 @@ from modeler.cli.lists import read_robot_with_notes
 from modeler.core.errors import ModelerError
 from modeler.core.json import nulled
 from modeler.core.table import aligned, percent
-from modeler.estimation import FitResult, findings_of_fit, identify, stream
+from modeler.estimation import FitResult, identify, log_findings, stream
 from modeler.logs import LogInspection, LogMap, map_from_table, map_from_words
 from modeler.observation import (
     DataReport,
@@ -127,7 +127,7 @@ def _heard(compiled: CompiledModel, place: str, mapping: LogMap, seen: LogInspec
     try:
         with working("fitting"):
             observation, result = _fitted(compiled, place, mapping)
-            found = findings_of_fit(compiled, observation)
+            found = log_findings(compiled, observation)
     except ModelerError as error:
         line = f"as a log of {compiled.spec.robot} it cannot be fitted: {error}"
         return Heard(float("inf"), (line,))

@@ -12,7 +12,7 @@ from modeler.diagnosis.profile import Profile, is_linear, profile
 from modeler.diagnosis.ranking import base_of, blocks_of
 from modeler.diagnosis.score import Residuals, error_changes
 from modeler.diagnosis.sentences import where
-from modeler.diagnosis.signals import SignalReference, tilt_basis
+from modeler.diagnosis.signals import SignalReference, tilt_axes
 from modeler.diagnosis.state import SearchData, State, columns_of, state_of
 from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Acts, Effect, effect_named
 from modeler.estimation import Addition, IdentifiedModel, prior_of, spread_text
@@ -200,9 +200,8 @@ def _tilted(text: str, values: np.ndarray, reference: SignalReference) -> np.nda
     robot = robot_from_text(text, "robot of the model")
     symbols = {name: value.number() for name, value in robot.symbols.items()}
     gravity = np.array([entry.number(symbols) for entry in robot.gravity])
-    basis = tilt_basis(reference)
-    assert basis is not None
-    turned = gravity + values[0] * basis[0][0] + values[1] * basis[1][0]
+    axes = tilt_axes(reference)
+    turned = gravity + values[: len(axes)] @ axes
     return turned * (np.linalg.norm(gravity) / np.linalg.norm(turned))
 
 

@@ -15,7 +15,7 @@ from modeler.diagnosis.detected import detected
 from modeler.diagnosis.drive_gains import gain_deviations, gain_visible, is_gain
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.generate import generate_candidates, ruled_out
-from modeler.diagnosis.judge import compared, holdout_residuals, touched_joints
+from modeler.diagnosis.judge import compared, holdout_residuals, on_logs, touched_joints
 from modeler.diagnosis.orders import systematic_share
 from modeler.diagnosis.plausible import objection
 from modeler.diagnosis.profile import named_intervals, profile_of, shape_units, values_of
@@ -37,14 +37,10 @@ from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import instrumental
 from modeler.effects import Acts, effect_named
 from modeler.estimation import IdentifiedModel
-from modeler.observation import Fault
+from modeler.observation import Doubt
 
 LOST = 1.0
 """Held-out error from which on a model says nothing about that motion, nor what it lacks."""
-
-
-SAME_WAVES = 0.1
-"""Orders that differ by less than this share are one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,25 +83,38 @@ def band_search(
     ends = range(len(found.start.picks) + 1, len(picks))
     middle = (state_of(found.start.data, picks[:k], beta) for k in ends)
     chain = [found.start, *middle, *([found.end] if found.steps else [])]
-    shares, findings = [], list[Finding]()
-    for j in range(found.end.rows.joints):
-        tick()
-        shares.append(systematic_share(found.end, j))
     seen = [holdout_residuals(state, other) for state in chain]
-    squares = [np.array([mean_square(left) for left in residuals.residual]) for residuals in seen]
+    looks_at = [(found.end, [state.residual for state in chain])]
+    if other is not None:
+        looks_at.append((on_logs(found.end, other), [left.residual for left in seen]))
+    shares = [_systematic(state, left[-1], tick) for state, left in looks_at]
+    squares = [[[*map(mean_square, own)] for own in left] for _, left in looks_at]
+    findings = list[Finding]()
     for k, step in enumerate(found.steps):
         touched = touched_joints(step.judged, *chain[k : k + 2])
         score = compared(seen[k], seen[k + 1], touched, found.end)
         if score.better and score.whole.after <= LOST:
-            closed = explained_fraction(chain[k:], touched, shares, squares[k:] if other else None)
+            closed = min(
+                explained_fraction(own[k:], touched, share, chain[k].sigma)
+                for own, share in zip(squares, shares, strict=True)
+            )
             findings.append(_finding(found, k, touched, score.whole, closed, looks[k]))
         tick()
-    return BandSearch(found, other, seen, shares, findings)
+    return BandSearch(found, other, seen, shares[0], findings)
+
+
+def _systematic(state: State, left: Sequence[np.ndarray], tick: Tick) -> list[float]:
+    """Systematic share of what is left on the joints of some logs."""
+    shares = []
+    for j, residual in enumerate(left):
+        tick()
+        shares.append(systematic_share(state, j, residual))
+    return shares
 
 
 def assembled(
     model: IdentifiedModel, bands: Sequence[BandSearch], window: Window | None,
-    faults: Sequence[Fault] = (),
+    faults: Sequence[Doubt] = (),
 ) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
@@ -188,9 +197,9 @@ def _finding(
         deviations = along.deviations()
     named = values_of(end, pick, values, deviations)
     parameters = named.value | dict(pick.shapes)
-    ties = [*(tie.key for tie in step.ties), *_same(pick, found)]
+    rivals = [tie.candidate for tie in step.ties]
+    ties = [*(rival.key for rival in rivals), *_same(pick, found)]
     refines = _refines(found, k)
-    ratio = float(np.max(np.abs(values) / np.maximum(deviations, 1e-300)))
     against = objection(end, pick, parameters)
     sigmas = named.deviation | ({} if along is None else along.shape_deviations())
     errors = (change.before, change.after)
@@ -209,17 +218,15 @@ def _finding(
         refines=refines,
         objection=against,
         looks=looks,
-        doubt=doubt(pick, errors, against, ratio, sigmas, closed, looks, ties, refines),
+        doubt=doubt(pick, errors, against, sigmas, closed, looks, rivals, refines),
         first=first,
         pick=Pick(pick, values, end, visible),
     )
 
 
 def _same(pick: Candidate, found: Search) -> list[Key]:
-    """Effects that no data tell from it; whose motor turns two joints is a matter of words."""
-    same: list[Key] = [(other, pick.joint) for other in pick.effect.same_as]
-    if pick.effect.acts is Acts.MOTOR and "c" in pick.shapes:
-        same.append((pick.effect.id, found.spec.joints[pick.index - 1].name))
+    """Effects that no data tell from it."""
+    same = [(other, pick.joint) for other in pick.effect.same_as]
     return [key for key in same if not ruled_out(*key, found.without)]
 
 
@@ -238,21 +245,12 @@ def _refines(found: Search, k: int) -> bool:
         first, later = earlier.pick, step.pick
         if mends[i]:
             continue
-        if first.joint == later.joint and _same_waves(first, later):
-            return True
         alike = first.joint == later.joint and first.effect.family == later.effect.family
         moves = first.effect is later.effect and first.effect.acts is Acts.POSITION
         beside = moves and abs(first.index - later.index) <= 1
         if (alike or beside) and step.judged.felt < earlier.judged.felt:
             return True
     return mends[k]
-
-
-def _same_waves(first: Candidate, later: Candidate) -> bool:
-    """True for ripple and run-out of the same order: what one leaves looks like the other."""
-    waves = first.effect.orders is not None and later.effect.orders is not None
-    most = max(first.order, later.order)
-    return waves and abs(first.order - later.order) < SAME_WAVES * most
 
 
 def _joints(

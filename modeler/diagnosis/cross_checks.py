@@ -12,11 +12,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from modeler.core.json import entries
 from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.effect_columns import dense
 from modeler.diagnosis.generate import generate_candidates, ruled_out
 from modeler.diagnosis.judge import Judged, decide, numbers, refines, tied
 from modeler.diagnosis.search import Search, Step, Tick, about_itself, scan_candidates
-from modeler.diagnosis.state import SearchData, State, state_of
+from modeler.diagnosis.state import SearchData, State, columns_of, state_of
+from modeler.diagnosis.timing import smoothed
 
 RIVALS = 8
 """Effects that are asked again in the other looks: those that came nearest."""
@@ -36,21 +41,21 @@ class CrossCheck:
         agrees: True if that is the effect, if the data there do not tell it from the effect, or if
             nothing is sure there.
         gain: fall of the residual variance of its joints there, cross-validated; NaN if unknown.
-        least: of it, below which the effect is a matter of the band.
+        expected: what the values that it was named with let expect of it there; 0 if unknown.
     """
 
     what: str
     leads: Key | None
     agrees: bool
     gain: float = math.nan
-    least: float = -math.inf
+    expected: float = 0.0
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         leads = (
             None if self.leads is None else dict(zip(("effect", "joint"), self.leads, strict=True))
         )
-        return {"what": self.what, "leads": leads, "agrees": self.agrees, "gain": self.gain}
+        return {"leads": leads, **entries(self, "what agrees gain expected")}
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,12 +65,12 @@ class OtherLook:
     Attributes:
         what: which, in words.
         data: the logs in it.
-        least: fall of the residual variance that an effect must show there.
+        asks: True if an effect must show there; held-out logs have vetoed what does not.
     """
 
     what: str
     data: SearchData
-    least: float = -math.inf
+    asks: bool = True
 
 
 def recheck_effects(
@@ -118,15 +123,32 @@ def _observe_otherwise(look: OtherLook, found: Search, place: int) -> CrossCheck
     judged = _recheck(state, step, found)
     own = [j.gain for j in judged if j.key == step.pick.key]
     gain = own[0] if own else 0.0
+    expected = _expected(state, step) if look.asks else 0.0
     joint = step.pick.joint
     near = [j for j in judged if joint is None or j.key[1] in (None, joint)]
     best = decide(state, near).best
     if best is None:
-        return CrossCheck(what, None, True, gain, look.least)
+        return CrossCheck(what, None, True, gain, expected)
     alike = {best.key, *(j.key for j in tied(best, judged))}
     if refines(best.candidate, step.pick):
         alike.add(step.pick.key)
-    return CrossCheck(what, best.key, step.pick.key in alike, gain, look.least)
+    return CrossCheck(what, best.key, step.pick.key in alike, gain, expected)
+
+
+def _expected(state: State, step: Step) -> float:
+    """Fall of the residual variance of its joints that the values of an effect let expect.
+
+    Of the smooth motion: what the noise of the positions does to its columns explains nothing.
+    """
+    columns, base = columns_of(smoothed(state), step.pick), state.base
+    felt = [
+        dense(columns, j, len(y)) @ step.judged.values / s
+        for j, (y, s) in enumerate(zip(base.y, base.sigma, strict=True))
+    ]
+    hidden = sum(own.T @ torque for own, torque in zip(base.columns, felt, strict=True))
+    fall = sum(float(torque @ torque) for torque in felt) - float(np.sum(hidden**2))
+    before = state.ranked([]).before[step.pick.concerns(len(felt))]
+    return fall / max(float(before.sum()), 1e-300)
 
 
 def _logged(data: SearchData, candidate: Candidate) -> bool:

@@ -2,22 +2,20 @@
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from functools import partial
 
 import numpy as np
 
 from modeler.core.manifest import JointSpec
 from modeler.core.table import percent
 from modeler.diagnosis.candidates import StatedEffects
-from modeler.diagnosis.drive_gains import with_gains
+from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.plausible import SMOOTH, is_computed
 from modeler.diagnosis.search import Search
-from modeler.diagnosis.state import SearchData, State, state_of, trembling
-from modeler.diagnosis.timing import CONVENTION
+from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.effects import Acts, Effect
-from modeler.estimation import IdentifiedModel, faults, suspects
-from modeler.observation import TREMBLES, Fault
+from modeler.estimation import IdentifiedModel, log_findings
+from modeler.observation import TREMBLES, Doubt, trembling
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""
@@ -36,13 +34,12 @@ def length(state: State) -> float:
 
 
 def data_lines(state: State) -> tuple[str, ...]:
-    """Doubts about the logs: values that are missing, motion that shows too little.
+    """Doubts about the motion of the logs: what it shows too little of.
 
     Args:
         state: the model as given.
     """
-    lines = state.data.observation.report.doubts()
-    total = length(state)
+    lines, total = list[str](), length(state)
     if total < SHORT:
         lines.append(f"{total:.1f} s of motion in all; expected 20 s or more: record longer")
     driven = {j: joint for j, joint in enumerate(state.spec.joints) if joint.actuated}
@@ -139,7 +136,8 @@ def without_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None
 
 def _noisy(state: State) -> list[str]:
     """Joints whose model trembles from row to row, and whose torque does not."""
-    found = {name: ratio for name, ratio in trembling(state).items() if ratio > TREMBLES}
+    ratios = trembling(state.data.observation, state.torque)
+    found = {state.names[j]: ratio for j, ratio in ratios.items() if ratio > TREMBLES}
     if not found:
         return []
     cutoff = state.data.observation.report.processing.position_cutoff
@@ -157,17 +155,8 @@ MENDED = 0.25
 """Share of a joint's squared residual: with less of it left, its torque has the scale it should."""
 
 
-LATE_SHARE = 0.2
-"""Least share of the error variance left that the shift of one position explains."""
-
-AHEAD = 1.5
-"""Least ratio of what it explains to what the best effect of the catalogue would."""
-
-_SURE = 4.5  # falls over their standard error
-
-
 def doubts(
-    model: IdentifiedModel, found: Search, other: SearchData | None, contradicting: Sequence[Fault],
+    model: IdentifiedModel, found: Search, other: SearchData | None, contradicting: Sequence[Doubt],
     window: Window | None = None,
 ) -> tuple[str, ...]:  # fmt: skip
     """Sentences on the logs.
@@ -180,8 +169,6 @@ def doubts(
         window: that was left out.
     """
     lines = [f.line for f in contradicting if f.certain or not _explained(found, f.joint)]
-    if not any(fault.certain for fault in contradicting):
-        lines += sensor_delay_lines(found)
     if window is not None and window.change is None:
         log = found.start.data.observation.logs[window.log]
         lines.append(
@@ -191,15 +178,16 @@ def doubts(
         )
     lines += [*_moved(model, found.start.data), *data_lines(found.start)]
     if other is not None:
-        lines += [f"held out: {line}" for line in other.observation.report.doubts()]
         lines += [*_without_temperature(found.start, other), *_fitted_before(model, other)]
     return tuple(lines)
 
 
 def _explained(found: Search, j: int) -> bool:
-    """True if the effects named explain most of what a joint's torque differs by."""
+    """True if a gain is named, or the effects explain most of what a joint's torque differs by."""
     if j < 0 or not found.start.residual[j].size:
         return False
+    if any(map(is_gain, found.end.picks)):
+        return True
     before, after = (float(np.mean(s.residual[j] ** 2)) for s in (found.start, found.end))
     return after < MENDED * before
 
@@ -242,99 +230,25 @@ def _fitted_before(model: IdentifiedModel, other: SearchData) -> list[str]:
     return [
         f"held out: the model was fitted to {log.name}; {cost}"
         for log in other.observation.report.logs
-        if any(
-            log.content != "" and used.content == log.content
-            and used.start <= log.span[1] and log.span[0] <= used.end
-            for used in model.logs
-        )
-    ]  # fmt: skip
-
-
-def sensor_delay_lines(found: Search) -> list[str]:
-    """A sentence on the joint whose position comes late, or early, beside all other channels.
-
-    Nothing in the catalogue shifts one joint in time.
-
-    With q measured T too late, the torque is that of q + T qd; its derivative with respect to T is
-    a column like any other. It is believed if it explains more of what the named effects leave
-    than anything in the catalogue.
-    """
-    state = found.end
-    rows, columns = state.rows, {}
-
-    def later(j: int, stretch: int, window: slice) -> np.ndarray:
-        """(n, J, 1) torque by the delay of the position of joint j."""
-        signals = rows.signals[stretch]
-        return signals.moved(j, signals.v[:, [j]], True, window)
-
-    for j, joint in enumerate(state.spec.joints):
-        own = rows.spread(partial(later, j)) if joint.actuated else ()
-        if any(c is not None for c in own):
-            columns[joint.name] = own
-    if not columns:
-        return []
-    ranking = state.ranked(list(columns.values()))
-    drop = ranking.drop.sum(axis=0)
-    best = int(np.argmax(drop))
-    rivals = [judged.fall for judged in found.last.ranked if judged.possible]
-    step = float(np.median([signals.segment.step for signals in rows.signals]))
-    late = float(ranking.value[best][0])
-    if (
-        drop[best] < LATE_SHARE * float(ranking.before.sum())
-        or drop[best] < AHEAD * max(rivals, default=0.0)
-        or ranking.sure[best] < _SURE
-        or abs(late) < CONVENTION * step
-    ):
-        return []
-    return [
-        f"joint {list(columns)[best]}: its position comes {1e3 * abs(late):.2g} ms too "
-        f"{'late' if late > 0.0 else 'early'} beside the other channels; check the clock or the "
-        "filter of that channel"
+        if any(used.shares_rows(log) for used in model.logs)
     ]
 
 
-# Channels that contradict the model, once wrong drive gains are allowed for.
-#
-# A wrong drive gain bends the fit: the torques of its joint, and of others, then look like those of
-# another unit, or of another joint. So where a model was fitted to these logs, the joints in doubt
-# are given gains first; those are effects, which the search names with their values. What is said
-# of a scale all the same must not be a matter of the filters.
+# What contradicts: what is said of these logs wherever they are read.
 
 
-def channel_faults(
-    model: IdentifiedModel, data: SearchData, other: SearchData | None, beyond: SearchData | None
-) -> tuple[Fault, ...]:
+def faults_of(
+    model: IdentifiedModel, data: SearchData, other: SearchData | None
+) -> tuple[Doubt, ...]:
     """Of the logs, then of the held-out ones.
 
     Args:
         model: as fitted.
         data: training logs.
         other: held-out ones.
-        beyond: the training logs in another band.
     """
-    beta, gains = _allowed(model, data, other)
-    found = faults(data.compiled, data.observation, beta, gains)
-    if beyond is not None and any(f.joint >= 0 and not f.certain for f in found):
-        stable = {f.joint for f in faults(beyond.compiled, beyond.observation, beta, gains)}
-        found = tuple(f for f in found if f.certain or f.joint in (-1, *stable))
+    found = log_findings(data.compiled, data.observation, model)
     if other is None:
         return found
-    said = {f.joint for f in found}
-    held = (
-        dataclasses.replace(f, line=f"held out: {f.line}")
-        for f in faults(other.compiled, other.observation, beta, gains)
-        if f.certain or f.joint in said
-    )
-    return (*found, *held)
-
-
-def _allowed(
-    model: IdentifiedModel, data: SearchData, other: SearchData | None
-) -> tuple[np.ndarray, np.ndarray | None]:
-    """Parameters, and gains of the joints in doubt; as fitted where the fit is of other logs."""
-    every = [data, *([other] if other is not None else [])]
-    doubted = {j for d in every for j in suspects(d.compiled, d.observation, model.beta)}
-    if data.kept is not None or not doubted or len(doubted) == data.rows.joints:
-        return model.beta, None
-    found = with_gains(state_of(data, (), model.beta), sorted(doubted))
-    return (model.beta, None) if found is None else found
+    held = log_findings(other.compiled, other.observation, model)
+    return (*found, *(dataclasses.replace(f, line=f"held out: {f.line}") for f in held))

@@ -11,7 +11,7 @@ from modeler.core.errors import DataError
 from modeler.diagnosis.assemble import BandSearch, assembled, band_search
 from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.cross_checks import OtherLook, recheck_effects
-from modeler.diagnosis.data_checks import channel_faults, without_friction
+from modeler.diagnosis.data_checks import faults_of, without_friction
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
 from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.judge import vetoing
@@ -94,7 +94,7 @@ def diagnose(
         data = dataclasses.replace(data, known=fewer)
     other = _held_out(data, holdout)
     beyond = _other_band(data, model, mending)
-    doubted = channel_faults(model, data, other, beyond)
+    doubted = faults_of(model, data, other)
     limit = 0 if any(fault.certain for fault in doubted) else most
 
     def searched(data: SearchData, other: SearchData | None, given: Sequence[Step] = ()) -> Search:
@@ -111,10 +111,9 @@ def diagnose(
                 continue
             found = searched(own, held, made[0].named if made else ())
             second = data if made else beyond
-            around = [] if held is None else [OtherLook("in the held-out logs", held)]
+            around = [] if held is None else [OtherLook("in the held-out logs", held, False)]
             if second is not None:
-                least = KEEPS if made or far is not None else -KEEPS
-                around.append(OtherLook(f"up to {cutoff(second):.2g} Hz", second, least))
+                around.append(OtherLook(f"up to {cutoff(second):.2g} Hz", second))
             looks = recheck_effects(found, around, meter.tick)
             made.append(band_search(found, held, looks, meter.tick))
         return made
@@ -140,10 +139,6 @@ def diagnose(
     line += _like_gravity(diagnosis, found[0].found, without)
     return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
 
-
-KEEPS = 0.02
-"""Fall of the residual variance that an effect must show in a wider band, and what was found in
-that in the narrower one; else it may not rise by more there."""
 
 WIDER = 1.3
 """Ratio of two cut-offs from which on one shows what the other does not."""
@@ -253,9 +248,5 @@ def _masked(data: SearchData, window: Window) -> SearchData:
     observation = data.observation
     hit = (observation.run == window.log) & (observation.time > window.start - MARGIN)
     hit &= observation.time < window.end + MARGIN
-    used = observation.used & ~hit[:, None]
-    ends = np.cumsum([len(part.used) for part in observation.stretches])[:-1]
-    pairs = zip(observation.stretches, np.split(used, ends), strict=True)
-    parts = tuple(dataclasses.replace(part, used=own) for part, own in pairs)
-    rest = dataclasses.replace(observation, used=used, stretches=parts)
+    rest = observation.with_rows(observation.used & ~hit[:, None])
     return dataclasses.replace(data, observation=rest)

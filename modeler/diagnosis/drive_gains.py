@@ -78,18 +78,10 @@ def likeliest(state: State, candidates: Sequence[Candidate]) -> Candidate | None
     return min(found, key=lambda pair: pair[1])[0] if found else None
 
 
-def with_gains(state: State, joints: Sequence[int]) -> tuple[np.ndarray, np.ndarray] | None:
-    """Base parameters (c,) and g (J,) with the gains of these joints; None if one is a unit."""
-    found = _best(_problem(state, joints))
-    if found is None or not np.all((found.g > 1.0 / TENFOLD) & (found.g < TENFOLD)):
-        return None
-    return found.beta, found.g
-
-
 def _best(problem: "_GainProblem") -> "_Solution | None":
-    """The likeliest of the solutions from all starts, with the weights given and with none."""
+    """The likelier of the solutions with the weights given and with none."""
     level = problem.reweighed(problem.torque)  # every joint weighs by its torque: no model bent it
-    every = [p.weighed(start) for p in (problem, level) for start in p.starts()]
+    every = [p.weighed(p.start()) for p in (problem, level)]
     found = [f for f in every if f is not None]
     return min(found, key=lambda f: f.score) if found else None
 
@@ -150,14 +142,14 @@ class _GainProblem:
         square = np.einsum("jkk->k", self.grams)[self.free]
         return np.sqrt(np.where(square > 0.0, square, 1.0))
 
-    def starts(self) -> list[np.ndarray]:
-        """(J,) of g: with the measured torque for a column; for a new one, the best of a grid."""
-        found = [self._measured()]
+    def start(self) -> np.ndarray:
+        """(J,) of g: as given; of a new one the best of a grid."""
+        start = self.given.copy()
         for j in self.gains:
             if self.given[j] == 1.0:
-                grid = [np.where(np.arange(len(self.rows)) == j, g, self.given) for g in _GRID]
-                found.append(min(grid, key=lambda g: self._score(self._left(g, self._values(g)))))
-        return found
+                grid = [np.where(np.arange(len(start)) == j, g, start) for g in _GRID]
+                start = min(grid, key=lambda g: self._score(self._left(g, self._values(g))))
+        return start
 
     def solved(self, g: np.ndarray) -> _Solution | None:
         """All parameters and gains; None where they do not come to rest."""
@@ -289,23 +281,6 @@ class _GainProblem:
     def torque(self) -> np.ndarray:
         """(J,) squares of the torque, in units of sigma."""
         return self.grams[:, -1, -1]
-
-    def _measured(self) -> np.ndarray:
-        """(J,) g by least squares of y_j = W_j beta + (1 - 1/g_j) y_j."""
-        P, n = self.grams, len(self.free)
-        matrix, right = np.zeros((n + len(self.gains),) * 2), np.zeros(n + len(self.gains))
-        matrix[:n, :n] = P.sum(axis=0)[np.ix_(self.free, self.free)]
-        right[:n] = (P[:, :-1, -1] - P[:, :-1, :-1] @ self.fixed).sum(axis=0)[self.free]
-        for i, j in enumerate(self.gains, start=n):
-            matrix[:n, i] = matrix[i, :n] = P[j, self.free, -1]
-            matrix[i, i] = P[j, -1, -1]
-            right[i] = P[j, -1, -1] - P[j, -1, :-1] @ self.fixed
-        length = np.sqrt(np.where(np.diag(matrix) > 0.0, np.diag(matrix), 1.0))
-        share = (_solve(matrix / np.outer(length, length), right / length) / length)[n:]
-        g = self.given.copy()
-        left = np.where(np.abs(1.0 - share) < 1.0 / _FARTHEST, 1.0 / _FARTHEST, 1.0 - share)
-        g[self.gains] = 1.0 / left
-        return g
 
 
 def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:

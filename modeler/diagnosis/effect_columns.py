@@ -1,7 +1,7 @@
 """The rows of an analysis: measured torque, base columns and candidates through one filter."""
 
 import dataclasses
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
@@ -114,9 +114,6 @@ Columns = tuple[np.ndarray | None, ...]
 """Columns of one candidate by joint, (rows_j, k) each; None where they are zero throughout."""
 
 
-_WIDE = 12
-"""Values per sample above which it is not worth the while to evaluate all samples at once."""
-
 Evaluate = Callable[[int, slice], np.ndarray]
 """Values over a window of the samples of a stretch, by its number."""
 
@@ -182,8 +179,7 @@ class Rows(Brief):
         """The columns of a candidate on these rows."""
         if candidate.local or candidate.effect.acts is Acts.POSITION:
             return self._together([candidate])
-        width = self.joints * len(candidate.form.columns)
-        return self.spread(lambda i, w: all_columns(candidate, self.signals[i], w), width)
+        return self.spread(lambda i, w: all_columns(candidate, self.signals[i], w))
 
     def many(self, candidates: Sequence[Candidate]) -> list[Columns]:
         """The columns of several candidates of one effect on one joint."""
@@ -203,33 +199,27 @@ class Rows(Brief):
     def _together(self, candidates: Sequence[Candidate]) -> Columns:
         """Columns of candidates of one effect on its joint, beside each other."""
         first, signals = candidates[0], self.signals
-        width = len(candidates) * len(first.form.columns)
+        j, whole = first.index, first.effect.whole_axis
         if first.local and first.form.memory is None:
-            return self._on(first.index, lambda i, w: own_columns(candidates, signals[i], w), width)
+            return self._on(j, lambda i, w: own_columns(candidates, signals[i], w))
         own = [own_columns(candidates, s) for s in signals]
         if first.local:
-            return self._on(first.index, lambda i, w: own[i][w], 0)
-        j, whole = first.index, first.effect.whole_axis
-        return self.spread(lambda i, w: signals[i].moved(j, own[i], whole, w), self.joints * width)
+            return self._on(j, lambda i, w: own[i][w])
+        return self.spread(lambda i, w: signals[i].moved(j, own[i], whole, w))
 
-    def _on(self, j: int, evaluate: Evaluate, width: int) -> Columns:
+    def _on(self, j: int, evaluate: Evaluate) -> Columns:
         """Columns of one joint from its values (samples, k)."""
         found: list[np.ndarray | None] = [None] * self.joints
         found[j] = np.concatenate(
-            [block.filters[j] @ evaluate(i, block.window) for i, block in self._blocks(width)]
+            [block.filters[j] @ evaluate(i, block.window) for i, block in self._blocks]
         )
         return tuple(found)
 
-    def spread(self, evaluate: Evaluate, width: int = 0) -> Columns:
-        """Columns from values (samples, J, k); None on joints where they are 0 throughout.
-
-        Args:
-            evaluate: gives the values.
-            width: values per sample.
-        """
+    def spread(self, evaluate: Evaluate) -> Columns:
+        """Columns from values (samples, J, k); None on joints where they are 0 throughout."""
         parts: list[list[np.ndarray]] = [[] for _ in range(self.joints)]
         shown = np.zeros(self.joints, dtype=bool)
-        for i, block in self._blocks(width):
+        for i, block in self._blocks:
             values = evaluate(i, block.window)
             shown |= values.any(axis=(0, 2))
             for j, weights in enumerate(block.filters):
@@ -238,13 +228,10 @@ class Rows(Brief):
             np.concatenate(own) if felt else None for own, felt in zip(parts, shown, strict=True)
         )
 
-    def _blocks(self, width: int) -> Iterator[tuple[int, RowBlock]]:
-        """Stretch by stretch: small ones where many values are evaluated for each sample."""
-        for i, (blocks, filters) in enumerate(zip(self.blocks, self.filters, strict=True)):
-            if width > _WIDE:
-                yield from ((i, block) for block in blocks)
-            else:
-                yield i, RowBlock(slice(0, len(self.signals[i].q)), filters)
+    @property
+    def _blocks(self) -> list[tuple[int, RowBlock]]:
+        """Stretch by stretch."""
+        return [(i, block) for i, blocks in enumerate(self.blocks) for block in blocks]
 
 
 def width(columns: Columns) -> int:
@@ -267,31 +254,20 @@ def rows_of(observation: Observation, reference: SignalReference) -> Rows:
     """
     cutoff = observation.report.processing.parallel_cutoff
     signals = tuple(_signals(part, reference, cutoff) for part in observation.stretches)
-    joints = len(observation.joints)
-    full = [
-        [
-            _normed(only(part.rows.weights, part.usable[:, j])[part.used[:, j]])
-            for j in range(joints)
-        ]
-        for part in observation.stretches
-    ]  # weights over usable samples, each row summing to one
-    filters = tuple(  # the same over every k-th sample
-        tuple(own if s.every == 1 else _normed(csr_array(own[:, :: s.every])) for own in part)
-        for part, s in zip(full, signals, strict=True)
-    )
+    filters = []  # weights of usable samples, every k-th of them, each row summing to one
+    for part, s in zip(observation.stretches, signals, strict=True):
+        pairs = zip(part.used.T, part.usable.T, strict=True)
+        own = [only(part.rows.weights, usable)[used] for used, usable in pairs]
+        filters.append(tuple(_normed(csr_array(every[:, :: s.every])) for every in own))
     blocks = tuple(_blocks(own, len(s.q)) for own, s in zip(filters, signals, strict=True))
-    used = [observation.used[:, j] for j in range(joints)]
-    torque = [part.segment.tau for part in observation.stretches]
+    counted = list(observation.used.T)
     return Rows(
-        y=tuple(
-            np.concatenate([f[j] @ tau[:, j] for f, tau in zip(full, torque, strict=True)])
-            for j in range(joints)
-        ),
+        y=tuple(observation.torque[rows, j] for j, rows in enumerate(counted)),
         W=base_columns(blocks, signals),
-        time=tuple(observation.time[rows] for rows in used),
-        run=tuple(observation.run[rows] for rows in used),
-        segment=tuple(observation.segment[rows] for rows in used),
-        filters=filters,
+        time=tuple(observation.time[rows] for rows in counted),
+        run=tuple(observation.run[rows] for rows in counted),
+        segment=tuple(observation.segment[rows] for rows in counted),
+        filters=tuple(filters),
         blocks=blocks,
         signals=signals,
     )

@@ -3,8 +3,6 @@
 import dataclasses
 from collections.abc import Sequence, Set
 
-import numpy as np
-
 from modeler.diagnosis.candidates import Candidate, candidates, links_of
 from modeler.diagnosis.orders import ripple_candidates
 from modeler.diagnosis.state import State
@@ -34,10 +32,8 @@ def generate_candidates(
         return not ruled_out(effect, joint, without)
 
     found = candidates(spec, state.scales, temperature, present, known, allowed)
-    span = float(np.ptp(state.data.observation.time))
     slowest = slowest_ringing(state)
     found = [c for c in found if not c.effect.rings or c.shapes["f"] >= slowest]
-    found = [c for c in found if only is not None or _lasts(span, c)]
     if waving := {effect.id for effect in known.catalogue if effect.orders}:
         waves = None if keys is None else {joint for effect, joint in keys if effect in waving}
         found += ripple_candidates(state, allowed, waves)
@@ -63,12 +59,6 @@ ABOVE = 3.0
 def slowest_ringing(state: State) -> float:
     """Hz from which on an elastic joint may ring."""
     return ABOVE * state.data.observation.report.band
-
-
-def _lasts(span: float, candidate: Candidate) -> bool:
-    """False for what fades much faster than the logs can show, or takes longer than they last."""
-    times = [candidate.shapes[s.name] for s in candidate.form.shapes if s.scale == "seconds"]
-    return all(0.1 * span <= time <= span for time in times)
 
 
 def load_candidates(state: State) -> list[Candidate]:

@@ -13,6 +13,7 @@ from modeler.diagnosis.ranking import VISIBLE, Ranking, pool_of, total_falls
 from modeler.diagnosis.score import STANDARD_ERRORS, Residuals, Score, scored, standard_errors
 from modeler.diagnosis.state import SearchData, State, picked_columns
 from modeler.diagnosis.timing import confirmed
+from modeler.effects import Acts
 
 GATE = 0.03
 """Least share of the residual variance on held-out motion that is worth a name."""
@@ -25,7 +26,7 @@ NAMED_T_RATIO = 4.5
 chance with one candidate in a hundred thousand."""
 
 SAME = 0.3
-"""Share of a rival's fall that may be left with the best put in, if both explain the same."""
+"""Share of its fall that may be left for either with the other put in, if both explain the same."""
 
 NEARLY = 0.95
 """Share of the best fall with which a simpler effect is preferred, if the data do not tell."""
@@ -33,6 +34,9 @@ NEARLY = 0.95
 
 PLAIN = ("coulomb", "viscous")
 """Friction that all other friction refines."""
+
+EVERY = (*PLAIN, "offset", "rotor_inertia")
+"""Laws that every joint with a motor has."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,8 +183,15 @@ def _judged(state: State, candidate: Candidate, ranking: Ranking, i: int) -> Jud
 
 
 def possible(candidate: Candidate, values: np.ndarray) -> bool:
-    """False for a sign or a size of the candidate's parameters that physics forbids."""
-    return not any(
+    """False for a sign or a size of the candidate's parameters that physics forbids.
+
+    With l the length of a spring on a lever, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq
+    for one of constant force: in sin(q - q0) / l the first has the coefficient -k l0 b, the second
+    F b. The rest of the first, k b sin(q - q0), is mostly that of the link's first moment: the sign
+    tells them apart, unless the second pushes.
+    """
+    turned = candidate.effect.sign * float(values[-1]) < 0.0
+    return not turned and not any(
         (column.nonnegative and value < 0.0) or abs(value) > column.largest
         for value, column in zip(map(float, values), candidate.form.columns, strict=False)
     )
@@ -209,16 +220,24 @@ STEM = 0.5
 
 
 def refines(finer: Candidate, plain: Candidate) -> bool:
-    """True for friction of a joint beside the dry or viscous friction that it refines."""
-    friction = finer.effect.family == "friction" and finer.effect.id not in PLAIN
-    return friction and plain.effect.id in PLAIN and finer.joint == plain.joint
+    """True for what says more of a joint than a law that every joint has.
+
+    It is friction too, or has more free numbers: where it explains no more, it is no rival.
+    """
+    laws = plain.effect.id in EVERY and finer.effect.id not in EVERY
+    own = finer.joint == plain.joint and finer.effect.acts in (Acts.JOINT, Acts.MOTOR)
+    friction = finer.effect.family == plain.effect.family == "friction"
+    return laws and own and (friction or numbers(finer) > numbers(plain))
 
 
 def _stem(best: Judged, judged: Sequence[Judged]) -> Judged | None:
-    """Dry or viscous friction of a joint that has none, before what refines it."""
+    """Dry or viscous friction of a joint that has none, before friction that refines it."""
+    if best.candidate.effect.family != "friction":
+        return None
     return next((
         j for j in judged
-        if refines(best.candidate, j.candidate) and j.significant and j.share > STEM * best.share
+        if j.candidate.effect.id in PLAIN and refines(best.candidate, j.candidate)
+        and j.significant and j.share > STEM * best.share
     ), None)  # fmt: skip
 
 
@@ -258,13 +277,19 @@ def numbers(candidate: Candidate) -> float:
 def alternatives(best: Judged, others: Sequence[Judged], after: Judgement) -> list[Judged]:
     """Tied ones that explain the same: with the best put in, little is left for them.
 
+    What only refines a law that every joint has is none.
+
+
     Args:
         best: that was put in.
         others: its rivals then.
         after: the judgement with it.
     """
     left = {j.key: j.fall for j in after.ranked}
-    return [o for o in tied(best, others) if left.get(o.key, 0.0) < SAME * o.fall]
+    return [
+        o for o in tied(best, others)
+        if left.get(o.key, 0.0) < SAME * o.fall and not refines(o.candidate, best.candidate)
+    ]  # fmt: skip
 
 
 def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
@@ -295,12 +320,18 @@ def holdout_residuals(state: State, other: SearchData | None) -> Residuals:
     return _of(state.data, tuple(left))
 
 
+def on_logs(state: State, data: SearchData) -> State:
+    """A state fitted to other logs, linearised about the same reference."""
+    rows = data.about(state.reference)
+    return State(data, state.picks, state.reference, rows, picked_columns(rows, state.picks))
+
+
 def left_of(state: State, data: SearchData) -> Residuals:
     """What a state leaves of logs, with its parameters as they are."""
-    rows = data.about(state.reference)
-    extra = picked_columns(rows, state.picks)
+    there = on_logs(state, data)
+    rows = there.rows
     found = [y - W @ state.beta for y, W in zip(rows.y, rows.W, strict=True)]
-    for columns, values in zip(extra, state.values, strict=True):
+    for columns, values in zip(there.extra, state.values, strict=True):
         for j, own in enumerate(columns):
             if own is not None:
                 found[j] = found[j] - own @ values

@@ -9,6 +9,7 @@ from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import all_columns, own_columns
 from modeler.diagnosis.signals import resonance
 from modeler.diagnosis.state import State, column_key
+from modeler.diagnosis.timing import smoothed
 from modeler.numerics.noise import forgotten, outbursts, returning
 from modeler.numerics.spectra import OrderSpectrum, order_spectrum as spectrum_of
 from modeler.numerics.splines import LEAST, SLIPS, Flexible, Measurements, flexible, functions
@@ -103,33 +104,39 @@ _RINGING = (0.7, 1.5, 3.0, 6.0, 12.0)
 """Hz of the oscillators that the motion excites: sloshing, swinging, springs."""
 
 
-def systematic_share(state: State, j: int) -> float:
-    """Share of the variance of joint j's residual that cannot be noise."""
-    rows, residual = state.rows, state.residual[j]
+def systematic_share(state: State, j: int, residual: np.ndarray) -> float:
+    """Share of the variance of a residual of joint j (rows_j,) that surely is no noise."""
+    rows = state.rows
     log = rows.time[j], residual, rows.run[j]
     cutoff = state.data.observation.report.processing.parallel_cutoff
     periods = state.data.blocks.period
     steps = (periods, [forgotten(cutoff)] * len(periods))
     again = [returning(*log, later) or 0.0 for later in steps]
-    return max(rival(state, j).share, knocking(state, j), *again)
+    said = rival(state, j, residual)
+    lumps = outbursts(residual, state.data.numbers[j])
+    return max(said.share if said.sure else 0.0, lumps, *again)
 
 
 def knocking(state: State, j: int) -> float:
     """Share of the energy of joint j's residual in outbursts."""
-    return outbursts(state.residual[j], state.base.block[j])
+    return outbursts(state.residual[j], state.data.numbers[j])
 
 
-def rival(state: State, j: int) -> Flexible:
-    """What a flexible smooth function of all that was measured says of joint j's residual."""
-    fold = state.data.blocks.fold[state.base.block[j]]
+def rival(state: State, j: int, residual: np.ndarray) -> Flexible:
+    """What a flexible function of all that was measured says of a residual of joint j (rows_j,).
+
+    It reads the smooth motion: what the noise of the positions makes of the columns of the model is
+    in the residual, and in the motion as it was measured too, which would seem to predict it.
+    """
+    fold = state.data.blocks.fold[state.data.numbers[j]]
     sets = functions(_measured(state, j)) if fold.size >= LEAST else {}
-    return flexible(sets, state.residual[j], fold)
+    return flexible(sets, residual, fold)
 
 
 def _measured(state: State, j: int) -> Measurements:
-    rows, observation = state.rows, state.data.observation
-    used = observation.used[:, j]
-    loads = rows.filtered(j, [np.hstack([s.load, s.torque]) for s in rows.signals])
+    rows = smoothed(state)
+    every = [np.hstack([s.q, s.v, s.a, s.load, s.torque]) for s in rows.signals]
+    q, v, a, load, torque = np.split(rows.filtered(j, every), 5, axis=1)
     way = [np.sign(s.v[:, j]) for s in rows.signals]
     slips = [
         np.column_stack([bristle(s.q[:, j], d * state.scales[j].range) for d in SLIPS])
@@ -137,11 +144,11 @@ def _measured(state: State, j: int) -> Measurements:
     ]
     return Measurements(
         joint=j,
-        q=observation.q[used],
-        v=observation.qd[used],
-        a=observation.qdd[used],
-        load=loads[:, : rows.joints],
-        torque=loads[:, rows.joints :],
+        q=q,
+        v=v,
+        a=a,
+        load=load,
+        torque=torque,
         direction=rows.filtered(j, way),
         slips=rows.filtered(j, slips),
         further={"waves": _waves(state, j), "ringing": _ringing(state, j)},
@@ -153,14 +160,14 @@ def _waves(state: State, j: int) -> np.ndarray:
     found = order_spectrum(state, j)
     if found is None or not found.peaks:
         return np.zeros((len(state.residual[j]), 0))
-    angles = [np.outer(s.q[:, j], found.peaks) for s in state.rows.signals]
+    angles = [np.outer(s.q[:, j], found.peaks) for s in smoothed(state).signals]
     return state.rows.filtered(j, [np.hstack([np.cos(x), np.sin(x)]) for x in angles])
 
 
 def _ringing(state: State, j: int) -> np.ndarray:
     """(rows_j, ...) oscillators that the accelerations of all joints excite, and their speeds."""
     every = []
-    for s in state.rows.signals:
+    for s in smoothed(state).signals:
         z = np.column_stack(
             [resonance(a, s.step, frequency, _LIGHT) for a in s.a.T for frequency in _RINGING]
         )

@@ -28,7 +28,7 @@ from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis.candidates import Candidate, JointScale, coded
 from modeler.diagnosis.effect_columns import body_parameters, dense
 from modeler.diagnosis.ranking import blocks_of
-from modeler.diagnosis.signals import tilt_basis
+from modeler.diagnosis.signals import tilt_axes
 from modeler.diagnosis.state import State
 from modeler.effects import Acts, Shape
 from modeler.estimation import autocorrelation, repeated_whole
@@ -395,10 +395,9 @@ def values_of(
         deviations: theirs.
     """
     if pick.effect.acts is Acts.GRAVITY:
-        basis = tilt_basis(state.reference)
-        assert basis is not None
-        axes = np.array([axis for axis, _ in basis[:2]])
-        values, deviations = values[:2] @ axes, np.sqrt(deviations[:2] ** 2 @ axes**2)
+        axes = tilt_axes(state.reference)
+        values, deviations = (x[: len(axes)] for x in (values, deviations))
+        values, deviations = values @ axes, np.sqrt(deviations**2 @ axes**2)
         units = dict.fromkeys(("gx", "gy", "gz"), "m/s^2")
     else:
         units = _units(state, pick)

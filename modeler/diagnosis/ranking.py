@@ -12,19 +12,13 @@ from itertools import pairwise
 import numpy as np
 
 from modeler.core.brief import Brief
-from modeler.diagnosis.effect_columns import Columns, Rows, width
+from modeler.diagnosis.effect_columns import Columns, width
 from modeler.numerics.least_squares import ReducedRows, turn_of, whitening
 from modeler.numerics.spectra import lap
 from modeler.observation import Observation
 
 RIDGE = 1e-10
 """Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""
-
-_FEW = 4
-"""Columns up to which their products are summed at once, and not block by block."""
-
-_MANY = 20
-"""Blocks from which on that is faster."""
 
 _AT_ONCE = 48
 """Candidates whose columns are multiplied at once: they stay in the cache."""
@@ -105,8 +99,7 @@ class GramFolds(Brief):
 
 def but_one(values: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
     """(F, ...) sums of values (blocks, ...) over all folds but one."""
-    whole = len(place) == count and bool((np.diff(place) == 1).all())
-    own = values if whole else np.stack([values[place == f].sum(axis=0) for f in range(count)])
+    own = np.stack([values[place == f].sum(axis=0) for f in range(count)])
     return np.asarray(own.sum(axis=0) - own)
 
 
@@ -240,31 +233,16 @@ def _add_joint(base: Base, pool: Pool, j: int, places: np.ndarray, columns: np.n
     where[places] = np.arange(len(places))
     here = np.flatnonzero((where[pairs] >= 0).all(axis=1))
     left, right = where[pairs[here, 0]], where[pairs[here, 1]]
-    small = len(places) <= _FEW and base.blocks >= _MANY
-    if small and np.all(np.diff(base.block[j]) >= 0):
-        number, start = np.unique(base.block[j], return_index=True)
-        products = base.columns[j].T[:, None] * columns
-        T[np.ix_(number, np.arange(len(products)), places)] += np.moveaxis(
-            _sums(products, start), -1, 0
-        )
-        w[np.ix_(number, places)] += _sums(columns * base.y[j], start).T
-        D[np.ix_(number, here)] += _sums(columns[left] * columns[right], start).T
-        return
     own = np.zeros((len(T), T.shape[1], len(places)))
     for b, rows in base.pieces[j]:
         part = columns[:, rows]
         own[b] += base.columns[j][rows].T @ part.T
         w[b, places] += part @ base.y[j][rows]
         D[b, here] += np.einsum("ij,ij->i", part[left], part[right])
-    if len(places) == T.shape[2]:
-        T += own
-    else:
-        T[:, :, places] += own
+    T[:, :, places] += own
 
 
-def sigma_of(
-    rows: Rows | ReducedRows, beta: np.ndarray | None = None, prior: np.ndarray | None = None
-) -> np.ndarray:
+def sigma_of(rows: ReducedRows, prior: np.ndarray | None = None) -> np.ndarray:
     """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
 
     Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
@@ -273,10 +251,9 @@ def sigma_of(
 
     Args:
         rows: of the analysis.
-        beta: (c,) parameters that are kept; None: fitted.
         prior: (k, c + 1) rows of what is known beforehand, of weight 1; None: nothing.
     """
-    count = rows.count if isinstance(rows, ReducedRows) else np.array([len(y) for y in rows.y])
+    count = rows.count
     size = np.array([_rms(y, n) if n else 1.0 for y, n in zip(rows.y, count, strict=True)])
     floor = 1e-6 * np.maximum(size, 1e-6 * size.max()) + 1e-300
     free = size == 0.0
@@ -289,7 +266,7 @@ def sigma_of(
     weights = np.ones(len(grams))
     for _ in range(50):
         weights[: len(sigma)] = sigma
-        found = beta if beta is not None else _least_squares(grams, sides, weights)
+        found = _least_squares(grams, sides, weights)
         every = zip(rows.y, rows.W, count, strict=True)
         updated = np.array([_rms(y - w @ found, n) if n else 1.0 for y, w, n in every])
         if free.any() and not free.all():
@@ -301,7 +278,7 @@ def sigma_of(
         updated = np.maximum(updated, floor)
         settled = np.all(np.abs(updated / sigma - 1.0) < 1e-4)
         sigma = updated
-        if settled or beta is not None:
+        if settled:
             break
     return sigma
 
@@ -417,7 +394,7 @@ def rank(base: Base, pool: Pool) -> Ranking:
         pool: candidates.
     """
     every = _whole(base, pool)
-    cross, square = _by_fit(base, pool, every, slice(None), slice(None))
+    cross, square = _by_fit(base, pool, every, slice(None), slice(1))
     score = np.sum((cross - square) ** 2, axis=0)
     return Ranking(
         fall(base, pool),
@@ -436,14 +413,10 @@ def fall(base: Base, pool: Pool) -> np.ndarray:
     grams = [but_one(gram, *at) for gram in (base.u, pool.T, pool.w, pool.D)]
     grams[0] = grams[0] + base.prior[:, -1]
     held_out = _solve(pool, crossed.inverse, crossed.beta, grams)
-    place, count = at
-    if count == 1 or (len(place) == count and np.array_equal(place, np.arange(count))):
-        cross, square = _by_fit(base, pool, held_out, slice(None), slice(None))
-    else:
-        cross, square = np.zeros((2, base.blocks, pool.count))
-        for f in range(count):
-            here = place == f
-            cross[here], square[here] = _by_fit(base, pool, held_out, here, slice(f, f + 1))
+    cross, square = np.zeros((2, base.blocks, pool.count))
+    for f in range(len(crossed.beta)):
+        here = crossed.place == f
+        cross[here], square[here] = _by_fit(base, pool, held_out, here, slice(f, f + 1))
     return 2.0 * cross - square
 
 

@@ -15,6 +15,7 @@ from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.cross_checks import CrossCheck, Key
 from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import Window
+from modeler.diagnosis.judge import KEPT
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
 
@@ -24,55 +25,35 @@ from modeler.diagnosis.state import State
 CLOSED = 0.95
 """Share of what is systematic that an effect must explain to be stated as the cause."""
 
-ALIKE = 1.2
-"""Noise on held-out logs over that on training logs, variances, that is no sign of physics."""
-
 
 def explained_fraction(
-    chain: Sequence[State],
-    touched: Sequence[int],
-    systematic: Sequence[float],
-    held_out: Sequence[np.ndarray] | None,
-) -> float:
+    squares: Sequence[Sequence[float]], touched: Sequence[int], systematic: Sequence[float],
+    sigma: np.ndarray,
+) -> float:  # fmt: skip
     """What one effect explains, over that, what later ones explain and what stays systematic.
 
     Squared residuals of the joints it touches, in units of their first residual. What a wrong name
-    leaves, others are found to mend; so what they explain there counts as left. On held-out logs
-    all that exceeds the noise of the training logs is systematic: a wrong form fails there. The
-    smaller share counts.
+    leaves, others are found to mend; so what they explain there counts as left.
 
     Args:
-        chain: the state before the effect, the one with it, those with the later ones.
+        squares: (J,) mean squared residuals, of the model before the effect, with it, and with the
+            later ones.
         touched: joints whose residuals it explains.
-        systematic: (J,) share of the variance of each joint's last residual.
-        held_out: (J,) mean squared residual on held-out logs, by state of the chain.
+        systematic: (J,) share of the last of these.
+        sigma: (J,) rms residual before the effect.
     """
-    squares = [np.array([mean_square(r) for r in state.residual]) for state in chain]
-    noise = [(1.0 - systematic[j]) * squares[-1][j] for j in range(len(squares[-1]))]
-    sigma = chain[0].sigma
-    shares = [_share(squares, touched, noise, sigma)]
-    if held_out is not None:
-        shares.append(_share(held_out, touched, [ALIKE * n for n in noise], sigma))
-    return min(shares)
+    before, after, end = squares[0], squares[1], squares[-1]
+    explained = left = 0.0
+    for j in touched:
+        unit = float(sigma[j]) ** 2
+        explained += max(0.0, before[j] - after[j]) / unit
+        left += (max(0.0, after[j] - end[j]) + systematic[j] * end[j]) / unit
+    return explained / (explained + left) if explained > 0.0 else 0.0
 
 
 def mean_square(values: np.ndarray) -> float:
     """0 of none."""
     return float(np.mean(values**2)) if values.size else 0.0
-
-
-def _share(
-    squares: Sequence[np.ndarray], touched: Sequence[int], noise: Sequence[float], sigma: np.ndarray
-) -> float:
-    """Explained over explained and left; 0 if nothing is explained."""
-    before, after, end = squares[0], squares[1], squares[-1]
-    explained = left = 0.0
-    for j in touched:
-        unit = float(sigma[j]) ** 2
-        explained += max(0.0, float(before[j] - after[j])) / unit
-        left += max(0.0, float(after[j] - end[j])) / unit
-        left += max(0.0, float(end[j] - noise[j])) / unit
-    return explained / (explained + left) if explained > 0.0 else 0.0
 
 
 # Is an effect named? One rule, of `diagnose`, `add` and `auto`.
@@ -85,8 +66,9 @@ nothing systematic is left with it."""
 MOST_LEFT = 0.6
 """Error with the effect from which on a model says too little of its joints to name anything."""
 
-SIGMAS = 2.0
-"""Standard deviations that its best-known parameter is from zero, at least."""
+SHOWN = 0.02
+"""Fall of the residual variance that an effect lets expect in another look, from which on it must
+show a part of it there."""
 
 COUNTED = 3.0
 """Standard deviations from a whole number of waves per turn from which on they are no teeth."""
@@ -96,9 +78,9 @@ _NONE: Mapping[str, float] = {}
 
 
 def doubt(
-    pick: Candidate, errors: tuple[float, float], objection: str = "", ratio: float = math.inf,
+    pick: Candidate, errors: tuple[float, float], objection: str = "",
     sigmas: Mapping[str, float] = _NONE, closed: float | None = None,
-    looks: Sequence[CrossCheck] = (), ties: Sequence[Key] = (), refines: bool = False,
+    looks: Sequence[CrossCheck] = (), ties: Sequence[Candidate] = (), refines: bool = False,
 ) -> str:  # fmt: skip
     """Why an effect is perhaps missing and no more; empty if it is named.
 
@@ -106,7 +88,6 @@ def doubt(
         pick: the effect, with its shapes.
         errors: relative errors of its joints without and with it, on unseen motion.
         objection: why its values cannot be; a drive gain may be in another unit.
-        ratio: of its best-known parameter to its standard deviation.
         sigmas: standard deviations of its shapes, by name, where they are known.
         closed: share of what is systematic that it explains.
         looks: what others say of it.
@@ -120,20 +101,21 @@ def doubt(
     small = not refines and (closed is None or closed < CLOSED)
     if small and after > (1.0 - SMALL) * before:
         reasons.append(f"the error falls by less than {percent(SMALL)} of itself")
-    if ratio < SIGMAS:
-        reasons.append(f"its value is {ratio:.1f} standard deviations from zero")
     if pick.effect.orders and pick.effect.orders[1] < math.inf:
         spread = COUNTED * max(sigmas.get(shape.name, math.inf) for shape in pick.form.shapes)
         if abs(pick.order - round(pick.order)) > spread:
             reasons.append(f"{pick.order:.1f} waves a turn are no number of teeth or poles")
-    elsewhere = sorted({joint for _, joint in ties if joint not in (None, pick.joint)})
-    if elsewhere and pick.joint is not None and not is_gain(pick):
-        reasons.append(f"it may as well be one of joint {', '.join(elsewhere)}")
+    joints = sorted({tie.joint for tie in ties if tie.joint not in (None, pick.joint)})
+    if joints and pick.joint is not None and not is_gain(pick):
+        reasons.append(f"it may as well be one of joint {', '.join(joints)}")
+    kinds = sorted({tie.effect.id for tie in ties if tie.effect.family != pick.effect.family})
+    if kinds and not is_gain(pick):
+        reasons.append(f"it may as well be of another kind: {', '.join(kinds)}")
     unit = bool(objection) and is_gain(pick)  # it bends what every look weighs the joints by
     for look in () if unit else looks:
         if not look.agrees and look.leads is not None:
             reasons.append(f"{look.leads[0]} explains its joint better ({look.what})")
-        if look.gain < look.least and not is_gain(pick):
+        if look.expected > SHOWN and look.gain < KEPT * look.expected and not is_gain(pick):
             reasons.append(f"it explains nothing {look.what}")
     return "; ".join(reasons)
 

@@ -1,7 +1,4 @@
-"""The search: name the best effect, refine it, put it in, look again; drop what is not needed.
-
-And which spring hangs on a lever: a helical one, or one of constant force?
-"""
+"""The search: name the best effect, refine it, put it in, look again; drop what is not needed."""
 
 import dataclasses
 from collections.abc import Callable, Sequence
@@ -13,11 +10,12 @@ from scipy.optimize import minimize, minimize_scalar
 
 from modeler.core.brief import Brief
 from modeler.core.manifest import ModuleSpec
-from modeler.diagnosis.candidates import Candidate, coded, over_grid
+from modeler.diagnosis.candidates import Candidate, coded
 from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled_parameters
-from modeler.diagnosis.generate import generate_candidates, ruled_out, slowest_ringing
+from modeler.diagnosis.generate import generate_candidates, slowest_ringing
 from modeler.diagnosis.judge import (
     NEARLY,
+    SAME,
     Judged,
     Judgement,
     Trial,
@@ -29,24 +27,11 @@ from modeler.diagnosis.judge import (
 )
 from modeler.diagnosis.plausible import DRIVES, drives, objection
 from modeler.diagnosis.profile import values_of
-from modeler.diagnosis.ranking import fall, pool_of, total_falls
-from modeler.diagnosis.state import SearchData, State, all_columns_of, columns_of, state_of, visible
-from modeler.effects import Effect, Shape, effect_named
+from modeler.diagnosis.ranking import fall, pool_of
+from modeler.diagnosis.state import SearchData, State, state_of, visible
+from modeler.effects import Effect, Shape
 
 _STEPS = 8
-
-
-WHOLE = 0.85
-"""Share of the best fall with which a whole number of waves per turn is preferred: teeth, poles and
-rollers are counted."""
-
-
-def best_refined(state: State, starts: Sequence[Candidate]) -> Candidate:
-    """The best of several shapes of one effect, each refined."""
-    found = [refined(state, start) for start in starts]
-    if len(found) == 1:
-        return found[0]
-    return max(found, key=lambda candidate: _explained(state, candidate))
 
 
 def refined(state: State, candidate: Candidate) -> Candidate:
@@ -78,9 +63,6 @@ def refined(state: State, candidate: Candidate) -> Candidate:
             options={"maxiter": _STEPS},
         )
         x, score = np.array([found.x]), float(found.fun)
-        whole = np.round(x)
-        if smooth[0].scale == "waves" and lost(whole) < WHOLE * score:
-            return candidate.moved(smooth, whole)
     else:
         corners = np.vstack([start, start + 0.5 * np.diag(reach)])
         found = minimize(
@@ -198,15 +180,14 @@ class HypothesisScan:
 
     def at_best(self, judged: Judged, starts: Sequence[Candidate]) -> Judged:
         """An effect with its best shapes refined, or with the next best if these do better."""
-        better, first = best_refined(self.state, starts), judged.candidate
-        if better is first:
+        state, first = self.state, judged.candidate
+        better = [refined(state, start) for start in starts]
+        if better == [first]:
             return judged
         others = [t for t in self.trials if t.candidate.key == first.key]
-        trials = [
-            *tried(self.state, [(better, self.state.rows.columns(better))]),
-            *(t for t in others if t.candidate is not first),
-        ]
-        return judged_at(self.state, leading(trials))[0]
+        pairs = [(candidate, state.rows.columns(candidate)) for candidate in better]
+        shown = [pair for pair in pairs if visible(pair[1])]
+        return judged_at(state, leading([*tried(state, shown), *others]))[0]
 
     def starts(self, first: Candidate) -> list[Candidate]:
         """Shapes of one effect from which refining starts, the best first.
@@ -273,9 +254,7 @@ Veto = Callable[[State, State, Judged], bool]
 effect as it was judged."""
 
 CLEAR = 1.01
-"""Ratio of two falls that decides, and of what they leave of the squared residuals."""
-
-_STARTS = 4  # shapes of a sign that are refined
+"""Ratio of two errors that decides."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -376,12 +355,19 @@ def search(
         doubted, refused = _doubted(refused, best), survey.still_refused(refused)
         after = survey.judged(refused, tick)
         rivals = tuple(j for j in judgement.ranked if j.key != best.key)
-        ties = (*alternatives(best, rivals, after), *doubted)
+        equals = [o for o in alternatives(best, rivals, after) if _covers(state, o, best)]
+        ties = (*equals, *doubted)
         steps.append(Step(best, rivals, state, ties))
         state, judgement = later, after
     kept, state = _backward(state, steps, start.picks, tick)
     looked = judgement, tuple(every), tuple(without), tuple(given)
     return Search(start, tuple(kept), state, *looked)
+
+
+def _covers(state: State, other: Judged, best: Judged) -> bool:
+    """True if with the other effect put in, little is left for the best one."""
+    beside = state_of(state.data, [*state.picks, other.candidate], state.beta)
+    return _judged_again(beside, best.candidate).fall < SAME * best.fall
 
 
 def _doubted(refused: Sequence[Judged], best: Judged) -> list[Judged]:
@@ -462,22 +448,15 @@ def _beside_prior(
 
 
 def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:
-    """The best effect, or its twin of another law where that explains the same with less.
+    """The best effect; of drive gains, the likeliest.
 
-    Of drive gains, the likeliest: ranks weigh the joints by what a model bent by it leaves.
+    Ranks weigh the joints by what a model bent by a wrong gain leaves.
     """
-    if is_gain(best.candidate):
-        every = generate_candidates(state, best.candidate.effect.id, without)
-        gains = [c for c in every if not is_vetoed(c, vetoed)]
-        return _judged_again(state, likeliest(state, gains) or best.candidate)
-    other = effect_named(best.candidate.effect.twin, state.data.known.catalogue)
-    joint = best.candidate.joint
-    if other is None or ruled_out(other.id, joint, without):
+    if not is_gain(best.candidate):
         return best
-    pull = constant_force(state, best.candidate, other)
-    if pull is None or is_vetoed(pull, vetoed):
-        return best
-    return _judged_again(state, pull)
+    every = generate_candidates(state, best.candidate.effect.id, without)
+    gains = [c for c in every if not is_vetoed(c, vetoed)]
+    return _judged_again(state, likeliest(state, gains) or best.candidate)
 
 
 def _judged_again(state: State, candidate: Candidate) -> Judged:
@@ -526,55 +505,3 @@ def _beside(state: State, given: Sequence[Candidate], kept: Sequence[Step], step
     """One of the effects, judged in the model with the others."""
     others = [*given, *(s.pick for s in kept if s is not step)]
     return _judged_again(state_of(state.data, others, state.beta), step.pick)
-
-
-def constant_force(state: State, helical: Candidate, other: Effect) -> Candidate | None:
-    """The spring of constant force that explains more than any helical one; None if none does.
-
-    With l the length of the spring, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq for a
-    constant pull: in sin(q - q0) / l the first has the coefficient -k l0 b, the second +F b. The
-    rest of the first, k b sin(q - q0), is mostly that of the link's first moment.
-
-    Args:
-        state: without either.
-        helical: its candidate.
-        other: the effect of constant force.
-    """
-    pull = _best(state, helical, other, 1.0)
-    if pull is None:
-        return None
-    ranking = state.ranked([columns_of(state.rows, helical)])
-    total = float(ranking.before[helical.index])
-    if _better(float(ranking.drop.sum()), pull[1], total):
-        return None
-    spring = _best(state, helical, helical.effect, -1.0)
-    return pull[0] if spring is None or _better(pull[1], spring[1], total) else None
-
-
-def _better(fall: float, other: float, total: float) -> bool:
-    """True if a fall of the joint's squared residuals is clearly larger than another."""
-    left, others = (max(total - f, 1e-3 * total) for f in (fall, other))
-    return fall > CLEAR * other or CLEAR * left < others
-
-
-def _best(
-    state: State, like: Candidate, effect: Effect, sign: float
-) -> tuple[Candidate, float] | None:
-    """The best shapes with which the part sin / l has that sign, and the fall they give."""
-    scale = state.scales[like.index]
-    grid = list(over_grid(effect, effect.forms[0], str(like.joint), like.index, scale))
-    signed = _signed(state, grid, sign)[:_STARTS]
-    every = [*(refined(state, candidate) for candidate, _ in signed), *(c for c, _ in signed)]
-    return next(iter(_signed(state, every, sign)), None)
-
-
-def _signed(
-    state: State, candidates: Sequence[Candidate], sign: float
-) -> list[tuple[Candidate, float]]:
-    """Those whose last parameter has that sign, and the fall of each, best first."""
-    if not candidates:
-        return []
-    pool = pool_of(state.folded, all_columns_of(state.rows, candidates))
-    fall, values = total_falls(state.folded, pool)
-    order = [k for k in np.argsort(-fall) if sign * values[k][-1] > 0.0 and fall[k] > 0.0]
-    return [(candidates[k], float(fall[k])) for k in order]

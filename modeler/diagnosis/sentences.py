@@ -6,7 +6,7 @@ from modeler.core.table import percent, printed
 from modeler.diagnosis.orders import knocking
 from modeler.diagnosis.result import Diagnosis, Finding, Key
 from modeler.diagnosis.search import Step
-from modeler.effects import effect_named
+from modeler.effects import Effect, effect_named
 from modeler.estimation import spread_text
 
 TOLD = 0.15
@@ -35,8 +35,7 @@ def blind_spots(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     """
     found = {}
     for name, joint in diagnosis.blind_spots:
-        effect = effect_named(name, diagnosis.search.start.data.known.catalogue)
-        assert effect is not None
+        effect = _effect(name, diagnosis)
         if joint is not None and joint in diagnosis.unmoved:
             found[f"any effect of joint {joint}"] = "no row of it can be used; move it"
         else:
@@ -162,16 +161,20 @@ def tied(finding: Finding) -> str:
 
 def _refinement(finding: Finding, diagnosis: Diagnosis) -> str:
     line = f"refinement on {where(finding.joint)}: {finding.effect}, gain {percent(finding.gain)}"
-    effect = effect_named(finding.effect, diagnosis.search.start.data.known.catalogue)
-    assert effect is not None
+    effect = _effect(finding.effect, diagnosis)
     first = next(iter(finding.parameters.values()), 0.0)
     return f"{line}: {effect.negative}" if effect.mends(first) else line
 
 
 def _named(finding: Finding, diagnosis: Diagnosis) -> str:
-    effect = effect_named(finding.effect, diagnosis.search.start.data.known.catalogue)
-    assert effect is not None
+    effect = _effect(finding.effect, diagnosis)
     return f"{effect.title} ({finding.effect}), {where(finding.joint)}"
+
+
+def _effect(name: str, diagnosis: Diagnosis) -> Effect:
+    effect = effect_named(name, diagnosis.search.catalogue)
+    assert effect is not None, "it was diagnosed"
+    return effect
 
 
 def _effect_line(finding: Finding) -> str:

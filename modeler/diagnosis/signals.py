@@ -1,6 +1,6 @@
 """What the equations of effects read: motion, loads and states of one stretch at full rate."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
@@ -46,6 +46,11 @@ class SignalReference(Brief):
         """(c,) beta of the links alone: no friction, rotors, offsets."""
         kinds = [base.kind for base in self.compiled.spec.base]
         return np.where([kind == "inertial" for kind in kinds], self.beta, 0.0)
+
+    @cached_property
+    def tilts(self) -> list[tuple[np.ndarray, np.ndarray]] | None:
+        """`tilt_basis` about this model."""
+        return tilt_basis(self)
 
     @cached_property
     def drives(self) -> np.ndarray:
@@ -101,16 +106,13 @@ class Signals(Brief):
         read = None if self.read is None else self.read[window]
         return self.q[window], self.v[window], self.a[window], read
 
-    def windows(self) -> Iterator[slice]:
-        """Of few samples each: what is evaluated over one of them stays in the cache."""
-        for start in range(0, len(self.q), WINDOW):
-            yield slice(start, min(start + WINDOW, len(self.q)))
-
     @cached_property
     def largest(self) -> np.ndarray:
         """(p,) magnitude that each column of a standard parameter reaches."""
-        every = [np.abs(self.regressor(w)).max(axis=(0, 1)) for w in self.windows()]
-        return np.asarray(np.max(every, axis=0))
+        windows = [slice(k, k + WINDOW) for k in range(0, len(self.q), WINDOW)]
+        return np.asarray(
+            np.max([np.abs(self.regressor(w)).max(axis=(0, 1)) for w in windows], axis=0)
+        )
 
     @cached_property
     def load(self) -> np.ndarray:
@@ -261,22 +263,15 @@ _SEEN = 1e-6
 def tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
     """(n, J, k): first the torques of unit gravity along two axes across the model's gravity.
 
+    Of an arm that moves in a plane, along the one that it feels.
     The others belong to first moments that the model's gravity hides (those of a vertical first
     axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
     """
-    weights = tilt_weights(signals.reference)
-    q = signals.q[window]
-    if weights is None:
-        return np.zeros((*q.shape, 0))
-    return frame_slopes(signals.reference.compiled, q).reshape(*q.shape, -1) @ weights
-
-
-def tilt_weights(reference: SignalReference) -> np.ndarray | None:
-    """(rows 3 4, k): `tilt_columns` of the entries of `frame_slopes`; None if it has none."""
-    basis = tilt_basis(reference)
+    basis, q = signals.reference.tilts, signals.q[window]
     if basis is None:
-        return None
-    return -np.column_stack([_weights(axis, chi) for axis, chi in basis])
+        return np.zeros((*q.shape, 0))
+    slopes = frame_slopes(signals.reference.compiled, q)
+    return np.stack([gravity_torque(slopes, axis, chi) for axis, chi in basis], axis=-1)
 
 
 def frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
@@ -296,13 +291,9 @@ def gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.
         axis: (3,) m/s^2 in frame 0.
         chi: (rows, 4) M, MX, MY, MZ of every moving row.
     """
-    return -slopes.reshape(*slopes.shape[:2], -1) @ _weights(axis, chi)
-
-
-def _weights(axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
-    """(rows 3 4,) of the frames' entries in axis . sum (M p + R MS)."""
     moments = np.column_stack([chi[:, 1:], chi[:, 0]])
-    return (axis[None, :, None] * moments[:, None, :]).ravel()
+    weights = axis[None, :, None] * moments[:, None, :]
+    return -slopes.reshape(*slopes.shape[:2], -1) @ weights.ravel()
 
 
 def tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]] | None:
@@ -333,8 +324,16 @@ def tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]
     across = first - down * (down @ first)
     across = across / np.linalg.norm(across)
     axes = (across, np.cross(down, across))
-    found = [(axis, chi) for axis in axes]
-    return found + _woken(slopes, axes, down, len(rows))
+    # an arm that moves in a plane does not feel gravity across it
+    felt = [axis for axis in axes if np.linalg.norm(gravity_torque(slopes, axis, chi)) > _SEEN]
+    return [(axis, chi) for axis in felt] + _woken(slopes, axes, down, len(rows))
+
+
+def tilt_axes(reference: SignalReference) -> np.ndarray:
+    """(k, 3) directions of the first of `tilt_columns`, those of the change of gravity itself."""
+    basis = tilt_basis(reference)
+    assert basis is not None, "there is gravity"
+    return np.array([axis for axis, chi in basis if chi is basis[0][1]])
 
 
 def _woken(

@@ -1,7 +1,7 @@
 """The analysis at one point of the search: what is in the model so far, and what it leaves."""
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -24,24 +24,20 @@ from modeler.diagnosis.ranking import (
     rank,
     sigma_of,
 )
-from modeler.diagnosis.signals import SignalReference, frame_slopes, tilt_weights
+from modeler.diagnosis.signals import SignalReference
 from modeler.effects import Acts
 from modeler.estimation import Prior, prior_of, remembered
 from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
 from modeler.observation import (
-    APART,
     HIGHEST,
-    LOWER,
-    TREMBLES,
     ChosenProcessing,
     Log,
     LogRepair,
+    Look,
     Observation,
     Prepared,
     Processing,
     choose_cutoffs,
-    filtered_again,
-    observe,
     observed,
     prepare,
 )
@@ -293,6 +289,16 @@ class State(Brief):
         """(rows_j,) by joint, N m or N."""
         return tuple(y - w @ self.solution for y, w in zip(self.y, self.W, strict=True))
 
+    @property
+    def torque(self) -> np.ndarray:
+        """(s, n) of the model, beside the rows that are used; of the others the measured one."""
+        found = self.data.observation.torque.copy()
+        for j, (used, left) in enumerate(
+            zip(self.data.observation.used.T, self.residual, strict=True)
+        ):
+            found[used, j] -= left
+        return found
+
     @cached_property
     def known(self) -> dict[Any, Any]:
         """What was made of it, by name."""
@@ -343,10 +349,7 @@ def all_columns_of(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]
     # Joint after joint: the slopes along the motion of one joint serve all its effects.
     for places in sorted(groups.values(), key=lambda own: candidates[own[0]].index):
         every = [candidates[i] for i in places]
-        if every[0].effect.acts is Acts.GRAVITY:
-            made = [_tilt(rows) for _ in every]
-        else:
-            made = rows.many(every) if len(every) > 1 else [rows.columns(every[0])]
+        made = rows.many(every) if len(every) > 1 else [rows.columns(every[0])]
         new = zip(every, made, strict=True)
         rows.cache.update({column_key(rows, c): own for c, own in new if _fixed(c)})
         found |= dict(zip(places, made, strict=True))
@@ -372,23 +375,6 @@ def column_key(rows: Rows, candidate: Candidate) -> tuple[Any, ...]:
 
 _FIXED = (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE, Acts.LINK)
 """What reads the motion only, if its equations do."""
-
-
-def _tilt(rows: Rows) -> Columns:
-    """`tilt_columns`: the model only weighs the slopes of the frames, which are filtered once."""
-    weights = tilt_weights(rows.signals[0].reference)
-    if weights is None:
-        return (None,) * rows.joints
-    key = "frame slopes"
-    if key not in rows.cache:
-
-        def slopes(stretch: int, window: slice) -> np.ndarray:
-            signals = rows.signals[stretch]
-            found = frame_slopes(signals.reference.compiled, signals.q[window])
-            return found.reshape(*found.shape[:2], -1)
-
-        rows.cache[key] = rows.spread(slopes, width=1000)
-    return tuple(None if own is None else own @ weights for own in rows.cache[key])
 
 
 def visible(columns: Columns) -> bool:
@@ -420,9 +406,6 @@ BAND = 30.0
 """Hz: highest cut-off of the parallel filter. Fits use a narrow band, where torque noise is least;
 ripple, elasticity, delays and reversals show above it."""
 
-COMPLETE = 0.95
-"""Least share of a row's weights on usable samples."""
-
 
 def analysed(
     compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None = None,
@@ -432,9 +415,8 @@ def analysed(
 
     With f0 where the positions drown in their noise, and c the parallel cut-off that the motion
     asks for, the parallel filter is at f0/2 within c and `BAND`, that of the positions at f0 and at
-    least twice as high. Then, while the model's torque trembles more than `TREMBLES` times as much
-    as the measured one, the parallel filter is lowered down to that of the fit, the position filter
-    to `APART` times that, and both. What the user gave stays.
+    least twice as high. Both are lowered until the model's torque is `quiet`, the parallel filter
+    first down to c. What the user gave stays.
 
     Args:
         compiled: the robot.
@@ -445,94 +427,37 @@ def analysed(
         mending: of the same logs, where it is shared.
     """
     prepared = prepared or prepare(compiled.spec, logs, fitted, mending)
-    if "parallel_cutoff" not in fitted.chosen or not prepared.noise.moving:
+    noise = prepared.noise
+    if "parallel_cutoff" not in fitted.chosen or not noise.moving:
         return _whole(observed(compiled, logs, prepared, every_joint=True))
-    pieces = [piece for own in prepared.pieces for piece in own]
     given = None if "position_cutoff" in fitted.chosen else fitted.position_cutoff
     asked = dataclasses.replace(
         fitted, position_cutoff=given, parallel_cutoff=None, decimation=None, edge=None
     )
-    wide, _ = choose_cutoffs(asked, pieces, prepared.noise)
-    least = wide.parallel_cutoff
-    highest = given or HIGHEST / max(piece.step for piece in pieces)
+    wide, _ = choose_cutoffs(asked, prepared.pieces, noise)
+    motion = wide.parallel_cutoff
+    highest = given or HIGHEST / max(piece.step for piece in prepared.pieces)
     if band is None:
-        parallel = max(least, min(BAND, 0.5 * highest, 0.5 * prepared.noise.cutoff))
+        parallel = max(motion, min(BAND, 0.5 * highest, 0.5 * noise.cutoff))
         position = max(wide.position_cutoff, 2.0 * parallel)
     else:
-        parallel = max(least, min(band, 0.8 * highest))
+        parallel = max(motion, min(band, 0.8 * highest))
         position = 1.25 * parallel if band else wide.position_cutoff
-    position = given or min(position, highest)
-    wide = dataclasses.replace(wide, position_cutoff=position, parallel_cutoff=parallel)
-
-    def filtered(chosen: ChosenProcessing) -> Prepared:
-        """Logged speeds are checked in the band of the rows."""
-        if any(check is not None for check in prepared.checks):
-            return prepare(compiled.spec, logs, chosen, mending)
-        return filtered_again(prepared, chosen)
-
-    return quieted(compiled, logs, filtered, wide, least)
-
-
-def quieted(
-    compiled: "CompiledModel", logs: Sequence[Log],
-    filtered: Callable[[ChosenProcessing], Prepared], chosen: ChosenProcessing, least: float,
-) -> Observation:  # fmt: skip
-    """The logs with cut-offs lowered until the torque of the model does not tremble."""
-    position, parallel = chosen.position_cutoff, chosen.parallel_cutoff
-    for _ in range(_LOWERED):
-        lower = dataclasses.replace(chosen, position_cutoff=position, parallel_cutoff=parallel)
-        prepared = filtered(lower)
-        seen = _whole(observed(compiled, logs, prepared, every_joint=True))
-        if max(trembling(_free(compiled, seen)).values(), default=0.0) <= TREMBLES:
-            break
-        if parallel > least:
-            parallel = max(least, LOWER * parallel)
-        elif position > APART * parallel:
-            position = max(LOWER * position, APART * parallel)
-        else:
-            least *= LOWER
-            parallel = least
-    return seen
-
-
-def _free(compiled: "CompiledModel", seen: Observation) -> State:
-    """The model fitted to an observation."""
-    return state_of(SearchData(compiled, seen), (), np.zeros(len(compiled.spec.base)))
-
-
-_LOWERED = 16  # times, from 100 Hz to less than 1 Hz
-
-
-def trembling(state: State) -> dict[str, float]:
-    """How much more the model's torque trembles than the measured one, by joint.
-
-    Root mean square of the second differences from row to row, over that of the measured torque.
-    """
-    found = {}
-    for j, (name, y) in enumerate(zip(state.names, state.rows.y, strict=True)):
-        measured, model = (_bends(state, j, x) for x in (y, y - state.residual[j]))
-        if measured > 0.0:
-            found[name] = model / measured
-    return found
-
-
-def _bends(state: State, j: int, values: np.ndarray) -> float:
-    """Rms of the second differences of values (rows_j,) between neighbouring rows."""
-    time, segment = state.rows.time[j], state.rows.segment[j]
-    if len(time) < 3:
-        return 0.0
-    step = np.diff(time)
-    near = (step < 1.5 * np.median(step)) & (np.diff(segment) == 0)
-    bends = np.diff(values, 2)[near[1:] & near[:-1]]
-    return float(np.sqrt(np.mean(bends**2))) if bends.size else 0.0
+    prepared = dataclasses.replace(prepared, processing=wide)
+    prepared = prepared.with_cutoffs(given or min(position, highest), parallel)
+    found = Look(compiled, prepared).quiet(motion, given is not None)
+    prepared = prepared.with_cutoffs(found.position, found.parallel)
+    if any(log.check is not None for log in prepared.logs):  # in the band of the rows
+        prepared = prepare(compiled.spec, logs, prepared.processing, mending)
+    return _whole(observed(compiled, logs, prepared, every_joint=True))
 
 
 def again(
-    compiled: "CompiledModel", logs: Sequence[Log], processing: Processing,
-    mending: LogRepair | None = None,
-) -> Observation:  # fmt: skip
+    compiled: "CompiledModel", logs: Sequence[Log], processing: ChosenProcessing
+) -> Observation:
     """Other logs in the band of a diagnosis."""
-    return _whole(observe(compiled, logs, processing, True, mending))
+    prepared = prepare(compiled.spec, logs, processing)
+    return _whole(observed(compiled, logs, prepared, every_joint=True))
 
 
 def cutoff(data: SearchData) -> float:
@@ -545,30 +470,22 @@ def bands_line(fitted: Processing, seen: Processing) -> list[str]:
     if seen.parallel_cutoff == fitted.parallel_cutoff:
         return []
     if (seen.parallel_cutoff or 0.0) < (fitted.parallel_cutoff or 0.0):
-        return [
-            f"errors and values are those up to {seen.parallel_cutoff:.3g} Hz, beside all effects "
-            f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: of these "
-            "logs, and with what the model has, no more of the motion is answered by the torques"
-        ]
+        why = (
+            "of these logs, and with what the model has, no more of the motion is answered by the "
+            "torques"
+        )
+    else:
+        why = (
+            "ripple, elasticity, delays and reversals show above; fit with --parallel-cutoff "
+            f"{fitted.parallel_cutoff:g} to have both alike"
+        )
     return [
         f"errors and values are those up to {seen.parallel_cutoff:.3g} Hz, beside all effects "
-        f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: ripple, "
-        "elasticity, delays and reversals show above; fit with --parallel-cutoff "
-        f"{fitted.parallel_cutoff:g} to have both alike"
+        f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: {why}"
     ]
 
 
 def _whole(observation: Observation) -> Observation:
-    """Only rows whose weights lie on usable samples all but wholly.
-
-    A row at the edge of a masked reversal is the mean of few samples, and what the filter makes of
-    the sign of a speed there looks like physics.
-    """
-    stretches = tuple(
-        dataclasses.replace(part, used=part.used & (part.rows.share(part.usable) >= COMPLETE))
-        for part in observation.stretches
-    )
-    used = np.concatenate([part.used for part in stretches])
-    if not used.any():
-        return observation
-    return dataclasses.replace(observation, used=used, stretches=stretches)
+    """Only whole rows, if there are any."""
+    used = observation.whole
+    return observation.with_rows(used) if used.any() else observation

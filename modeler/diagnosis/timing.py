@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 
@@ -68,7 +69,7 @@ def instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.nda
 
     theta = (Z^T X)^-1 Z^T y; errors from sums over blocks, so that coloured residuals count.
     """
-    smooth = _smoothed(state)
+    smooth = smoothed(state)
     own, other = state.rows.columns(candidate), smooth.columns(candidate)
     extra = (*picked_columns(smooth, state.picks), other)
     X, Z = [], []
@@ -106,20 +107,19 @@ def _solve(
     return theta[-k:] / length[-k:], error[-k:] / length[-k:]
 
 
-def _smoothed(state: State) -> Rows:
-    """The same rows with the motion smoothed."""
-    if "smooth" in state.rows.known:
-        return state.rows.known["smooth"]
-    cutoff = 3.0 * max(SLOWEST, state.data.observation.report.band)  # Hz, of the band of the motion
-    key = "smooth motion"  # the same for all states, and so are its base columns
-    if key not in state.rows.cache:
+def smoothed(state: State) -> Rows:
+    """The same rows of the motion without the noise of its sensors: smoothed to 3 of its bands."""
+    known, cache, key = state.rows.known, state.rows.cache, "smooth motion"
+    if key not in cache:
+        cutoff = 3.0 * max(SLOWEST, state.data.observation.report.band)  # Hz
         moved = tuple(_smooth(s, cutoff) for s in state.rows.signals)
-        state.rows.cache[key] = moved, base_columns(state.rows.blocks, moved)
-    moved, W = state.rows.cache[key]
-    signals = tuple(dataclasses.replace(s, reference=state.reference) for s in moved)
-    smooth = dataclasses.replace(state.rows, W=W, signals=signals, known={}, cache={})
-    state.rows.known["smooth"] = smooth
-    return smooth
+        # the same for all states, and so are its base columns
+        cache[key] = moved, base_columns(state.rows.blocks, moved)
+    if key not in known:
+        moved, W = cache[key]
+        signals = tuple(dataclasses.replace(s, reference=state.reference) for s in moved)
+        known[key] = dataclasses.replace(state.rows, W=W, signals=signals, known={}, cache={})
+    return cast(Rows, known[key])
 
 
 def _smooth(signals: Signals, cutoff: float) -> Signals:

@@ -206,7 +206,7 @@ class Effect(Brief):
         shows: the axis on which it does.
         look_alikes: what it is mistaken for, and which motion tells them apart.
         same_as: ids of effects that no data tell from it.
-        twin: id of that of them whose last column is the same with the other sign.
+        sign: of its last parameter, where that with the other is another effect; else 0.
         needs: what must be true of the robot for its values to be believed.
         rare: True if a rival that explains as much is likelier.
         several: True if a joint may have it several times, with other shapes.
@@ -232,7 +232,7 @@ class Effect(Brief):
     range: str
     source: str
     same_as: tuple[str, ...] = ()
-    twin: str = ""
+    sign: int = 0
     needs: tuple[Needs, ...] = ()
     rare: bool = False
     several: bool = False

@@ -9,12 +9,7 @@ from .direct_model import (
     DirectModel as DirectModel,
     scaled_inertia as scaled_inertia,
 )
-from .doubts import (
-    Doubt as Doubt,
-    LogFinding as LogFinding,
-    not_together as not_together,
-    remounted as remounted,
-)
+from .doubts import not_together as not_together, remounted as remounted
 from .drive_gains import (
     GainFit as GainFit,
     are_currents as are_currents,
@@ -23,13 +18,7 @@ from .drive_gains import (
     in_drive_units as in_drive_units,
 )
 from .energy_fit import identify_energy as identify_energy
-from .findings import (
-    faults as faults,
-    faults_of_fit as faults_of_fit,
-    findings_of_fit as findings_of_fit,
-    findings_of_prediction as findings_of_prediction,
-    suspects as suspects,
-)
+from .findings import log_findings as log_findings
 from .identify import Equations as Equations, dead_joints as dead_joints, identify as identify
 from .known import deviations as deviations, known_doubts as known_doubts
 from .least_squares import least_squares as least_squares, solve_by_qr as solve_by_qr

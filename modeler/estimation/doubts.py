@@ -2,7 +2,6 @@
 
 import dataclasses
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from modeler.estimation.identify import CrossValidation, Equations, base_equatio
 from modeler.estimation.least_squares import least_squares
 from modeler.estimation.payload import Payload, loaded_equations
 from modeler.estimation.result import FitResult
-from modeler.observation import TREMBLES, Fault, Observation
+from modeler.observation import TREMBLES, Doubt, Observation
 from modeler.runtime import CompiledModel
 
 _FAR = 3.0  # standard deviations below zero
@@ -37,29 +36,6 @@ MOST = 0.5
 """Share of the parameters that logs may leave open; beyond it they are a glimpse of a motion."""
 
 _TORQUES = "check units, signs and columns of the log, the table, and the effects in the robot file"
-
-
-@dataclass(frozen=True)
-class Doubt:
-    """Why a fit may not be what it looks like.
-
-    Attributes:
-        line: where and what; after the last semicolon what to do.
-        certain: True if the model is not usable for it.
-        values: True if it leaves the prediction of torques of like motion untouched, and only the
-            values of parameters are in doubt.
-        explains: True if it is why the fit does not describe or foretell some torques; what is
-            usually to blame for that is then not told.
-    """
-
-    line: str
-    certain: bool = False
-    values: bool = False
-    explains: bool = False
-
-
-LogFinding = Fault | Doubt
-"""A finding about the logs, of this stage or of the one that reads them."""
 
 
 def negative(spec: ModuleSpec, result: FitResult) -> list[Doubt]:

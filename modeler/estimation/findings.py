@@ -13,23 +13,14 @@ itself, a fault that raises the sum by no more is one that these logs cannot sho
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
-from itertools import combinations
+from functools import cache, cached_property, partial
+from itertools import chain, combinations
 
 import numpy as np
 
+from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
-from modeler.numerics.least_squares import whitening
-from modeler.observation import (
-    Fault,
-    Observation,
-    ThinnedRows,
-    Turn,
-    model_torque,
-    thinned,
-    turns,
-    zeros,
-)
+from modeler.observation import Doubt, Observation, ThinnedRows, Turn, clocks, thinned, turns, zero
 from modeler.runtime import CompiledModel
 
 HALF = 0.5
@@ -39,7 +30,7 @@ HALF = 0.5
 ALSO = 1.3
 """Times the least that another fault may leave and still explain the logs as well."""
 
-FLOOR = 0.005
+FLOOR = 0.001
 """Relative error below which all are alike."""
 
 SUSPECT = 0.1
@@ -58,13 +49,11 @@ GAIN = 1.4
 SCALE = 5.0
 """A torque that is off by this factor is a matter of units, not of a drive gain or a load."""
 
-_CLOCKS = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # they are off by
 _MILLI = 1e-3  # N m in mN m
 _UNITS = 1e9  # units are no farther apart
 _LEAST_ROWS = 20  # of a joint whose torque is exchanged
 _FOR_EACH = 3  # rows for every parameter, at least: fewer are described by anything
-_FEW = 400  # rows for a motion that is changed
-_TOLD = 1e-11  # eigenvalue over the largest
+_RIDGE = 1e-11  # of the normal equations, of columns of length one
 _TURNS = 4  # of weights; they settle by a digit each time
 _SUBSETS = 8  # joints of which every subset is tried
 _MACHINES = 8  # subsets of which the machine is asked for
@@ -94,13 +83,10 @@ class Products:
 
 def _products(W: np.ndarray, tau: np.ndarray, used: np.ndarray, joints: Sequence[int]) -> Products:
     """Of rows W (m, n, c), tau (m, n), used (m, n)."""
-    grams, crosses = [], []
-    for j in joints:
-        X, y = W[used[:, j], j], tau[used[:, j], j]
-        size = max(float(np.linalg.norm(y)), 1e-300)
-        grams.append(X.T @ X / size**2)
-        crosses.append(X.T @ y / size**2)
-    return Products(np.stack(grams), np.stack(crosses))
+    y = np.where(used, tau, 0.0)[:, joints]
+    length = np.maximum(np.linalg.norm(y, axis=0), 1e-300)
+    X = (np.where(used[..., None], W, 0.0)[:, joints] / length[:, None]).transpose(1, 2, 0)
+    return Products(X @ X.transpose(0, 2, 1), np.einsum("kcm,mk->kc", X, y / length))
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,9 +127,14 @@ class Judge:
 
 
 def _fitted(data: Products, weights: np.ndarray) -> np.ndarray:
-    # Many fits of a few digits: normal equations, without what the data cannot tell.
-    turn = whitening(np.tensordot(weights, data.gram, 1), _TOLD)
-    return np.asarray(turn @ (turn.T @ (weights @ data.cross)))
+    return _solved(np.tensordot(weights, data.gram, 1), weights @ data.cross)
+
+
+def _solved(gram: np.ndarray, cross: np.ndarray) -> np.ndarray:
+    """Of normal equations: many fits of a few digits; a ridge for what the data cannot tell."""
+    size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    scaled = gram / np.outer(size, size) + _RIDGE * np.eye(len(gram))
+    return np.asarray(np.linalg.solve(scaled, cross / size) / size)
 
 
 def _score(errors: np.ndarray) -> float:
@@ -164,11 +155,13 @@ class Hypothesis:
         fault: in words.
         data: of the log with the fault undone.
         touches: joints that it concerns; empty: all.
+        least: what it must add to the sum of logarithms.
     """
 
-    fault: Fault
+    fault: Doubt
     data: Products
     touches: tuple[int, ...] = ()
+    least: float = ENOUGH
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,24 +183,20 @@ class Evidence:
     joints: tuple[int, ...]
 
     @cached_property
-    def few(self) -> ThinnedRows:
-        """Fewer rows, for motions that are changed."""
-        return thinned(self.compiled, self.observation, _FEW)
-
-    @cached_property
     def data(self) -> Products:
         """Of the log as it is."""
         return _products(self.rows.W, self.rows.tau, self.rows.used, self.joints)
 
     @cached_property
-    def few_data(self) -> Products:
-        """The same of fewer rows."""
-        return _products(self.few.W, self.few.tau, self.few.used, self.joints)
-
-    @cached_property
     def errors(self) -> np.ndarray:
         """(k,) of the log as it is."""
         return self.judge.errors(self.data)
+
+    @cached_property
+    def grave(self) -> bool:
+        """True if much is left, or no machine that could be built leaves as little as the fit."""
+        free = self.judge.errors(self.data, possible=False)
+        return bool(self.errors.max() > SUSPECT) or _evidence_for(free, self.errors) > ENOUGH
 
     @property
     def tree(self) -> bool:
@@ -220,12 +209,9 @@ class Evidence:
 
 
 def _evidence(
-    compiled: CompiledModel, observation: Observation, beta: np.ndarray | None = None,
-    gains: np.ndarray | None = None,
-) -> Evidence:  # fmt: skip
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray | None = None
+) -> Evidence:
     rows = thinned(compiled, observation)
-    if gains is not None:
-        rows = replace(rows, tau=rows.tau / gains)
     joints = [j for j, joint in enumerate(observation.joints) if joint.actuated]
     joints = [j for j in joints if rows.tau[rows.used[:, j], j].any()]
     enough = bool(joints) and rows.used[:, joints].sum() >= _FOR_EACH * rows.W.shape[2]
@@ -236,61 +222,42 @@ def _evidence(
 # What contradicts.
 
 
-def findings_of_fit(compiled: CompiledModel, observation: Observation) -> tuple[Fault, ...]:
-    """Doubts about the channels and the samples of logs that a model was fitted to.
+def log_findings(
+    compiled: CompiledModel, observation: Observation, model: IdentifiedModel | None = None
+) -> tuple[Doubt, ...]:
+    """What is wrong with the channels and the samples of logs; alike wherever it is asked for.
 
-    Args:
-        compiled: the robot.
-        observation: that was fitted.
-    """
-    found = faults_of_fit(compiled, observation)
-    return (*found, *(Fault(line, False) for line in observation.report.doubts()))
-
-
-def findings_of_prediction(
-    compiled: CompiledModel, observation: Observation, beta: np.ndarray
-) -> tuple[Fault, ...]:
-    """Doubts about the channels and the samples of logs whose torque a model predicts.
-
-    Where the prediction blames none, those of a fit to the same logs are asked for.
+    The one fault that explains most of what a fit to the logs leaves; if there is none, and no
+    model either, which faults could not be seen in any case. A model that was fitted to other logs
+    is asked first, for the joints that it misses by more than half.
 
     Args:
         compiled: the robot.
         observation: of the logs.
-        beta: (c,) base parameters of the model.
+        model: whose torques are compared, or explained; None: the logs are fitted.
     """
-    found = faults(compiled, observation, beta) or faults_of_fit(compiled, observation)
-    doubts = (Fault(line, False) for line in observation.report.doubts())
-    return (*(one for one in found if not one.unseen), *doubts)
+    others = model is not None and not any(
+        used.shares_rows(log) for used in model.logs for log in observation.report.logs
+    )
+    found = _by_prediction(compiled, observation, model.beta) if model and others else []
+    found = found or _by_fit(compiled, observation, unseen=model is None)
+    return (*found, *(Doubt(line) for line in observation.report.doubts()))
 
 
-def faults_of_fit(compiled: CompiledModel, observation: Observation) -> tuple[Fault, ...]:
-    """The one fault of logs that explains most; or which of them could not be seen in any case.
-
-    Args:
-        compiled: the robot.
-        observation: that was fitted.
-    """
+def _by_fit(compiled: CompiledModel, observation: Observation, unseen: bool) -> list[Doubt]:
     seen = _evidence(compiled, observation)
     if not seen.joints:
-        return ()
-    told = _explained(seen) if seen.errors.max() > FLOOR / HALF else None
-    return _unseen(seen) if told is None else (told.fault,)
+        return []
+    told = _explained(seen)
+    if told is not None:
+        return [told.fault]
+    return _unseen(seen) if unseen else []
 
 
-def faults(
-    compiled: CompiledModel, observation: Observation, beta: np.ndarray,
-    gains: np.ndarray | None = None,
-) -> tuple[Fault, ...]:  # fmt: skip
-    """Faults of logs by the prediction of a model; of joints that it misses by more than half.
-
-    Args:
-        compiled: the robot.
-        observation: of the logs.
-        beta: (c,) base parameters of the model.
-        gains: (J,) what the torques of the model are multiplied by, if drive gains are wrong.
-    """
-    seen, found = _evidence(compiled, observation, beta, gains), list[Fault]()
+def _by_prediction(
+    compiled: CompiledModel, observation: Observation, beta: np.ndarray
+) -> list[Doubt]:
+    seen, found = _evidence(compiled, observation, beta), list[Doubt]()
     while seen.joints and seen.errors.max() > WRONG:
         told = _explained(seen)
         if told is None:
@@ -298,50 +265,35 @@ def faults(
         found.append(told.fault)
         rest = [j for j in seen.joints if told.touches and j not in told.touches]
         seen = replace(seen, joints=tuple(rest))
-    return tuple(found)
-
-
-def suspects(compiled: CompiledModel, observation: Observation, beta: np.ndarray) -> list[int]:
-    """Indices of the joints whose torque the model misses by more than half."""
-    predicted, found = model_torque(observation, compiled, beta), []
-    for j, (y, p) in enumerate(zip(observation.torque.T, predicted.T, strict=True)):
-        used = observation.used[:, j]
-        size = float(np.linalg.norm(y[used]))
-        if used.sum() >= _LEAST_ROWS and np.linalg.norm((y - p)[used]) > WRONG * size > 0.0:
-            found.append(j)
     return found
 
 
 def _explained(seen: Evidence) -> Hypothesis | None:
     """The hypothesis that explains most, with those that do as well in its words."""
-    before, few = seen.errors, seen.judge.errors(seen.few_data)
     found = [
         (score, one)
-        for hypotheses, base in ((_torques(seen), before), (_motions(seen), few))
-        for one in hypotheses
-        if (score := _lowered(seen, base, one.data)) >= ENOUGH
+        for one in chain(_torques(seen), _motions(seen))
+        if (score := _lowered(seen, one)) >= one.least
     ]
     if not found:
         return None
     most = max(score for score, _ in found)
-    likely = sorted((x for x in found if x[0] >= most - np.log(ALSO)), key=lambda x: -x[0])
-    best = likely[0][1]
-    if len(likely) == 1:
-        return best
-    line = "; or: ".join(dict.fromkeys(one.fault.line for _, one in likely[:3]))
-    certain = all(one.fault.certain for _, one in likely)
-    touches = {j for _, one in likely for j in one.touches}
-    return Hypothesis(replace(best.fault, line=line, certain=certain), best.data, tuple(touches))
+    found.sort(key=lambda pair: -pair[0])
+    likely = [one for score, one in found if score >= most - np.log(ALSO)]
+    line = "; or: ".join(dict.fromkeys(one.fault.line for one in likely[:3]))
+    certain = all(one.fault.certain for one in likely)
+    fault = replace(likely[0].fault, line=line, certain=certain)
+    return Hypothesis(fault, likely[0].data, tuple({j for one in likely for j in one.touches}))
 
 
-def _lowered(seen: Evidence, before: np.ndarray, data: Products) -> float:
-    """By how much a hypothesis lowers the sum of logarithms; minus infinity if it is none."""
-    none, score = -float("inf"), 0.0
+def _lowered(seen: Evidence, one: Hypothesis) -> float:
+    """By how much a hypothesis lowers the sum of logarithms; 0 if it is none."""
+    score = 0.0
     for possible in (False, True):  # machines that can be built leave more, and take longer
-        errors = seen.judge.errors(data, possible)
-        score = _evidence_for(errors, before)
-        if score < ENOUGH or errors.max() > WRONG:
-            return none
+        errors = seen.judge.errors(one.data, possible)
+        score = _evidence_for(errors, seen.errors)
+        if score < one.least or errors.max() > WRONG:
+            return 0.0
     return score
 
 
@@ -352,19 +304,20 @@ def _torques(seen: Evidence) -> Iterator[Hypothesis]:
     """Torques of another scale or sign, and exchanged ones."""
     every = range(len(seen.joints))
     for place in every if len(seen.joints) > 1 or seen.judge.beta is not None else ():
-        for gain in (_gain(seen, place), _MILLI):
+        own = _gain(seen, place)
+        for gain in (_MILLI,) if abs(own - _MILLI) < 0.1 * _MILLI else (own, _MILLI):
             if not 1.0 / _UNITS < gain < _UNITS or 1.0 / GAIN < gain < GAIN:
                 continue
-            unit = " (is it in mN m?)" if abs(_MILLI / gain - 1.0) < 0.1 else ""
+            unit = " (is it in mN m?)" if gain == _MILLI else ""
             line = (
                 f"joint {seen.name(place)}: the measured torque is {1.0 / gain:.3g} times what it "
                 f"should be{unit}; check unit and drive gain of that channel"
             )
             j = seen.joints[place]
-            fault = Fault(line, not 1.0 / SCALE < gain < SCALE, j)
-            yield Hypothesis(fault, _with_gain(seen, place, gain), (j,))
+            fault = Doubt(line, not 1.0 / SCALE < gain < SCALE, joint=j)
+            yield Hypothesis(fault, _with_gain(seen.data, place, gain), (j,))
     yield from _signs(seen)
-    if seen.errors.max() <= SUSPECT:
+    if not seen.grave:
         return
     rows, J = seen.rows, len(seen.observation.joints)
     for a, b in combinations(every, 2):
@@ -377,7 +330,7 @@ def _torques(seen: Evidence) -> Iterator[Hypothesis]:
                 "the order of the columns"
             )
             data = _products(rows.W, rows.tau[:, order], both, seen.joints)
-            yield Hypothesis(Fault(line, True), data, (j, k))
+            yield Hypothesis(Doubt(line, True), data, (j, k))
 
 
 def _gain(seen: Evidence, place: int) -> float:
@@ -392,19 +345,18 @@ def _gain(seen: Evidence, place: int) -> float:
         own, side = weights[place], -weights[place] * data.cross[place]
         gram = np.tensordot(weights, data.gram, 1)
         whole = np.block([[gram, side[:, None]], [side[None], np.array([[own]])]])
-        turn = whitening(whole, _TOLD)
-        solved = turn @ (turn.T @ np.append(weights @ data.cross + side, 0.0))
+        solved = _solved(whole, np.append(weights @ data.cross + side, 0.0))
         gain = float(solved[-1])
         if not 1.0 / _UNITS < abs(gain) < _UNITS:
             break
-        weights = 1.0 / np.maximum(_with_gain(seen, place, gain).left(solved[:-1]), FLOOR) ** 2
+        weights = 1.0 / np.maximum(_with_gain(seen.data, place, gain).left(solved[:-1]), FLOOR) ** 2
         weights[place] /= gain**2
     return gain
 
 
-def _with_gain(seen: Evidence, place: int, gain: float) -> Products:
-    """Of the log with the torque of a joint multiplied by a gain."""
-    return seen.data.scaled(np.where(np.arange(len(seen.joints)) == place, gain, 1.0))
+def _with_gain(data: Products, places: int | Sequence[int], gain: float) -> Products:
+    """Of the log with the torques of some joints multiplied by a gain."""
+    return data.scaled(np.where(np.isin(np.arange(len(data.gram)), places), gain, 1.0))
 
 
 def _signs(seen: Evidence) -> Iterator[Hypothesis]:
@@ -420,7 +372,7 @@ def _signs(seen: Evidence) -> Iterator[Hypothesis]:
     for own in tried:
         rest = tuple(k for k in range(count) if k not in own)
         if seen.judge.beta is not None or rest not in scores:
-            data = _signed(seen.data, own)
+            data = _with_gain(seen.data, own, -1.0)
             scores[own] = _score(seen.judge.errors(data, possible=False))
         else:
             scores[own] = scores[rest]
@@ -433,11 +385,7 @@ def _signs(seen: Evidence) -> Iterator[Hypothesis]:
             whose = "all measured torques have"
         line = f"{whose} the other sign of what a machine that can be built needs; check the sign"
         j = tuple(seen.joints[k] for k in own)
-        yield Hypothesis(Fault(line, True), _signed(seen.data, own), j)
-
-
-def _signed(data: Products, own: Sequence[int]) -> Products:
-    return data.scaled(np.where(np.isin(np.arange(len(data.gram)), own), -1.0, 1.0))
+        yield Hypothesis(Doubt(line, True), _with_gain(seen.data, own, -1.0), j)
 
 
 # Hypotheses about positions and times.
@@ -445,30 +393,22 @@ def _signed(data: Products, own: Sequence[int]) -> Products:
 
 def _motions(seen: Evidence) -> Iterator[Hypothesis]:
     """Positions in other units, reversed, exchanged, from another zero; what comes late."""
-    for factor in _CLOCKS if seen.errors.max() > SUSPECT else ():
-        line = (
-            f"the clock seems to be wrong: with all motion {factor:g} times as fast, torques are "
-            "those of a machine; check the time column, its unit and rate"
-        )
-        W = seen.few.timed(seen.compiled, factor)
-        data = _products(W, seen.few.tau, seen.few.used, seen.joints)
-        yield Hypothesis(Fault(line, True), data)
-    if seen.tree:
-        grave = turns(seen.observation) if seen.errors.max() > SUSPECT else ()
-        for turn in (*grave, *zeros(seen.observation)):
-            turned = _turned(seen, turn)
-            if turned is not None:
-                yield Hypothesis(Fault(turn.line, True), turned)
+    tried = [*clocks(seen.observation)] if seen.grave else []
+    tried += turns(seen.observation, zeros_only=not seen.grave) if seen.tree else []
+    for turn in tried:
+        turned = _turned(seen, turn)
+        if turned is not None:
+            yield Hypothesis(Doubt(turn.line, True), turned)
     if seen.judge.beta is None:
         yield from _late(seen)
 
 
 def _turned(seen: Evidence, turn: Turn) -> Products | None:
     """Of other positions; None where too few rows count."""
-    used = seen.few.used & seen.few.used[:, turn.torque]
+    used = seen.rows.used & seen.rows.used[:, turn.torque]
     if used[:, list(seen.joints)].sum(axis=0).min() < _LEAST_ROWS:
         return None
-    W, tau = seen.few.turned(seen.compiled, turn), seen.few.tau[:, turn.torque]
+    W, tau = seen.rows.turned(seen.compiled, turn), seen.rows.tau[:, turn.torque]
     return _products(W, tau, used, seen.joints)
 
 
@@ -476,6 +416,8 @@ LONGEST = 0.15
 """s, the largest delay that is looked for: beyond it, channels do not look late but wrong."""
 
 _STARTS = (-0.1, -0.05, 0.05, 0.1)  # s; a step along the slope goes astray from farther away
+_DELAY = 0.01  # s; a shorter one is not asked for where nothing is late
+_SHOWN = 0.02  # s; from what it does that of other delays is taken: it grows with the delay
 _NEAR = 5e-3  # s between the motions of which a slope is taken
 _STEPS = 4  # of Gauss and Newton
 _HINT = 0.2  # of the sum of logarithms; what a small part of a shift explains at least
@@ -516,7 +458,13 @@ def _late(seen: Evidence) -> Iterator[Hypothesis]:
             f"{channel.other} {back}); check the clocks of the channels, and shift the column"
         )
         if abs(shift) > 0.5 * step:
-            yield Hypothesis(Fault(line, False), data)
+            yield Hypothesis(Doubt(line), data, least=_enough_of(shift))
+
+
+def _enough_of(shift: float) -> float:
+    """What a delay must explain; more the less usual it is: physics looks like any delay."""
+    seconds = abs(shift)
+    return ENOUGH + float(np.log(max(seconds / _SHOWN, _DELAY / seconds, 1.0)))
 
 
 def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
@@ -525,16 +473,16 @@ def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
     A channel whose shift, to first order, does not help is given up; where torques are missed by
     far, a long delay is looked for too.
     """
-    few, judge = seen.few, seen.judge
+    rows, judge = seen.rows, seen.judge
 
     def data_of(W: np.ndarray) -> Products:
-        return _products(W, few.tau, few.used, seen.joints)
+        return _products(W, rows.tau, rows.used, seen.joints)
 
     def left(data: Products) -> float:
         return _score(judge.errors(data, possible=False))
 
-    tried = [(left(seen.few_data), 0.0, few.W)]
-    if seen.errors.max() > SUSPECT:
+    tried = [(left(seen.data), 0.0, rows.W)]
+    if seen.grave:
         tried += [(left(data_of(W := columns(start))), start, W) for start in _STARTS]
     least, shift, W = min(tried, key=lambda one: one[0])
     for _ in range(_STEPS):
@@ -557,25 +505,23 @@ def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
 def _channels(seen: Evidence) -> list[_Channel]:
     """What may be late."""
     n = len(seen.observation.joints)
-    compiled, few = seen.compiled, seen.few
-    kept: dict[float, np.ndarray] = {}
+    compiled, rows = seen.compiled, seen.rows
 
+    @cache
     def all_later(shift: float) -> np.ndarray:
-        if shift not in kept:
-            kept[shift] = few.shifted(compiled, np.full(n, shift))
-        return kept[shift]
+        return rows.shifted(compiled, np.full(n, shift))
 
     def torque_earlier(j: int, shift: float) -> np.ndarray:
-        W = few.W.copy()
+        W = rows.W.copy()
         W[:, j] = all_later(shift)[:, j]
         return W
 
     def one_later(j: int, shift: float) -> np.ndarray:
-        return few.shifted(compiled, shift * np.eye(n)[j])
+        return rows.shifted(compiled, shift * np.eye(n)[j])
 
     def both_later(j: int, shift: float) -> np.ndarray:
         W = one_later(j, shift)
-        W[:, j] = few.shifted(compiled, shift * (np.eye(n)[j] - 1.0))[:, j]
+        W[:, j] = rows.shifted(compiled, shift * (np.eye(n)[j] - 1.0))[:, j]
         return W
 
     found = [_Channel("all torques come", "the positions", -1.0, all_later)]
@@ -597,57 +543,54 @@ def _channels(seen: Evidence) -> list[_Channel]:
 SURELY = 1.5
 """Times the evidence that is told, below which a fault would not be seen for sure."""
 
-_DELAY = 0.01  # s; a shorter one is not asked for
-_SHOWN = 0.02  # s; from what it does that of others is taken: it grows with the delay
 
-
-def _unseen(seen: Evidence) -> tuple[Fault, ...]:
+def _unseen(seen: Evidence) -> list[Doubt]:
     """Faults that torques of the machine itself would not show, beside what is left of them."""
     if seen.errors.max() > WRONG:
-        return ()
+        return []
     beta = seen.judge.possible(seen.data, *seen.judge.solved(seen.data))
-    every = range(len(seen.joints))
-    made = _machine_data(seen, seen.rows, seen.rows.W, beta)
-    told = []
-    for what, gain in (("a torque twice as large", 0.5), ("a torque of the other sign", -1.0)):
-        scaled = (made.scaled(np.where(np.arange(len(every)) == k, gain, 1.0)) for k in every)
-        hidden = [seen.name(k) for k, data in zip(every, scaled, strict=True) if _hides(seen, data)]
-        told += [f"{what} of joint {', '.join(hidden)}"] if hidden else []
-    if seen.tree:
-        told += _unseen_motions(seen, beta)
-    if not told:
-        return ()
-    return (Fault(f"could not be seen in these logs: {'; '.join(told)}", False, unseen=True),)
+    hidden: dict[str, list[str]] = {}
+    for place in range(len(seen.joints)):
+        for what, data in _made(seen, place, beta):
+            if _hides(seen, data):
+                hidden.setdefault(what, []).append(seen.name(place))
+    told = [f"{what} of joint {', '.join(hidden[what])}" for what in sorted(hidden)]
+    short = _short_delays(seen, beta) if seen.tree and len(seen.joints) > 1 else []
+    told += [f"a delay below {', '.join(short)}"] if short else []
+    line = f"could not be seen in these logs: {'; '.join(told)}"
+    return [Doubt(line, unseen=True)] if told else []
 
 
-def _unseen_motions(seen: Evidence, beta: np.ndarray) -> list[str]:
-    """Another zero, and delays."""
-    driven = [seen.observation.joints[j] for j in seen.joints]
-    turning = [place for place, joint in enumerate(driven) if joint.unit == "rad"]
-    every = {joint.name: turn for joint, turn in zip(
-        (joint for joint in seen.observation.joints if joint.unit == "rad"),
-        zeros(seen.observation, (90,)), strict=True)}  # fmt: skip
-    hidden, told, short = list[str](), list[str](), list[str]()
-    for place in turning:
-        W = seen.few.turned(seen.compiled, every[seen.name(place)])
-        if _hides(seen, _machine_data(seen, seen.few, W, beta)):
-            hidden.append(seen.name(place))
-    if hidden:
-        told.append(f"a zero that is off by 90 degrees of joint {', '.join(hidden)}")
-    for place, j in enumerate(seen.joints) if len(seen.joints) > 1 else ():
+def _made(seen: Evidence, place: int, beta: np.ndarray) -> Iterator[tuple[str, Products]]:
+    """Logs of the machine with a fault of one joint."""
+    data, joint = (
+        _machine_data(seen, seen.rows.W, beta),
+        seen.observation.joints[seen.joints[place]],
+    )
+    yield "a torque of the other sign", _with_gain(data, place, -1.0)
+    yield "a torque twice as large", _with_gain(data, place, 0.5)
+    if seen.tree and joint.unit == "rad":
+        W = seen.rows.turned(seen.compiled, zero(seen.observation, seen.joints[place], 90))
+        yield "a zero that is off by 90 degrees", _machine_data(seen, W, beta)
+
+
+def _short_delays(seen: Evidence, beta: np.ndarray) -> list[str]:
+    """How late a joint may be without being seen."""
+    short = []
+    for place, j in enumerate(seen.joints):
         shift = _SHOWN * np.eye(len(seen.observation.joints))[j]
-        data = _machine_data(seen, seen.few, seen.few.shifted(seen.compiled, shift), beta)
+        data = _machine_data(seen, seen.rows.shifted(seen.compiled, shift), beta)
         least = _least_delay(seen, seen.judge.errors(data, possible=False))
         if least > _DELAY:
             short.append(f"{1e3 * least:.0f} ms of joint {seen.name(place)}")
-    return [*told, f"a delay below {', '.join(short)}"] if short else told
+    return short
 
 
 def _least_delay(seen: Evidence, errors: np.ndarray) -> float:
     """s that would be seen, by the errors (k,) that `_SHOWN` makes; `LONGEST` at most."""
     for delay in np.geomspace(_DELAY, LONGEST, 20):
         made = np.hypot(errors * delay / _SHOWN, seen.errors)
-        if _evidence_for(seen.errors, made) >= SURELY * ENOUGH:
+        if _evidence_for(seen.errors, made) >= SURELY * _enough_of(delay):
             return float(delay)
     return LONGEST
 
@@ -661,6 +604,6 @@ def _hides(seen: Evidence, data: Products) -> bool:
     return True
 
 
-def _machine_data(seen: Evidence, rows: ThinnedRows, W: np.ndarray, beta: np.ndarray) -> Products:
+def _machine_data(seen: Evidence, W: np.ndarray, beta: np.ndarray) -> Products:
     """Of columns W and the torques that a machine makes in the logs as they are."""
-    return _products(W, rows.W @ beta, rows.used, seen.joints)
+    return _products(W, seen.rows.W @ beta, seen.rows.used, seen.joints)

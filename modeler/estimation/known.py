@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
-from modeler.estimation.doubts import Doubt, not_together
+from modeler.estimation.doubts import not_together
 from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.identify import fit_equations
 from modeler.estimation.payload import Loaded, Payload, loaded_equations
-from modeler.observation import Observation
+from modeler.observation import Doubt, Observation
 from modeler.runtime import CompiledModel
 
 FAR = 4.0

@@ -8,12 +8,12 @@ import numpy as np
 from modeler.core.errors import TWO_STEPS
 from modeler.core.json import entries
 from modeler.core.table import percent
-from modeler.estimation.doubts import LITTLE, Doubt
+from modeler.estimation.doubts import HALF, LITTLE
 from modeler.estimation.essential import essential_parameters
 from modeler.estimation.identify import all_rows, base_equations, identify, result_of
 from modeler.estimation.result import FitResult
 from modeler.estimation.two_step import Configuration, Directions, TwoStep, two_steps
-from modeler.observation import Observation
+from modeler.observation import Doubt, Observation
 from modeler.runtime import CompiledModel
 
 # Persistent excitation of a two-step fit: the singular values of Phi, joint by joint.
@@ -151,13 +151,14 @@ class TwoStepFit:
         used = {c.joint for c in self.steps.configurations}
         never = [name for k, name in enumerate(self.steps.directions.names) if k not in used]
         short = all(why.startswith("too short") for why in self.steps.left_out)
-        poor = any((joint.relative_error or 0.0) > LITTLE for joint in self.result.joints)
+        worst = max(joint.relative_error or 0.0 for joint in self.result.joints)
         line = (
             f"joint {', '.join(never)} never moved alone for long enough, and the two steps use no "
             "other motion: what only its torque tells is not found; record more motion of it "
             "alone, or take --method weighted"
         )
-        return [Doubt(line, explains=True)] if never and short and poor else []
+        doubt = Doubt(line, certain=worst > HALF, values=True)
+        return [doubt] if never and short and worst > LITTLE else []
 
     def _line(self, c: Configuration) -> str:
         names = self.steps.directions.names

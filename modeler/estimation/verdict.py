@@ -6,12 +6,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from scipy.special import chdtri
 
-from modeler.core.errors import LoopError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
 from modeler.estimation import doubts
 from modeler.estimation.covariance import autocorrelation
-from modeler.estimation.doubts import LITTLE, WIDE, Doubt, LogFinding
+from modeler.estimation.doubts import LITTLE, WIDE
 from modeler.estimation.identify import (
     CrossValidation,
     Equations,
@@ -26,7 +25,7 @@ from modeler.estimation.nearest_body import carried_by, machine_of, nearest_poss
 from modeler.estimation.prior import prior_of
 from modeler.estimation.result import FitResult, JointFit, Verdict, friction_by_direction
 from modeler.numerics.least_squares import Compressed, independent_columns, triangle
-from modeler.observation import Fault, Observation
+from modeler.observation import Doubt, Observation, nearest_closed
 from modeler.runtime import CompiledModel
 
 # Is the time of the logs in seconds? The clock that a robot carries with it is gravity.
@@ -75,9 +74,10 @@ def time_doubts(model: CompiledModel, observation: Observation, result: FitResul
     if not found and ratio > ABSURD:
         found.append(
             Doubt(
-                f"the inertias are {ratio:.2g} times those of links of this reach under this "
-                f"gravity: the time of the logs runs about {ratio**0.5:.2g} times too slowly, or "
-                "the lengths of the table are not in metres; give seconds and metres",
+                f"the clock seems to be wrong: the inertias are {ratio:.2g} times those of links "
+                f"of this reach under this gravity, as if all motion were {ratio**0.5:.2g} times "
+                "as fast, or the lengths of the table not in metres; check the time column, its "
+                "unit and rate",
                 certain=True,
             )
         )
@@ -106,43 +106,32 @@ def _unit(step: float) -> str:
 def _pendulum(
     model: CompiledModel, observation: Observation, result: FitResult
 ) -> tuple[float, float]:
-    """Least J g / m over the reach, over the joints that turn and that gravity loads; 0 if none.
+    """Least J g / m over the reach, over the joints that gravity loads; 0 if none.
 
-    And the mass that makes the largest inertia, over the cube of the reach, kg/m^3.
+    Of a slide J and m / g are masses, and the reach is none of it. And the mass that makes the
+    largest inertia, over the cube of the reach, kg/m^3.
     """
     q = observation.q[:: max(1, len(observation.q) // _POSES)]
-    if model.spec.closure is not None:
-        q = np.array([pose for pose in q if _closes(model, pose)]).reshape(-1, q.shape[1])
-    kinds = np.array([base.kind for base in model.spec.base])
-    links = np.where(kinds == "inertial", result.beta, 0.0)
-    if not len(q):
+    nearest = nearest_closed(model, q)
+    if nearest is None:
         return 0.0, 0.0
+    q = np.ascontiguousarray(q[nearest])
     origins = model.forward_kinematics(q)[..., 3]
     reach = float(np.linalg.norm(origins[:, :, None] - origins[:, None], axis=-1).max())  # m
-    weight = np.abs(model.gravity(q, links)).max(axis=0)
-    inertia = np.median(
-        np.abs(np.diagonal(model.inertia_matrix(q, result.beta), axis1=1, axis2=2)), axis=0
-    )
-    torque = np.sqrt(np.mean(observation.torque**2, axis=0))
-    turns = np.array([joint.unit == "rad" and joint.actuated for joint in model.spec.joints])
-    loaded = turns & (weight > LOADED * torque) & (weight > 0.0)
     if reach == 0.0:
         return 0.0, 0.0
-    turning = np.array([joint.unit == "rad" for joint in model.spec.joints])
-    mass = np.maximum(inertia / np.where(turning, reach**2, 1.0), 0.0)
-    mass = np.maximum(mass, weight / np.where(turning, reach, 1.0) / _GRAVITY)
-    density = float(mass.max() / reach**3)
-    if not loaded.any():
-        return 0.0, density
-    return float(np.min(inertia[loaded] * _GRAVITY / weight[loaded]) / reach), density
-
-
-def _closes(model: CompiledModel, pose: np.ndarray) -> bool:
-    try:
-        model.coupling(pose[None])
-    except LoopError:
-        return False
-    return True
+    kinds = np.array([base.kind for base in model.spec.base])
+    links = np.where(kinds == "inertial", result.beta, 0.0)
+    weight = np.abs(model.gravity(q, links)).max(axis=0)
+    matrices = model.inertia_matrix(q, result.beta)
+    inertia = np.median(np.abs(np.diagonal(matrices, axis1=1, axis2=2)), axis=0)
+    torque = np.sqrt(np.mean(observation.torque**2, axis=0))
+    length = np.array([reach if joint.unit == "rad" else 1.0 for joint in model.spec.joints])
+    mass = np.maximum(inertia / length**2, weight / length / _GRAVITY)
+    loaded = np.array([joint.actuated for joint in model.spec.joints])
+    loaded &= (weight > LOADED * torque) & (weight > 0.0)
+    swings = (inertia * _GRAVITY / np.where(loaded, weight, 1.0) / length)[loaded]
+    return float(np.min(swings)) if loaded.any() else 0.0, float(mass.max() / reach**3)
 
 
 CHANCE = 1e-3
@@ -155,7 +144,7 @@ def with_verdict(
     model: CompiledModel,
     observation: Observation,
     result: FitResult,
-    told: Sequence[LogFinding] = (),
+    told: Sequence[Doubt] = (),
     equations: Equations | None = None,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
     data: Compressed | None = None,
@@ -182,28 +171,21 @@ def with_verdict(
     part, data = data is not None, data or equations.compressed(rows)
     sigma, prior = np.array([joint.sigma for joint in result.joints]), prior_of(model.spec)
     seen = crossed(equations, rows, sigma, refit, prior)
-    unseen = tuple(i.line for i in told if isinstance(i, Fault) and i.unseen)
-    found = _doubts_of(told)
-    found += [*time_doubts(model, observation, result), *doubts.noisy_motion(observation)]
-    found = _with_poor(found, [*doubts.scarce(result, seen), *doubts.undescribed(result)])
-    if part:
-        found += doubts.unexplained_joints(result, seen, _scale(data, observation, rows))
-    found += doubts.systematic(result, _lasting(equations, rows, result))
-    found += [Doubt(line, values=True) for line in result.contradicted]
-    found += doubts.undetermined(model.spec, result, _spread(data, result))
-    found += [*_impossible(model.spec, result, data), *doubts.negative(model.spec, result)]
+    unseen = tuple(doubt.line for doubt in told if doubt.unseen)
+    found = [doubt for doubt in told if not doubt.unseen]
+    if not any(doubt.certain for doubt in found):  # else what the fit says is said of the fault
+        found += [*time_doubts(model, observation, result), *doubts.noisy_motion(observation)]
+        found += [*doubts.scarce(result, seen), *doubts.undescribed(result)]
+        if part:
+            found += doubts.unexplained_joints(result, seen, _scale(data, observation, rows))
+        found += doubts.systematic(result, _lasting(equations, rows, result))
+        found += [Doubt(line, values=True) for line in result.contradicted]
+        found += doubts.undetermined(model.spec, result, _spread(data, result))
+        found += [*_impossible(model.spec, result, data), *doubts.negative(model.spec, result)]
     verdict = _verdict(found, _predicts(equations, rows, result, seen))
     directions = friction_by_direction(model.spec, result)
     verdict = dataclasses.replace(verdict, unseen=unseen)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
-
-
-def _doubts_of(told: Sequence[LogFinding]) -> list[Doubt]:
-    """What is told of logs, as doubts."""
-    return [
-        i if isinstance(i, Doubt) else Doubt(i.line, i.certain, explains=i.certain)
-        for i in told if isinstance(i, Doubt) or not i.unseen
-    ]  # fmt: skip
 
 
 def _predicts(
@@ -241,7 +223,7 @@ def contradictions(
     model: CompiledModel,
     observation: Observation,
     result: FitResult,
-    told: Sequence[LogFinding] = (),
+    told: Sequence[Doubt] = (),
     data: Compressed | None = None,
 ) -> list[str]:
     """Why a fit is certainly not usable, other than for want of data.
@@ -255,23 +237,11 @@ def contradictions(
         told: findings of other stages about the logs.
         data: all rows that were fitted; None: those of the observation.
     """
-    data = data or all_rows(observation)
-    found = _with_poor(
-        [*_doubts_of(told), *time_doubts(model, observation, result)], doubts.undescribed(result)
-    )
-    found += _impossible(model.spec, result, data)
+    found = list(told)
+    if not any(doubt.certain for doubt in found):
+        found += [*time_doubts(model, observation, result), *doubts.undescribed(result)]
+        found += _impossible(model.spec, result, data or all_rows(observation))
     return list(dict.fromkeys(doubt.line for doubt in found if doubt.certain))
-
-
-def _with_poor(found: list[Doubt], poor: list[Doubt]) -> list[Doubt]:
-    """With torques that are badly described; where it is known why, that stands in their place."""
-    if not any(doubt.explains for doubt in found):
-        return [*found, *poor]
-    fatal = any(doubt.certain for doubt in poor)
-    return [
-        dataclasses.replace(doubt, certain=doubt.certain or (doubt.explains and fatal))
-        for doubt in found
-    ]
 
 
 def _lasting(equations: Equations, rows: np.ndarray, result: FitResult) -> np.ndarray:

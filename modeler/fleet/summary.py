@@ -11,9 +11,9 @@ from modeler.core.manifest import Emitted
 from modeler.estimation import (
     contradictions,
     dead_joints,
-    faults_of_fit,
     identify,
     least_squares,
+    log_findings,
     remembered,
     repeated_whole,
 )
@@ -117,8 +117,8 @@ def summary(
     free = [j for j, each in enumerate(observation.joints) if not each.actuated]
     data = compress(W, y, joint, len(observation.joints), observation.names, free)
     result = identify(observation, "weighted", model)
-    faults = faults_of_fit(model, observation)
-    against = contradictions(model, observation, result, faults, data)
+    told = log_findings(model, observation)
+    against = contradictions(model, observation, result, told, data)
     if against:  # certainly not usable: its deviations would say anything
         raise DataError(f"{named.place}: does not fit {model.spec.robot}: {against[0]}")
     residual = y - W @ least_squares(data).beta

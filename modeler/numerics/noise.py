@@ -33,7 +33,6 @@ END = 10
 """Samples at both ends of a stretch that are not judged."""
 
 _HALF = 5  # samples: the median of 11 is not moved by a few that are wrong
-_AROUND = 2 * REACH  # samples around a value that tell whether it stands alone
 LEAST = 4 * _HALF
 """Values below which nothing can be said."""
 
@@ -75,34 +74,6 @@ def threshold(departed: np.ndarray, resolution: float, share: float) -> float:
     rare = min(len(size) - 1, max(LEAST_RARE, round(share * len(size))))
     common = float(np.partition(size, len(size) - 1 - rare)[len(size) - 1 - rare])
     return max(NOISES * robust_deviation(departed), CROWD * common, STEPS * resolution)
-
-
-def spread(values: np.ndarray) -> np.ndarray:
-    """(n, ...) at least the largest departure that each value (n, ...) can have, n 11 or more.
-
-    The median of a window lies between its least and its largest value.
-    """
-    low, high = values, values
-    for step in (1, 2, 4, 3):  # windows of 2, 4, 8 and 11
-        low, high = np.minimum(low[:-step], low[step:]), np.maximum(high[:-step], high[step:])
-    width = high - low
-    return np.concatenate([np.repeat(width[:1], _HALF, axis=0), width,
-                           np.repeat(width[-1:], _HALF, axis=0)])  # fmt: skip
-
-
-def departures_near(values: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """(n, J) `departures` of channels (n, J) around some places, increasing; 0 elsewhere."""
-    found = np.zeros_like(values)
-    apart = np.flatnonzero(np.diff(places) > 2 * _AROUND)
-    for some in np.split(places, apart + 1) if places.size else ():
-        start, stop = max(0, some[0] - _AROUND), some[-1] + _AROUND + 1
-        low, high = max(0, start - _HALF), stop + _HALF
-        for j in range(values.shape[1]):
-            own = departures(values[low:high, j])
-            found[start:stop, j] = own[
-                start - low : len(own) - max(0, min(high, len(values)) - stop)
-            ]
-    return found
 
 
 def floor_here(departed: Sequence[np.ndarray], floor: float, share: float) -> float:
@@ -156,8 +127,12 @@ EVEN = 0.3
 """Median energy of a block over the mean from which on noise is even: with and without
 encoder noise, at rest and at top speed, joints without any hidden effect have 0.4 to 1."""
 
+SURE = 2.0
+"""Standard errors beyond which a share is more than chance."""
+
 _FEW = 100  # rows below which nothing is said
 _FEW_OF_LOG = 20
+_PARTS = 40  # of the rows in order
 
 
 def forgotten(cutoff: float) -> float:
@@ -174,6 +149,8 @@ def returning(
 ) -> float | None:
     """Share of a residual's variance that is there some time later: it lasts, or comes back.
 
+    0 where it is no more than two standard errors, from sums over parts of the rows: by chance.
+
     Args:
         time: (n,) s, increasing within each log.
         r: (n,) residual.
@@ -181,18 +158,23 @@ def returning(
         later: s by log: a lap, or what noise is forgotten in; 0 leaves a log out. None are left:
             None.
     """
-    product = square = 0.0
+    products, square = [np.zeros(0)], 0.0
     logs = [(run == k, step) for k, step in enumerate(later) if step]
     logs = [(own, step) for own, step in logs if own.sum() >= _FEW_OF_LOG]
     for own, step in logs:
         second = at(time[own], r[own], time[own] + step)
         both = np.isfinite(second)
         first, second = r[own][both], second[both]
-        product += float(first @ second)
+        products.append(first * second)
         square += 0.5 * float(first @ first + second @ second)
     if not logs:
         return None
-    return max(0.0, product / square) if square > 0.0 else 0.0
+    every = np.concatenate(products)
+    if not square > 0.0:
+        return 0.0
+    parts = [float(part.sum()) for part in np.array_split(every, _PARTS)]
+    total, scatter = sum(parts), float(np.sqrt(_PARTS) * np.std(parts, ddof=1))
+    return total / square if total > SURE * scatter else 0.0
 
 
 def at(time: np.ndarray, values: np.ndarray, then: np.ndarray) -> np.ndarray:

@@ -1,10 +1,11 @@
 from .channels import (
-    Fault as Fault,
+    Doubt as Doubt,
     ThinnedRows as ThinnedRows,
     Turn as Turn,
+    clocks as clocks,
     thinned as thinned,
     turns as turns,
-    zeros as zeros,
+    zero as zero,
 )
 from .chunk import (
     Chunk as Chunk,
@@ -30,7 +31,7 @@ from .motion import (
     low_pass as low_pass,
     travel_since_reversal as travel_since_reversal,
 )
-from .motion_noise import JointNoise as JointNoise, MotionNoise as MotionNoise
+from .motion_noise import ChannelNoise as ChannelNoise, MotionNoise as MotionNoise
 from .observation import (
     MASKS as MASKS,
     WHY as WHY,
@@ -44,17 +45,16 @@ from .observation import (
     stacked as stacked,
 )
 from .observe import (
-    APART as APART,
-    LOWER as LOWER,
     SAMPLES as SAMPLES,
     TREMBLES as TREMBLES,
+    Look as Look,
     observe as observe,
+    trembling as trembling,
 )
 from .prepare import (
     LogRepair as LogRepair,
     Prepared as Prepared,
     choose_cutoffs as choose_cutoffs,
-    filtered_again as filtered_again,
     nearest_closed as nearest_closed,
     noise_of_positions as noise_of_positions,
     prepare as prepare,
@@ -75,7 +75,6 @@ from .reduce import (
 )
 from .report import (
     Bands as Bands,
-    ChannelNoise as ChannelNoise,
     DataReport as DataReport,
     LogReport as LogReport,
     bands_of as bands_of,

@@ -1,6 +1,6 @@
 """Rows of logs as they would be with other channels: turned, in other units, at other times."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,26 +14,31 @@ from modeler.observation.prepare import nearest_closed
 from modeler.observation.reduce import columns_at
 from modeler.runtime import CompiledModel
 
-MOST = 1200
-"""Rows: enough for any fit, and quick with every change that is tried."""
+MOST = 400
+"""Rows: enough for any fit, and quick with every motion that is tried."""
 
 _CELLS = 8000  # joints times rows, at most: many joints make many pairs to exchange
+_CLOCKS = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # are off by
 _TAPS = 16  # samples of each row, of the many over which the parallel filter takes its mean
 
 
 @dataclass(frozen=True)
-class Fault:
-    """A doubt about a log.
+class Doubt:
+    """Why a log, or a fit to it, may not be what it looks like.
 
     Attributes:
-        line: where, what, and what to do.
-        certain: True if no physics can look like it: then nothing can be said of physics.
+        line: where and what; after the last semicolon what to do.
+        certain: True if no physics can look like it: then the model is not usable, and nothing can
+            be said of physics.
+        values: True if it leaves the prediction of torques of like motion untouched, and only the
+            values of parameters are in doubt.
         joint: index of the joint whose torque has another scale; -1 for other doubts.
         unseen: True if it is no doubt, but tells which faults these logs would not show.
     """
 
     line: str
-    certain: bool
+    certain: bool = False
+    values: bool = False
     joint: int = -1
     unseen: bool = False
 
@@ -59,16 +64,10 @@ class ThinnedRows:
     read: np.ndarray | None
 
     def turned(self, compiled: CompiledModel, turn: "Turn") -> np.ndarray:
-        """(m, n, c) columns of the motion with other positions."""
+        """(m, n, c) columns of the motion with other positions, or by another clock."""
         every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
         q, qd, qdd = np.concatenate(every, axis=1) @ turn.motion
-        return self._columns(compiled, q + turn.offset, qd, qdd)
-
-    def timed(self, compiled: CompiledModel, factor: float) -> np.ndarray:
-        """(m, n, c) columns of the motion by a clock that is slower by a factor."""
-        every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
-        q, qd, qdd = np.concatenate(every, axis=1)
-        return self._columns(compiled, q, factor * qd, factor**2 * qdd)
+        return self._columns(compiled, q + turn.offset, turn.speed * qd, turn.speed**2 * qdd)
 
     def shifted(self, compiled: CompiledModel, shift: np.ndarray) -> np.ndarray:
         """(m, n, c) columns of the motion of each joint, shift (n,) s later."""
@@ -95,9 +94,9 @@ class ThinnedRows:
         return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
 
 
-def thinned(compiled: CompiledModel, observation: Observation, most: int = MOST) -> ThinnedRows:
+def thinned(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
     """At most so many of the rows of the observation, evenly; fewer of many joints."""
-    most = max(1, min(most, _CELLS // len(observation.joints)))
+    most = max(1, min(MOST, _CELLS // len(observation.joints)))
     every = max(1, -(-len(observation.time) // most))
     means: list[list[csr_array]] = [[] for _ in observation.joints]
     samples, read, chosen, at = [], [], [], 0
@@ -132,36 +131,51 @@ def thinned(compiled: CompiledModel, observation: Observation, most: int = MOST)
 
 @dataclass(frozen=True)
 class Turn:
-    """What may be wrong with positions, and what mends it.
+    """What may be wrong with positions, or with the clock, and what mends it.
 
     Attributes:
         line: what, and what to do.
         motion: (J, J) q = measured q motion + offset, and its derivatives alike.
         offset: (J,) rad or m.
         torque: (J,) tau_j = measured tau[torque[j]].
+        speed: times that of the log.
     """
 
     line: str
     motion: np.ndarray
     offset: np.ndarray
     torque: np.ndarray
+    speed: float = 1.0
 
 
-def zeros(observation: Observation, degrees: Sequence[int] = (90, -90, 180)) -> Iterator[Turn]:
-    """Positions of joints that turn, counted from another zero."""
-    joints = observation.joints
-    for j, joint in enumerate(joints):
-        for angle in degrees if joint.unit == "rad" else ():
-            line = (
-                f"joint {joint.name}: its zero seems to be off by {angle} degrees, by gravity and "
-                "the other joints; check the zero of that encoder against the table"
-            )
-            offset = -np.deg2rad(angle) * np.eye(len(joints))[j]
-            yield Turn(line, np.eye(len(joints)), offset, np.arange(len(joints)))
+def clocks(observation: Observation) -> Iterator[Turn]:
+    """All motion faster or slower than it is logged."""
+    same = np.eye(len(observation.joints))
+    for speed in _CLOCKS:
+        line = (
+            f"the clock seems to be wrong: with all motion {speed:g} times as fast, torques are "
+            "those of a machine; check the time column, its unit and rate"
+        )
+        yield Turn(line, same, np.zeros(len(same)), np.arange(len(same)), speed)
 
 
-def turns(observation: Observation) -> Iterator[Turn]:
-    """Positions in other units, reversed, exchanged, and exchanged together with the torques."""
+def zero(observation: Observation, j: int, degrees: int) -> Turn:
+    """Positions of a joint that turns, counted from another zero."""
+    line = (
+        f"joint {observation.joints[j].name}: its zero seems to be off by {degrees} degrees, by "
+        "gravity and the other joints; check the zero of that encoder against the table"
+    )
+    same = np.eye(len(observation.joints))
+    return Turn(line, same, -np.deg2rad(degrees) * same[j], np.arange(len(same)))
+
+
+def turns(observation: Observation, zeros_only: bool = False) -> Iterator[Turn]:
+    """Positions from another zero; in other units, reversed, exchanged, or with the torques too."""
+    for j, joint in enumerate(observation.joints):
+        for degrees in (90, -90, 180) if joint.unit == "rad" else ():
+            yield zero(observation, j, degrees)
+    if zeros_only:
+        return
     joints, names = observation.joints, [joint.name for joint in observation.joints]
     same, none = np.arange(len(joints)), np.zeros(len(joints))
     expected = "expected rad and m; convert the position, and the speeds if they are logged"

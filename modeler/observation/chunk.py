@@ -1,10 +1,10 @@
 """Chunks of a log: rows prepared together, and those beside them that filters need."""
 
 import dataclasses
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import reduce
+from itertools import chain
 
 import numpy as np
 
@@ -64,19 +64,6 @@ class Chunk:
         """True for the rows of `log` that are its own."""
         return np.asarray((self.own.start <= rows) & (rows < self.own.stop))
 
-    def missing(self) -> dict[str, int]:
-        """Column -> own rows without a value; every column that a fit reads."""
-        log, found = self.log, dict[str, int]()
-        columns = {"q": log.q, "qd": log.qd, "qdd": log.qdd, "qc": log.commanded, "tau": log.tau}
-        for prefix, values in columns.items():
-            for j, name in enumerate(log.joints if values is not None else ()):
-                column = f"{prefix}{name}"
-                if prefix == "tau" and log.torque_source:
-                    column = log.torque_source[j].split()[0]
-                if values is not None and column != "0":  # of a passive joint
-                    found[column] = int(np.isnan(values[self.own, j]).sum())
-        return found
-
 
 def whole_log(log: Log) -> Chunk:
     """A log as its one chunk."""
@@ -102,16 +89,6 @@ def margin(processing: ChosenProcessing, step: float) -> int:
     return _BESIDE + int(np.ceil(max(memory, edge) + reach + window + delay))
 
 
-def chunk_rows(beside: int, rows: int = FINGER) -> int:
-    """Rows of a chunk of its own: a multiple of those of a fingerprint, and most of what is read.
-
-    Args:
-        beside: rows of its margins.
-        rows: at least.
-    """
-    return rows * max(1, -(-4 * beside // rows))
-
-
 def chunks(source: Source, own: int, beside: int) -> Iterator[Chunk]:
     """All rows of a log as chunks.
 
@@ -120,22 +97,19 @@ def chunks(source: Source, own: int, beside: int) -> Iterator[Chunk]:
         own: rows of each, but for the last.
         beside: rows of its margins.
     """
-    held, first, number = list[Log](), 0, 0  # first: row of the log that held begins with
-    rows = 0
-    for block in source.blocks(own):
-        held.append(block)
-        rows += block.rows
-        while first + rows > (number + 1) * own + beside:
+    held, first, rows, number = list[Log](), 0, 0, 0  # first: row of the log that held begins with
+    for block in chain(source.blocks(own), [None]):
+        if block is not None:
+            held.append(block)
+            rows += block.rows
+        # behind the last block there is no margin to wait for
+        while first + rows > number * own + (own + beside if block is not None else 0):
             log = joined(held)
-            yield _chunk(log, first, number, own, beside, False)
+            last = block is None and first + rows <= (number + 1) * own
+            yield _chunk(log, first, number, own, beside, last)
             number += 1
             kept = max(0, number * own - beside) - first
             held, first, rows = [cut(log, slice(kept, None))], first + kept, log.rows - kept
-    while first + rows > number * own:
-        log = joined(held)
-        held = [log]
-        yield _chunk(log, first, number, own, beside, first + rows <= (number + 1) * own)
-        number += 1
 
 
 def chunks_between(source: Source, numbers: range, own: int, beside: int) -> Iterator[Chunk]:
@@ -164,8 +138,16 @@ def _chunk(log: Log, first: int, number: int, own: int, beside: int, last: bool)
 # A piece of a log by time.
 
 
-def window(log: Log, start: float | None, end: float | None) -> Log:
+def window(
+    log: Log, start: float | None, end: float | None, span: tuple[float, float] | None = None
+) -> Log:
     """The rows of `log` with start <= time < end, s; None leaves that side open.
+
+    Args:
+        log: it, or those rows of it that may be in the window.
+        start: s.
+        end: s.
+        span: first and last time of the whole log; None: of `log`.
 
     Raises:
         DataError: the window ends before it starts, or no rows are left.
@@ -179,9 +161,10 @@ def window(log: Log, start: float | None, end: float | None) -> Log:
         )
     rows = (log.time >= low) & (log.time < high)
     if not rows.any():
+        first, last = span or log.span
         raise DataError(
-            f"{log.name}: no rows from {low:g} to {high:g} s; its times go from "
-            f"{log.time[0]:g} to {log.time[-1]:g} s"
+            f"{log.name}: no rows from {low:g} to {high:g} s; its times go from {first:g} to "
+            f"{last:g} s"
         )
     sides = ("" if time is None else f"{time:g}" for time in (start, end))
     return dataclasses.replace(cut(log, rows), name=f"{log.name}@{':'.join(sides)}")
@@ -200,25 +183,16 @@ def read_part(source: FileSource, spec: ModuleSpec, start: float | None, end: fl
         DataError: the log is damaged, or has no rows there.
     """
     low, high = -np.inf if start is None else start, np.inf if end is None else end
-    kept, fingers, missing = list[Log](), list[bytes](), Counter[str]()
-    ranges, first, last = list[Ranges](), np.inf, -np.inf
-    for chunk in chunks(source, FINGER, 0):
-        log = cut(chunk.log, chunk.own)
+    kept, fingers, ranges, spans = list[Log](), list[bytes](), list[Ranges](), []
+    for log in (chunk.log for chunk in chunks(source, FINGER, 0)):
         fingers.append(finger(log.time, log.q, log.tau))
-        missing.update({name: count for name, count in chunk.missing().items() if count})
         ranges.append(Ranges.of(log))
-        first, last = min(first, float(log.time[0])), float(log.time[-1])
-        if low < high and log.time[0] < high and last >= low:
+        spans.append(log.span)
+        if log.time[0] < high and log.time[-1] >= low:
             kept.append(log)
-    if low < high and not kept:
-        raise DataError(
-            f"{source.name}: no rows from {low:g} to {high:g} s; its times go from {first:g} to "
-            f"{last:g} s"
-        )
     seen = reduce(Ranges.merged_with, ranges)
     seen.check(source.place[0], spec)
-    log = joined(kept) if kept else log
-    notes = (*log.notes, *seen.doubts(log.step, spec))
-    content = fingerprint_of(fingers)
-    whole = dataclasses.replace(log, notes=notes, content=content, missing=dict(missing))
-    return window(whole, start, end)
+    log = joined(kept or [log])
+    notes, content = (*log.notes, *seen.doubts(log.step, spec)), fingerprint_of(fingers)
+    whole = dataclasses.replace(log, notes=notes, content=content)
+    return window(whole, start, end, (spans[0][0], spans[-1][1]))

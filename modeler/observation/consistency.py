@@ -125,8 +125,8 @@ def lateness(
 
     A delay is that which makes the sum of the absolute differences least, between the window means
     of the logged derivative and the difference quotients. Gross errors of a few samples do not
-    move it. It is believed where it halves that sum. One delay for all joints is tried first, and
-    given up if a joint is the worse for it.
+    move it. It is believed where it halves that sum. That of all joints is the median of theirs,
+    and given up if a joint is the worse for it.
 
     Args:
         pieces: with the column logged.
@@ -138,11 +138,11 @@ def lateness(
     errors = _Errors(pieces, column, lower, cutoff)
     none, step = np.zeros(len(joints)), pieces[0].step
     before = errors.sums(none)
-    common = errors.refined(none, together=True)
-    together = errors.sums(common)
     far = np.any((before > _FAR * errors.whole) & (errors.whole > 0.0))
-    own = errors.refined(errors.scanned(before) if far else none, together=False)
+    own = errors.refined(errors.scanned(before) if far else none)
     left = errors.sums(own)
+    common = np.full(len(joints), np.median(own[errors.size > 0.0]) if errors.size.any() else 0.0)
+    together = errors.sums(common)
     told = (np.abs(own) >= _TOLD * step) & (left <= _BELIEVED * before)
     own = np.where(told & (left < _LEFT_OF_MEAN * errors.whole), own, 0.0)
     halves = together.sum() <= _BELIEVED * before.sum()
@@ -185,20 +185,15 @@ class _Errors:
             best[better], least[better] = candidate, sums[better]
         return best
 
-    def refined(self, delay: np.ndarray, together: bool) -> np.ndarray:
+    def refined(self, delay: np.ndarray) -> np.ndarray:
         """(joints,) the delays after a few steps of least absolute values, error + delay slope."""
-        kept = self.size > 0.0
-        groups = [kept] if together else [np.eye(len(kept), dtype=bool)[j] & kept
-                                          for j in np.flatnonzero(kept)]  # fmt: skip
         delay = delay.copy()
         for _ in range(_TURNS):
             _, error, slope = self._parts(delay)
-            for group in groups:
-                e, v = error[:, group] / self.size[group], slope[:, group] / self.size[group]
-                there = v != 0.0
-                if there.any():
-                    move = weighted_median(-e[there] / v[there], np.abs(v[there]))
-                    delay[group if not together else slice(None)] += move
+            for j in np.flatnonzero(self.size):
+                there = slope[:, j] != 0.0
+                e, v = error[there, j], slope[there, j]
+                delay[j] += weighted_median(-e / v, np.abs(v)) if v.size else 0.0
         return delay
 
 
@@ -216,6 +211,7 @@ WRONG = 0.5
 
 _CLEAR = 10.0  # times its noise is what the lower signal must change by over a window to judge it
 _DEGREES = 180.0 / np.pi
+_CAUSES = ((_DEGREES, "is it in degrees?"), (1.0 / _DEGREES, "is it the position in degrees?"))
 
 QUIETER = 2.0
 """Noise of the logged velocity over that of the differentiated position from which on that is
@@ -322,15 +318,13 @@ def consistency(
         found_late, delay = lateness(pieces, log.joints, column, lower, parallel_cutoff)
         late += found_late
         windows = [windows_of(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
-        if refuse and column == "qd":
-            _refuse_clock(log, windows)
+        steps = np.array([resolution(own) for own in getattr(log, lower).T])
+        if refuse:
+            noise = [[white_noise(own) for own in getattr(piece, lower).T] for piece in pieces]
+            noises = np.maximum(steps, np.median(noise, axis=0))
+            _refuse_wrong(log, column, lower, windows, noises)
         for j, joint in enumerate(log.joints):
-            step = resolution(getattr(log, lower)[:, j])
-            noises = [white_noise(getattr(piece, lower)[:, j]) for piece in pieces]
-            noise = max(step, float(np.median(noises)))
-            if refuse:
-                _refuse_wrong(log, (column, lower), j, windows, noise)
-            flags, limit = _contradicted(windows, step, j)
+            flags, limit = _contradicted(windows, steps[j], j)
             masks = [
                 np.pad(flag, part.half, mode="edge")
                 for flag, part in zip(flags, windows, strict=True)
@@ -373,22 +367,49 @@ def _contradicted(
     return flags, max(SHARE * size, random)
 
 
-def _refuse_clock(log: Log, windows: Sequence[Windows]) -> None:
-    """Raises DataError if all speeds are off their positions' derivatives by one factor."""
+def _refuse_wrong(
+    log: Log, column: Column, lower: str, windows: Sequence[Windows], noise: np.ndarray
+) -> None:
+    """Raises DataError if a column is no derivative of the one below it at all.
+
+    One factor on the speeds of all joints is that of the clock. `noise` (J,) is that of the lower
+    signals, their resolution included; a joint that moves less has nothing to compare with.
+    """
     quotients, logged = (
         np.concatenate([getattr(part, name) for part in windows]) for name in ("quotient", "logged")
     )
     size = size_of(quotients)
+    length = 2 * min(part.half for part in windows) * windows[0].step
     gains = {j: _gain(logged[:, j], quotients[:, j]) for j in map(int, np.flatnonzero(size))}
-    like = [
-        gain for j, gain in gains.items()
-        if gain > 0.0 and _misfit(logged[:, j] / gain, quotients[:, j], size[j]) < WRONG
-    ]  # fmt: skip
+    scaled = {
+        j for j, gain in gains.items()
+        if gain and _misfit(logged[:, j] / gain, quotients[:, j], size[j]) < WRONG
+    }  # fmt: skip
+    like = [gain for j, gain in gains.items() if j in scaled and gain > 0.0]
     factor = common_factor(like) if len(like) > max(1.0, 0.5 * len(gains)) else None
-    if factor is not None and abs(factor - 1.0) > WRONG:
+    if column == "qd" and factor is not None and abs(factor - 1.0) > WRONG:
         raise DataError(
             f"{log.name}: {clock_line(factor, 1.0 / log.step)}; or fit with --derivatives "
             "position, which believes the clock"
+        )
+    for j in map(int, np.flatnonzero(size * length > _CLEAR * noise)):
+        misfits = [_misfit(logged[:, j], *other) for other in zip(quotients.T, size, strict=True)]
+        if misfits[j] <= WRONG:
+            continue
+        other = int(np.argmin(misfits))
+        if other != j and misfits[other] < 0.5 * WRONG:
+            guess = f"it is that of {lower}{log.joints[other]}: are columns exchanged?"
+        elif j in scaled:
+            near = (words for factor, words in _CAUSES if abs(abs(gains[j] / factor) - 1.0) < 0.1)
+            cause = next(near, "is it in another unit, or on the motor's side of the gear?")
+            cause = "is its sign swapped?" if abs(gains[j] + 1.0) < 0.1 else cause
+            guess = f"it is {gains[j]:.3g} times that: {cause}"
+        else:
+            guess = f"it follows no {lower}"
+        name = log.joints[j]
+        raise DataError(
+            f"{log.name}: {column}{name} is not the derivative of {lower}{name}; {guess}; "
+            "correct the column, or fit with --derivatives position, which differentiates q"
         )
 
 
@@ -396,46 +417,6 @@ def _gain(logged: np.ndarray, quotient: np.ndarray) -> float:
     """What a logged derivative is times the difference quotient."""
     there = quotient != 0.0
     return weighted_median(logged[there] / quotient[there], np.abs(quotient[there]))
-
-
-def _refuse_wrong(
-    log: Log, levels: tuple[Column, str], j: int, windows: Sequence[Windows], noise: float
-) -> None:
-    """Raises DataError if the column of joint j is no derivative of the one below it at all.
-
-    `noise` is that of the lower signal, its resolution included.
-    """
-    column, lower = levels
-    joints = log.joints
-    quotients = np.concatenate([part.quotient for part in windows])
-    logged = np.concatenate([part.logged[:, j] for part in windows])
-    size = size_of(quotients)
-    length = 2 * min(part.half for part in windows) * windows[0].step
-    if size[j] * length <= _CLEAR * noise:
-        return  # it hardly moves: nothing to compare with
-    misfits = [_misfit(logged, quotients[:, k], size[k]) for k in range(len(joints))]
-    if misfits[j] <= WRONG:
-        return
-    own = quotients[:, j]
-    gain = _gain(logged, own)
-    other = int(np.argmin(misfits))
-    if other != j and misfits[other] < 0.5 * WRONG:
-        guess = f"it is that of {lower}{joints[other]}: are columns exchanged?"
-    elif _misfit(logged / gain if gain else logged, own, size[j]) < WRONG:
-        causes = [
-            (-1.0, "is its sign swapped?"),
-            *((sign * _DEGREES, "is it in degrees?") for sign in (1.0, -1.0)),
-            *((sign / _DEGREES, "is it the position in degrees?") for sign in (1.0, -1.0)),
-        ]
-        near = (words for factor, words in causes if abs(gain / factor - 1.0) < 0.1)
-        cause = next(near, "is it in another unit, or on the motor's side of the gear?")
-        guess = f"it is {gain:.3g} times that: {cause}"
-    else:
-        guess = f"it follows no {lower}"
-    raise DataError(
-        f"{log.name}: {column}{joints[j]} is not the derivative of {lower}{joints[j]}; {guess}; "
-        "correct the column, or fit with --derivatives position, which differentiates q"
-    )
 
 
 def _misfit(logged: np.ndarray, quotient: np.ndarray, size: float) -> float:

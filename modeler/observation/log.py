@@ -53,7 +53,6 @@ class Log(Presented):
         segment: (n,) number of the piece of motion each row belongs to, or None.
         extra: further numeric columns, (n,) each.
         torque_source: where each joint's torque comes from, in words.
-        missing: column -> rows without a finite value; only columns that have any.
         notes: doubtful but usable things seen while reading, one sentence each.
         content: fingerprint of the whole file's measurements, whatever its name; a piece of the
             log keeps it. Empty if the log came from no file.
@@ -72,7 +71,6 @@ class Log(Presented):
     segment: np.ndarray | None = None
     extra: Mapping[str, np.ndarray] = field(default_factory=lambda: _NONE)
     torque_source: tuple[str, ...] = ()
-    missing: Mapping[str, int] = field(default_factory=lambda: _NONE)
     notes: tuple[str, ...] = ()
     content: str = ""
     robot_steps: tuple[float, float] | None = None
@@ -86,6 +84,20 @@ class Log(Presented):
     def span(self) -> tuple[float, float]:
         """First and last time, s."""
         return float(self.time[0]), float(self.time[-1])
+
+    @property
+    def missing(self) -> dict[str, int]:
+        """Column -> rows without a value; only columns that have any."""
+        kinds = {"q": self.q, "qd": self.qd, "qdd": self.qdd, "qc": self.commanded}
+        found = {
+            f"{prefix}{name}": int(np.isnan(values[:, j]).sum())
+            for prefix, values in kinds.items() if values is not None
+            for j, name in enumerate(self.joints)
+        }  # fmt: skip
+        sources = self.torque_source or [f"tau{name}" for name in self.joints]
+        for source, values in zip(sources, self.tau.T, strict=True):
+            found[source.split()[0]] = int(np.isnan(values).sum())
+        return {column: count for column, count in found.items() if count}
 
     @property
     def piece_number(self) -> np.ndarray:

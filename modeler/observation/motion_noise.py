@@ -8,6 +8,7 @@ masks, sigmas, doubts and the diagnosis read it.
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -33,43 +34,59 @@ LEAST_BANDS = 5.0
 """Bands of the motion that a position filter leaves at least: closer to it, it damps the
 acceleration."""
 
-_QUANTITY = ("logged accelerations", "logged speeds", "positions")
+MEASURED = ("accelerations", "speeds", "positions")
+"""What noise is told of, by the number of derivatives from it to the acceleration."""
 
 WHITE = 1.0
 """Power of 1/f in the floor above which noise is called coloured."""
 
 
 @dataclass(frozen=True)
-class JointNoise(Brief):
-    """Noise of what is measured of one joint's motion.
+class ChannelNoise(Brief):
+    """Noise of what is measured of one joint's motion, as plain data.
 
     Attributes:
-        name: joint.
+        joint: name.
         unit: of its position, "rad" or "m".
+        of: what was measured of it: "positions", "speeds", "accelerations".
         moves: False at rest.
-        band: Hz of its motion.
-        order: derivatives from what is measured to the acceleration: 2 of positions, 1 of logged
-            speeds, 0 of logged accelerations.
-        floor: one-sided power density of its noise, unit^2/Hz (of speeds: (unit/s)^2/Hz).
-        meets: Hz at which the spectrum meets the floor.
-        colour: noise grows as f^-colour towards low frequencies, seen above `meets`; 0 for white.
-        step: resolution of the position, unit.
+        density: one-sided power density of its noise, unit^2/Hz; of speeds (unit/s)^2/Hz.
+        deviation: standard deviation of white noise of that density.
+        hides_above_hz: where the noise hides the motion; None if there is too little to tell.
+        step: resolution of the position.
+        colour: noise grows as f^-colour towards low frequencies; 0 for white.
+        band_hz: of its motion.
+        frequency, spectrum: (m,) Hz, and density of what was measured, means over third octaves.
+        torque_of_noise: of the noise at 1 Hz, (N m)^2/Hz; it grows as f^4 (positions) or f^2
+            (speeds). None where no fit said it.
+        torque_noise: of the torque itself, (N m)^2/Hz.
     """
 
-    name: str
+    joint: str
     unit: str
+    of: str
     moves: bool
-    band: float
-    order: int
-    floor: float
-    meets: float
-    colour: float
+    density: float
+    deviation: float
+    hides_above_hz: float | None
     step: float
+    colour: float
+    band_hz: float
+    frequency: tuple[float, ...]
+    spectrum: tuple[float, ...]
+    torque_of_noise: float | None = None
+    torque_noise: float | None = None
+
+    @property
+    def order(self) -> int:
+        """Derivatives from what is measured to the acceleration."""
+        return MEASURED.index(self.of)
 
     @property
     def cutoff(self) -> float:
-        """Hz up to which the position says more of the motion than of its sensor."""
-        return float(np.clip(self.meets, LEAST_BANDS * self.band, HIGHEST_CUTOFF))
+        """Hz up to which what is measured says more of the motion than of its sensor."""
+        least = LEAST_BANDS * self.band_hz
+        return float(np.clip(self.hides_above_hz or np.inf, least, HIGHEST_CUTOFF))
 
     def speed_deviation(self, cutoff: float) -> float:
         """Standard deviation of the noise of the speed below a cut-off (Hz), unit/s.
@@ -79,27 +96,24 @@ class JointNoise(Brief):
         """
         power = 3.0 if self.order == 2 else 1.0
         factor = (2.0 * np.pi) ** 2 / 3.0 if self.order == 2 else 1.0
-        return float(np.sqrt(self.floor * factor * cutoff**power))
+        return float(np.sqrt(self.density * factor * cutoff**power))
 
-    def words(self, rate: float) -> str:
-        """Its noise in words, at a rate of samples in Hz."""
-        size, unit = self.milli(self.deviation(rate))
-        unit += ("", "/s", "/s2")[2 - self.order]
+    def acceleration_density(self, frequency: float) -> float:
+        """Its noise as that of the acceleration: (2 pi f)^(2 order) N, (unit/s^2)^2/Hz."""
+        return float(self.density * (2.0 * np.pi * frequency) ** (2 * self.order))
+
+    def words(self) -> str:
+        """Its noise in words."""
+        size, unit = self.milli(self.deviation)
+        unit += ("/s2", "/s", "")[self.order]
         coloured = f", growing as f^-{self.colour:.1f}" if self.colour else ""
-        return f"joint {self.name} {size:.2g} {unit} above {self.meets:.2g} Hz{coloured}"
+        above = self.hides_above_hz or np.inf
+        return f"joint {self.joint} {size:.2g} {unit} above {above:.2g} Hz{coloured}"
 
     def milli(self, size: float) -> tuple[float, str]:
         """A size and its unit: mrad or mm if it is small; counts stay counts."""
         small = size < 0.1 and self.unit in ("rad", "m")
         return (1e3 * size, f"m{self.unit}") if small else (size, self.unit)
-
-    def acceleration_density(self, frequency: float) -> float:
-        """Its noise as that of the acceleration: (2 pi f)^(2 order) N, (unit/s^2)^2/Hz."""
-        return float(self.floor * (2.0 * np.pi * frequency) ** (2 * self.order))
-
-    def deviation(self, rate: float) -> float:
-        """Standard deviation of white noise of this density, sampled at a rate (Hz)."""
-        return float(np.sqrt(0.5 * self.floor * rate))
 
 
 @dataclass(frozen=True)
@@ -109,22 +123,22 @@ class MotionNoise(Brief):
     Attributes:
         joints: in the order of the manifest.
         rate: Hz, of the samples.
-        spectra: what was seen, for pictures; None where nothing was.
+        spectra: what was seen.
     """
 
-    joints: tuple[JointNoise, ...]
+    joints: tuple[ChannelNoise, ...]
     rate: float
-    spectra: BandSpectrum | None = field(default=None, compare=False)
+    spectra: BandSpectrum = field(compare=False)
 
     @property
-    def moving(self) -> tuple[JointNoise, ...]:
+    def moving(self) -> tuple[ChannelNoise, ...]:
         """The joints that move."""
         return tuple(joint for joint in self.joints if joint.moves)
 
     @property
     def band(self) -> float:
         """Hz of the motion of the fastest joint."""
-        return max((joint.band for joint in self.moving), default=0.0)
+        return max((joint.band_hz for joint in self.moving), default=0.0)
 
     @property
     def cutoff(self) -> float:
@@ -132,14 +146,22 @@ class MotionNoise(Brief):
         every = [max(joint.cutoff, LEAST_BANDS * self.band) for joint in self.moving]
         return float(np.exp(np.mean(np.log(every)))) if every else HIGHEST_CUTOFF
 
+    @property
+    def order(self) -> int:
+        """Derivatives from what is measured to the acceleration."""
+        return self.joints[0].order
+
+    @property
+    def quantity(self) -> str:
+        """What is measured, in words."""
+        return f"{'logged ' if self.order < 2 else ''}{MEASURED[self.order]}"
+
     def of_last_floors(self) -> "MotionNoise":
         """The noise if what looks like a floor, and falls again, is motion: see `floor_of`."""
-        if self.spectra is None:
-            return self
-        every = []
-        for j, joint in enumerate(self.joints):
-            floor, meets, colour = floor_of(self.spectra, j, joint.band, last=True)
-            every.append(dataclasses.replace(joint, floor=floor, meets=meets, colour=colour))
+        every = (
+            dataclasses.replace(own, **floor_of(self.spectra, j, own.band_hz, self.rate, last=True))
+            for j, own in enumerate(self.joints)
+        )
         return dataclasses.replace(self, joints=tuple(every))
 
     def doubtful_speed(self, coefficients: Sequence[float], cutoff: float) -> float:
@@ -152,26 +174,21 @@ class MotionNoise(Brief):
         own = [max(joint.speed_deviation(cutoff), joint.step * cutoff) for joint in self.joints]
         return float(np.linalg.norm(np.asarray(coefficients) * own))
 
-    @property
-    def measured(self) -> str:
-        """What is differentiated to the acceleration: "positions", "speeds", "accelerations"."""
-        return _QUANTITY[self.order].removeprefix("logged ")
-
     def channel_lines(self) -> list[str]:
         """A line of each channel: its noise, from where on it hides the motion, its resolution."""
         told = []
         for joint in self.joints:
             size, unit = joint.milli(joint.step)
             step = f", in steps of {size:.3g} {unit}" if joint.step else ""
-            noise = joint.words(self.rate) if joint.moves else f"joint {joint.name} rests"
-            told.append(f"noise of the {_QUANTITY[self.order]}: {noise}{step}")
+            noise = joint.words() if joint.moves else f"joint {joint.joint} rests"
+            told.append(f"noise of the {self.quantity}: {noise}{step}")
         return told
 
     def lines(self) -> list[str]:
         """One line: of each joint that moves, how large its noise is and where it begins."""
         if not self.moving:
             return []
-        every = "; ".join(joint.words(self.rate) for joint in self.moving)
+        every = "; ".join(joint.words() for joint in self.moving)
         return [
             f"noise of the {self.quantity}, and from what frequency on it hides the motion: {every}"
         ]
@@ -187,16 +204,6 @@ class MotionNoise(Brief):
         if found >= HIGHEST_CUTOFF:
             return f"the {self.quantity} are no noise up to there"
         return f"above, the spectrum of the {self.quantity} is that of their noise"
-
-    @property
-    def quantity(self) -> str:
-        """What is measured, in words."""
-        return _QUANTITY[self.order]
-
-    @property
-    def order(self) -> int:
-        """Derivatives from what is measured to the acceleration."""
-        return self.joints[0].order
 
 
 def motion_noise(
@@ -215,44 +222,64 @@ def motion_noise(
     spectra = band_spectrum(
         [np.asarray(x) for x in measured], [piece.step for piece in pieces], order
     )
+    rate = 1.0 / float(np.median([piece.step for piece in pieces]))
     every = []
     for j, (joint, band) in enumerate(zip(joints, bands, strict=True)):
-        moves = bool(np.isfinite(band))
-        floor, meets, colour = floor_of(spectra, j, band if moves else 0.0)
-        step = resolution(np.concatenate([piece.q[:, j] for piece in pieces]))
+        moves, own = bool(np.isfinite(band)), spectra.density[:, j]
+        hz, seen = spectra.frequency[np.isfinite(own)], own[np.isfinite(own)]
+        band_hz = float(band) if moves else 0.0
         every.append(
-            JointNoise(
-                joint.name, joint.unit, moves, band if moves else 0.0, order, floor, meets, colour,
-                step,
+            ChannelNoise(
+                joint=joint.name,
+                unit=joint.unit,
+                of=MEASURED[order],
+                moves=moves,
+                step=resolution(np.concatenate([piece.q[:, j] for piece in pieces])),
+                band_hz=band_hz,
+                frequency=tuple(map(_rounded, hz)),
+                spectrum=tuple(map(_rounded, seen)),
+                **floor_of(spectra, j, band_hz, rate),
             )
-        )  # fmt: skip
-    rate = 1.0 / float(np.median([piece.step for piece in pieces]))
+        )
     return MotionNoise(tuple(every), rate, spectra)
 
 
+def _rounded(value: float) -> float:
+    """To four digits, as pictures need it."""
+    return float(f"{value:.4g}")
+
+
 def floor_of(
-    spectra: BandSpectrum, j: int, band: float, last: bool = False
-) -> tuple[float, float, float]:
-    """Floor density of joint j, Hz at which its spectrum meets it, and the colour above that.
+    spectra: BandSpectrum, j: int, band: float, rate: float, last: bool = False
+) -> dict[str, Any]:
+    """The floor that the spectrum of joint j meets, as fields of its noise.
 
     Args:
         spectra: of what is measured.
         j: index of the joint.
         band: Hz of its motion, below which nothing is a floor.
+        rate: Hz, of the samples.
         last: True for a floor from which the spectrum does not fall again: what a controller leaves
             of the motion may be flat before it does.
     """
     f, S = spectra.frequency, spectra.density[:, j]
     kept = (f > band) & np.isfinite(S)
     f, S = f[kept], S[kept]
+    density, meets, colour = (S[-1], f[-1], 0.0) if f.size else (0.0, None, 0.0)
     for k in range(len(f)):
         above = S[(f > f[k]) & (f <= f[k] * 2.0**OCTAVES)]
         if above.size < 3 or max(S[k], above.max() / FLAT) > FLAT * np.median(above):
             continue
         beyond = S[f > f[k] * 2.0**OCTAVES]
         if not (last and beyond.size and S[k] > FLAT**2 * np.median(beyond)):
-            return float(np.median(above)), float(f[k]), _colour(f[k:], S[k:])
-    return (float(S[-1]) if S.size else 0.0), (float(f[-1]) if f.size else np.inf), 0.0
+            density, meets, colour = np.median(above), f[k], _colour(f[k:], S[k:])
+            break
+    return {
+        "density": float(density),
+        "deviation": float(np.sqrt(0.5 * density * rate)),
+        "hides_above_hz": None if meets is None else float(meets),
+        "colour": colour,
+    }
 
 
 def _colour(f: np.ndarray, S: np.ndarray) -> float:

@@ -39,6 +39,9 @@ from modeler.observation.stretch import Stretch, stretch
 from modeler.observation.tally import joint_reports, log_report, tally
 from modeler.runtime import CompiledModel, NonzeroPattern, Triangles
 
+COMPLETE = 0.95
+"""Least share of the weights of a row on usable samples, where it must be whole."""
+
 # The rows of y = W beta, and which is which.
 
 
@@ -112,6 +115,31 @@ class Observation(Presented):
         """(rows,) index of the log of each row."""
         return self.run[self.row_sample]
 
+    @cached_property
+    def driven(self) -> list[int]:
+        """Indices of the joints with a motor, rows and a torque."""
+        return [
+            j for j, joint in enumerate(self.joints)
+            if joint.actuated and self.torque[self.used[:, j], j].any()
+        ]  # fmt: skip
+
+    @cached_property
+    def whole(self) -> np.ndarray:
+        """(s, n) rows that count, and whose weights lie on usable samples all but wholly.
+
+        A row at the edge of a masked reversal is the mean of few samples, and what the filter makes
+        of the sign of a speed there looks like physics.
+        """
+        shares = [part.rows.share(part.usable) for part in self.stretches]
+        return self.used & (np.concatenate(shares) >= COMPLETE)
+
+    def with_rows(self, used: np.ndarray) -> "Observation":
+        """The same with other rows (s, n) that count."""
+        ends = np.cumsum([len(part.used) for part in self.stretches])[:-1]
+        pairs = zip(self.stretches, np.split(used, ends), strict=True)
+        parts = tuple(dataclasses.replace(part, used=own) for part, own in pairs)
+        return dataclasses.replace(self, used=used, stretches=parts)
+
     def predicted(self, beta: np.ndarray) -> np.ndarray:
         """(s, n) torque of the model, filtered like the measurement: columns beta."""
         return self.columns @ beta
@@ -162,9 +190,9 @@ class Evaluated:
     def triangles(self, part: Stretch, use: np.ndarray, state: Triangles | None) -> Triangles:
         """Triangles of the rows of a stretch whose rows are samples; use (rows, n) bool."""
         some = np.flatnonzero(use.any(axis=1))
-        s, w = part.segment, near(part.rows.centres[some])
+        s, w = part.segment, part.rows.centres[some]
         found = self._model.triangles(
-            s.q[w], s.qd[w], s.qdd[w], s.tau[w], use[near(some)], self._read(s, w), state=state
+            s.q[w], s.qd[w], s.qdd[w], s.tau[w], use[some], self._read(s, w), state=state
         )
         if found.left_out.any():  # the regressor says of which sample, and why
             bad = part.rows.centres[some][found.left_out]
@@ -176,13 +204,6 @@ class Evaluated:
         return None if read is None else read[w]
 
 
-def near(places: np.ndarray) -> slice | np.ndarray:
-    """The same places as a slice where they are neighbours: no copy."""
-    if len(places) and places[-1] - places[0] == len(places) - 1:
-        return slice(int(places[0]), int(places[-1]) + 1)
-    return places
-
-
 def observed(
     model: CompiledModel, logs: Sequence[Log], prepared: Prepared, every_joint: bool = False
 ) -> Observation:
@@ -192,25 +213,20 @@ def observed(
         DataError: no usable row.
         LoopError: hardly a sample closes the loops.
     """
-    prepared, open_times = without_open(model, logs, prepared)
+    segments, open_times = without_open(model, logs, prepared.segments)
     parts = with_every_joint(model) if every_joint else shafts(model)
-    seen = prepared.processing, parts, prepared.segments
+    seen = prepared.processing, parts, segments
     floors = floors_of(*seen)
     chosen = dataclasses.replace(prepared.processing, speed_floors=floors)
-    stretches = tuple(stretch(segment, parts, chosen) for segment in prepared.segments)
+    stretches = tuple(stretch(segment, parts, chosen) for segment in segments)
     tallies, reports = [], []
-    for run, (log, times) in enumerate(zip(logs, open_times, strict=True)):
+    for run, (log, times, of) in enumerate(zip(logs, open_times, prepared.logs, strict=True)):
         own = [part for part in stretches if part.segment.run == run]
-        left_out = [piece for piece in prepared.left_out if piece.run == run]
-        pieces, check = prepared.pieces[run], prepared.checks[run]
-        whole = tally(whole_log(log), pieces, prepared.splits[run], own, left_out, check)
-        wrong = check.contradictions if check else ()
-        decimation = next((part.decimation for part in own if len(part.rows.centres) > 1), 1)
-        found = log_report(
-            log, model.spec, prepared, run, whole, prepared.defects[run], wrong, decimation
-        )
+        whole = tally(whole_log(log), of.pieces, of.cuts, own, of.check)
+        wrong = of.check.contradictions if of.check else ()
+        decimation = max((part.decimation for part in own), default=1)
         tallies.append(whole)
-        reports.append(dataclasses.replace(found, open_times=times))
+        reports.append(log_report(log, model.spec, of, whole, of.defects, wrong, decimation, times))
     report = DataReport(
         processing=chosen,
         choices=prepared.choices,
@@ -221,7 +237,7 @@ def observed(
         joints=joint_reports(model.spec.joints, parts, floors, tallies),
     )
     if not any(part.used.any() for part in stretches):
-        raise no_row_left(report, [f"{log.name}: {note}" for log in logs for note in log.notes])
+        raise no_row_left(report)
     rows = stacked(model, [log.name for log in logs], stretches, report)
     if every_joint or not parts:
         return rows
@@ -233,8 +249,9 @@ def observed(
     return dataclasses.replace(rows, steady=np.concatenate(far))
 
 
-def no_row_left(report: DataReport, notes: Sequence[str] = ()) -> DataError:
+def no_row_left(report: DataReport) -> DataError:
     """What is told of logs without a usable row."""
+    notes = [f"{log.name}: {note}" for log in report.logs for note in log.notes]
     return DataError(
         f"{', '.join(log.name for log in report.logs)}: no usable row is left: "
         + "; ".join([*(joint.line() for joint in report.joints), *notes])

@@ -19,19 +19,11 @@ from modeler.numerics.least_squares import scaled_least_squares
 from modeler.observation.log import Log
 from modeler.observation.low_speed import floors_of, shafts
 from modeler.observation.motion import HIGHEST, Segment, segment_of
-from modeler.observation.motion_noise import MotionNoise
+from modeler.observation.motion_noise import ChannelNoise, MotionNoise
 from modeler.observation.observation import Observation, observed, stacked
-from modeler.observation.prepare import (
-    LogRepair,
-    Prepared,
-    closed,
-    filtered_again,
-    prepare,
-    two_digits,
-)
-from modeler.observation.report import DataReport, bands_of
-from modeler.observation.segments import Piece
-from modeler.observation.settings import ChosenProcessing, Processing
+from modeler.observation.prepare import Prepared, closed, prepare, two_digits
+from modeler.observation.report import Bands, DataReport
+from modeler.observation.settings import Processing
 from modeler.observation.stretch import stretch
 from modeler.runtime import CompiledModel
 
@@ -64,11 +56,7 @@ SAMPLES = 2**15
 
 
 def observe(
-    model: CompiledModel,
-    logs: Sequence[Log],
-    processing: Processing | None = None,
-    every_joint: bool = False,
-    mending: LogRepair | None = None,
+    model: CompiledModel, logs: Sequence[Log], processing: Processing | None = None
 ) -> Observation:
     """The observation of logs: W, y, and which row is which.
 
@@ -79,40 +67,17 @@ def observe(
         model: the compiled robot.
         logs: read with the same manifest.
         processing: None: automatic. For held-out logs `report.processing` of the fit.
-        every_joint: mask low speeds also on joints whose dry friction the model lacks.
-        mending: of the same logs, where it is shared.
 
     Raises:
         DataError: no logs, of another robot, or no usable row.
         LoopError: hardly a sample closes the loops.
     """
     asked = processing or Processing()
-    prepared = prepare(model.spec, logs, asked, mending)
-    return within_noise(model, logs, prepared, asked, every_joint)
+    prepared = prepare(model.spec, logs, asked)
+    return observed(model, logs, lowered(model, prepared, asked))
 
 
-def within_noise(
-    model: CompiledModel, logs: Sequence[Log], prepared: Prepared, asked: Processing,
-    every_joint: bool = False,
-) -> Observation:  # fmt: skip
-    """The observation of prepared logs, with the cut-offs lowered to what torques answer to.
-
-    Args:
-        model: the compiled robot.
-        logs: as they were prepared.
-        prepared: with the widest cut-offs that the motion asks for.
-        asked: the processing that was asked for; a cut-off that it gives stays.
-        every_joint: as of `observe`.
-
-    Raises:
-        DataError: no usable row.
-    """
-    if asked.parallel_cutoff is None and prepared.noise.moving:
-        prepared = lowered(model, prepared, asked.position_cutoff)
-    return observed(model, logs, prepared, every_joint)
-
-
-def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Prepared:
+def lowered(model: CompiledModel, prepared: Prepared, asked: Processing) -> Prepared:
     """The logs with both cut-offs where the torques answer to the motion.
 
     Parallel filter: where the noise of the positions, as torque, meets the noise of the torques.
@@ -123,120 +88,93 @@ def lowered(model: CompiledModel, prepared: Prepared, given: float | None) -> Pr
         f' = min_j (max(T_j, T_least) / A_j)^(1/4)
 
     is tried anew until it stays, from below: from above, inertias bent by noise would hide it.
-    Then, while the model's torque trembles more than `TREMBLES` times as much as the measured one,
-    the parallel filter, and then the position filter, is lowered further: noise without a floor.
+    Then both are lowered further until the model's torque is `quiet`: noise without a floor.
 
     Args:
         model: the compiled robot.
         prepared: the logs, with the widest cut-offs.
-        given: position cut-off of the user, Hz; None: chosen.
+        asked: the processing that was asked for; a cut-off that it gives stays.
     """
-    look = Look.of(model, prepared)
-    prepared = farther(look, prepared, given)
-    noise, wide = prepared.noise, prepared.processing
-    position, parallel = wide.position_cutoff, wide.parallel_cutoff
-    least, beta = look.narrow(noise, position)
-    met = meeting_cutoff(look, noise, position, (least, parallel))
-    widest = look.fit(position, parallel)
-    shaken, first = trembling(widest, beta), (0.0, 0)
-    while shaken[0] > TREMBLES and parallel > least:
-        first = max(first, shaken)
-        if parallel > met.cutoff:
-            parallel = max(met.cutoff, LOWER * parallel)
-        elif given is None and position > APART * parallel:
-            position *= LOWER
-        else:
-            parallel = max(least, LOWER * parallel)
-            position = position if given is not None else LOWER * position
-        shaken = trembling(look.fit(position, parallel), beta)
-    if position < wide.position_cutoff:
-        met = meeting_cutoff(look, noise, position, (least, parallel))
-    parallel = two_digits(min(met.cutoff, parallel))
-    if given is None:
-        position = two_digits(max(min(noise.cutoff, position), 2.0 * parallel))
-    chosen = dataclasses.replace(wide, position_cutoff=position, parallel_cutoff=parallel)
-    said = _sentences(prepared, chosen, given is None, met, first)
-    by = first[1] if first[0] else met.joint
-    bands = bands_of(
-        noise,
-        chosen,
-        met.torques,
+    if asked.parallel_cutoff is not None or not prepared.noise.moving:
+        return prepared
+    given = asked.position_cutoff is not None
+    look = farther(Look(model, prepared), given)
+    prepared, noise, wide = look.prepared, look.prepared.noise, look.prepared.processing
+    position = wide.position_cutoff
+    met = meeting_cutoff(look, position)
+    widest = look.fit(position, wide.parallel_cutoff)
+    found = look.quiet(met.cutoff, given)
+    if found.position < position:
+        met = meeting_cutoff(look, found.position)
+    parallel = two_digits(min(met.cutoff, found.parallel))
+    if not given:
+        position = two_digits(max(min(noise.cutoff, found.position), 2.0 * parallel))
+    prepared = prepared.with_cutoffs(position, parallel)
+    said = _sentences(prepared, wide.parallel_cutoff, given, met, found)
+    by = met.joint if found.joint is None else found.joint
+    bands = Bands(
+        position,
+        parallel,
+        met.beside(noise),
         widest=entries(wide, "position_cutoff parallel_cutoff"),
         chosen_by=said,
-        limited_by=None if by is None else noise.joints[by].name,
-        trembling=first[0],
-        trembling_left=shaken[0],
+        limited_by=None if by is None else noise.joints[by].joint,
+        trembling=found.most,
+        trembling_left=found.left,
         widest_values=()
         if widest is None or parallel > LOWER * wide.parallel_cutoff
         else tuple(widest.solution[0].tolist()),
     )
-    choices = (*prepared.choices, *said)
-    return dataclasses.replace(filtered_again(prepared, chosen), choices=choices, lowered=bands)
+    return dataclasses.replace(prepared, choices=(*prepared.choices, *said), lowered=bands)
 
 
-def farther(look: "Look", prepared: Prepared, given: float | None) -> Prepared:
+def farther(look: "Look", given: bool) -> "Look":
     """The logs with later floors of the noise, where the torques answer to what lies before them.
 
     What a controller leaves of a motion may be flat for octaves before it falls, and so may the
     noise of a slow sensor: positions do not tell which it is, torques do.
 
     Args:
-        look: at the logs.
-        prepared: the logs, with the first floors.
-        given: position cut-off of the user, Hz; None: chosen.
+        look: at the logs, with the first floors.
+        given: the position cut-off is the user's.
     """
-    later, wide = prepared.noise.of_last_floors(), prepared.processing
+    prepared, later = look.prepared, look.prepared.noise.of_last_floors()
     if later.cutoff <= prepared.noise.cutoff:
-        return prepared
-    _, beta = look.narrow(prepared.noise, wide.position_cutoff)
-    position = wide.position_cutoff if given is not None else later.cutoff
-    position = min(position, HIGHEST / max(piece.step for piece in look.pieces))
-    if answer(look.fit(position, wide.parallel_cutoff), beta) < ANSWERED:
-        return prepared
-    chosen = dataclasses.replace(wide, position_cutoff=two_digits(position))
-    return dataclasses.replace(prepared, noise=later, processing=chosen)
+        return look
+    _, beta = look.narrow
+    position = prepared.processing.position_cutoff if given else later.cutoff
+    position = min(position, HIGHEST / max(piece.step for piece in prepared.pieces))
+    parallel = prepared.processing.parallel_cutoff
+    fit = look.fit(position, parallel)
+    if fit is None or beta is None or answer(fit.rows, fit.rows.predicted(beta)) < ANSWERED:
+        return look
+    wider = prepared.with_cutoffs(two_digits(position), parallel)
+    return Look(look.model, dataclasses.replace(wider, noise=later))
 
 
 def _sentences(
-    prepared: Prepared, chosen: ChosenProcessing, own: bool, met: "Meeting",
-    shaken: tuple[float, int],
-) -> tuple[str, ...]:  # fmt: skip
+    prepared: Prepared, widest: float, given: bool, met: "Meeting", found: "Quiet"
+) -> tuple[str, ...]:
     """What was chosen, and why."""
-    noise, wide, f = prepared.noise, prepared.processing, chosen.parallel_cutoff
-    said = []
-    if own:
-        position = chosen.position_cutoff
+    noise, chosen, said = prepared.noise, prepared.processing, []
+    position, parallel = chosen.position_cutoff, chosen.parallel_cutoff
+    if not given:
         why = noise.why_cutoff(position)
-        if shaken[0] and position < noise.cutoff:
+        if found.most and position < noise.cutoff:
             why = (
                 f"lowered with the parallel filter; the noise alone asks for {noise.cutoff:.2g} Hz"
             )
         said.append(f"position filter {position:g} Hz: {why}")
-    if shaken[0]:
-        why = "with more, the model's torque trembles and the measured one does not"
-    elif met.joint is None:
-        why = "the widest that the motion asks for; the noise of the torques is larger up to there"
-    elif met.answered:
-        why = (
-            "above, a drive that answers the noise of its encoder could bend the inertias, most by "
-            f"joint {noise.joints[met.joint].name}"
-        )
-    else:
-        why = (
-            f"there the noise of the {noise.quantity} makes as much torque on joint "
-            f"{noise.joints[met.joint].name} as is left of it"
-        )
-    if met.bounded and not shaken[0]:
-        why += "; it would be lower, but for the motion band"
-    said.append(f"parallel filter {f:g} Hz: {why}")
-    if shaken[0]:
-        name = noise.joints[shaken[1]].name
-        said.append(
-            f"motion between {f:g} and {wide.parallel_cutoff:g} Hz is not what the torques answer "
-            f"to: up to there the model's torque of joint {name} trembles {shaken[0]:.2g} times as "
-            "much as the measured one"
-        )
-    return tuple(said)
+    if found.joint is None:
+        return *said, f"parallel filter {parallel:g} Hz: {met.why(noise)}"
+    return (
+        *said,
+        f"parallel filter {parallel:g} Hz: with more, the model's torque trembles and the measured "
+        "one does not",
+        f"motion between {parallel:g} and {widest:g} Hz is not what the torques answer to: up to "
+        f"there the model's torque of joint {noise.joints[found.joint].joint} trembles "
+        f"{found.most:.2g} times as much as the measured one",
+    )
 
 
 # Some of the samples, as rows of any cut-offs.
@@ -248,49 +186,41 @@ class Look(Brief):
 
     Attributes:
         model: the compiled robot.
-        processing: of the logs; its parallel cut-off is the widest.
-        pieces: uniform.
+        prepared: the logs; its parallel cut-off is the widest.
     """
 
     model: CompiledModel
-    processing: ChosenProcessing
-    pieces: tuple[Piece, ...]
+    prepared: Prepared
 
-    @classmethod
-    def of(cls, model: CompiledModel, prepared: Prepared) -> "Look":
-        """At prepared logs."""
-        pieces = tuple(piece for own in prepared.pieces for piece in own)
-        return cls(model, prepared.processing, pieces)
-
-    def narrow(self, noise: MotionNoise, position: float) -> tuple[float, np.ndarray | None]:
-        """The lowest parallel cut-off that leaves rows enough, Hz, and beta (c,) of its fit.
-
-        Args:
-            noise: of the motion.
-            position: highest cut-off of the position filter, Hz.
-        """
-        highest = self.processing.parallel_cutoff
+    @cached_property
+    def narrow(self) -> tuple[float, np.ndarray | None]:
+        """The lowest parallel cut-off that leaves rows enough, Hz, and beta (c,) of its fit."""
+        noise, widest = self.prepared.noise, self.prepared.processing
+        highest, own = widest.parallel_cutoff, min(noise.cutoff, widest.position_cutoff)
         least = min(max(LEAST_BANDS * noise.band, LEAST_CUTOFF), highest)
-        own = min(noise.cutoff, position)
-        while not determined(fit := self.fit(max(own, 2.0 * least), least)) and least < highest:
+        while True:
+            fit = self.fit(max(own, 2.0 * least), least)
+            if least >= highest or (fit is not None and fit.determined):
+                return least, None if fit is None else fit.solution[0]
             least = min(least / LOWER, highest)
-        return least, None if fit is None else fit.solution[0]
 
     @cached_property
     def _filtered(self) -> dict[float, tuple[Segment, ...]]:
         return {}
 
     def segments(self, position: float) -> tuple[Segment, ...]:
-        """Parts of the pieces behind a position filter, Hz."""
+        """Parts of the pieces behind a position filter, Hz, that are not all edge."""
         if position not in self._filtered:
-            chosen = dataclasses.replace(self.processing, position_cutoff=position)
-            every = [segment_of(piece, chosen) for piece in self.pieces]
-            share = SAMPLES / sum(len(piece.time) for piece in self.pieces)
-            self._filtered[position] = tuple(
+            pieces, chosen = self.prepared.pieces, self.prepared.processing
+            chosen = dataclasses.replace(chosen, position_cutoff=position)
+            every = [segment_of(piece, chosen) for piece in pieces]
+            share = SAMPLES / sum(len(piece.time) for piece in pieces)
+            parts = [
                 closed(self.model, _part(segment, place))[0]
                 for segment in every if segment is not None
                 for place in _windows(segment.samples, share)
-            )  # fmt: skip
+            ]  # fmt: skip
+            self._filtered[position] = tuple(part for part in parts if part.whole.any())
         return self._filtered[position]
 
     @cached_property
@@ -305,23 +235,70 @@ class Look(Brief):
 
     def _fit(self, position: float, parallel: float) -> "WeightedFit | None":
         segments, parts = self.segments(position), shafts(self.model)
-        chosen = dataclasses.replace(
-            self.processing, position_cutoff=position, parallel_cutoff=parallel
-        )
-        if not any(segment.whole.any() for segment in segments):
+        if not segments:
             return None
-        floors = floors_of(chosen, parts, segments)
-        chosen = dataclasses.replace(chosen, speed_floors=floors)
-        some = tuple(stretch(s, parts, chosen) for s in segments if s.whole.any())
-        return WeightedFit(
-            self.model, stacked(self.model, (), some, DataReport(chosen, (), (), ()))
-        )
+        chosen = self.prepared.with_cutoffs(position, parallel).processing
+        chosen = dataclasses.replace(chosen, speed_floors=floors_of(chosen, parts, segments))
+        some = tuple(stretch(segment, parts, chosen) for segment in segments)
+        report = DataReport(chosen, (), (), ())
+        return WeightedFit(self.model, stacked(self.model, (), some, report))
+
+    def trembling(self, position: float, parallel: float) -> tuple[float, int | None]:
+        """How much more than the measured torque that of `narrow` trembles; joint where most."""
+        fit, (_, beta) = self.fit(position, parallel), self.narrow
+        if fit is None or beta is None:
+            return 0.0, None
+        found = trembling(fit.rows, fit.rows.predicted(beta))
+        return max(((most, j) for j, most in found.items()), default=(0.0, None))
+
+    def quiet(self, floor: float, given: bool) -> "Quiet":
+        """Cut-offs lowered while the model's torque trembles `TREMBLES` times as much as measured.
+
+        The model is that of `narrow`. First the parallel filter, then that of the positions, then
+        both.
+
+        Args:
+            floor: Hz to which the parallel filter is lowered before that of the positions is.
+            given: the position filter is the user's, and stays.
+        """
+        widest, (least, _) = self.prepared.processing, self.narrow
+        position, parallel = widest.position_cutoff, widest.parallel_cutoff
+        most, joint = 0.0, None
+        while True:
+            left, worst = self.trembling(position, parallel)
+            if left <= TREMBLES or parallel <= least:
+                return Quiet(position, parallel, left, most, joint)
+            if left > most:
+                most, joint = left, worst
+            if parallel > floor:
+                parallel = max(floor, LOWER * parallel)
+                continue
+            if given or position <= APART * parallel:
+                parallel = max(least, LOWER * parallel)
+            if not given:
+                position *= LOWER
+
+
+@dataclass(frozen=True)
+class Quiet(Brief):
+    """Cut-offs behind which a model's torque does not tremble.
+
+    Attributes:
+        position, parallel: Hz.
+        left: how many times as much as the measured torque that of the model trembles there.
+        most: the same behind the first filters of which it is too much; 0 if behind none.
+        joint: of that; None without.
+    """
+
+    position: float
+    parallel: float
+    left: float
+    most: float
+    joint: int | None
 
 
 def _part(segment: Segment, place: slice) -> Segment:
     """The samples of a segment in some place of it."""
-    if place == slice(0, segment.samples):
-        return segment
     arrays: dict[str, Any] = {
         own.name: x[place]
         for own in dataclasses.fields(segment)
@@ -353,21 +330,12 @@ class WeightedFit(Brief):
     rows: Observation
 
     @cached_property
-    def driven(self) -> list[int]:
-        """Joints with a motor, rows and a torque."""
-        rows, joints = self.rows, self.rows.joints
-        return [
-            j for j, joint in enumerate(joints)
-            if joint.actuated and rows.torque[rows.used[:, j], j].any()
-        ]  # fmt: skip
-
-    @cached_property
     def solution(self) -> tuple[np.ndarray, dict[int, float]]:
         """beta (c,), and the rms residual of each joint that is driven."""
         rows = self.rows
-        W = {j: rows.columns[rows.used[:, j], j] for j in self.driven}
-        y = {j: rows.torque[rows.used[:, j], j] for j in self.driven}
-        sigma = {j: float(np.sqrt(np.mean(y[j] ** 2))) for j in self.driven}
+        W = {j: rows.columns[rows.used[:, j], j] for j in rows.driven}
+        y = {j: rows.torque[rows.used[:, j], j] for j in rows.driven}
+        sigma = {j: float(np.sqrt(np.mean(y[j] ** 2))) for j in rows.driven}
         least, beta = {j: _EXACT * sigma[j] for j in sigma}, np.zeros(len(rows.names))
         for _ in range(_WEIGHTINGS if W else 0):
             beta = scaled_least_squares(
@@ -382,6 +350,12 @@ class WeightedFit(Brief):
             }
         return beta, sigma
 
+    @property
+    def determined(self) -> bool:
+        """True if there are rows enough for the residual to be one."""
+        count = self.rows.used[:, self.rows.driven].sum()
+        return bool(count >= ROWS_EACH * len(self.rows.names))
+
     @cached_property
     def _inertias(self) -> tuple[np.ndarray, np.ndarray]:
         """(k, n, n) matrices at some of the rows, and (k, n) accelerations there."""
@@ -394,71 +368,60 @@ class WeightedFit(Brief):
         """Torque of the noise of the motion at 1 Hz, as density, (N m)^2/Hz, by driven joint."""
         densities = [joint.acceleration_density(1.0) for joint in noise.joints]
         squares = np.mean(self._inertias[0] ** 2, axis=0) @ densities
-        return {j: float(squares[j]) for j in self.driven}
+        return {j: float(squares[j]) for j in self.rows.driven}
 
     def inertial(self) -> dict[int, float]:
         """Mean square of the torque of inertia, (N m)^2, by driven joint."""
         torque = np.einsum("kij,kj->ki", *self._inertias)
-        return {j: float(np.mean(torque[:, j] ** 2)) for j in self.driven}
+        return {j: float(np.mean(torque[:, j] ** 2)) for j in self.rows.driven}
 
 
-def determined(fit: WeightedFit | None) -> bool:
-    """True if there are rows enough for the residual to be one."""
-    if fit is None:
-        return False
-    count = int(fit.rows.used[:, fit.driven].sum())
-    return count >= ROWS_EACH * len(fit.rows.names)
+# How a model's torque trembles, and how much of that the measured one does.
 
 
-def trembling(fit: WeightedFit | None, beta: np.ndarray | None) -> tuple[float, int]:
-    """How much more the torque of beta (c,) trembles than the measured one; joint where most.
+def trembling(rows: Observation, model: np.ndarray) -> dict[int, float]:
+    """How much more a model's torque (s, n) trembles than the measured one, by driven joint.
 
     Root mean square of the second differences from row to row, over that of the torque itself, of
     the model's over that of the measured: a gain of the channel leaves it as it is.
     """
-    most = 0.0, 0
-    for j, (measured, model), sizes in bends(fit, beta):
-        if measured.any() and sizes.all():
-            own = np.linalg.norm([measured, model], axis=1) / sizes
-            most = max(most, (float(own[1] / own[0]), j))
-    return most
+    found = {}
+    for j, bent, sizes in bends(rows, model):
+        if bent[0].any() and sizes.all():
+            measured, own = np.linalg.norm(bent, axis=1) / sizes
+            found[j] = float(own / measured)
+    return found
 
 
-def answer(fit: WeightedFit | None, beta: np.ndarray | None) -> float:
-    """The share of the trembling of the torque of beta (c,) that the measured one has.
+def answer(rows: Observation, model: np.ndarray) -> float:
+    """The share of the trembling of a model's torque (s, n) that the measured one has.
 
     sum of b m over the sum of m^2, b and m second differences of the measured and of the model's
     torque, each joint in units of its torque: 1 of a motion, 0 of noise of its sensor.
     """
     product = square = 0.0
-    for _, (measured, model), sizes in bends(fit, beta):
+    for _, (measured, own), sizes in bends(rows, model):
         unit = max(float(sizes[0]), 1e-300) ** 2
-        product += float(measured @ model) / unit
-        square += float(model @ model) / unit
+        product += float(measured @ own) / unit
+        square += float(own @ own) / unit
     return product / square if square > 0.0 else 0.0
 
 
-def bends(
-    fit: WeightedFit | None, beta: np.ndarray | None
-) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
-    """Second differences from row to row, measured and of beta, and the torques' sizes, by joint.
+def bends(rows: Observation, model: np.ndarray) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
+    """Second differences (2, k) from row to row, and sizes (2,), of the torques of driven joints.
 
     Args:
-        fit: whose rows count; None: nothing.
-        beta: (c,); None: nothing.
+        rows: with the measured torque, which comes first.
+        model: (s, n) the model's torque.
     """
-    if fit is None or beta is None:
-        return
-    rows = fit.rows
     near = np.diff(rows.segment) == 0
     near = near[1:] & near[:-1]
-    for j in fit.driven:
-        used = rows.used[:, j]
+    for j in rows.driven:
+        used = rows.whole[:, j]
         kept = near & used[2:] & used[1:-1] & used[:-2]
-        if kept.sum() < _FEW:
-            continue
-        both = np.stack([rows.torque[:, j], rows.columns[:, j] @ beta])
-        yield j, np.diff(both, 2)[:, kept], np.sqrt(np.mean(both[:, used] ** 2, axis=1))
+        if kept.sum() >= _FEW:
+            both = np.stack([rows.torque[:, j], model[:, j]])
+            yield j, np.diff(both, 2)[:, kept], np.sqrt(np.mean(both[:, used] ** 2, axis=1))
 
 
 _EXACT = 1e-6  # of a torque's rms: a residual that is less is none
@@ -487,10 +450,34 @@ class Meeting(Brief):
     answered: bool = False
     bounded: bool = False
 
+    def why(self, noise: MotionNoise) -> str:
+        """Why it is there."""
+        if self.joint is None:
+            why = (
+                "the widest that the motion asks for; the noise of the torques is larger up to "
+                "there"
+            )
+        elif self.answered:
+            why = (
+                "above, a drive that answers the noise of its encoder could bend the inertias, "
+                f"most by joint {noise.joints[self.joint].joint}"
+            )
+        else:
+            why = (
+                f"there the noise of the {noise.quantity} makes as much torque on joint "
+                f"{noise.joints[self.joint].joint} as is left of it"
+            )
+        return f"{why}; it would be lower, but for the motion band" if self.bounded else why
 
-def meeting_cutoff(
-    look: Look, noise: MotionNoise, position: float, span: tuple[float, float]
-) -> Meeting:
+    def beside(self, noise: MotionNoise) -> tuple[ChannelNoise, ...]:
+        """The channels of the motion, with the noise of the torques of their joints."""
+        channels = list(noise.joints)
+        for j, (A, T) in self.torques.items():
+            channels[j] = dataclasses.replace(channels[j], torque_of_noise=A, torque_noise=T)
+        return tuple(channels)
+
+
+def meeting_cutoff(look: Look, position: float) -> Meeting:
     """Where the noise of the motion, as torque, meets that of the drives.
 
     And no more than where a drive that answers the same noise could bend the inertias by one
@@ -501,11 +488,13 @@ def meeting_cutoff(
 
     Args:
         look: at the logs.
-        noise: of the motion.
         position: highest cut-off of the position filter, Hz.
-        span: Hz that the answer lies between.
     """
-    least, highest = span
+    noise, highest, (least, _) = (
+        look.prepared.noise,
+        look.prepared.processing.parallel_cutoff,
+        look.narrow,
+    )
     power = 2 * noise.order
     at, own = least, min(noise.cutoff, position)
     torques = dict[int, tuple[float, float]]()

@@ -14,26 +14,17 @@ from modeler.numerics.noise import (
     LEAST,
     NEAR,
     STEPS,
-    departures,
     floor_here,
     lone,
     nearby,
     resolution,
     running_median,
-    spread,
     threshold,
 )
 from modeler.observation.log import Log
 from modeler.observation.read import cut
 from modeler.observation.segments import runs
-from modeler.observation.spikes import (
-    Defect,
-    Kind,
-    TorqueNoise,
-    glitch_floor,
-    glitches,
-    torque_glitches,
-)
+from modeler.observation.spikes import Defect, Kind, Usual, glitches, unexplained, usual_of
 
 # Positions that leap from one sample to the next, as no joint can: wraps, spikes, new zeros.
 
@@ -75,17 +66,15 @@ class LeapWalk:
 
 def walked(
     time: np.ndarray, q: np.ndarray, revolute: np.ndarray, resolution: np.ndarray
-) -> LeapWalk | None:
-    """The steps of one stretch without gaps; None if it is too short to tell.
+) -> LeapWalk:
+    """The steps of one stretch without gaps.
 
     Args:
-        time: (n,) s.
+        time: (n,) s, more than `LEAST`: a shorter one does not tell.
         q: (n, J) rad or m, all finite.
         revolute: (J,) joints that may wrap.
         resolution: (J,) smallest step of each.
     """
-    if len(time) <= LEAST:
-        return None
     steps, dt = np.diff(q, axis=0), np.diff(time)
     usual = float(np.median(dt))
     turns, speed, excess = np.zeros_like(steps), np.zeros_like(steps), np.zeros_like(steps)
@@ -116,25 +105,8 @@ def floors(walks: Sequence[LeapWalk], resolution: np.ndarray) -> np.ndarray:
     return np.maximum(lonely, top)
 
 
-def cannot_leap(time: np.ndarray, q: np.ndarray, known: np.ndarray) -> bool:
-    """True if no step of a stretch can be a leap, as its slopes hardly change over 11 samples.
-
-    Args:
-        time: (n,) s.
-        q: (n, J) rad or m, all finite.
-        known: (J,) `floors` of the whole log.
-    """
-    if len(time) <= LEAST:
-        return True
-    dt = np.diff(time)[:, None]
-    most = spread(np.diff(q, axis=0) / dt) * dt  # at least the excess of any step
-    return bool(np.all(most.max(axis=0) <= np.minimum(known, 0.5 * _TURN)))
-
-
 def floors_here(walks: Sequence[LeapWalk], known: np.ndarray) -> np.ndarray:
     """(J,) `floors` of a whole log for a part of it, higher where the part is rougher."""
-    if not walks:
-        return known
     return np.array([
         floor_here([walk.excess[:, j] for walk in walks], floor, RARE)
         for j, floor in enumerate(known)
@@ -288,8 +260,9 @@ class ChannelScales:
     Attributes:
         steps: (J,) smallest step of each position.
         leaps: (J,) what a step must have too much to be a leap.
-        torque: of the torques; None where none is measured.
-        rates: (J,) departure below which no value is a spike, of logged "qd" and "qdd".
+        torque: and the speeds; None where no torque is measured.
+        floors: (J,) departure below which no value is a spike, of "tau" and logged "qd" and "qdd";
+            None where the log has no stretch of them.
         repeats: True if rows repeat, as the recorder is faster than the robot.
         clips: (J,) ends of the range at which each position is cut off.
         held: (J,) samples for which each torque may stay the same.
@@ -297,8 +270,8 @@ class ChannelScales:
 
     steps: np.ndarray
     leaps: np.ndarray
-    torque: TorqueNoise | None
-    rates: Mapping[str, np.ndarray]
+    torque: Usual | None
+    floors: Mapping[str, np.ndarray | None]
     repeats: bool
     clips: tuple[tuple[Clip, ...], ...]
     held: tuple[int, ...]
@@ -332,14 +305,11 @@ def defects(
     q, segment, leaps, steps, least = _positions(
         dataclasses.replace(fresh, q=_without(fresh.q, clipped)), spec, usual
     )
-    torques, noise = _torques(fresh, None if usual is None else usual.torque)
     held = tuple(map(longest_usual, fresh.tau.T)) if usual is None else usual.held
-    torques = torques or [[] for _ in spec.joints]
-    for own, stuck in zip(torques, _frozen(fresh, held), strict=True):
+    others, lonely, torque = _spikes(fresh, usual)
+    for own, stuck in zip(others["tau"], _frozen(fresh, held), strict=True):
         own += stuck
-    rates, levels = _rates(fresh, {} if usual is None else usual.rates)
     positions = [both[0] + both[1] for both in zip(clipped, leaps, strict=True)]
-    others = {"tau": torques, **rates}
     new = segment if (segment != fresh.piece_number).any() else fresh.segment
     mended = dataclasses.replace(
         fresh,
@@ -356,7 +326,7 @@ def defects(
     if again.any():
         every = [Defect("repeated", *run, 0.0, float(log.time[run[0]])) for run in runs(again)]
         found["rows"] = [every]
-    scales = ChannelScales(steps, least, noise, levels, bool(again.any()), clips, held)
+    scales = ChannelScales(steps, least, torque, lonely, bool(again.any()), clips, held)
     return mended, found, usual or scales
 
 
@@ -397,16 +367,11 @@ def _positions(
     positions: list[list[Defect]] = [[] for _ in spec.joints]
     revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
     steps = np.array([resolution(own) for own in log.q.T]) if usual is None else usual.steps
-    stretches = list(_stretches(log, np.isfinite(log.q).all(axis=1)))
-    if usual is not None and all(
-        cannot_leap(log.time[rows], log.q[rows], usual.leaps) for rows in stretches
-    ):
-        return q, segment, positions, steps, usual.leaps
+    there = np.isfinite(log.q).all(axis=1)
+    stretches = [rows for rows in _stretches(log, there) if len(rows) > LEAST]
     walks = [walked(log.time[rows], log.q[rows], revolute, steps) for rows in stretches]
-    long = [(r, walk) for r, walk in zip(stretches, walks, strict=True) if walk is not None]
-    every = [walk for _, walk in long]
-    least = floors(every, steps) if usual is None else floors_here(every, usual.leaps)
-    for rows, walk in long:
+    least = floors(walks, steps) if usual is None else floors_here(walks, usual.leaps)
+    for rows, walk in zip(stretches, walks, strict=True):
         for j in range(len(spec.joints)):
             leaps = leaps_of(walk, log.time[rows], j, least[j])
             if log.robot_steps is not None:  # rows of such a log come when they come
@@ -454,37 +419,29 @@ def _mended(walk: LeapWalk, j: int, leaps: Sequence[Defect]) -> np.ndarray:
     return np.asarray(q - (offset - offset[longest]))
 
 
-def _torques(log: Log, usual: TorqueNoise | None) -> tuple[list[list[Defect]], TorqueNoise | None]:
-    """Spikes of the measured torques by joint; and what is usual in them."""
-    there = np.isfinite(log.tau).all(axis=1) & np.isfinite(log.q).all(axis=1)
-    stretches = [rows for rows in _stretches(log, there) if len(rows) >= LEAST]
-    spikes, noise = torque_glitches(
-        [log.tau[rows] for rows in stretches],
-        lambda: [np.gradient(log.q[rows], log.time[rows], axis=0) for rows in stretches],
-        usual,
-    )
-    return [_placed(by_joint, stretches, log) for by_joint in spikes], noise
-
-
-def _rates(log: Log, usual: Mapping[str, np.ndarray]) -> tuple[Defects, dict[str, np.ndarray]]:
-    """Spikes of logged velocities and accelerations, by column and joint; and their floors."""
+def _spikes(
+    log: Log, usual: ChannelScales | None
+) -> tuple[Defects, dict[str, np.ndarray | None], Usual | None]:
+    """Spikes of torques, logged velocities and accelerations, by joint; and what is usual."""
     found: Defects = {}
-    levels: dict[str, np.ndarray] = {}
-    for name in ("qd", "qdd"):
+    floors: dict[str, np.ndarray | None] = {}
+    torque = None if usual is None else usual.torque
+    for name in ("tau", "qd", "qdd"):
         values = getattr(log, name)
         if values is None:
             continue
-        floors_of_name = []
-        for j, channel in enumerate(values.T):
-            rows = [r for r in _stretches(log, np.isfinite(channel)) if len(r) >= LEAST]
-            stretches = [channel[r] for r in rows]
-            departed = [departures(own) for own in stretches]
-            floor = usual[name][j] if name in usual else glitch_floor(stretches, departed)
-            floors_of_name.append(floor)
-            spikes = glitches(stretches, departed, floor)
-            found.setdefault(name, []).append(_placed(spikes, rows, log))
-        levels[name] = np.array(floors_of_name)
-    return found, levels
+        there = np.isfinite(values).all(axis=1)
+        if name == "tau":
+            there &= np.isfinite(log.q).all(axis=1)
+        rows = [own for own in _stretches(log, there) if len(own) >= LEAST]
+        parts = [values[own] for own in rows]
+        spikes, floors[name] = glitches(parts, None if usual is None else usual.floors[name])
+        if name == "tau" and parts:
+            speeds = [np.gradient(log.q[own], log.time[own], axis=0) for own in rows]
+            torque = torque or usual_of(parts, speeds)
+            spikes = unexplained(spikes, parts, speeds, torque)
+        found[name] = [_placed(own, rows, log) for own in spikes] or [[] for _ in log.joints]
+    return found, floors, torque
 
 
 def _without(values: np.ndarray, found: Sequence[Sequence[Defect]]) -> np.ndarray:

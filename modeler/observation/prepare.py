@@ -32,40 +32,77 @@ LEAST_PARALLEL = 5.0  # Hz
 
 
 @dataclass(frozen=True, eq=False)
-class Prepared:
-    """Segments of all logs at full rate.
+class PreparedLog(Brief):
+    """A log, mended and cut into uniform pieces.
+
+    Attributes:
+        pieces: with velocities and accelerations where the logged ones are used.
+        cuts: where it was cut into them.
+        derivatives: where qd and qdd come from, in words.
+        check: of the logged derivatives; None where positions are differentiated.
+        rings: sentences on joints that ring.
+        defects: values that no robot can have made.
+        usual: what is usual in its channels.
+    """
+
+    pieces: tuple[Piece, ...]
+    cuts: SplitReport
+    derivatives: str
+    check: Consistency | None
+    rings: tuple[str, ...]
+    defects: Defects
+    usual: ChannelScales
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared(Brief):
+    """All logs, and what is chosen for them.
 
     Attributes:
         processing: with both cut-offs chosen.
         choices: a sentence for each.
-        segments: in the order of the logs.
-        pieces: uniform pieces by log.
-        splits: where splitting cut them, by log.
-        derivatives: where qd and qdd come from, by log.
-        left_out: pieces that were all edge, of all logs.
-        checks: of the logged derivatives, by log; None where positions are differentiated.
-        rings: sentences on joints that ring, by log.
-        defects: values that no robot can have made, by log.
+        logs: in the order given.
         noise: of the motion.
         band: Hz of the motion of the fastest joint, or what pieces of that length can show.
-        usual: what is usual in the channels, by log.
-        lowered: cut-offs and what chose them; None where a parallel cut-off was given.
+        lowered: cut-offs and what chose them; None where they are as the motion alone asks for.
     """
 
     processing: ChosenProcessing
     choices: tuple[str, ...]
-    segments: tuple[Segment, ...]
-    pieces: tuple[tuple[Piece, ...], ...]
-    splits: tuple[SplitReport, ...]
-    derivatives: tuple[str, ...]
-    left_out: tuple[Piece, ...]
-    checks: tuple[Consistency | None, ...]
-    rings: tuple[tuple[str, ...], ...]
-    defects: tuple[Defects, ...]
+    logs: tuple[PreparedLog, ...]
     noise: MotionNoise
     band: float
-    usual: tuple[ChannelScales, ...]
     lowered: Bands | None = None
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """Of all logs."""
+        return tuple(piece for log in self.logs for piece in log.pieces)
+
+    @cached_property
+    def segments(self) -> tuple[Segment, ...]:
+        """Of all logs: their pieces, filtered and differentiated, but for those that are all edge.
+
+        Raises:
+            DataError: all of them are.
+        """
+        every, chosen = self.pieces, self.processing
+        filtered = [segment_of(piece, chosen) for piece in every]
+        if any(filtered):
+            return tuple(segment for segment in filtered if segment is not None)
+        longest = max(every, key=lambda piece: len(piece.time))
+        raise DataError(
+            f"no more than {(len(longest.time) - 1) * longest.step:.2g} s without a gap; expected "
+            f"more than {2.0 * edge_of(longest, chosen) * longest.step:.2g} s: the ends are lost "
+            f"to the {chosen.position_cutoff:g} Hz low-pass of the positions; record longer motions"
+        )
+
+    def with_cutoffs(self, position: float, parallel: float) -> "Prepared":
+        """With other filters."""
+        chosen = dataclasses.replace(
+            self.processing, position_cutoff=position, parallel_cutoff=parallel
+        )
+        return dataclasses.replace(self, processing=chosen)
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +126,7 @@ class LogRepair(Brief):
 def prepare(
     spec: ModuleSpec, logs: Sequence[Log], processing: Processing, mending: LogRepair | None = None
 ) -> Prepared:
-    """Mend, split, resample, choose the cut-offs, filter and differentiate.
+    """Mend, split and resample; the noise of the motion, and the cut-offs that it asks for.
 
     Args:
         spec: the robot's manifest.
@@ -105,9 +142,8 @@ def prepare(
     mended = (mending or LogRepair(logs, spec)).mended
     if not processing.keep_damaged:
         logs = [log for log, _, _ in mended]
-    logged = [processing.derivatives != "position" and log.qd is not None for log in logs]
-    split_logs = [split(log, run, logged[run]) for run, log in enumerate(logs)]
-    pieces = [piece for found, _ in split_logs for piece in found]
+    cut = [split(log, run, _speeds_used(log, processing)) for run, log in enumerate(logs)]
+    pieces = [piece for own, _ in cut for piece in own]
     if not pieces:
         raise DataError(
             f"{logs[0].name}: no uninterrupted motion; every piece between two gaps has fewer "
@@ -119,63 +155,53 @@ def prepare(
     bands = joint_bands(pieces, spectra)
     positions = motion_noise(spec.joints, [without_speeds(piece) for piece in pieces], bands)
     chosen, _ = choose_cutoffs(processing, pieces, positions)
-    found = [own for own, _ in split_logs]
-    refuse = not chosen.keep_contradicted
-    checks = [
-        consistency(log, own, chosen.parallel_cutoff, refuse) if use else None
-        for log, own, use in zip(logs, found, logged, strict=True)
-    ]
-    rated = [piece for own, use in zip(found, logged, strict=True) if use for piece in own]
-    if processing.derivatives == "auto" and quieter(rated, chosen.position_cutoff):
-        found = [tuple(map(without_speeds, own)) for own in found]
-        logged = [False] * len(logs)
-        checks = [
-            without_late(check, own) if check and check.harmful else None
-            for check, own in zip(checks, found, strict=True)
-        ]
-    for run, check in enumerate(checks):
-        if check is None or chosen.keep_contradicted or not logged[run]:
-            continue
-        if processing.derivatives == "auto" and check.harmful:
-            found[run], logged[run] = tuple(map(without_speeds, found[run])), False
-            checks[run] = check = without_late(check, found[run])
-        found[run] = believed(found[run], check)
-    differentiated = [piece for own in found for piece in own]
-    noise = (
-        motion_noise(spec.joints, differentiated, bands)
-        if all(piece.qd is not None for piece in differentiated)
-        else positions
-    )
-    chosen, choices = choose_cutoffs(processing, differentiated, noise)
-    prepared = Prepared(
-        processing=chosen,
-        choices=choices,
-        segments=(),
-        pieces=tuple(found),
-        splits=tuple(report for _, report in split_logs),
-        derivatives=tuple(
-            _source(log, use, processing.derivatives, check)
-            for log, use, check in zip(logs, logged, checks, strict=True)
-        ),
-        left_out=(),
-        checks=tuple(checks),
-        rings=tuple(
-            tuple(
-                ring.sentence(spec.joints[ring.joint].name)
-                for ring in what_rings(
-                    [s for p, s in zip(pieces, spectra, strict=True) if p.run == run],
-                    [joint.step for joint in noise.joints],
-                )
-                if not usual.repeats  # else what is left comes unevenly, as it was stamped
-            )
-            for run, (_, _, usual) in enumerate(mended)
-        ),
-        defects=tuple(defect for _, defect, _ in mended),
-        usual=tuple(usual for _, _, usual in mended),
-        noise=noise,
-        band=shown_band(noise.band, pieces),
-    )
-    return filtered_again(prepared, chosen)
+    rated = [piece for piece in pieces if piece.qd is not None]
+    noisy = processing.derivatives == "auto" and quieter(rated, chosen.position_cutoff)
+    steps, prepared = [joint.step for joint in positions.joints], []
+    for run, (log, (own, cuts), (_, damage, usual)) in enumerate(
+        zip(logs, cut, mended, strict=True)
+    ):
+        found, check, source = _derived(log, own, chosen, noisy)
+        # what is left of rows that repeat comes unevenly, as it was stamped
+        seen = [s for p, s in zip(pieces, spectra, strict=True) if p.run == run]
+        rings = [] if usual.repeats else what_rings(seen, steps)
+        said = tuple(ring.sentence(spec.joints[ring.joint].name) for ring in rings)
+        prepared.append(PreparedLog(found, cuts, source, check, said, damage, usual))
+    pieces = [piece for log in prepared for piece in log.pieces]
+    given = all(piece.qd is not None for piece in pieces)
+    noise = motion_noise(spec.joints, pieces, bands) if given else positions
+    chosen, choices = choose_cutoffs(processing, pieces, noise)
+    return Prepared(chosen, choices, tuple(prepared), noise, shown_band(noise.band, pieces))
+
+
+def _speeds_used(log: Log, processing: Processing) -> bool:
+    return processing.derivatives != "position" and log.qd is not None
+
+
+def _derived(
+    log: Log, pieces: tuple[Piece, ...], processing: ChosenProcessing, noisy: bool
+) -> tuple[tuple[Piece, ...], Consistency | None, str]:
+    """The pieces of a log with the logged velocities that are used; their check, and their source.
+
+    Args:
+        log: mended.
+        pieces: of it.
+        processing: of all logs.
+        noisy: positions that are differentiated have less noise.
+    """
+    keep, check = processing.keep_contradicted, None
+    if _speeds_used(log, processing):
+        check = consistency(log, pieces, processing.parallel_cutoff, refuse=not keep)
+    late = check is not None and check.harmful and processing.derivatives == "auto"
+    if check is not None and not noisy and (keep or not late):
+        source = "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
+        return pieces if keep else believed(pieces, check), check, source
+    pieces, source = tuple(map(without_speeds, pieces)), "qd and qdd by differentiating q"
+    if check is not None and late:
+        check, why = without_late(check, pieces), ", as logged derivatives come late"
+    else:
+        check, why = None, ", whose noise is less than that of the logged qd" if check else ""
+    return pieces, check, source + why
 
 
 def believed(pieces: Sequence[Piece], check: Consistency) -> tuple[Piece, ...]:
@@ -265,16 +291,6 @@ def check_size(log: Log, spec: ModuleSpec) -> None:
                 f"{log.time[row]:.6g} s; expected at most {LARGEST:g} in SI units; repair the log, "
                 "or leave the entry empty"
             )
-
-
-def _source(log: Log, logged: bool, asked: str, check: Consistency | None) -> str:
-    if not logged:
-        noisy = log.qd is not None and log.qdd is None and asked == "auto"
-        why = ", whose noise is less than that of the logged qd" if noisy else ""
-        if check is not None:
-            why = ", as logged derivatives come late"
-        return f"qd and qdd by differentiating q{why}"
-    return "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
 
 
 def joint_bands(pieces: Sequence[Piece], spectra: Sequence[MotionSpectrum]) -> np.ndarray:
@@ -375,14 +391,14 @@ def choose_cutoffs(
         pieces: of all logs.
         noise: of the motion.
     """
-    fastest = max(noise.joints, key=lambda joint: joint.band)
-    band = fastest.band
+    fastest = max(noise.joints, key=lambda joint: joint.band_hz)
+    band = fastest.band_hz
     slowest = 1.0 / max(piece.step for piece in pieces)
     shown = (
         f"{band:.3g} Hz" if band else "of less than the pieces of motion are long enough to show"
     )
     said = [f"motion band {shown} (99 % of the velocity's energy), sampled at {noise.rate:.4g} Hz"]
-    rest = [joint.name for joint in noise.joints if not joint.moves]
+    rest = [joint.joint for joint in noise.joints if not joint.moves]
     if rest and len(rest) < len(noise.joints):
         one = len(rest) == 1
         said.append(
@@ -402,7 +418,7 @@ def choose_cutoffs(
         higher, better = "give a higher --cutoff, or leave it out", "sample faster or move slower"
         said.append(
             f"position filter {position:g} Hz is less than 5 x the motion band of joint "
-            f"{fastest.name}, {band:.3g} Hz: accelerations are damped; "
+            f"{fastest.joint}, {band:.3g} Hz: accelerations are damped; "
             f"{better if given is None else higher}"
         )
     own = [n for n in ("position_cutoff", "parallel_cutoff") if getattr(processing, n) is None]
@@ -413,30 +429,6 @@ def choose_cutoffs(
         "chosen": tuple(dict.fromkeys((*processing.chosen, *own))),
     }
     return ChosenProcessing(**{**vars(processing), **choices}), tuple(said)
-
-
-def filtered_again(prepared: Prepared, chosen: ChosenProcessing) -> Prepared:
-    """The same pieces, filtered with other cut-offs.
-
-    Raises:
-        DataError: a filter leaves nothing of any of them.
-    """
-    every = [piece for own in prepared.pieces for piece in own]
-    filtered = [(piece, segment_of(piece, chosen)) for piece in every]
-    segments = tuple(segment for _, segment in filtered if segment is not None)
-    if not segments:
-        longest = max(every, key=lambda piece: len(piece.time))
-        raise DataError(
-            f"no more than {(len(longest.time) - 1) * longest.step:.2g} s without a gap; expected "
-            f"more than {2.0 * edge_of(longest, chosen) * longest.step:.2g} s: the ends are lost "
-            f"to the {chosen.position_cutoff:g} Hz low-pass of the positions; record longer motions"
-        )
-    return dataclasses.replace(
-        prepared,
-        processing=chosen,
-        segments=segments,
-        left_out=tuple(piece for piece, segment in filtered if segment is None),
-    )
 
 
 def two_digits(value: float) -> float:
@@ -479,25 +471,23 @@ def nearest_closed(model: CompiledModel, *postures: np.ndarray) -> np.ndarray | 
 
 
 def without_open(
-    model: CompiledModel, logs: Sequence[Log], prepared: Prepared
-) -> tuple[Prepared, tuple[tuple[float, ...], ...]]:
+    model: CompiledModel, logs: Sequence[Log], segments: Sequence[Segment]
+) -> tuple[tuple[Segment, ...], tuple[tuple[float, ...], ...]]:
     """The segments with another posture where theirs does not close, and those times of each log.
 
     Raises:
         LoopError: fewer than a tenth of the samples close; says how many, and where the first.
     """
     times: list[tuple[float, ...]] = [() for _ in logs]
-    if model.spec.closure is None:
-        return prepared, tuple(times)
-    both = [closed(model, segment) for segment in prepared.segments]
+    both = [closed(model, segment) for segment in segments]
     for segment, open_ in both:
         times[segment.run] += tuple(segment.time[open_ & segment.whole].tolist())
-    whole = sum(int(segment.whole.sum()) for segment, _ in both)
+    whole = sum(int(segment.whole.sum()) for segment in segments)
     count = sum(len(own) for own in times)
     if count > (1.0 - FEWEST) * whole:
         run = next(run for run, own in enumerate(times) if own)
         first = times[run][0]
-        segment = next(s for s in prepared.segments if s.run == run and first in s.time)
+        segment = next(s for s in segments if s.run == run and first in s.time)
         where = ", ".join(f"{value:.6g}" for value in segment.q[segment.time == first][0])
         raise LoopError(
             f"{logs[run].name}: the loops of {model.spec.robot} cannot be closed at {count} of "
@@ -505,7 +495,7 @@ def without_open(
             "robot reaches from [home], in SI units; check units, zeros and the order of the "
             "columns"
         )
-    return dataclasses.replace(prepared, segments=tuple(s for s, _ in both)), tuple(times)
+    return tuple(segment for segment, _ in both), tuple(times)
 
 
 def closed(model: CompiledModel, segment: Segment) -> tuple[Segment, np.ndarray]:

@@ -1,7 +1,6 @@
 """A log of any format as a `Log`, in the columns of the log format."""
 
 import dataclasses
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -80,7 +79,6 @@ def log_of(table: LogTable, spec: ModuleSpec) -> Log:
         segment=_segment(table),
         extra=_extra(table, spec, notes),
         torque_source=tuple(source for _, source in torques),
-        missing=_missing(table, spec),
         notes=tuple(notes),
     )
 
@@ -215,12 +213,6 @@ def _temperatures(
             "the others"
         )
     return found
-
-
-def _missing(table: LogTable, spec: ModuleSpec) -> dict[str, int]:
-    names = [name for name in table.names if name in _used_names(spec) and table.is_numeric(name)]
-    counts = {name: int(np.isnan(table.measured(name)).sum()) for name in names}
-    return {name: count for name, count in counts.items() if count}
 
 
 @dataclass(frozen=True, eq=False)
@@ -401,11 +393,10 @@ def joined(logs: Sequence[Log]) -> Log:
         return logs[0]
     columns: dict[str, Any] = {}
     for name in _COLUMNS:
-        found = [getattr(log, name) for log in logs]
-        columns[name] = None if any(part is None for part in found) else np.concatenate(found)
+        own = [getattr(log, name) for log in logs]
+        columns[name] = None if any(part is None for part in own) else np.concatenate(own)
     extra = {name: np.concatenate([log.extra[name] for log in logs]) for name in logs[0].extra}
-    missing = dict(sum((Counter(log.missing) for log in logs), Counter[str]()))
-    return dataclasses.replace(logs[0], **columns, extra=extra, missing=missing)
+    return dataclasses.replace(logs[0], **columns, extra=extra)
 
 
 def windows_joined(logs: Sequence[Log]) -> Log:

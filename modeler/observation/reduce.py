@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from modeler.observation.motion import Segment
-from modeler.observation.observation import Evaluated, Observation, near
+from modeler.observation.observation import Evaluated, Observation
 from modeler.observation.stretch import Stretch
 from modeler.runtime import NonzeroPattern, Triangles, no_rows, of_rows
 
@@ -51,17 +51,11 @@ def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
 
 def fitted_torque(observation: Observation, beta: np.ndarray, keep: np.ndarray) -> np.ndarray:
     """(s, n) torque of the model, `columns beta`, where keep (s, n); 0 elsewhere."""
-    regressor, found = observation.regressor, np.zeros(observation.used.shape)
-    for part, own in _stretches(observation):
-        if not keep[own].any():
-            continue
-        if not isinstance(regressor, Evaluated):
-            found[own] = part.filtered(partial(regressor, part.segment)) @ beta
-        elif is_unfiltered(part):
-            some = near(np.flatnonzero(keep[own].any(axis=1)))
-            found[own][some] = regressor.torque(part.segment, near(part.rows.centres[some]), beta)
-        else:
-            found[own] = part.filtered(partial(regressor.torque, part.segment, beta=beta))
+    regressor = observation.regressor
+    if isinstance(regressor, Evaluated):
+        found = observation.filtered(partial(regressor.torque, beta=beta))
+    else:
+        found = np.concatenate([columns @ beta for _, columns in blocks(observation)])
     return np.where(keep, found, 0.0)
 
 

@@ -2,15 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
-
-import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.result import Presented
 from modeler.core.table import percent
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
-from modeler.observation.motion_noise import MotionNoise
+from modeler.observation.motion_noise import ChannelNoise, MotionNoise
 from modeler.observation.outliers import Damage
 from modeler.observation.segments import JITTER
 from modeler.observation.settings import ChosenProcessing
@@ -179,43 +176,6 @@ class JointReport(Brief):
 
 
 @dataclass(frozen=True)
-class ChannelNoise(Brief):
-    """What is known of a channel of the motion, as plain data.
-
-    Attributes:
-        joint: name.
-        unit: of its position.
-        of: what was measured of it: "positions", "speeds", "accelerations".
-        moves: False at rest.
-        density: one-sided power density of its noise, unit^2/Hz; of speeds (unit/s)^2/Hz.
-        deviation: standard deviation of white noise of that density.
-        hides_above_hz: where the noise hides the motion; None if there is too little to tell.
-        step: resolution of the position.
-        colour: noise grows as f^-colour towards low frequencies; 0 for white.
-        band_hz: of its motion.
-        frequency, spectrum: (m,) Hz, and density of what was measured, means over third octaves.
-        torque_of_noise: of the noise at 1 Hz, (N m)^2/Hz; it grows as f^4 (positions) or f^2
-            (speeds). None where no fit said it.
-        torque_noise: of the torque itself, (N m)^2/Hz.
-    """
-
-    joint: str
-    unit: str
-    of: str
-    moves: bool
-    density: float
-    deviation: float
-    hides_above_hz: float | None
-    step: float
-    colour: float
-    band_hz: float
-    frequency: tuple[float, ...]
-    spectrum: tuple[float, ...]
-    torque_of_noise: float | None = None
-    torque_noise: float | None = None
-
-
-@dataclass(frozen=True)
 class Bands(Brief):
     """The cut-offs, what chose them, and the noise of the motion, as plain data.
 
@@ -242,43 +202,12 @@ class Bands(Brief):
     widest_values: tuple[float, ...] = ()
 
 
-def bands_of(
-    noise: MotionNoise | None, processing: ChosenProcessing | None = None,
-    torques: Mapping[int, tuple[float, float]] | None = None, **further: Any,
-) -> Bands:  # fmt: skip
-    """What is known of the noise of the motion, and of the cut-offs if there are any.
-
-    Args:
-        noise: of the motion.
-        processing: with the cut-offs.
-        torques: by index of the joint, `torque_of_noise` and `torque_noise` of its channel.
-        **further: fields of the result.
-    """
-    return Bands(
-        None if processing is None else processing.position_cutoff,
-        None if processing is None else processing.parallel_cutoff,
-        tuple(
-            _channel(noise, j, *(torques or {}).get(j, ())) for j in range(len(noise.joints))
-        ) if noise is not None else (),
-        **further,
-    )  # fmt: skip
-
-
-def _channel(noise: MotionNoise, j: int, *torques: float) -> ChannelNoise:
-    joint, seen = noise.joints[j], noise.spectra
-    pairs = [] if seen is None else zip(seen.frequency, seen.density[:, j], strict=True)
-    known = [(_rounded(f), _rounded(S)) for f, S in pairs if np.isfinite(S)]
-    return ChannelNoise(
-        joint.name, joint.unit, noise.measured, joint.moves, joint.floor,
-        joint.deviation(noise.rate), joint.meets if np.isfinite(joint.meets) else None,
-        joint.step, joint.colour, joint.band, tuple(f for f, _ in known),
-        tuple(S for _, S in known), *torques,
-    )  # fmt: skip
-
-
-def _rounded(value: float) -> float:
-    """To four digits, as pictures need it."""
-    return float(f"{value:.4g}")
+def bands_of(noise: MotionNoise | None, processing: ChosenProcessing | None = None) -> Bands:
+    """What is known of the noise of the motion, and of cut-offs that nothing was lowered for."""
+    joints = noise.joints if noise else ()
+    if processing is None:
+        return Bands(None, None, joints)
+    return Bands(processing.position_cutoff, processing.parallel_cutoff, joints)
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Spikes of one to three samples in torques, velocities and accelerations: of wires, not motion."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -9,12 +9,10 @@ import numpy as np
 from modeler.numerics.noise import (
     REACH,
     departures,
-    departures_near,
     floor_here,
     lone,
     nearby,
     resolution,
-    spread,
     threshold,
 )
 
@@ -37,7 +35,6 @@ _MEAN = 5  # samples before and after a spike over which the speed is taken
 _RARELY = 0.95  # quantile of the changes of the speed over that time
 _STARTS = 2.0  # times the changes just before: something began
 _SLOW = 0.05  # of the top speed: at a reversal and at rest, friction makes peaks of its own
-_FEW = 0.02  # of the values that may be spikes, or all are looked at
 
 Kind = Literal["wrap", "spike", "frozen", "zero", "lost", "clipped", "repeated"]
 
@@ -63,115 +60,106 @@ class Defect:
     time: float = float("nan")
 
 
+Spikes = list[list[list[Defect]]]
+"""By joint and stretch."""
+
+
 def glitches(
-    stretches: Sequence[np.ndarray], departed: Sequence[np.ndarray], floor: float
-) -> list[list[Defect]]:
-    """By stretch, the lone departures of a channel from its running median, in runs of up to 3.
+    stretches: Sequence[np.ndarray], floors: np.ndarray | None = None
+) -> tuple[Spikes, np.ndarray | None]:
+    """The lone departures of channels from their running median, in runs of up to 3.
 
     Runs are gone as they came; what stays is a step, and no spike.
 
     Args:
-        stretches: (n,) of values without gaps, all of one channel.
-        departed: (n,) `departures` of each.
-        floor: `glitch_floor` of the whole channel, of which these may be a part.
+        stretches: (n, J) of values without gaps.
+        floors: (J,) of the whole log, of which these are a part; None: they are all of it.
+
+    Returns:
+        The spikes, and departures (J,) below which no value is one; None without stretches.
     """
-    floor, found = floor_here(departed, floor, RARE), []
-    for values, own in zip(stretches, departed, strict=True):
-        places, spikes = lone(own, floor), list[Defect]()
-        for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1):
-            if not 0 < len(run) <= LONGEST:
-                continue
-            size = float(own[run[int(np.argmax(np.abs(own[run])))]])
-            start, stop = int(run[0]), int(run[-1]) + 1
-            beside = values[[k for k in (start - 1, stop) if 0 <= k < len(values)]]
-            if np.ptp(beside) < _BACK * abs(size):
-                spikes.append(Defect("spike", start, stop, size))
-        found.append(spikes)
-    return found
-
-
-def glitch_floor(stretches: Sequence[np.ndarray], departed: Sequence[np.ndarray]) -> float:
-    """Departure below which no value of a channel is a spike; infinite without values."""
     if not stretches:
-        return float("inf")
-    whole = np.concatenate(stretches)
+        return [], floors
+    channels = [[own[:, j] for own in stretches] for j in range(stretches[0].shape[1])]
+    departed = [[departures(own) for own in channel] for channel in channels]
+    if floors is None:
+        floors = np.array(list(map(_floor, channels, departed)))
+    found = []
+    for channel, sizes, floor in zip(channels, departed, floors, strict=True):
+        here = floor_here(sizes, float(floor), RARE)
+        pairs = zip(channel, sizes, strict=True)
+        found.append([_lone_runs(values, own, here) for values, own in pairs])
+    return found, floors
+
+
+def _floor(channel: Sequence[np.ndarray], departed: Sequence[np.ndarray]) -> float:
+    """Departure below which no value of a whole channel is a spike."""
+    whole = np.concatenate(channel)
     low, high = np.quantile(whole, [0.01, 0.99])
-    return max(
-        threshold(np.concatenate(departed), resolution(whole), RARE), SHARE * float(high - low)
-    )
+    lonely = threshold(np.concatenate(departed), resolution(whole), RARE)
+    return max(lonely, SHARE * float(high - low))
+
+
+def _lone_runs(values: np.ndarray, departed: np.ndarray, floor: float) -> list[Defect]:
+    places, spikes = lone(departed, floor), list[Defect]()
+    for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1):
+        if not 0 < len(run) <= LONGEST:
+            continue
+        size = float(departed[run[int(np.argmax(np.abs(departed[run])))]])
+        start, stop = int(run[0]), int(run[-1]) + 1
+        beside = values[[k for k in (start - 1, stop) if 0 <= k < len(values)]]
+        if np.ptp(beside) < _BACK * abs(size):
+            spikes.append(Defect("spike", start, stop, size))
+    return spikes
 
 
 @dataclass(frozen=True, eq=False)
-class TorqueNoise:
-    """What is usual in the torques of a log; J joints.
+class Usual:
+    """What is usual in the torques and speeds of a log; J joints.
 
     Attributes:
-        floors: (J,) `glitch_floor` of each.
-        range: (J,) between 1 % and 99 % of its values.
+        range: (J,) of the torques, between 1 % and 99 % of their values.
         top: (J,) speed that 98 % of the samples stay below.
     """
 
-    floors: np.ndarray
     range: np.ndarray
     top: np.ndarray
 
 
-def torque_glitches(
-    stretches: Sequence[np.ndarray],
-    speeds_of: Callable[[], Sequence[np.ndarray]],
-    usual: TorqueNoise | None = None,
-) -> tuple[list[list[list[Defect]]], TorqueNoise | None]:
-    """By joint and stretch, the spikes of torques that no motion and no blow explains.
+def usual_of(torques: Sequence[np.ndarray], speeds: Sequence[np.ndarray]) -> Usual:
+    """Of the stretches (n, J) of a whole log, one at least."""
+    low, high = np.quantile(np.concatenate(torques), [0.01, 0.99], axis=0)
+    return Usual(high - low, np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0))
+
+
+def unexplained(
+    found: Spikes, torques: Sequence[np.ndarray], speeds: Sequence[np.ndarray], usual: Usual
+) -> Spikes:
+    """The spikes of torques that no motion and no blow explains.
 
     A torque that is real moves its joint, and a blow is felt in several joints. Where a joint
     turns back or sticks, friction makes peaks of its own, which stay within the range of the
     channel (1 % to 99 % of its values).
 
     Args:
-        stretches: (n, J) torques without gaps; a joint without a measured torque is all 0.
-        speeds_of: gives the speeds (n, J) of the joints; asked for where they matter.
-        usual: in the whole log, of which these are a part; None: they are all of it.
-
-    Returns:
-        The spikes, and what is usual; None without stretches.
+        found: by `glitches` of the torques.
+        torques: (n, J) by stretch; a joint without a measured torque is all 0.
+        speeds: (n, J) by stretch.
+        usual: in the whole log.
     """
-    if not stretches:
-        return [], usual
-    departed = [_departed(tau, usual) for tau in stretches]
-    channels = [
-        ([tau[:, j] for tau in stretches], [own[:, j] for own in departed])
-        for j in range(stretches[0].shape[1])
-    ]
-    if usual is None:
-        low, high = np.quantile(np.concatenate(stretches), [0.01, 0.99], axis=0)
-        floors = np.array([glitch_floor(*channel) for channel in channels])
-        top = np.quantile(np.abs(np.concatenate(speeds_of())), 0.98, axis=0)
-        usual = TorqueNoise(floors, high - low, top)
-    found = [
-        glitches(*channel, float(floor))
-        for channel, floor in zip(channels, usual.floors, strict=True)
-    ]
     if not any(spikes for by_joint in found for spikes in by_joint):
-        return found, usual
-    sizes, speeds = [np.abs(own) for own in departed], speeds_of()
-    for j, by_stretch in enumerate(found):
-        slow = _SLOW * usual.top[j]
-        found[j] = [
+        return found
+    sizes = [np.abs(np.column_stack([departures(own) for own in tau.T])) for tau in torques]
+    return [
+        [
             [spike for spike in spikes
              if not _blow(size, j, spike) and not _answered(speed[:, j], spike)
-             and (abs(spike.size) > usual.range[j] or _moves(speed[:, j], spike, slow))]
+             and (abs(spike.size) > usual.range[j]
+                  or _moves(speed[:, j], spike, _SLOW * usual.top[j]))]
             for spikes, size, speed in zip(by_stretch, sizes, speeds, strict=True)
-        ]  # fmt: skip
-    return found, usual
-
-
-def _departed(tau: np.ndarray, usual: TorqueNoise | None) -> np.ndarray:
-    """(n, J) departures of the torques of a stretch; 0 where they are surely no spikes."""
-    if usual is not None:
-        places = np.flatnonzero((spread(tau) > usual.floors).any(axis=1))
-        if len(places) < _FEW * len(tau):
-            return departures_near(tau, places)
-    return np.column_stack([departures(own) for own in tau.T])
+        ]
+        for j, by_stretch in enumerate(found)
+    ]  # fmt: skip
 
 
 def _blow(sizes: np.ndarray, j: int, spike: Defect) -> bool:

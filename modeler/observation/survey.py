@@ -9,15 +9,15 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.numerics.filters import spacing
-from modeler.observation.chunk import Chunk, chunk_rows, margin
+from modeler.observation.chunk import Chunk, margin
 from modeler.observation.consistency import consistency
 from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_of, fingers
-from modeler.observation.low_speed import IDLE_TRAVEL, TOP, FrictionShaft, shafts
+from modeler.observation.low_speed import FrictionShaft, shafts, top_speeds
 from modeler.observation.motion import Segment, segment_of
-from modeler.observation.observation import Observation
-from modeler.observation.observe import within_noise
+from modeler.observation.observation import Observation, observed
+from modeler.observation.observe import lowered
 from modeler.observation.outliers import ChannelScales, defects
-from modeler.observation.prepare import Prepared, believed, check_size, closed, prepare
+from modeler.observation.prepare import PreparedLog, believed, check_size, closed, prepare
 from modeler.observation.read import Ranges, Source, cut, joined, windows_joined
 from modeler.observation.report import DataReport, LogReport
 from modeler.observation.segments import Piece, split
@@ -68,7 +68,7 @@ class LogChoices:
         extremes: (J,) smallest and largest torque known so far.
         shafts: of the robot.
         step: of the log, s.
-        own: rows of a chunk.
+        own: rows of a chunk: a multiple of those of a fingerprint.
         beside: rows of its margins.
     """
 
@@ -77,7 +77,7 @@ class LogChoices:
     decimation: int
     logged: bool
     usual: ChannelScales
-    extremes: tuple[tuple[float, float], ...]
+    extremes: Extremes
     shafts: tuple[FrictionShaft, ...]
     step: float
     own: int
@@ -90,17 +90,15 @@ class Survey:
 
     Attributes:
         observation: of the windows, for all that needs rows side by side.
-        prepared: what else was seen in the windows; without their samples.
+        logs: what else was seen in the windows of each; of another where it has none.
         chosen: by log.
-        places: of each log among those that were prepared; that of another where none is.
         windows: how many.
         rows: of them.
     """
 
     observation: Observation
-    prepared: Prepared
+    logs: tuple[PreparedLog, ...]
     chosen: tuple[LogChoices, ...]
-    places: tuple[int, ...]
     windows: int
     rows: int
 
@@ -144,7 +142,7 @@ def survey(
     seen = [log for log in logs if log is not None]
     try:
         prepared = prepare(model.spec, seen, processing)
-        observation = within_noise(model, seen, prepared, processing)
+        observation = observed(model, seen, lowered(model, prepared, processing))
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
         where = f"the {sum(len(own) for own in windows)} windows"
         raise WholeLogNeeded(f"{error}; found in {where} by which long logs are judged") from None
@@ -160,26 +158,26 @@ def survey(
                 "out"
             )
         ranges, beside = Ranges.of(log), margin(chosen, log.step)
-        fresh = (s.step for s in prepared.segments if k in looked and s.run == at)
+        fresh = [piece.step for piece in prepared.logs[at].pieces if k in looked]
         every.append(
             LogChoices(
                 run=k,
                 processing=chosen,
                 decimation=spacing(
-                    next(fresh, log.step), chosen.parallel_cutoff, chosen.decimation
+                    (*fresh, log.step)[0], chosen.parallel_cutoff, chosen.decimation
                 ),
-                logged=prepared.checks[at] is not None,
-                usual=prepared.usual[at],
+                logged=prepared.logs[at].check is not None,
+                usual=prepared.logs[at].usual,
                 extremes=known.extremes.get(k) or ranges.torques,
                 shafts=parts,
                 step=log.step,
-                own=chunk_rows(beside, rows),
+                own=rows * max(1, -(-4 * beside // rows)),  # most of what is read
                 beside=beside,
             )
         )
     count, rows_seen = sum(len(own) for own in windows), sum(log.rows for log in seen)
-    prepared = dataclasses.replace(prepared, segments=(), pieces=(), left_out=())  # memory
-    return Survey(observation, prepared, tuple(every), places, count, rows_seen)
+    told = tuple(dataclasses.replace(prepared.logs[at], pieces=()) for at in places)  # memory
+    return Survey(observation, told, tuple(every), count, rows_seen)
 
 
 def _count(sources: Sequence[Source], k: int) -> int:
@@ -264,7 +262,6 @@ def rows_of_chunk(
         if not processing.keep_contradicted:
             pieces = believed(pieces, check)
     filtered = [segment_of(piece, processing) for piece in pieces]
-    left_out = [p for p, segment in zip(pieces, filtered, strict=True) if segment is None]
     both = [closed(model, segment) for segment in filtered if segment is not None]
     segments = [segment for segment, _ in both]
     stretches = tuple(
@@ -273,7 +270,7 @@ def rows_of_chunk(
     own = cut(chunk.log, chunk.own)
     start, stop = chunk.span
     return stretches, Facts(
-        tally=tally(chunk, pieces, cuts, stretches, left_out, check),
+        tally=tally(chunk, pieces, cuts, stretches, check),
         defects={
             name: [_own(chunk, some, name == "rows") for some in by_joint]
             for name, by_joint in found.items()
@@ -339,15 +336,10 @@ def _clipped(log: Log, pieces: Sequence[Piece]) -> np.ndarray:
 
 def _awake(segments: Sequence[Segment], chosen: LogChoices) -> dict[str, float]:
     """Top speeds of the shafts that move, and were taken to stand still."""
-    moves: dict[str, float] = {}
-    for part in chosen.shafts:
-        if chosen.processing.speed_floors[part.name] < float("inf"):
-            continue
-        for s in (one for one in segments if one.whole.any()):
-            if np.ptp(part.speed(s.q[s.whole])) >= IDLE_TRAVEL[part.unit]:
-                top = float(np.quantile(np.abs(part.speed(s.qd[s.whole])), TOP))
-                moves[part.name] = max(moves.get(part.name, 0.0), top)
-    return moves
+    floors, moving = chosen.processing.speed_floors, [s for s in segments if s.whole.any()]
+    still = [part for part in chosen.shafts if floors[part.name] == float("inf")]
+    tops = top_speeds(still, moving) if moving else []
+    return {part.name: top for part, top in zip(still, tops, strict=False) if top > 0.0}
 
 
 # The report of all rows.
@@ -413,23 +405,15 @@ def streamed_report(model: CompiledModel, sources: Sequence[Source], passes: Pas
 def _log_report(model: CompiledModel, source: Source, k: int, passes: Passes) -> LogReport:
     facts, chosen, found = passes.facts[k], passes.found.chosen[k], passes.found
     counts, first, content = facts.tally, source.window(0.0, 2), source.content
-    missing = {
-        name.removeprefix("missing "): int(count)
-        for name, count in counts.sums.items()
-        if name.startswith("missing ") and count
-    }
     if not content and counts.count("rows") > LONG:
         content = fingerprint_of(facts.fingers)
     elif not content:
         whole = joined(list(source.blocks(LONG)))
         content = fingerprint(whole.time, whole.q, whole.tau)
     notes = (*first.notes, *facts.ranges.doubts(chosen.step, model.spec))
-    log = dataclasses.replace(
-        first, name=source.name, notes=notes, missing=missing, content=content
-    )
+    log = dataclasses.replace(first, name=source.name, notes=notes, content=content)
     report = log_report(
-        log, model.spec, found.prepared, found.places[k], counts, facts.defects,
-        facts.contradictions, chosen.decimation,
+        log, model.spec, found.logs[k], counts, facts.defects, facts.contradictions,
+        chosen.decimation, facts.open_times,
     )  # fmt: skip
-    rate, times = 1.0 / chosen.step, facts.open_times
-    return dataclasses.replace(report, rate=rate, span=facts.span, open_times=times)
+    return dataclasses.replace(report, rate=1.0 / chosen.step, span=facts.span)

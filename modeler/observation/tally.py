@@ -1,6 +1,7 @@
 """What the rows of a log say: counts that add up over its chunks, facts, and their report."""
 
 import dataclasses
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,8 +15,8 @@ from modeler.observation.log import Log
 from modeler.observation.low_speed import FrictionShaft
 from modeler.observation.motion import CAUSES
 from modeler.observation.outliers import Defects, damages
-from modeler.observation.prepare import Prepared
-from modeler.observation.read import Ranges
+from modeler.observation.prepare import PreparedLog
+from modeler.observation.read import Ranges, cut
 from modeler.observation.report import JointReport, LogReport
 from modeler.observation.segments import Piece, SplitReport
 from modeler.observation.stretch import Stretch
@@ -50,7 +51,6 @@ def tally(
     pieces: Sequence[Piece],
     cuts: SplitReport,
     stretches: Sequence[Stretch],
-    left_out: Sequence[Piece],
     check: Consistency | None,
 ) -> Tally:
     """Counts of a chunk's own rows.
@@ -60,7 +60,6 @@ def tally(
         pieces: of it and its margins.
         cuts: where it was cut into them.
         stretches: of the pieces that are long enough, with the rows that are the chunk's own.
-        left_out: the other pieces.
         check: of its logged derivatives.
     """
     none = np.zeros(len(chunk.log.joints), dtype=int)
@@ -69,15 +68,14 @@ def tally(
     clipped = [piece.clipped[rows].sum(axis=0) for piece, rows in zip(pieces, own, strict=True)]
     bad = () if check is None else check.bad
     widths = cuts.widths[chunk.holds(cuts.gaps)]
-    short = chunk.holds(cuts.short).sum() + sum(chunk.holds(p.time).sum() for p in left_out)
     sums: dict[str, Any] = {
         "chunks": 1,
         "rows": chunk.rows,
         "gaps": len(widths),
         "pieces": len(begun),
         "resampled": sum(piece.resampled for piece in begun),
-        "short": short,
-        **{f"missing {name}": count for name, count in chunk.missing().items()},
+        "short": chunk.holds(cuts.short).sum() + sum(int(rows.sum()) for rows in own),
+        "missing": Counter(cut(chunk.log, chunk.own).missing),
         "clipped": sum(clipped, none),
         "contradicted": sum(int(flags[rows].sum()) for flags, rows in zip(bad, own, strict=False)),
         "samples": 0,
@@ -93,6 +91,7 @@ def tally(
         if (valid < full).any():
             cause = s.cause[rows]
             counts |= {name: (cause == k).sum(axis=0) for k, name in enumerate(CAUSES)}
+        counts["short"] = -full  # what no stretch is made of
         sums |= {name: sums[name] + count for name, count in counts.items()}
     return Tally(sums, {"jitter": cuts.jitter, "gap": widths.max(initial=0.0)})
 
@@ -175,46 +174,44 @@ def _contradictions(
 # The counts in the words of a report.
 
 
+_TOLD = ("rows", "gaps", "pieces", "resampled", "short", "samples", "contradicted")
+
+
 def log_report(
-    log: Log, spec: ModuleSpec, prepared: Prepared, place: int, facts: Tally,
-    defects: Defects, contradictions: Sequence[Contradiction], decimation: int,
+    log: Log, spec: ModuleSpec, prepared: PreparedLog, facts: Tally, defects: Defects,
+    contradictions: Sequence[Contradiction], decimation: int, open_times: tuple[float, ...],
 ) -> LogReport:  # fmt: skip
     """What became of the rows of a log.
 
     Args:
-        log: it, or some rows of it, with the notes, the missing values and the content of all.
+        log: it, or some rows of it, with the notes and the content of all.
         spec: the robot's manifest.
-        prepared: the logs by which all was chosen.
-        place: of the one among them that stands for this log.
+        prepared: the log by which all was chosen.
         facts: counts of all rows.
         defects: values that no robot can have made.
         contradictions: of logged derivatives.
         decimation: samples per row.
+        open_times: of samples with which the loops cannot be closed, s.
     """
-    check, rows = prepared.checks[place], facts.count("rows")
+    counts: dict[str, Any] = {name: facts.count(name) for name in _TOLD}
     clipped = zip(log.joints, facts.sums["clipped"], strict=True)
     return LogReport(
         name=log.name,
-        rows=rows,
-        missing=dict(log.missing),
+        missing=dict(facts.sums["missing"]),
         saturated={name: int(count) for name, count in clipped if count},
         rate=1.0 / log.step,
         jitter=float(facts.most["jitter"]),
-        gaps=facts.count("gaps"),
         longest_gap=float(facts.most["gap"]),
-        pieces=facts.count("pieces"),
-        resampled=facts.count("resampled"),
-        short=facts.count("short"),
-        derivatives=prepared.derivatives[place],
+        derivatives=prepared.derivatives,
         decimation=decimation,
-        samples=facts.count("samples"),
-        notes=log.notes + prepared.rings[place] + (check.notes if check else ()),
+        notes=log.notes + prepared.rings + (prepared.check.notes if prepared.check else ()),
         contradictions=tuple(contradictions),
-        contradicted=facts.count("contradicted"),
-        damages=damages(log, rows, spec, defects),
+        **counts,
+        damages=damages(log, counts["rows"], spec, defects),
         content=log.content,
         span=log.span,
         torque_source=log.torque_source,
+        open_times=open_times,
     )
 
 

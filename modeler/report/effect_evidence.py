@@ -86,7 +86,7 @@ def evidence_of(found: Search, step: Step) -> Evidence:
     bins = bins_of(axis.x, adds if own is None else own, without.base.block[j], calm)
     return Evidence(
         step=step, without=without, full=full, j=j, axis=axis,
-        rival=rival(without, j).prediction, own=own, calm=calm,
+        rival=rival(without, j, without.residual[j]).prediction, own=own, calm=calm,
         bins=bins, own_sigma=None if own is None else law_sigma(found, step, j, axis, bins),
     )  # fmt: skip
 

@@ -157,7 +157,7 @@ def test_a_late_position_is_found_with_its_delay(arm: Path, run: Run, tmp_path: 
     """Two samples of 4 ms; the other joints are in time."""
     bad = written(tmp_path / "bad.parquet", late(2, 2)(table(arm / "other.parquet")))
     _, out, _ = run("diagnose", arm / "m.json", bad)
-    line = next(line for line in out.splitlines() if "too late beside the other channels" in line)
+    line = next(line for line in out.splitlines() if " ms late, by a fit at other times" in line)
     assert line.startswith("data: joint 2: its position comes ")
     assert float(line.split("comes ")[1].split(" ms")[0]) == pytest.approx(8.0, rel=0.2)
 

@@ -105,7 +105,7 @@ def test_effects_that_fail_on_held_out_motion_are_not_named(case: Case) -> None:
     diagnosis = diagnose(model, case.compiled, [train], [case.holdout])
     assert ("spring", "3") not in {(f.effect, f.joint) for f in diagnosis.effects}
     assert ("spring", "3") in {judged.candidate.key for judged in diagnosis.search.vetoed}
-    told = [line for line in diagnosis.sentences if line.startswith("not named: spring")]
+    told = [line for line in diagnosis.sentences if line.startswith("not named: spring at")]
     assert len(told) == 1 and "that of motion left out does not surely fall" in told[0]
 
 

@@ -12,23 +12,23 @@ from modeler.diagnosis import data_checks as doubts, judge as errors, search
 from modeler.diagnosis.assemble import _doubted, verdict
 from modeler.diagnosis.candidates import Candidate, StatedEffects, candidates, scales_of
 from modeler.diagnosis.cross_checks import CrossCheck
-from modeler.diagnosis.judge import Judged, decide, possible
+from modeler.diagnosis.judge import Judged, Judgement, alternatives, decide, possible
 from modeler.diagnosis.plausible import DRIVES
 from modeler.diagnosis.result import Finding, doubt
 from modeler.diagnosis.score import Change, Score
 from modeler.diagnosis.search import HypothesisScan
 from modeler.diagnosis.sentences import refused_lines
 from modeler.effects.catalogue import effect_named
-from modeler.observation.channels import Fault
+from modeler.observation.channels import Doubt
 from tests.diagnose.conftest import Case
 
 
-def candidate(name: str) -> Candidate:
-    """An effect on joint 1, with shapes that are in no grid."""
+def candidate(name: str, joint: str | None = "1") -> Candidate:
+    """An effect on a joint, with shapes that are in no grid."""
     effect = effect_named(name)
     assert effect is not None
     shapes = {shape.name: 0.123 for shape in effect.forms[0].shapes}
-    return Candidate(effect, effect.forms[0], "1", 0, shapes)
+    return Candidate(effect, effect.forms[0], joint, 0, shapes)
 
 
 def at_its_best(name: str, share: float, value: float = 1.0, drop: object = None) -> Judged:
@@ -131,8 +131,9 @@ def test_what_does_not_lower_the_error_is_no_fact() -> None:
     assert raw["status"] == "named"
 
 
-LED = CrossCheck("up to 9 Hz", ("stribeck", "2"), False, 0.3, 0.02)
-FAINT = CrossCheck("up to 9 Hz", None, True, 0.01, 0.02)
+LED = CrossCheck("up to 9 Hz", ("stribeck", "2"), False, 0.3, 0.4)
+FAINT = CrossCheck("up to 9 Hz", None, True, 0.01, 0.1)
+DROWNED = CrossCheck("up to 9 Hz", None, True, -0.01, 0.015)
 
 
 @pytest.mark.parametrize(
@@ -144,11 +145,12 @@ FAINT = CrossCheck("up to 9 Hz", None, True, 0.01, 0.02)
         ("spring", 0.185, {"refines": True}, ""),
         ("spring", 0.65, {}, "the error is 65 % still"),
         ("spring", 0.1, {"objection": "too heavy"}, "too heavy"),
-        ("spring", 0.1, {"ratio": 1.9}, "1.9 standard deviations"),
-        ("spring", 0.1, {"ties": (("spring", "3"),)}, "one of joint 3"),
-        ("spring", 0.1, {"ties": (("counterbalance", "1"), ("base_tilt", None))}, ""),
+        ("spring", 0.1, {"ties": (candidate("spring", "3"),)}, "one of joint 3"),
+        ("spring", 0.1, {"ties": (candidate("counterbalance"), candidate("base_tilt", None))}, ""),
+        ("spring", 0.1, {"ties": (candidate("cable_hysteresis"),)}, "kind: cable_hysteresis"),
         ("spring", 0.1, {"looks": (LED,)}, "stribeck explains its joint better (up to 9 Hz)"),
         ("spring", 0.1, {"looks": (FAINT,)}, "explains nothing up to 9 Hz"),
+        ("spring", 0.1, {"looks": (DROWNED,)}, ""),
         ("drive_gain", 0.1, {"objection": "1000 times", "looks": (LED, FAINT)}, ""),
         ("joint_ripple", 0.1, {"sigmas": {"m": 0.01}}, "no number of teeth"),
     ],
@@ -172,6 +174,24 @@ def test_plain_friction_goes_before_what_refines_it(share: float, goes_first: bo
     plain = at_its_best("coulomb", 0.9 * share, drop=share * drop)
     best = decide(None, [finer, plain]).best  # type: ignore[arg-type]
     assert best is (plain if goes_first else finer)
+
+
+@pytest.mark.parametrize(
+    ("named", "other", "tie"),
+    [
+        ("viscous", "nonlinear_viscous", False),
+        ("viscous", "coulomb", True),
+        ("offset", "spring", False),
+        ("offset", "drift", True),
+        ("spring", "counterbalance", True),
+        ("presliding", "stribeck", True),
+    ],
+)
+def test_laws_that_every_joint_has_have_no_finer_rivals(named: str, other: str, tie: bool) -> None:
+    drop = np.random.default_rng(3).uniform(0.5, 1.5, 40)
+    best, rival = (at_its_best(name, 0.9, drop=drop) for name in (named, other))
+    nothing = Judgement((), None)
+    assert alternatives(best, [rival], nothing) == ([rival] if tie else [])
 
 
 def test_a_search_ends_where_everything_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -256,10 +276,12 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
 def test_what_an_effect_explains_is_no_matter_of_the_channel(
     monkeypatch: pytest.MonkeyPatch, left: float, certain: bool, told: int
 ) -> None:
-    start, end = (SimpleNamespace(residual=[np.full(10, size)], data=None) for size in (1.0, left))
-    for name in ("sensor_delay_lines", "_moved", "data_lines"):
+    start, end = (
+        SimpleNamespace(residual=[np.full(10, size)], data=None, picks=()) for size in (1.0, left)
+    )
+    for name in ("_moved", "data_lines"):
         monkeypatch.setattr(doubts, name, lambda *a: [])
-    faults = [Fault("torque 1 is 0.7 times the predicted", certain, 0)]
+    faults = [Doubt("torque 1 is 0.7 times the predicted", certain, joint=0)]
     found = SimpleNamespace(start=start, end=end)
     assert len(doubts.doubts(None, found, None, faults)) == told  # type: ignore[arg-type]
 

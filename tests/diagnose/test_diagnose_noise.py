@@ -12,8 +12,8 @@ from modeler.observation.settings import Processing
 from tests.diagnose.conftest import Case, motion
 
 
-def shaking(log: Log) -> Log:
-    q = log.q + np.random.default_rng(6).normal(0.0, 5e-4, log.q.shape)
+def shaking(log: Log, size: float = 5e-4) -> Log:
+    q = log.q + np.random.default_rng(6).normal(0.0, size, log.q.shape)
     return dataclasses.replace(log, q=q, qd=None, qdd=None)
 
 
@@ -28,6 +28,14 @@ def test_a_band_in_which_the_model_trembles_is_lowered_or_told(case: Case) -> No
         assert len(lines) == told
         assert all("noise of the positions" in x and "--cutoff below" in x for x in lines)
         assert (found.band == 25.0) if told else (found.band < 15.0)
+
+
+def test_noise_of_the_positions_is_nothing_systematic(case: Case) -> None:
+    """It is in the columns of the model, and so in the residual: no function of the motion."""
+    log, holdout = (shaking(own, 1e-3) for own in (case.train, case.holdout))
+    found = diagnose(case.fitted(log), case.compiled, [log], [holdout], most=0)
+    assert found.verdict == "nothing significant"
+    assert not any(joint.unexplained for joint in found.joints.values())
 
 
 def test_positions_that_are_exact_are_looked_at_far_above_the_motion(case: Case) -> None:

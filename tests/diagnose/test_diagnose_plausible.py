@@ -5,9 +5,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from modeler.api import compile_model, derive, generate, load
 from modeler.diagnosis import plausible
 from modeler.diagnosis.candidates import Candidate, JointScale
 from modeler.diagnosis.plausible import objection
+from modeler.diagnosis.signals import SignalReference, tilt_axes
 from modeler.effects.catalogue import effect_named
 
 INERTIA = 2.0  # kg m^2
@@ -140,3 +142,14 @@ def test_a_gain_that_is_far_off_is_a_matter_of_sign_or_unit():
     assert objection(state(), pick("drive_gain"), {"eps1": 0.2}) == ""
     assert "-1 times" in objection(state(), pick("drive_gain"), {"eps1": 2.0})
     assert "check sign and unit" in objection(state(), pick("drive_gain"), {"eps1": 1.0})
+
+
+@pytest.mark.parametrize(("robot", "axes"), [("two-link", 1), ("demo-arm", 2)])
+def test_an_arm_that_moves_in_a_plane_feels_a_tilt_in_it_alone(robot: str, axes: int) -> None:
+    derivation = derive(load(robot))
+    compiled = compile_model(generate(derivation))
+    links = np.random.default_rng(2).uniform(1.0, 2.0, len(compiled.spec.base))
+    reference = SignalReference(compiled, links, 0.0, {})
+    found = tilt_axes(reference)
+    assert len(found) == axes
+    np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0)

@@ -10,7 +10,7 @@ from modeler.api import compile_model, derive, generate, load
 from modeler.core.expression import parse
 from modeler.diagnosis import effect_columns as rows_module, signals as signals_module
 from modeler.diagnosis.generate import generate_candidates
-from modeler.diagnosis.state import SearchData, again, all_columns_of, analysed, state_of
+from modeler.diagnosis.state import SearchData, all_columns_of, analysed, state_of
 from modeler.observation.prepare import LogRepair
 from modeler.observation.read import read_log
 from modeler.observation.settings import Processing
@@ -43,7 +43,6 @@ def test_columns_do_not_depend_on_the_windows(arm, log, monkeypatch) -> None:
     whole = columns(arm, observation)
     for module in (rows_module, signals_module):
         monkeypatch.setattr(module, "WINDOW", 101)
-    monkeypatch.setattr(rows_module, "_WIDE", 0)
     parts = columns(arm, observation)
     assert len(whole[1]) == len(parts[1]) > 100
     np.testing.assert_equal(parts, whole)
@@ -53,7 +52,7 @@ def test_logs_are_mended_once_for_any_filters(arm, log) -> None:
     mending = LogRepair([log], arm.spec)
     for cutoff in (15.0, 25.0):
         processing = Processing(position_cutoff=40.0, parallel_cutoff=cutoff)
-        shared, alone = (again(arm, [log], processing, own) for own in (mending, None))
+        shared, alone = (analysed(arm, [log], processing, mending=own) for own in (mending, None))
         np.testing.assert_array_equal(shared.torque, alone.torque)
         np.testing.assert_array_equal(shared.qdd, alone.qdd)
     assert mending.mended is mending.mended

@@ -16,7 +16,8 @@ from modeler.robot.robot import INERTIAL
 def test_an_effect_of_the_catalogue_is_whole(effect: Effect) -> None:
     assert effect.shows in get_args(Shows)
     assert effect.source != "the robot file"
-    assert all(effect_named(other) for other in (*effect.same_as, *filter(None, [effect.twin])))
+    assert all(effect_named(other) for other in effect.same_as)
+    assert effect.sign in (-1, 0, 1)
     for form in effect.forms:
         assert {shape.scale for shape in form.shapes} <= SCALES.keys() - {"own"}
         assert all(low <= high for low, high in (shape.limits for shape in form.shapes))

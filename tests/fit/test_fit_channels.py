@@ -3,6 +3,7 @@
 import json
 from collections import Counter
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pyarrow as pa
@@ -11,8 +12,9 @@ import pytest
 
 from modeler.api import observe
 from modeler.cli import main
-from modeler.estimation.findings import findings_of_fit, findings_of_prediction
+from modeler.estimation.findings import log_findings
 from modeler.estimation.identify import identify
+from modeler.estimation.verdict import with_verdict
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.modules import compiled, module
@@ -65,17 +67,12 @@ MISTAKES = {
 UNSEEN = {"zero": "90 degrees", "twice": "twice as large", "torque sign": "other sign"}
 
 
-def fitted(machine, log):
-    observation = observe(machine, [log])
-    return observation, identify(observation).beta
-
-
 @pytest.mark.parametrize("name", ROBOTS)
 def test_a_fit_to_sound_channels_is_not_doubted(runs, name):
     machine, logs = runs[name]
     for log in logs:
         observation = observe(machine, [log])
-        assert all(found.unseen for found in findings_of_fit(machine, observation))
+        assert all(found.unseen for found in log_findings(machine, observation))
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
@@ -96,7 +93,7 @@ def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(runs, mistak
             q, tau = log.q.copy(), log.tau.copy()
             change(machine, q, tau, j, k)
             observation = observe(machine, [replace(log, q=q, tau=tau)])
-            (first, *_) = findings_of_fit(machine, observation)
+            (first, *_) = log_findings(machine, observation)
             named = words in first.line
             if named and mistake in ("unit", "position sign", "torque sign", "zero", "twice"):
                 named = f"joint {log.joints[j]}:" in first.line
@@ -112,20 +109,33 @@ def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(runs, mistak
 def test_the_torque_in_another_unit_is_named_where_joints_are_coupled(runs):
     machine, (log, _) = runs["demo-arm"]
     observation = observe(machine, [replace(log, tau=log.tau * [1.0, 1.0, 1000.0])])
-    (found, *_) = findings_of_fit(machine, observation)
+    (found, *_) = log_findings(machine, observation)
     assert found.certain
     head, _, tail = found.line.partition(" times what it should be (is it in mN m?)")
     assert head.startswith("joint 3: the measured torque is ") and tail
     assert float(head.split()[-1]) == pytest.approx(1000.0, rel=0.05)
 
 
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_clock_that_is_wrong_is_named_without_speeds(runs, name):
+    """By the rule, or, where rotors of any inertia would do, by inertias beyond all measure."""
+    machine, (log, _) = runs[name]
+    observation = observe(machine, [replace(log, time=20.0 * log.time)])
+    told = log_findings(machine, observation)
+    fit = with_verdict(machine, observation, identify(observation, "weighted", machine), told)
+    assert fit.verdict.line.startswith("not usable: the clock seems to be wrong: ")
+    assert not any(
+        "clock" in found.line for found in log_findings(machine, observe(machine, [log]))
+    )
+
+
 def test_compare_says_what_diagnose_says(runs):
     machine, (train, other) = runs["demo-arm"]
-    _, beta = fitted(machine, train)
+    model = SimpleNamespace(beta=identify(observe(machine, [train])).beta, logs=())
     swapped = observe(machine, [replace(other, tau=other.tau[:, [1, 0, 2]])])
-    lines = [found.line for found in findings_of_prediction(machine, swapped, beta)]
+    lines = [found.line for found in log_findings(machine, swapped, model)]
     assert any("joints 1 and 2: their torques look exchanged" in line for line in lines)
-    assert findings_of_prediction(machine, observe(machine, [other]), beta) == ()
+    assert log_findings(machine, observe(machine, [other]), model) == ()
 
 
 @pytest.fixture(scope="module")
@@ -158,6 +168,34 @@ def test_the_commands_print_and_write_the_doubts(arm, capsys, command):
         assert said in out
         assert any(said in line for line in content["doubts"])
     assert any(line.startswith("bad.parquet: tau1: a spike") for line in content["doubts"])
+
+
+@pytest.mark.parametrize("mistake", ["late", "turns", "sign"])
+def test_every_command_says_the_same(arm, capsys, mistake):
+    """Of a log beside a model of another one, and of a log beside its own model."""
+    table = pq.read_table(arm / "other.parquet")
+    columns = {name: table[name].to_numpy().copy() for name in table.column_names}
+    columns["q2"] = {
+        "late": np.interp(columns["time"] - 0.03, columns["time"], columns["q2"]),
+        "turns": columns["q2"] / (2.0 * np.pi),
+        "sign": columns["q2"],
+    }[mistake]
+    columns["tau1"] *= -1.0 if mistake == "sign" else 1.0
+    log, own = arm / f"{mistake}.parquet", arm / f"{mistake}.json"
+    pq.write_table(pa.table(columns), log)
+    said = {
+        "late": "joint 2: its position comes ",
+        "turns": "joint 2: its position looks like turns",
+        "sign": "joint 1: the measured torque has the other sign of what a machine",
+    }[mistake]
+    for words in (
+        ["fit", "demo-arm", log, "--out", own],
+        ["log", log, "--robot", "demo-arm"],
+        *([command, model, log] for command in ("compare", "diagnose")
+          for model in (arm / "m.json", own)),
+    ):  # fmt: skip
+        assert main([str(word) for word in words]) == 0
+        assert said in capsys.readouterr().out, words
 
 
 def test_sound_logs_leave_the_doubts_empty(arm, capsys):

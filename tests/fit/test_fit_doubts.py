@@ -14,7 +14,7 @@ from modeler.estimation.identify import identify
 from modeler.estimation.model_file import load_model, save_model
 from modeler.estimation.result import fit_from_json
 from modeler.estimation.verdict import with_verdict
-from modeler.observation import Fault
+from modeler.observation import Doubt
 from modeler.observation.read import read_log
 from modeler.robot.read import robot_from_text
 from modeler.simulation import SimulationSettings, simulate, write_log
@@ -85,8 +85,8 @@ def test_inertias_tell_the_unit_of_time_where_the_steps_do_not(bench):
     # 0.18 s: five rows a second, if it were true; gravity is a clock that nobody can set
     verdict = bench.verdict(clock(bench.log, 90.0))
     assert not verdict.usable
-    assert verdict.line.startswith("not usable: the inertias are ")
-    told = float(verdict.line.split("runs about ")[1].split(" times")[0])
+    assert verdict.line.startswith("not usable: the clock seems to be wrong: ")
+    told = float(verdict.line.split("motion were ")[1].split(" times")[0])
     assert 50.0 < told < 200.0
 
 
@@ -146,10 +146,10 @@ def test_values_that_stand_in_for_what_the_model_lacks(bench):
 
 
 def test_what_other_stages_tell_joins_in(bench):
-    swapped = Fault("joint 1 and 2: exchanged; exchange tau1 and tau2", True)
+    swapped = Doubt("joint 1 and 2: exchanged; exchange tau1 and tau2", True)
     verdict = bench.verdict(bench.log, told=[swapped])
     assert verdict.line == f"not usable: {swapped.line}" and verdict.doubts == (swapped.line,)
-    vague = Fault("joint 3: positions may be late", False)
+    vague = Doubt("joint 3: positions may be late", False)
     verdict = bench.verdict(bench.log, told=[vague])
     assert verdict.usable and vague.line in verdict.line
 

@@ -123,8 +123,7 @@ def test_gaps_holes_limits_spikes_and_segments_across_borders_are_as_in_the_whol
     segment[6 * ROWS + 100 :] = 1.0
     time = log.time.copy()
     time[4 * ROWS + 500 :] += 1.0
-    damaged = dataclasses.replace(log, q=q, tau=tau, time=time, segment=segment,
-                                  missing={"q1": 5, "q2": 340, "tau1": 20})  # fmt: skip
+    damaged = dataclasses.replace(log, q=q, tau=tau, time=time, segment=segment)
     whole, chunked, told, told_chunked = both(damaged)
     for one, other in zip(told.logs, told_chunked.logs, strict=True):
         for name in ("rows", "missing", "saturated", "gaps", "pieces", "short"):
@@ -380,6 +379,24 @@ def test_uneven_stamps_fit_as_well_in_chunks():
     assert np.abs((chunked.beta - whole.beta) / sigma).max() < 3.0
     assert told_chunked.logs[0].resampled == 1
     assert told_chunked.logs[0].jitter == pytest.approx(told.logs[0].jitter, rel=0.05)
+
+
+@pytest.mark.parametrize("each", [1.25, 2.0, 3.3])
+def test_rows_that_repeat_are_left_out_of_chunks_as_of_the_whole_log(each):
+    """A recorder that is `each` times as fast as the robot; its rows lie elsewhere."""
+    log = noisy_log(rate=100)
+    rows = (np.arange(int(each * log.rows)) / each).astype(int)
+    time = np.arange(len(rows)) / (100.0 * each)
+    whole, chunked, told, told_chunked = both(dataclasses.replace(cut(log, rows), time=time))
+    (one,), (other,) = told.logs, told_chunked.logs
+    assert [d.line for d in one.damages] == [d.line for d in other.damages]
+    assert len(one.damages) == 1 and "gave about 100 rows a second" in one.damages[0].line
+    assert one.samples == pytest.approx(other.samples, rel=0.02)
+    assert (one.decimation, one.resampled) == (other.decimation, other.resampled)
+    sigma = np.array([parameter.sigma for parameter in whole.parameters])
+    assert np.abs((chunked.beta - whole.beta) / sigma).max() < 3.0
+    found = [parameter.sigma for parameter in chunked.parameters]
+    np.testing.assert_allclose(found, sigma, rtol=0.3)
 
 
 def written_in_parts(path, rows, part=100_000):

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.estimation.findings import faults_of_fit
+from modeler.estimation.findings import log_findings
 from modeler.observation.observe import observe
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
@@ -15,7 +15,7 @@ RATE = 200.0
 
 
 def late_channels(machine, observation):
-    return [found.line for found in faults_of_fit(machine, observation) if "late" in found.line]
+    return [found.line for found in log_findings(machine, observation) if "late" in found.line]
 
 
 def observed(folder, name, seed, hidden=(), **late):

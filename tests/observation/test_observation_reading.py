@@ -85,6 +85,7 @@ def test_missing_values_stay_in_their_rows_and_are_counted(tmp_path, spec):
     for suffix in (".csv", ".parquet"):
         log = read_log(write(tmp_path / f"gappy{suffix}", table), spec)
         assert log.missing == {"q1": 3, "tau2": 1}
+        assert window(log, float(log.time[5]), None).missing == {"q1": 1, "tau2": 1}
         assert log.rows == 50 and np.isnan(log.q[3:6, 0]).all() and np.isnan(log.tau[10, 1])
 
 

@@ -257,7 +257,7 @@ def test_report_tells_gaps_jitter_and_losses():
     t[2000:] += 1.0
     q = log.q.copy()
     q[100] = np.nan
-    changed = dataclasses.replace(log, time=t, q=q, missing={"q1": 1}, notes=("a remark",))
+    changed = dataclasses.replace(log, time=t, q=q, notes=("a remark",))
     text = "\n".join(observe(model, [changed]).report.lines())
     for words in ("2 pieces, 1 gaps up to 1", "2 of 2 pieces resampled", "q1: 1 rows without",
                   "a remark", "motion band", "% of the samples masked below"):  # fmt: skip

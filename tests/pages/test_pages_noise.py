@@ -128,7 +128,7 @@ def test_units_that_are_stated_are_taken(tmp_path, factor, unit):
     seen = looked_at(tmp_path, columns, ["time=t", f"q1=x{':' * bool(factor)}{factor}"])
     found = noise_of_positions(seen.positions).joints[0]
     assert found.unit == ("m" if factor == "mm" else "rad")
-    assert found.deviation(200.0) == pytest.approx(1e-3, rel=0.25)
+    assert found.deviation == pytest.approx(1e-3, rel=0.25)
 
 
 def test_counts_of_an_encoder_stay_counts(tmp_path):

@@ -65,6 +65,13 @@ def test_what_returns_in_the_next_lap() -> None:
     assert returning(TIME, residual, RUN, (0.0, 0.0)) is None
 
 
+def test_what_comes_back_by_chance_is_no_share() -> None:
+    """Few rows of a narrow band, as many as a log of half a minute has."""
+    few = slice(None, None, 8)
+    chance = [returning(TIME[few], noise(seed)[few], RUN[few], (0.4, 0.4)) for seed in range(40)]
+    assert sum(share == 0.0 for share in chance) >= 34
+
+
 def test_too_few_rows_say_nothing() -> None:
     assert outbursts(noise()[:50], BLOCK[:50]) == 0.0
 
