@@ -47,11 +47,6 @@ class PersistentExcitation:
         """Of Phi at these configurations."""
         return len(self.singular_values)
 
-    @property
-    def persistent(self) -> bool:
-        """True if more configurations tell no further parameter."""
-        return self.rank >= self.possible_rank
-
     def line(self) -> str:
         """For people."""
         values = self.singular_values
@@ -248,7 +243,7 @@ def identify_in_two_steps(
         base_equations(observation), TWO_STEPS, estimate, essential, all_rows(observation),
         rows=sum(len(f.residual) for c in steps.configurations for f in c.felt),
         sentences=(
-            *(e.sentence() for e in excitation if not e.persistent),
+            *(e.sentence() for e in excitation if e.rank < e.possible_rank),
             *(tangle.sentence() for tangle in estimate.rank.aside),
         ),
     )  # fmt: skip

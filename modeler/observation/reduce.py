@@ -4,15 +4,14 @@ Up to `KEPT` bytes W is built once and kept. Beyond, every stage asks for what i
 and they are evaluated as often as that: cheaper than to write them to memory and read them back.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
 
-from modeler.observation.motion import Segment
 from modeler.observation.observation import Evaluated, Observation
 from modeler.observation.stretch import Stretch
-from modeler.runtime import NonzeroPattern, Triangles, no_rows, of_rows
+from modeler.runtime import Triangles, no_rows, of_rows
 
 KEPT = 2**26
 """Bytes of the filtered regressor up to which it is kept."""
@@ -21,9 +20,13 @@ _ADDED = 4096  # samples evaluated at a time for triangles of filtered rows
 
 
 def is_streamed(observation: Observation) -> bool:
-    """True if W is not built: it would be large, and nobody has asked for it yet."""
+    """True if W is not built: it would be large, and nobody has asked for it yet.
+
+    What passes by is the regressor of a compiled model; another one is kept.
+    """
     large = 8 * observation.used.size * len(observation.names) > KEPT
-    return large and "columns" not in vars(observation)
+    compiled = isinstance(observation.regressor, Evaluated)
+    return large and compiled and "columns" not in vars(observation)
 
 
 def blocks(observation: Observation) -> Iterator[tuple[slice, np.ndarray]]:
@@ -52,30 +55,22 @@ def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
 def fitted_torque(observation: Observation, beta: np.ndarray, keep: np.ndarray) -> np.ndarray:
     """(s, n) torque of the model, `columns beta`, where keep (s, n); 0 elsewhere."""
     regressor = observation.regressor
-    if isinstance(regressor, Evaluated):
-        found = observation.filtered(partial(regressor.torque, beta=beta))
-    else:
-        found = np.concatenate([columns @ beta for _, columns in blocks(observation)])
-    return np.where(keep, found, 0.0)
+    assert isinstance(regressor, Evaluated)
+    return np.where(keep, observation.filtered(partial(regressor.torque, beta=beta)), 0.0)
 
 
 def triangles(observation: Observation, keep: np.ndarray) -> Triangles:
     """Triangles of [W_j y_j] over the rows keep (s, n) bool."""
     regressor = observation.regressor
-    every = np.arange(len(observation.names), dtype=np.intc)
-    whole = NonzeroPattern((every,) * len(observation.joints), len(every))
-    state = no_rows(regressor.pattern if isinstance(regressor, Evaluated) else whole)
+    assert isinstance(regressor, Evaluated)
+    state = no_rows(regressor.pattern)
     for part, own in _stretches(observation):
         state = with_stretch(regressor, part, observation.torque[own], keep[own], state)
     return state
 
 
 def with_stretch(
-    regressor: Callable[[Segment, slice], np.ndarray],
-    part: Stretch,
-    torque: np.ndarray,
-    keep: np.ndarray,
-    state: Triangles,
+    regressor: Evaluated, part: Stretch, torque: np.ndarray, keep: np.ndarray, state: Triangles
 ) -> Triangles:
     """Triangles with the rows of a stretch added.
 
@@ -88,7 +83,7 @@ def with_stretch(
     """
     if not keep.any():
         return state
-    if isinstance(regressor, Evaluated) and is_unfiltered(part):
+    if is_unfiltered(part):
         return regressor.triangles(part, keep, state)
     for rows, columns in part.blocks(partial(regressor, part.segment), _ADDED):
         used = np.ascontiguousarray(keep[rows])
