@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 from pathlib import Path
 from typing import TypeGuard
 
@@ -182,7 +183,8 @@ def reduce_rows(shared: Shared, numbers: range) -> chunked.Partial:
             "must see the logs by the same paths"
         )
     parts = observation.chunks_between(source, numbers, chosen.own, chosen.beside)
-    return chunked.merge_all(chunked.reduce_chunk(model, part, chosen) for part in parts)
+    made = (chunked.reduce_chunk(model, part, chosen) for part in parts)
+    return reduce(chunked.Partial.merged_with, made)
 
 
 def merged_in_time(first: chunked.Partial, later: chunked.Partial) -> chunked.Partial:

@@ -138,7 +138,7 @@ class _Fitted:
 
     def unseen(self, refitted: bool) -> Residuals:
         """What it leaves of held-out logs; where there are none, of its own logs in turn."""
-        if not self.rows.held_out and (refitted or self.free is not None):
+        if not self.rows.logs.held_out and (refitted or self.free is not None):
             return left_out(self.model, self.rows.fitted, self.free)
         return left_of(self.model, self.rows.compiled, self.rows.seen[-1])
 

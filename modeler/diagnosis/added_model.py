@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.profile import Profile, profile
+from modeler.diagnosis.profile import Profile, is_linear, profile
 from modeler.diagnosis.ranking import base_of, blocks_of
 from modeler.diagnosis.score import Residuals, error_changes
 from modeler.diagnosis.sentences import where
@@ -248,9 +248,8 @@ def _units(model: IdentifiedModel, step: Addition) -> dict[str, str]:
     """What stands behind the values of the shapes."""
     effect = effect_named(step.effect, catalogue_of(model))
     assert effect is not None
-    linear = any(j.name == step.joint and j.unit == "m" for j in model.spec.joints)
     shapes = [shape for form in effect.forms for shape in form.shapes]
-    units = {shape.name: shape.unit(linear) for shape in shapes}
+    units = {shape.name: shape.unit(is_linear(model.spec, step.joint)) for shape in shapes}
     return {name: f" {unit}" for name, unit in units.items() if unit != "1"}
 
 
@@ -325,11 +324,6 @@ class HoldoutRows:
     def fitted(self) -> Observation:
         """What a model is fitted to."""
         return self.seen[0]
-
-    @property
-    def held_out(self) -> bool:
-        """True if there are logs to judge on."""
-        return len(self.seen) > 1
 
     def of(self, compiled: CompiledModel) -> "HoldoutRows":
         """The rows of the same robot with other effects; nothing is filtered again."""

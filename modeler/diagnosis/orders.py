@@ -67,11 +67,6 @@ def _extra(state: State, number: int, j: int) -> np.ndarray:
     return total
 
 
-def counted(order: float) -> float:
-    """The whole number of waves next to an order: teeth and poles are counted."""
-    return float(max(1, round(order)))
-
-
 def ripple_candidates(
     state: State, allowed: Callable[[str, str | None], bool], joints: Set[str | None] | None = None
 ) -> list[Candidate]:
@@ -94,9 +89,9 @@ def ripple_candidates(
             others = (e for e in every if e not in likely and not named & {e.id, *e.same_as})
             for effect in (*likely, *others):
                 (shape,) = effect.forms[0].shapes
-                found += [
+                found += [  # teeth and poles are counted: a whole number of waves
                     Candidate(effect, effect.forms[0], joint.name, j, {shape.name: waves})
-                    for waves in dict.fromkeys((order, counted(order)))
+                    for waves in dict.fromkeys((order, float(max(1, round(order)))))
                 ]
     return found
 

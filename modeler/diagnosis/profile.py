@@ -24,8 +24,9 @@ from functools import cached_property
 
 import numpy as np
 
+from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis.candidates import Candidate, JointScale, coded
-from modeler.diagnosis.effect_columns import Columns, body_parameters, dense
+from modeler.diagnosis.effect_columns import body_parameters, dense
 from modeler.diagnosis.ranking import blocks_of
 from modeler.diagnosis.signals import tilt_axes
 from modeler.diagnosis.state import State
@@ -91,13 +92,6 @@ class ProfileProblem:
         u = np.asarray(u + (self.prior[:, :-1] @ self.base[1]).T @ known)
         return scaled, u, float(sum(t @ t for t in scaled) + known @ known - u @ u)
 
-    def weighted(self, columns: Columns) -> tuple[np.ndarray, ...]:
-        """(rows_j, k) by joint, divided by sigma; zeros where there are none."""
-        return tuple(
-            dense(columns, j, len(t)) / s
-            for j, (t, s) in enumerate(zip(self.y, self.sigma, strict=True))
-        )
-
     def at(self, candidate: Candidate) -> Point | None:
         """The fit with these shapes; None where the columns cannot be told from all else."""
         columns = enumerate(self.rows.columns(candidate))
@@ -119,10 +113,12 @@ class ProfileProblem:
         deviations = np.sqrt(np.maximum(np.diag(inverse), 0.0))
         return Point(dict(candidate.shapes), left - float(h @ values), values, deviations, others)
 
-    def off(self, columns: Sequence[np.ndarray]) -> np.ndarray:
-        """(rows of all joints, k) what all else leaves of weighted columns."""
-        T = sum(q.T @ c for q, c in zip(self.base[0], columns, strict=True))
-        return np.concatenate([c - q @ T for q, c in zip(self.base[0], columns, strict=True)])
+    def off(self, candidate: Candidate) -> np.ndarray:
+        """(rows of all joints, k) what all else leaves of the columns, divided by sigma."""
+        columns = self.rows.columns(candidate)
+        own = [dense(columns, j, len(t)) / self.sigma[j] for j, t in enumerate(self.y)]
+        T = sum(q.T @ c for q, c in zip(self.base[0], own, strict=True))
+        return np.concatenate([c - q @ T for q, c in zip(self.base[0], own, strict=True)])
 
 
 CHI2_95 = 3.841458820694124
@@ -332,13 +328,11 @@ def _slopes(
     """
     here = problem.at(told)
     assert here is not None
-    own = problem.off(problem.weighted(problem.rows.columns(told)))
+    own = problem.off(told)
     middle, slope = _coded(smooth, told), np.zeros((len(own), len(smooth)))
     for i, step in enumerate(_STEP * np.eye(len(smooth))):
-        low, high = (
-            problem.off(problem.weighted(problem.rows.columns(told.moved(smooth, x)))) @ here.values
-            for x in (middle - step, middle + step)
-        )
+        ends = (told.moved(smooth, x) for x in (middle - step, middle + step))
+        low, high = (problem.off(end) @ here.values for end in ends)
         slope[:, i] = (high - low) / (2.0 * _STEP)
     return own, slope - own @ np.linalg.lstsq(own, slope, rcond=1e-9)[0]
 
@@ -440,19 +434,19 @@ def _units(state: State, pick: Candidate) -> dict[str, str]:
         return {
             "mass" if name == "M" else name: p.unit for name, p in zip(names, felt, strict=True)
         }
-    linear = _linear(state, pick)
+    linear = is_linear(state.spec, pick.joint)
     return {
         name: column.unit_prismatic if linear else column.unit_revolute
         for name, column in zip(pick.parameter_names(), pick.form.columns, strict=True)
     }
 
 
-def _linear(state: State, pick: Candidate) -> bool:
-    """True on a prismatic joint."""
-    joints = state.spec.joints
-    return any(joint.name == pick.joint and joint.unit == "m" for joint in joints)
+def is_linear(spec: ModuleSpec, joint: str | None) -> bool:
+    """True of a prismatic joint."""
+    return any(own.name == joint and own.unit == "m" for own in spec.joints)
 
 
 def shape_units(state: State, pick: Candidate) -> dict[str, str]:
     """Units of the shapes, by name."""
-    return {shape.name: shape.unit(_linear(state, pick)) for shape in pick.form.shapes}
+    linear = is_linear(state.spec, pick.joint)
+    return {shape.name: shape.unit(linear) for shape in pick.form.shapes}

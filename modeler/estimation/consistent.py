@@ -89,15 +89,13 @@ def consistent(
     roots, others = problem.answer()
     bodies = {name: root @ root.T for name, root in roots.items()}
     chi = problem.chi(bodies, others)
-    zero = problem.at_zero(others)
     curvature = problem.covariance(roots)
     beta = machine.K @ chi
     best = np.linalg.lstsq(R, z, rcond=None)[0]
     rise = float(np.sum((R @ beta - z) ** 2) - np.sum((R @ best - z) ** 2))
     return Consistent(
-        chi, beta, machine.K @ curvature @ machine.K.T, rise, bodies,
-        tuple(name for name, place in machine.positive.items() if place in zero),
-    )  # fmt: skip
+        chi, beta, machine.K @ curvature @ machine.K.T, rise, bodies, problem.at_zero(others)
+    )
 
 
 _GRADIENT = parameters_of(np.eye(16).reshape(4, 4, 4, 4))
@@ -145,11 +143,6 @@ class _Problem:
         found[self.others] = others
         return found
 
-    def columns(self, name: str, root: np.ndarray) -> np.ndarray:
-        """(r, 16) rows of a link's X, where P = root X root'."""
-        picks = root.T @ _PICKS @ root
-        return np.asarray(self.A[:, self.machine.links[name]] @ picks.reshape(-1, 16))
-
     def answer(self) -> tuple[dict[str, np.ndarray], np.ndarray]:
         """Roots of the bodies, and the other values.
 
@@ -185,7 +178,8 @@ class _Problem:
         X = {name: cp.Variable((4, 4), PSD=True) for name in roots}
         divergence = cp.Constant(0.0)
         for name, root in roots.items():
-            columns = self.columns(name, root)
+            picks = root.T @ _PICKS @ root  # of X, where P = root X root'
+            columns = self.A[:, self.machine.links[name]] @ picks.reshape(-1, 16)
             error = error + columns @ np.eye(4).ravel()
             total = total + columns @ cp.vec(X[name] - np.eye(4), order="C")
             turned = np.linalg.solve(self.reference[name], root)
@@ -202,10 +196,11 @@ class _Problem:
         moved = others if step.value is None else others + scale * step.value
         return found, np.maximum(moved, np.where(self.positive, 0.0, -np.inf))
 
-    def at_zero(self, others: np.ndarray) -> set[int]:
-        """Places of the parameters at their bound: less than a millionth of the torque."""
+    def at_zero(self, others: np.ndarray) -> tuple[str, ...]:
+        """The parameters at their bound: less than a millionth of the torque."""
         size = _AT_ZERO * max(float(np.linalg.norm(self.z)), 1e-300) * self.scale
-        return {self.others[i] for i in np.flatnonzero(self.positive & (others <= size))}
+        zero = {self.others[i] for i in np.flatnonzero(others <= size)}
+        return tuple(name for name, place in self.machine.positive.items() if place in zero)
 
     def covariance(self, roots: Mapping[str, np.ndarray]) -> np.ndarray:
         """(m, m) inverse of the curvature.
@@ -233,10 +228,9 @@ def _references(
     """Reference bodies: as known, or round, of the mass and size that the torques allow."""
     size = max(float(np.linalg.norm(z)), 1e-300)
     scale = scales(machine, R @ machine.K / size)
-    count = max(1, len(machine.links))
     found = {}
     for name, own in machine.links.items():
-        mass, metre = scale[own[9]] / count, scale[own[6]] / scale[own[9]]
+        mass, metre = scale[own[9]] / len(machine.links), scale[own[6]] / scale[own[9]]
         found[name] = known.get(name, mass * np.diag([metre**2, metre**2, metre**2, 1.0]))
     return found
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.estimation.least_squares import Estimate, Rows, solve_by_qr
+from modeler.estimation.least_squares import Estimate, Rows, repeated_in_passing, solve_by_qr
 from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import Compressed, triangle
 from modeler.observation import Observation
@@ -121,7 +121,7 @@ def _repeated_rows(
 ) -> np.ndarray:
     """(k, k) `repeated_whole` of the counted rows of all joints, each times its matrix (c, k)."""
     if rows.streamed:
-        return rows.neighbours.repeated([*matrices], correlations)
+        return repeated_in_passing(rows.observation, rows.counted, matrices, correlations)
     total, observation = np.zeros((matrices.shape[2],) * 2), rows.observation
     for j, r in enumerate(correlations):
         own = rows.counted & (rows.joint == j)

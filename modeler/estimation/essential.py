@@ -43,8 +43,11 @@ class Essential:
     reduced: Estimate
 
     def errors(self, data: Compressed, full: np.ndarray) -> tuple[float, float]:
-        """What all parameters (c,) and the essential ones leave of rows, relative."""
-        return relative_error(data, full), relative_error(data, self.beta)
+        """||y - W beta|| / ||y|| over all rows: of all parameters (c,), of the essential ones."""
+        total = float(np.linalg.norm(data.torque_norms())) or np.nan
+        left = (np.linalg.norm(data.residual_norms(beta)) for beta in (full, self.beta))
+        before, after = (float(own) / total for own in left)
+        return before, after
 
     def sentence(self, data: Compressed, full: np.ndarray) -> str:
         """What was found, and what it costs on rows beside all parameters (c,)."""
@@ -98,12 +101,6 @@ def essential_parameters(
     beta[kept] = reduced.beta
     names = tuple(data.names[i] for i in kept)
     return Essential(names, left, beta, float(ratio), limit, reduced)
-
-
-def relative_error(data: Compressed, beta: np.ndarray) -> float:
-    """||y - W beta|| / ||y|| over all rows, unweighted."""
-    total = np.linalg.norm(data.torque_norms())
-    return float(np.linalg.norm(data.residual_norms(beta)) / total) if total > 0.0 else np.nan
 
 
 def _eliminate(

@@ -221,8 +221,8 @@ def _repeated(
         found = estimate(robot.columns(motions))
         sigma = np.sqrt(np.diag(found.covariance))
         step = np.abs(found.beta - beta) / np.where(sigma > 0.0, sigma, np.inf)
-        beta, settled = found.beta, bool(step.max(initial=0.0) < _NEAR)
-        if settled or np.isinf(loop.speed):
+        beta, settled = found.beta, bool(np.isinf(loop.speed) or step.max(initial=0.0) < _NEAR)
+        if settled:
             break
     said = []
     before, after = (_misfit(problem, start, problem.W, own) for own in (start.beta, beta))
@@ -233,16 +233,13 @@ def _repeated(
             'the log; take the values of method "weighted"'
         )
     said += _sentences(problem, robot, loop, robot.error(motions))
-    if not settled and np.isfinite(loop.speed):
+    if not settled:
         said.append(
             f"the values still move by up to {step.max():.2g} sigma from one simulation to the "
             f"next after {_SIMULATIONS}; add that to their uncertainty"
         )
-    return dataclasses.replace(
-        found,
-        settled=found.settled and (settled or not np.isfinite(loop.speed)),
-        sentences=(*said, *found.sentences),
-    )
+    settled = found.settled and settled
+    return dataclasses.replace(found, settled=settled, sentences=(*said, *found.sentences))
 
 
 def _sentences(

@@ -6,19 +6,17 @@ Rows of an observation with or without W; weights, iterations, standard deviatio
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 
 from modeler.core.errors import DataError, Method
 from modeler.numerics.least_squares import Compressed, Rank, independent_columns
-from modeler.observation import Evaluated, Observation, blocks, fitted_torque, is_streamed, products
+from modeler.observation import Observation, blocks, fitted_torque, is_streamed
 from modeler.runtime import CompiledModel
 
 MAX_ITERATIONS = 500
 _SETTLED = 1e-9  # relative change of the weights
 _LEAST = 1e-9  # a joint's standard deviation is at least this share of its torque
-_PRODUCTS = 8  # lags up to which products of rows are cheaper than the rows times a matrix
 
 
 def residual_of(
@@ -29,44 +27,6 @@ def residual_of(
     return np.asarray((observation.torque - fitted_torque(observation, beta, keep))[keep])
 
 
-class Neighbours:
-    """Rows of the base parameters that are counted, beside those before them in their segment.
-
-    Attributes:
-        observation: of the rows.
-        keep: (s, n) True where they are counted.
-    """
-
-    def __init__(self, observation: Observation, counted: np.ndarray) -> None:
-        self.observation, self.keep = observation, kept_rows(observation, counted)
-        # Of rows up to so far apart; kept, as most fits ask twice.
-        self._products: tuple[list[int], list[np.ndarray] | None] | None = None
-
-    def repeated(self, matrices: Sequence[np.ndarray], r: Sequence[np.ndarray]) -> np.ndarray:
-        """(k, k) sum_j sum_l r_j(l) sum_t a_j(t) a_j(t + l)^T and its transpose; l = 1, 2, ...
-
-        a_j(t) = w_j(t) A_j, w_j(t) the row of joint j at sample t, 0 where it is not counted.
-
-        Args:
-            matrices: A_j (c, k) of each joint.
-            r: r_j(0), r_j(1), ... of each joint; one value and no more for a joint to leave out.
-        """
-        last = [len(own) - 1 for own in r]
-        found = None
-        if max(last) <= _PRODUCTS:
-            if self._products is None or np.any(np.array(last) > self._products[0]):
-                self._products = last, products(self.observation, self.keep, last)
-            found = self._products[1]
-        if found is None:
-            return _by_blocks(self.observation, self.keep, matrices, r)
-        total = np.zeros((matrices[0].shape[1],) * 2)
-        for j, own in enumerate(found):
-            A = matrices[j][_columns(self.observation, j)]
-            for weight, product in zip(r[j][1:], own, strict=False):
-                total += weight * (A.T @ product @ A)
-        return total + total.T
-
-
 def kept_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
     """(s, n) True for the rows that are counted (rows,)."""
     keep = np.zeros(observation.used.shape, dtype=bool)
@@ -74,35 +34,33 @@ def kept_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
     return keep
 
 
-def _columns(observation: Observation, joint: int) -> np.ndarray:
-    """Columns that can differ from 0 in the rows of a joint."""
-    regressor = observation.regressor
-    if isinstance(regressor, Evaluated):
-        return regressor.pattern.columns[joint]
-    return np.arange(len(observation.names))
-
-
-def _by_blocks(
-    observation: Observation,
-    keep: np.ndarray,
-    matrices: Sequence[np.ndarray],
-    r: Sequence[np.ndarray],
+def repeated_in_passing(
+    observation: Observation, counted: np.ndarray, matrices: np.ndarray, r: Sequence[np.ndarray]
 ) -> np.ndarray:
-    """As `Neighbours.repeated`, from the columns of samples, and the last rows before them."""
-    k, longest = matrices[0].shape[1], max(len(own) - 1 for own in r)
+    """(k, k) sum_j sum_l r_j(l) sum_t a_j(t) a_j(t + l)^T and its transpose; l = 1, 2, ...
+
+    a_j(t) = w_j(t) A_j, w_j(t) the row of joint j at sample t, 0 where it is not counted. The
+    columns of the samples pass by in blocks, and with them the last rows of the block before.
+
+    Args:
+        observation: of the rows.
+        counted: (rows,) True for those that count.
+        matrices: A_j (c, k) of each joint.
+        r: r_j(0), r_j(1), ... of each joint; one value and no more for a joint to leave out.
+    """
+    keep = kept_rows(observation, counted)
+    k, longest = matrices.shape[2], max(len(own) - 1 for own in r)
     total = np.zeros((k, k))
     before: list[np.ndarray] = []
-    own_columns = [_columns(observation, j) for j in range(len(r))]
     at = -1
-    for samples, columns in blocks(observation):
+    for samples, columns in blocks(observation) if longest else ():
         if observation.segment[samples.start] != at:
             before = [np.zeros((longest, k))] * len(r)
         at = int(observation.segment[samples.start])
         for j, correlation in enumerate(r):
             if len(correlation) < 2:
                 continue
-            own = own_columns[j]
-            now = (columns[:, j, own] * keep[samples, j, None]) @ matrices[j][own]
+            now = (columns[:, j] * keep[samples, j, None]) @ matrices[j]
             rows = np.concatenate([before[j], now])
             for lag, weight in enumerate(correlation[1:], start=1):
                 earlier = rows[longest - lag : len(rows) - lag]
@@ -139,11 +97,6 @@ class Rows:
     def streamed(self) -> bool:
         """True if W is better not asked for: it is large."""
         return self.given is None and is_streamed(self.observation)
-
-    @cached_property
-    def neighbours(self) -> Neighbours:
-        """The rows where W is not asked for."""
-        return Neighbours(self.observation, self.counted)
 
     @property
     def joint(self) -> np.ndarray:

@@ -5,7 +5,7 @@ A chunk is reduced to what a fit needs of it by pure functions, for any worker.
 
 import dataclasses
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import reduce
@@ -94,11 +94,6 @@ def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: LogChoices) -> Part
     return Partial(Compressed(names, state.triangles, state.rows.astype(np.intp), free), facts)
 
 
-def merge_all(parts: Iterable[Partial]) -> Partial:
-    """Of all chunks of a log, one after the other."""
-    return reduce(Partial.merged_with, parts)
-
-
 @dataclass(frozen=True, eq=False)
 class Streamed:
     """Long logs, ready for a fit.
@@ -106,16 +101,12 @@ class Streamed:
     Attributes:
         observation: of the windows, whose report is that of all rows.
         data: triangles of all rows.
-        share: of the rows of the data that the observation has.
-        samples: after decimation.
-        reading: how many passes, chunks and rows there were, for the result.
+        passes: over the logs.
     """
 
     observation: Observation
     data: Compressed
-    share: float
-    samples: int
-    reading: Mapping[str, int]
+    passes: Passes
 
 
 def stream(
@@ -150,13 +141,7 @@ def stream(
     report = streamed_report(model, sources, passes)
     if not data.rows.any():
         raise no_row_left(report)
-    return Streamed(
-        observation=dataclasses.replace(windows, report=report),
-        data=data,
-        share=min(1.0, float(windows.used.sum() / data.rows.sum())),
-        samples=sum(facts.tally.count("samples") for facts in passes.facts),
-        reading=passes.to_json(),
-    )
+    return Streamed(dataclasses.replace(windows, report=report), data, passes)
 
 
 def identify_long(
@@ -176,13 +161,15 @@ def identify_long(
         DataError: another method, fewer rows than parameters, or no torque at all.
     """
     method_of(method, "triangles")
-    observation, data = streamed.observation, streamed.data
+    observation, data, passes = streamed.observation, streamed.data, streamed.passes
+    share = min(1.0, float(observation.used.sum() / data.rows.sum()))
     alive = ~np.isin(np.arange(len(data.rows)), dead_joints(observation))
     triangles = data.triangles * alive[:, None, None]
     data = dataclasses.replace(data, triangles=triangles, rows=data.rows * alive)
     equations = base_equations(observation)
-    fit = fit_equations(observation, equations, method, model, data=data, share=streamed.share)
-    return dataclasses.replace(fit, samples=streamed.samples, reading=streamed.reading)
+    fit = fit_equations(observation, equations, method, model, data=data, share=share)
+    samples = sum(facts.tally.count("samples") for facts in passes.facts)
+    return dataclasses.replace(fit, samples=samples, reading=passes.to_json())
 
 
 def all_rows(

@@ -233,7 +233,8 @@ def load_model(path: str | Path) -> IdentifiedModel:
             where,
             f"the values are not those of the {len(expected)} base parameters of its manifest",
         )
-    check_estimate(fit, where)
+    for what in itertools.chain(_wrong_values(fit), _wrong_covariance(fit)):
+        raise _refused(where, what)
     kinds = get_type_hints(IdentifiedModel)
     as_saved = ("robot_text", "sources", "logs", "history")
     further = {name: _entry(raw, name, kinds[name], where) for name in as_saved}
@@ -332,17 +333,8 @@ def check_checksums(content: Mapping[str, Any], where: str) -> None:
         )
 
 
-def check_estimate(fit: FitResult, where: str) -> None:
-    """Refuse values, deviations and a covariance that no fit gives.
-
-    Raises:
-        ManifestError: names the first parameter that is wrong, and how.
-    """
-    for what in itertools.chain(_wrong_values(fit), _wrong_covariance(fit)):
-        raise _refused(where, what)
-
-
 def _wrong_values(fit: FitResult) -> Iterator[str]:
+    """Which values and deviations no fit gives, and why."""
     for p in (*fit.gains, *fit.parameters, *fit.loads):
         for what, number in (("value", p.value), ("sigma", p.sigma)):
             if number is not None and not np.isfinite(number):
@@ -352,6 +344,7 @@ def _wrong_values(fit: FitResult) -> Iterator[str]:
 
 
 def _wrong_covariance(fit: FitResult) -> Iterator[str]:
+    """Why no fit gives this covariance, or sigmas beside it."""
     names, C = [p.name for p in fit.parameters], fit.covariance
     for i, j in np.argwhere(~np.isfinite(C)):
         yield f"the covariance of {names[i]} and {names[j]} is not finite"

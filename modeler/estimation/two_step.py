@@ -285,11 +285,6 @@ class Configuration:
         sigma = np.linalg.norm(np.linalg.inv(own.R), axis=1) * self.noise[k, k] ** 0.5
         return list(zip(own.along.names, own.theta.tolist(), sigma.tolist(), strict=True))
 
-    @property
-    def key(self) -> tuple[int, ...]:
-        """The joint that moves and those whose torque is used."""
-        return (self.joint, *(f.joint for f in self.felt))
-
 
 @dataclass(frozen=True, eq=False)
 class TwoStep:
@@ -336,11 +331,10 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
             "others, as `modeler simulate --motion one-joint` makes them; use --method weighted "
             "for these logs"
         )
-    configurations = [
-        configuration
-        for key in dict.fromkeys(c.key for c in found)
-        for configuration in _with_noise([c for c in found if c.key == key])
-    ]
+    alike: dict[tuple[int, ...], list[Configuration]] = {}  # by who moves, and whose torque is felt
+    for c in found:
+        alike.setdefault((c.joint, *(f.joint for f in c.felt)), []).append(c)
+    configurations = [c for own in alike.values() for c in _with_noise(own)]
     data, estimate = _second_step(observation, configurations)
     configurations.sort(key=lambda c: (c.joint, c.log, c.start))
     return TwoStep(directions, tuple(configurations), left_out, several, data, estimate)

@@ -1,6 +1,5 @@
 """A two-step fit as a result: its values, whether the logs excite them, and the one-step fit."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -48,11 +47,6 @@ class PersistentExcitation:
         """Of Phi at these configurations."""
         return len(self.singular_values)
 
-    @property
-    def persistent(self) -> bool:
-        """True if more configurations tell no further parameter."""
-        return self.rank >= self.possible_rank
-
     def line(self) -> str:
         """For people."""
         values = self.singular_values
@@ -80,16 +74,13 @@ class PersistentExcitation:
 
 
 def excitations(
-    model: CompiledModel,
-    observation: Observation,
-    directions: Directions,
-    configurations: Sequence[Configuration],
+    model: CompiledModel, observation: Observation, steps: TwoStep
 ) -> tuple[PersistentExcitation, ...]:
     """Of every joint that moved alone; what is possible is what random poses give.
 
     Robots with loops cannot take any pose: theirs are those of the logs.
     """
-    columns = len(observation.names)
+    columns, directions = len(observation.names), steps.directions
     if model.spec.closure is None:
         rng = np.random.default_rng(_SEED)
         poses = rng.uniform(-np.pi, np.pi, (_POSES * columns, len(directions.names)))
@@ -97,8 +88,8 @@ def excitations(
         spread = np.linspace(0, len(observation.q) - 1, _POSES * columns).astype(int)
         poses = observation.q[spread]
     found = []
-    for i in sorted({c.joint for c in configurations}):
-        own = np.array([c.pose for c in configurations if c.joint == i]) @ directions.rows
+    for i in sorted({c.joint for c in steps.configurations}):
+        own = np.array([c.pose for c in steps.configurations if c.joint == i]) @ directions.rows
         rows, best = (inertia_rows(model, q, directions.rows[i]) for q in (own, poses))
         name, every = directions.names[i], _values(best)
         usual = every[-1] / every[0]
@@ -245,14 +236,14 @@ def identify_in_two_steps(
     """
     one = identify(observation)
     steps = two_steps(model, observation, directions)
-    excitation = excitations(model, observation, directions, steps.configurations)
+    excitation = excitations(model, observation, steps)
     estimate = steps.estimate
     essential = essential_parameters(steps.data, estimate, "ordinary", below)
     result = result_of(
         base_equations(observation), TWO_STEPS, estimate, essential, all_rows(observation),
         rows=sum(len(f.residual) for c in steps.configurations for f in c.felt),
         sentences=(
-            *(e.sentence() for e in excitation if not e.persistent),
+            *(e.sentence() for e in excitation if e.rank < e.possible_rank),
             *(tangle.sentence() for tangle in estimate.rank.aside),
         ),
     )  # fmt: skip

@@ -70,7 +70,6 @@ from .reduce import (
     blocks as blocks,
     fitted_torque as fitted_torque,
     is_streamed as is_streamed,
-    products as products,
     triangles as triangles,
     with_stretch as with_stretch,
 )

@@ -16,7 +16,7 @@ from modeler.core.brief import Brief
 from modeler.core.manifest import JointSpec
 from modeler.numerics.noise import resolution
 from modeler.numerics.spectra import BandSpectrum, MotionSpectrum, band_spectrum, motion_spectrum
-from modeler.observation.excitation import ringing
+from modeler.observation.ringing import ringing
 from modeler.observation.segments import Piece
 
 FLAT = 3.0

@@ -176,11 +176,6 @@ class Evaluated:
         """Which columns can enter the torque of each joint."""
         return self._model.pattern
 
-    @property
-    def multiplies(self) -> bool:
-        """True if `products` can be had."""
-        return self._model.emits_entries
-
     def torque(
         self, s: Segment, w: slice | np.ndarray, beta: np.ndarray, turn: np.ndarray | None = None
     ) -> np.ndarray:
@@ -203,13 +198,6 @@ class Evaluated:
             bad = part.rows.centres[some][found.left_out]
             self._model.base_regressor(s.q[bad], s.qd[bad], s.qdd[bad], self._read(s, bad))
         return found
-
-    def products(self, part: Stretch, use: np.ndarray, last: Sequence[int]) -> list[np.ndarray]:
-        """Products of rows 1 .. last_j apart, of a stretch whose rows are samples."""
-        s, w = part.segment, part.rows.centres
-        return self._model.products(
-            s.q[w], s.qd[w], s.qdd[w], s.tau[w], last, use, self._read(s, w), first=1
-        )
 
     def _read(self, s: Segment, w: slice | np.ndarray) -> np.ndarray | None:
         read = self._signals[id(s)]

@@ -106,8 +106,13 @@ def _time(table: LogTable) -> np.ndarray:
     if back.size:
         row = int(back[0]) + 1
         raise backwards(table, table.before + row, time[row - 1], time[row])
-    if len(time) > 1:
-        check_step(table.path, name, float(np.median(np.diff(time))))
+    step = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
+    if not _SHORTEST_STEP <= step <= _LONGEST_STEP:
+        raise DataError(
+            f"{table.path}: column {name}: median step of {step:.3g} s; expected "
+            f"{_SHORTEST_STEP:g} to {_LONGEST_STEP:g} s; write the time in seconds, or map it "
+            "with its unit"
+        )
     return time
 
 
@@ -118,16 +123,6 @@ def backwards(table: LogTable, row: int, before: float, time: float) -> DataErro
         f"{before:.9g} s; expected increasing time; delete repeated rows, or sort "
         "and split the file where the clock restarts"
     )
-
-
-def check_step(path: Path, name: str, step: float) -> None:
-    """Refuse a median step, s, that squares of say nothing."""
-    if not _SHORTEST_STEP <= step <= _LONGEST_STEP:
-        raise DataError(
-            f"{path}: column {name}: median step of {step:.3g} s; expected "
-            f"{_SHORTEST_STEP:g} to {_LONGEST_STEP:g} s; write the time in seconds, or map it "
-            "with its unit"
-        )
 
 
 def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str]:
@@ -237,13 +232,11 @@ class Ranges:
     @staticmethod
     def of(log: Log) -> "Ranges":
         """Of some rows."""
-        there, low, high = [], [], []
-        for values in (log.q, log.tau):
-            there.append(np.isfinite(values).sum(axis=0))
-            least, most = np.fmin.reduce(values, axis=0), np.fmax.reduce(values, axis=0)
-            low.append(np.where(there[-1] > 0, least, np.inf))
-            high.append(np.where(there[-1] > 0, most, -np.inf))
-        return Ranges(np.stack(there), np.stack(low), np.stack(high))
+        channels = (log.q, log.tau)
+        there = np.stack([np.isfinite(values).sum(axis=0) for values in channels])
+        low = np.stack([np.fmin.reduce(values, axis=0) for values in channels])
+        high = np.stack([np.fmax.reduce(values, axis=0) for values in channels])
+        return Ranges(there, np.where(there, low, np.inf), np.where(there, high, -np.inf))
 
     @property
     def torques(self) -> tuple[tuple[float, float], ...]:
@@ -337,32 +330,30 @@ class FileSource:
             if log.time[0] <= last:
                 raise backwards(table, before, last, float(log.time[0]))
             before, last = before + log.rows, float(log.time[-1])
-            yield dataclasses.replace(log, notes=self._notes, extra=_carried(log, warm))
+            yield self._told(log, warm)
 
     def window(self, share: float, size: int) -> Log:
         """Up to `size` consecutive rows from about a share of the log on."""
         columns = self._blocks.window(share, size, self._names)
-        log = log_of(self._table(columns, int(share * self.rows)), self._spec)
-        return dataclasses.replace(log, notes=self._notes, extra=_carried(log, {}))
+        return self._told(log_of(self._table(columns, int(share * self.rows)), self._spec), {})
 
     def _table(self, part: Columns, before: int = 0) -> LogTable:
         return LogTable(*self.place, self._spec.joints, part=part, before=before)
 
-
-def _carried(log: Log, last: dict[str, float]) -> dict[str, np.ndarray]:
-    """Slow columns without a value in these rows, with the last one before them."""
-    found = {}
-    for name, values in log.extra.items():
-        if not np.isfinite(values).any():
-            if name not in last:
-                raise DataError(
-                    f"{log.name}: {name} has no values from {log.time[0]:.6g} to "
-                    f"{log.time[-1]:.6g} s; record it all the time, or drop the column"
-                )
-            values = np.full(len(values), last[name])
-        last[name] = float(values[np.isfinite(values)][-1])
-        found[name] = values
-    return found
+    def _told(self, log: Log, last: dict[str, float]) -> Log:
+        """With the notes; slow columns without a value in its rows have the last before them."""
+        found = {}
+        for name, values in log.extra.items():
+            if not np.isfinite(values).any():
+                if name not in last:
+                    raise DataError(
+                        f"{log.name}: {name} has no values from {log.time[0]:.6g} to "
+                        f"{log.time[-1]:.6g} s; record it all the time, or drop the column"
+                    )
+                values = np.full(len(values), last[name])
+            last[name] = float(values[np.isfinite(values)][-1])
+            found[name] = values
+        return dataclasses.replace(log, notes=self._notes, extra=found)
 
 
 class MemorySource:

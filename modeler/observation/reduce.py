@@ -4,34 +4,36 @@ Up to `KEPT` bytes W is built once and kept. Beyond, every stage asks for what i
 and they are evaluated as often as that: cheaper than to write them to memory and read them back.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
 
-from modeler.observation.motion import Segment
 from modeler.observation.observation import Evaluated, Observation
 from modeler.observation.stretch import Stretch
-from modeler.runtime import NonzeroPattern, Triangles, no_rows, of_rows
+from modeler.runtime import Triangles, no_rows, of_rows
 
 KEPT = 2**26
 """Bytes of the filtered regressor up to which it is kept."""
 
+_ADDED = 4096  # samples evaluated at a time for triangles of filtered rows
+
 
 def is_streamed(observation: Observation) -> bool:
-    """True if W is not built: it would be large, and nobody has asked for it yet."""
-    if "columns" in vars(observation):
-        return False
-    return 8 * observation.used.size * len(observation.names) > KEPT
+    """True if W is not built: it would be large, and nobody has asked for it yet.
+
+    What passes by is the regressor of a compiled model; another one is kept.
+    """
+    large = 8 * observation.used.size * len(observation.names) > KEPT
+    compiled = isinstance(observation.regressor, Evaluated)
+    return large and compiled and "columns" not in vars(observation)
 
 
 def blocks(observation: Observation) -> Iterator[tuple[slice, np.ndarray]]:
     """Samples (b of them) and their filtered regressor (b, n, c), in order."""
-    first = 0
-    for part in observation.stretches:
+    for part, own in _stretches(observation):
         for rows, columns in part.blocks(partial(observation.regressor, part.segment)):
-            yield slice(first + rows.start, first + rows.stop), columns
-        first += len(part.rows.centres)
+            yield slice(own.start + rows.start, own.start + rows.stop), columns
 
 
 def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
@@ -50,36 +52,25 @@ def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
     return np.concatenate(found)
 
 
-def fitted_torque(
-    observation: Observation, beta: np.ndarray, keep: np.ndarray | None = None
-) -> np.ndarray:
-    """(s, n) torque of the model, `columns beta`; 0 where keep (s, n) is given and False."""
+def fitted_torque(observation: Observation, beta: np.ndarray, keep: np.ndarray) -> np.ndarray:
+    """(s, n) torque of the model, `columns beta`, where keep (s, n); 0 elsewhere."""
     regressor = observation.regressor
-    if isinstance(regressor, Evaluated):
-        found = observation.filtered(partial(regressor.torque, beta=beta))
-    else:
-        found = np.concatenate([columns @ beta for _, columns in blocks(observation)])
-    return found if keep is None else np.where(keep, found, 0.0)
+    assert isinstance(regressor, Evaluated)
+    return np.where(keep, observation.filtered(partial(regressor.torque, beta=beta)), 0.0)
 
 
 def triangles(observation: Observation, keep: np.ndarray) -> Triangles:
     """Triangles of [W_j y_j] over the rows keep (s, n) bool."""
     regressor = observation.regressor
-    every = np.arange(len(observation.names), dtype=np.intc)
-    whole = NonzeroPattern((every,) * len(observation.joints), len(every))
-    state = no_rows(regressor.pattern if isinstance(regressor, Evaluated) else whole)
+    assert isinstance(regressor, Evaluated)
+    state = no_rows(regressor.pattern)
     for part, own in _stretches(observation):
         state = with_stretch(regressor, part, observation.torque[own], keep[own], state)
     return state
 
 
 def with_stretch(
-    regressor: Callable[[Segment, slice], np.ndarray],
-    part: Stretch,
-    torque: np.ndarray,
-    keep: np.ndarray,
-    state: Triangles,
-    samples: int = 4096,
+    regressor: Evaluated, part: Stretch, torque: np.ndarray, keep: np.ndarray, state: Triangles
 ) -> Triangles:
     """Triangles with the rows of a stretch added.
 
@@ -89,35 +80,15 @@ def with_stretch(
         torque: (rows, n) filtered.
         keep: (rows, n) bool.
         state: before.
-        samples: whose regressor is evaluated at a time, where rows are filtered.
     """
     if not keep.any():
         return state
-    if isinstance(regressor, Evaluated) and is_unfiltered(part):
+    if is_unfiltered(part):
         return regressor.triangles(part, keep, state)
-    for rows, columns in part.blocks(partial(regressor, part.segment), samples):
+    for rows, columns in part.blocks(partial(regressor, part.segment), _ADDED):
         used = np.ascontiguousarray(keep[rows])
         state = of_rows(state.pattern, columns, torque[rows], used, state)
     return state
-
-
-def products(
-    observation: Observation, keep: np.ndarray, last: Sequence[int]
-) -> list[np.ndarray] | None:
-    """Sums over t of w_j(t - k) w_j(t)^T within segments, k = 1 .. last_j; None: ask for blocks.
-
-    (last_j, c_j, c_j) for each joint, over its columns of the pattern of the regressor.
-    """
-    regressor = observation.regressor
-    if not (isinstance(regressor, Evaluated) and regressor.multiplies):
-        return None
-    if not all(is_unfiltered(part) for part in observation.stretches):
-        return None
-    total: list[np.ndarray] | None = None
-    for part, own in _stretches(observation):
-        found = [joint[:, :-1, :-1] for joint in regressor.products(part, keep[own].copy(), last)]
-        total = found if total is None else [a + b for a, b in zip(total, found, strict=True)]
-    return total
 
 
 def is_unfiltered(part: Stretch) -> bool:

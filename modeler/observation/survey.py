@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -226,14 +227,10 @@ def _check_unit(windows: Sequence[Log]) -> None:
 
 def _moving(source: Source, part: tuple[float, float], size: int) -> Log:
     """A window in which something moves, in a part of a log; that in its middle if none does."""
-    middle: Log | None = None
-    for place in _PLACES:
-        log = source.window(part[0] + place * (part[1] - part[0]), size)
-        if _moves(log):
-            return log
-        middle = middle or log
-    assert middle is not None
-    return middle
+    start, stop = part
+    looks = (source.window(start + place * (stop - start), size) for place in _PLACES)
+    middle = next(looks)
+    return next((log for log in chain([middle], looks) if _moves(log)), middle)
 
 
 def _moves(log: Log) -> bool:
@@ -330,14 +327,11 @@ def _centres(segment: Segment, chunk: Chunk, chosen: LogChoices) -> np.ndarray:
 
 def _clipped(log: Log, pieces: Sequence[Piece]) -> np.ndarray:
     """(2, J) the ends of each torque's range that were taken for a limit; NaN of the others."""
-    found = np.full((2, log.tau.shape[1]), np.nan)
-    if not pieces or not any(piece.clipped.any() for piece in pieces):
-        return found
-    low, high = np.fmin.reduce(log.tau, axis=0), np.fmax.reduce(log.tau, axis=0)
-    for row, end in enumerate((low, high)):
+    found = []
+    for end in (np.fmin.reduce(log.tau, axis=0), np.fmax.reduce(log.tau, axis=0)):
         at = [np.any(piece.clipped & (piece.tau == end), axis=0) for piece in pieces]
-        found[row] = np.where(np.any(at, axis=0), end, np.nan)
-    return found
+        found.append(np.where(np.any(at, axis=0), end, np.nan))
+    return np.stack(found)
 
 
 def _awake(segments: Sequence[Segment], chosen: LogChoices) -> dict[str, float]:

@@ -4,6 +4,7 @@ import dataclasses
 import pickle
 import subprocess
 import sys
+from functools import reduce
 
 import numpy as np
 import pyarrow as pa
@@ -17,7 +18,7 @@ from modeler.core.errors import DataError
 from modeler.estimation import long_logs as streamed
 from modeler.estimation.doubts import unexplained_joints
 from modeler.estimation.identify import CrossValidation, identify
-from modeler.estimation.long_logs import identify_long, merge_all, reduce_chunk, stream
+from modeler.estimation.long_logs import Partial, identify_long, reduce_chunk, stream
 from modeler.estimation.verdict import with_verdict
 from modeler.numerics.filters import spacing
 from modeler.observation.chunk import chunks, margin
@@ -145,10 +146,10 @@ def small_windows(monkeypatch):
 def test_windows_choose_for_all_rows(small_windows):
     log = noisy_log(seconds=60.0)
     long = stream(ARM, [MemorySource(log)], rows=ROWS)
-    reading = {**long.reading}
+    reading = long.passes.to_json()
     assert 2 <= reading.pop("chunks") <= -(-log.rows // ROWS)
     assert reading == {"passes": 1, "rows": log.rows, "windows": 4, "rows_in_windows": 4 * 512}
-    assert 0.1 < long.share < 0.2
+    assert 0.1 < long.observation.used.sum() / long.data.rows.sum() < 0.2
     fit = identify_long(long)
     sigma = np.array([parameter.sigma for parameter in fit.parameters])
     assert np.sqrt(np.mean(((fit.beta - BETA) / sigma) ** 2)) < 2.5
@@ -166,7 +167,7 @@ def test_the_zero_of_the_clock_changes_nothing(zero, monkeypatch):
     moved = dataclasses.replace(log, time=log.time + zero)
     one, other = (stream(ARM, [MemorySource(each)], rows=ROWS) for each in (log, moved))
     assert one.observation.report.choices == other.observation.report.choices
-    assert one.samples == other.samples and one.reading == other.reading
+    assert one.passes.to_json() == other.passes.to_json()
     assert one.data.rows.tolist() == pytest.approx(other.data.rows.tolist(), abs=2)
     first, second = identify_long(one), identify_long(other)
     sigma = np.array([parameter.sigma for parameter in first.parameters])
@@ -243,7 +244,7 @@ def test_a_drive_limit_that_the_windows_reach_and_others_exceed_costs_a_second_p
     tau[7 * ROWS + 10 : 7 * ROWS + 60, 0] = 3.0 * np.abs(tau[:, 0]).max()
     limited = dataclasses.replace(log, tau=tau)
     long = stream(ARM, [MemorySource(limited)], Processing(keep_damaged=True), rows=ROWS)
-    assert long.reading["passes"] == 2
+    assert long.passes.passes == 2
     seen = observe(ARM, [limited], Processing(keep_damaged=True))
     assert long.observation.report.logs[0].saturated == seen.report.logs[0].saturated == {"1": 50}
 
@@ -258,7 +259,7 @@ def test_a_joint_that_rests_where_windows_are_is_not_left_out(small_windows):
     tau = ARM.base_regressor(q, qd, np.gradient(qd, log.step, axis=0)) @ BETA
     resting = dataclasses.replace(log, q=q, tau=tau + 0.01 * log.tau)
     long = stream(ARM, [MemorySource(resting)], rows=ROWS)
-    assert long.reading["passes"] == 2
+    assert long.passes.passes == 2
     assert 0.0 < long.observation.report.joints[1].speed_floor < np.inf
     assert long.data.rows[1] > 10
 
@@ -333,7 +334,9 @@ def test_threads_change_nothing_and_chunks_can_be_sent_away(monkeypatch):
     for chunk in chunks(source, chosen.own, chosen.beside):
         sent = pickle.loads(pickle.dumps((chunk, chosen)))
         parts.append(pickle.loads(pickle.dumps(reduce_chunk(ARM, *sent))))
-    np.testing.assert_array_equal(merge_all(parts).data.triangles, one.data.triangles)
+    np.testing.assert_array_equal(
+        reduce(Partial.merged_with, parts).data.triangles, one.data.triangles
+    )
 
 
 def test_an_error_or_an_interrupt_ends_the_threads(monkeypatch):

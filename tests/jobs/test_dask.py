@@ -3,6 +3,7 @@
 import os
 import signal
 from collections.abc import Iterator
+from functools import reduce
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ from modeler.cli import main
 from modeler.core import jobs as cluster
 from modeler.core.errors import DataError
 from modeler.core.jobs import Workers, open_workers
-from modeler.estimation.long_logs import by_threads, identify_long, merge_all, stream
+from modeler.estimation.long_logs import Partial, by_threads, identify_long, stream
 from modeler.observation.log import Log
 from modeler.observation.read import source_of
 from modeler.observation.survey import FactsSoFar, survey
@@ -58,8 +59,8 @@ def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path, ro
     model = compiled()
     given = sources(place, model)
     chosen = survey(model, given, PROCESSING, FactsSoFar(), rows).chosen[0]
-    one = merge_all(by_threads(model, given[0], chosen))
-    other = merge_all(by_workers(Workers(), emitted())(model, given[0], chosen))
+    one = reduce(Partial.merged_with, by_threads(model, given[0], chosen))
+    other = reduce(Partial.merged_with, by_workers(Workers(), emitted())(model, given[0], chosen))
     counts = one.facts.tally.sums
     assert counts["chunks"] > 2
     for name, count in counts.items():
@@ -91,7 +92,7 @@ def test_logs_that_cannot_be_read_from_the_middle_are_read_here(place: Path) -> 
     assert source is not None
     chosen = survey(model, [source], PROCESSING, FactsSoFar(), ROWS).chosen[0]
     partials = by_workers(Workers(), emitted())(model, source, chosen)
-    assert merge_all(partials).facts.tally.count("rows") == 4000
+    assert reduce(Partial.merged_with, partials).facts.tally.count("rows") == 4000
 
 
 @pytest.fixture(scope="module")

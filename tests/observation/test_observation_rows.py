@@ -8,7 +8,6 @@ from stand_in import Row, StandIn, planar_arm, rotor, slider
 
 from modeler.core.errors import DataError
 from modeler.numerics.filters import filter_at
-from modeler.observation.excitation import excitation
 from modeler.observation.log import Log
 from modeler.observation.low_speed import shafts
 from modeler.observation.observe import observe
@@ -263,23 +262,6 @@ def test_report_tells_gaps_jitter_and_losses():
     for words in ("2 pieces, 1 gaps up to 1", "2 of 2 pieces resampled", "q1: 1 rows without",
                   "a remark", "motion band", "% of the samples masked below"):  # fmt: skip
         assert words in text
-
-
-def test_excitation_names_idle_columns_and_weak_directions():
-    random = np.random.default_rng(0)
-    W = random.normal(size=(500, 4)) * [1.0, 10.0, 1.0, 0.0]
-    W[:, 2] = W[:, 0] + 1e-4 * W[:, 2]
-    found = excitation(W, ("A", "B", "C", "D"))
-    assert found.idle == ("D",)
-    singular = np.linalg.svd(W[:, :3], compute_uv=False)
-    assert found.condition_number == pytest.approx(singular[0] / singular[-1], rel=1e-6)
-    assert {name for name, _ in found.weak[0].parts} == {"A", "C"} and len(found.weak) == 1
-    assert any("weak" in line for line in found.lines())
-    clean = excitation(np.linalg.qr(random.normal(size=(50, 3)))[0] * [1, 100, 1], ("A", "B", "C"))
-    assert clean.condition_scaled == pytest.approx(1.0) and clean.weak == ()
-    assert clean.condition_number == pytest.approx(100.0)
-    nothing = excitation(np.zeros((5, 2)), ("A", "B"))
-    assert nothing.idle == ("A", "B") and nothing.condition_number == float("inf")
 
 
 @pytest.mark.parametrize(
