@@ -60,7 +60,7 @@ int modeler_fused_level(int wanted)
 /* How a joint's part of a state stands while samples pass. */
 typedef struct {
     int first, entries; /* of the source */
-    size_t p, filled, stride;
+    size_t p, filled;
     double *R, *tile;
 } shaft;
 
@@ -69,52 +69,27 @@ static size_t padded(int entries)
     return ((size_t)entries + 1 + 3) / 4 * 4;
 }
 
-/* Clears what the rows of the tile need to fill vectors; how many rows that makes. */
-static size_t completed(const shaft *own)
-{
-    const size_t whole = (own->filled + 15) / 16 * 16, entries = (size_t)own->entries;
-    for (size_t k = 0; k <= entries && whole > own->filled; k++)
-        memset(own->tile + k * own->stride + own->filled, 0,
-               (whole - own->filled) * sizeof(double));
-    return whole;
-}
-
 /* R of [R; tile]; the tile is empty then. */
 static void absorb(int level, shaft *own)
 {
-    const size_t whole = completed(own);
+    const size_t whole = (own->filled + 15) / 16 * 16, entries = (size_t)own->entries;
     if (whole == 0)
         return;
+    for (size_t k = 0; k <= entries && whole > own->filled; k++)
+        memset(own->tile + k * STRIDE + own->filled, 0, (whole - own->filled) * sizeof(double));
     own->filled = 0;
 #ifdef DISPATCHED
     if (level == MODELER_AVX512) {
-        absorb_avx512(whole, own->stride, own->p, own->R, own->tile);
+        absorb_avx512(whole, STRIDE, own->p, own->R, own->tile);
         return;
     }
     if (level == MODELER_AVX2) {
-        absorb_avx2(whole, own->stride, own->p, own->R, own->tile);
+        absorb_avx2(whole, STRIDE, own->p, own->R, own->tile);
         return;
     }
 #endif
     (void)level;
-    absorb_baseline(whole, own->stride, own->p, own->R, own->tile);
-}
-
-/* Adds the products of the rows of the tile with those `lag` earlier. */
-static void multiply(int level, const shaft *own, size_t whole, size_t lag, double *out)
-{
-#ifdef DISPATCHED
-    if (level == MODELER_AVX512) {
-        products_of_avx512(whole, own->stride, own->p, own->tile - lag, own->tile, out);
-        return;
-    }
-    if (level == MODELER_AVX2) {
-        products_of_avx2(whole, own->stride, own->p, own->tile - lag, own->tile, out);
-        return;
-    }
-#endif
-    (void)level;
-    products_of_baseline(whole, own->stride, own->p, own->tile - lag, own->tile, out);
+    absorb_baseline(whole, STRIDE, own->p, own->R, own->tile);
 }
 
 /* 0 or NaN for each lane: NaN if a value of it is not finite or too large to be squared. */
@@ -168,28 +143,18 @@ static size_t group_doubles(const modeler_source *source)
     return MODELER_LANES * ((size_t)source->nonzeros + 4 * n + m) + (size_t)source->nonzeros;
 }
 
-static size_t tile_doubles(const modeler_source *source, size_t stride)
+static size_t tile_doubles(const modeler_source *source)
 {
     size_t columns = 0;
     for (int j = 0; j < source->joints; j++)
         columns += (size_t)modeler_fused_size(source, j);
-    return columns * stride;
-}
-
-static size_t work_of(const modeler_source *source, size_t stride)
-{
-    const size_t doubles = group_doubles(source) + tile_doubles(source, stride);
-    return 64 + doubles * sizeof(double) + (size_t)source->joints * (sizeof(shaft) + MODELER_LANES);
+    return columns * STRIDE;
 }
 
 size_t modeler_fused_work(const modeler_source *source)
 {
-    return work_of(source, STRIDE);
-}
-
-size_t modeler_fused_products_work(const modeler_source *source)
-{
-    return work_of(source, STRIDE + MODELER_FUSED_PAST);
+    const size_t doubles = group_doubles(source) + tile_doubles(source);
+    return 64 + doubles * sizeof(double) + (size_t)source->joints * (sizeof(shaft) + MODELER_LANES);
 }
 
 static void *aligned(void *work)
@@ -197,16 +162,14 @@ static void *aligned(void *work)
     return (void *)(((uintptr_t)work + 63) / 64 * 64);
 }
 
-/* Divides the work memory, and a state among the joints where there is one. Tiles begin with zeros
- * and, before the rows, with `past` rows of zeros. */
-static group divided(const modeler_source *source, size_t past, double *state, void *work)
+/* Divides the work memory, and the state, among the joints. Tiles begin with zeros. */
+static group divided(const modeler_source *source, double *state, void *work)
 {
-    const size_t stride = STRIDE + past;
     const size_t n = (size_t)source->joints, m = (size_t)source->signals;
     group own;
     double *tile = aligned(work);
-    own.values = tile + tile_doubles(source, stride);
-    memset(tile, 0, tile_doubles(source, stride) * sizeof *tile);
+    own.values = tile + tile_doubles(source);
+    memset(tile, 0, tile_doubles(source) * sizeof *tile);
     own.torque = own.values + MODELER_LANES * (size_t)source->nonzeros;
     own.q = own.torque + MODELER_LANES * n;
     own.qd = own.q + MODELER_LANES * n;
@@ -224,12 +187,10 @@ static group divided(const modeler_source *source, size_t past, double *state, v
         joint->entries = entry - joint->first;
         joint->p = padded(joint->entries);
         joint->filled = 0;
-        joint->stride = stride;
-        joint->tile = tile + past;
         joint->R = state;
-        if (state != NULL)
-            state += joint->p * joint->p;
-        tile += joint->p * stride;
+        joint->tile = tile;
+        state += joint->p * joint->p;
+        tile += joint->p * STRIDE;
     }
     return own;
 }
@@ -336,8 +297,8 @@ static size_t append(shaft *joint, const double *values, const double *torque,
     if (used == MODELER_LANES) {
         double *place = joint->tile + joint->filled;
         for (size_t k = 0; k < entries; k++)
-            memcpy(place + k * joint->stride, values + k * MODELER_LANES, MODELER_LANES * sizeof *place);
-        memcpy(place + entries * joint->stride, torque, MODELER_LANES * sizeof *place);
+            memcpy(place + k * STRIDE, values + k * MODELER_LANES, MODELER_LANES * sizeof *place);
+        memcpy(place + entries * STRIDE, torque, MODELER_LANES * sizeof *place);
         joint->filled += MODELER_LANES;
         return used;
     }
@@ -346,8 +307,8 @@ static size_t append(shaft *joint, const double *values, const double *torque,
             continue;
         double *place = joint->tile + joint->filled++;
         for (size_t k = 0; k < entries; k++)
-            place[k * joint->stride] = values[k * MODELER_LANES + lane];
-        place[entries * joint->stride] = torque[lane];
+            place[k * STRIDE] = values[k * MODELER_LANES + lane];
+        place[entries * STRIDE] = torque[lane];
     }
     return used;
 }
@@ -356,7 +317,7 @@ size_t modeler_fused_triangles(const modeler_source *source, size_t samples,
                                const modeler_samples *given, int level, double *state,
                                size_t *rows, unsigned char *bad, void *work)
 {
-    const group own = divided(source, 0, state, work);
+    const group own = divided(source, state, work);
     unsigned char left[MODELER_LANES];
     size_t left_out = 0;
     level = modeler_fused_level(level);
@@ -379,83 +340,10 @@ size_t modeler_fused_triangles(const modeler_source *source, size_t samples,
     return left_out;
 }
 
-/* Puts all rows behind those in the tile, those out of use as zeros. */
-static void append_all(shaft *joint, const double *values, const double *torque,
-                       const unsigned char *use)
-{
-    double *place = joint->tile + joint->filled;
-    size_t used = 0;
-    for (size_t lane = 0; lane < MODELER_LANES; lane++)
-        used += use[lane];
-    for (int k = 0; k <= joint->entries; k++, place += joint->stride) {
-        const double *from = k < joint->entries ? values + k * MODELER_LANES : torque;
-        memcpy(place, from, MODELER_LANES * sizeof *place);
-        for (size_t lane = 0; lane < MODELER_LANES && used < MODELER_LANES; lane++)
-            place[lane] = use[lane] ? place[lane] : 0.0;
-    }
-    joint->filled += MODELER_LANES;
-}
-
-/* The last rows of the tile stand before the next ones. */
-static void step_on(shaft *joint)
-{
-    for (size_t k = 0; k < joint->p; k++) {
-        double *rows = joint->tile + k * joint->stride;
-        memmove(rows - MODELER_FUSED_PAST, rows + joint->filled - MODELER_FUSED_PAST,
-                MODELER_FUSED_PAST * sizeof *rows);
-    }
-    joint->filled = 0;
-}
-
-/* Adds the products of all joints and lags, and empties the tiles. */
-static void multiply_all(const modeler_source *source, const group *own, int level, int first,
-                         const int *last, double *out)
-{
-    for (int j = 0; j < source->joints; j++) {
-        shaft *joint = own->shafts + j;
-        const size_t whole = completed(joint);
-        for (int lag = first; lag <= last[j]; lag++, out += joint->p * joint->p)
-            multiply(level, joint, whole, (size_t)lag, out);
-        step_on(joint);
-    }
-}
-
-size_t modeler_fused_products(const modeler_source *source, size_t samples, size_t past,
-                              const modeler_samples *given, int level, int first, const int *last,
-                              double *out, unsigned char *bad, void *work)
-{
-    const group own = divided(source, MODELER_FUSED_PAST, NULL, work);
-    unsigned char left[MODELER_LANES];
-    size_t left_out = 0, filled = 0;
-    level = modeler_fused_level(level);
-    for (size_t at = 0; at < samples; at += MODELER_LANES) {
-        const size_t more = samples - at, count = more < MODELER_LANES ? more : MODELER_LANES;
-        if (at == past)
-            for (int j = 0; j < source->joints; j++)
-                step_on(own.shafts + j);
-        evaluate(source, given, at, count, &own);
-        measure(source, given, at, count, &own);
-        const size_t now = leave_out(source, count, level, &own, left);
-        left_out += at < past ? 0 : now;
-        if (bad != NULL)
-            memcpy(bad + at, left, count);
-        for (int j = 0; j < source->joints; j++) {
-            shaft *joint = own.shafts + j;
-            append_all(joint, own.values + MODELER_LANES * (size_t)joint->first,
-                       own.torque + MODELER_LANES * (size_t)j, own.use + MODELER_LANES * (size_t)j);
-            filled = joint->filled;
-        }
-        if (filled == MODELER_FUSED_ROWS)
-            multiply_all(source, &own, level, first, last, out);
-    }
-    multiply_all(source, &own, level, first, last, out);
-    return left_out;
-}
-
 void modeler_fused_merge(const modeler_source *source, int level, double *state,
                          const double *other, void *work)
 {
-    const group own = divided(source, 0, state, work);
+    const group own = divided(source, state, work);
     level = modeler_fused_level(level);
     for (int j = 0; j < source->joints; j++) {
         shaft *joint = own.shafts + j;
@@ -463,7 +351,7 @@ void modeler_fused_merge(const modeler_source *source, int level, double *state,
             if (joint->filled == MODELER_FUSED_ROWS)
                 absorb(level, joint);
             for (size_t k = 0; k < joint->p; k++)
-                joint->tile[k * joint->stride + joint->filled] = other[k];
+                joint->tile[k * STRIDE + joint->filled] = other[k];
             joint->filled++;
         }
         absorb(level, joint);
@@ -484,7 +372,7 @@ size_t modeler_rows_triangle(const modeler_rows *given, int level, double *trian
                              void *work)
 {
     const size_t p = padded(given->columns);
-    shaft own = {0, given->columns, p, 0, STRIDE, triangle, aligned(work)};
+    shaft own = {0, given->columns, p, 0, triangle, aligned(work)};
     const size_t columns = (size_t)given->columns;
     size_t left_out = 0;
     level = modeler_fused_level(level);

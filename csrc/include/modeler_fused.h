@@ -69,25 +69,6 @@ size_t modeler_fused_triangles(const modeler_source *source, size_t samples,
                                const modeler_samples *given, int level, double *state,
                                size_t *rows, unsigned char *bad, void *work);
 
-/* Samples before others that rows can be multiplied with. */
-#define MODELER_FUSED_PAST 64
-
-/* Bytes of work for the function below. */
-size_t modeler_fused_products_work(const modeler_source *source);
-
-/* Adds products of rows some samples apart: sum over t of x_j(t - k) x_j(t)^T with the rows
- * x_j = [W_j y_j], for k = first .. last[j]; k = 0 is the Gram matrix. Squares lose small singular
- * values: solve with triangles. Rows out of use, and samples that are left out, count as zeros.
- *
- * past: the first so many samples only stand before the others; a multiple of MODELER_LANES, at
- *     most MODELER_FUSED_PAST, as is last[j].
- * out: (last[j] - first + 1, size, size) for joint after joint, size of modeler_fused_size.
- * bad: as above.
- * Returns how many samples after `past` were left out. */
-size_t modeler_fused_products(const modeler_source *source, size_t samples, size_t past,
-                              const modeler_samples *given, int level, int first, const int *last,
-                              double *out, unsigned char *bad, void *work);
-
 /* Adds the rows of state `other` to `state`. */
 void modeler_fused_merge(const modeler_source *source, int level, double *state,
                          const double *other, void *work);

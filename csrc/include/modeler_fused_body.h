@@ -15,13 +15,8 @@
 #define VECTOR OWN(vector)
 __extension__ typedef double VECTOR __attribute__((vector_size(8 * LANES), may_alias));
 
-#define LOOSE OWN(loose_vector)
-__extension__ typedef double LOOSE
-    __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
-
 #define AT(column, r) (*(VECTOR *)(void *)((column) + (r)))
 #define SEEN(column, r) (*(const VECTOR *)(const void *)((column) + (r)))
-#define NEAR(column, r) (*(const LOOSE *)(const void *)((column) + (r)))
 
 typedef struct {
     double z[4], b[4], g[4][4]; /* g[i][j] = x_i . x_j, i < j */
@@ -179,56 +174,6 @@ TARGET static void OWN(absorb)(size_t rows, size_t stride, size_t p, double *R, 
     }
 }
 
-/* out[i*p + j] += early_i . late_j, over p columns each; early need not be aligned. Where both are
- * the same, half of them are made and the others copied. */
-TARGET static void OWN(products_of)(size_t rows, size_t stride, size_t p, const double *early,
-                                    const double *late, double *out)
-{
-    for (size_t i = 0; i < p; i += 4)
-        for (size_t j = early == late ? i : 0; j < p; j += COLUMNS) {
-            const double *x0 = early + i * stride, *x1 = x0 + stride;
-            const double *x2 = x1 + stride, *x3 = x2 + stride;
-            const double *c0 = late + j * stride, *c1 = c0 + stride;
-            double d[COLUMNS][4];
-            VECTOR a[4] = {{0}}, b[4] = {{0}};
-#if COLUMNS == 4
-            const double *c2 = c1 + stride, *c3 = c2 + stride;
-            VECTOR e[4] = {{0}}, f[4] = {{0}};
-#endif
-            for (size_t r = 0; r < rows; r += LANES) {
-                VECTOR v0 = NEAR(x0, r), v1 = NEAR(x1, r), v2 = NEAR(x2, r), v3 = NEAR(x3, r);
-                VECTOR y = SEEN(c0, r);
-                KEEP(v0);
-                KEEP(v1);
-                KEEP(v2);
-                KEEP(v3);
-                KEEP(y);
-                a[0] += v0 * y, a[1] += v1 * y, a[2] += v2 * y, a[3] += v3 * y;
-                y = SEEN(c1, r);
-                KEEP(y);
-                b[0] += v0 * y, b[1] += v1 * y, b[2] += v2 * y, b[3] += v3 * y;
-#if COLUMNS == 4
-                y = SEEN(c2, r);
-                KEEP(y);
-                e[0] += v0 * y, e[1] += v1 * y, e[2] += v2 * y, e[3] += v3 * y;
-                y = SEEN(c3, r);
-                KEEP(y);
-                f[0] += v0 * y, f[1] += v1 * y, f[2] += v2 * y, f[3] += v3 * y;
-#endif
-            }
-            OWN(sums)(d[0], a), OWN(sums)(d[1], b);
-#if COLUMNS == 4
-            OWN(sums)(d[2], e), OWN(sums)(d[3], f);
-#endif
-            for (size_t k = 0; k < 4; k++)
-                for (size_t l = 0; l < COLUMNS; l++)
-                    out[(i + k) * p + j + l] += d[l][k];
-            for (size_t k = 0; k < 4 && early == late && j >= i + 4; k++)
-                for (size_t l = 0; l < COLUMNS; l++)
-                    out[(j + l) * p + i + k] += d[l][k];
-        }
-}
-
 /* lanes += 0, or NaN where a value of the lane, or what stands there, is not finite or too large. */
 TARGET static void OWN(spoilt)(int entries, const double *values, double lanes[MODELER_LANES])
 {
@@ -246,10 +191,8 @@ TARGET static void OWN(spoilt)(int entries, const double *values, double lanes[M
 }
 
 #undef VECTOR
-#undef LOOSE
 #undef AT
 #undef SEEN
-#undef NEAR
 #undef OWN
 #undef TARGET
 #undef LANES

@@ -261,9 +261,6 @@ int modeler_fused_level(int);
 size_t modeler_fused_work(const modeler_source *);
 size_t modeler_fused_triangles(const modeler_source *, size_t, const modeler_samples *, int,
                                double *, size_t *, unsigned char *, void *);
-size_t modeler_fused_products_work(const modeler_source *);
-size_t modeler_fused_products(const modeler_source *, size_t, size_t, const modeler_samples *, int,
-                              int, const int *, double *, unsigned char *, void *);
 void modeler_fused_merge(const modeler_source *, int, double *, const double *, void *);
 size_t modeler_rows_work(int);
 size_t modeler_rows_triangle(const modeler_rows *, int, double *, size_t *, void *);
@@ -338,31 +335,6 @@ class FusedLibrary:
         self._library.modeler_fused_triangles(
             source, len(given.q), self._samples(given), level,
             self._pointer(state), self._pointer(rows), self._pointer(bad), self._pointer(work),
-        )  # fmt: skip
-        return bad.view(bool)
-
-    def products(
-        self, rows_of_entries: np.ndarray, functions: Functions, given: Samples, past: int,
-        level: int, first: int, last: np.ndarray, out: np.ndarray,
-    ) -> np.ndarray:  # fmt: skip
-        """Add products of rows some samples apart; (samples,) True for those counted as zeros.
-
-        Args:
-            rows_of_entries: (entries,) C int, row after row.
-            functions: that evaluate the entries.
-            given: the samples.
-            past: how many of them only stand before the others.
-            level: of instructions.
-            first: smallest lag.
-            last: (joints,) C int, largest lag of each joint.
-            out: products of all joints and lags one after another, changed.
-        """
-        source = self._source(rows_of_entries, functions, given.q.shape[1])
-        work = self._work(self._library.modeler_fused_products_work(source))
-        bad = np.zeros(len(given.q), dtype=np.uint8)
-        self._library.modeler_fused_products(
-            source, len(given.q), past, self._samples(given), level, first, self._pointer(last),
-            self._pointer(out), self._pointer(bad), self._pointer(work),
         )  # fmt: skip
         return bad.view(bool)
 

@@ -8,7 +8,6 @@ are.
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -22,9 +21,6 @@ from modeler.runtime.threads import mapped, shares
 
 BLOCK = 16384
 """Samples that are reduced by themselves."""
-
-PAST = 64
-"""Rows that are multiplied with each other are at most so many samples apart."""
 
 _DENSE = 4096  # those of a robot whose whole regressor is evaluated: 13 MB of 400 values each
 
@@ -128,47 +124,6 @@ def of_samples(
         return Triangles(pattern, own.packed, own.rows, bad)
 
     return _merged(library, pattern, mapped(one, _blocks(len(given.q), BLOCK)), state)
-
-
-def products_of_samples(
-    pattern: NonzeroPattern, functions: Functions, given: Samples, last: np.ndarray, first: int = 0
-) -> list[np.ndarray]:
-    """Sums over t of x_j(t - k) x_j(t)^T, x_j = [W_j y_j], for k = first .. last_j, joint by joint.
-
-    Rows out of use, and of samples with a row that is not finite, count as zeros; k = 0 is the Gram
-    matrix. Threads and blocks as for triangles.
-
-    Args:
-        pattern: of the entries, whose order is joint after joint.
-        functions: that evaluate them.
-        given: checked arrays, samples one step apart.
-        last: (n,) at most `PAST`.
-        first: smallest k.
-
-    Returns:
-        (last_j - first + 1, k + 1, k + 1) of each joint, over its own k columns and the torque.
-    """
-    library, lags = bind.fused_library(), np.ascontiguousarray(last, dtype=np.intc)
-    assert lags.max(initial=0) <= PAST and len(lags) == len(pattern.columns)
-    rows, counts = pattern.rows_of_entries, [max(int(lag) - first + 1, 0) for lag in lags]
-    sizes = [count * size * size for count, size in zip(counts, pattern.sizes, strict=True)]
-
-    def one(block: slice) -> np.ndarray:
-        out, past, level = np.zeros(sum(sizes)), min(PAST, block.start), library.level()
-        part = given.part(slice(block.start - past, block.stop))
-        library.products(rows, functions, part, past, level, first, lags, out)
-        return out
-
-    total = np.zeros(sum(sizes))
-    for part in mapped(one, _blocks(len(given.q), BLOCK)):
-        total += part
-    parts = np.split(total, np.cumsum(sizes)[:-1])
-    return [
-        part.reshape(count, size, size)[:, : len(own) + 1, : len(own) + 1]
-        for part, count, size, own in zip(
-            parts, counts, pattern.sizes, pattern.columns, strict=True
-        )
-    ]
 
 
 def of_dense(
@@ -411,7 +366,7 @@ class Batches:
                     f"({len(pattern.columns)} joints, {width} base parameters)"
                 )
         given = self._measured((q, qd, qdd, tau), use, s, weight)
-        if self.emits_entries:
+        if self.spec.closure is None and self.spec.precision == "double":
             return of_samples(pattern, self._entries(len(given.q)), given, state)
         function = self._functions["base_regressor"]
 
@@ -426,50 +381,8 @@ class Batches:
 
         return of_dense(pattern, evaluate, given, state)
 
-    def products(
-        self, q: Any, qd: Any, qdd: Any, tau: Any, last: Any, use: Any = None, s: Any = None,
-        first: int = 0,
-    ) -> list[np.ndarray]:  # fmt: skip
-        """Sums over t of x_j(t - k) x_j(t)^T, x_j = [W_j tau_j], k = first .. last_j, without W.
-
-        (last_j - first + 1, c_j + 1, c_j + 1) for each joint, over the columns that can enter its
-        torque. k = 0 is the Gram matrix, half the work of triangles and half their digits. Samples
-        are one step apart; rows out of use count as zeros, as do those of samples that are not
-        finite.
-
-        Args:
-            q: positions.
-            qd: velocities.
-            qdd: accelerations.
-            tau: (n, joints) N m or N.
-            last: (joints,) largest k of each joint, from 0 to `compiled.fused.PAST`.
-            use: (n, joints) rows to use; None: all.
-            s: signals of effects, where there are any.
-            first: smallest k, from 0.
-
-        Raises:
-            ShapeError: an array of another shape, or k that cannot be.
-            ManifestError: the robot has loops, or its C is in single precision.
-        """
-        if not self.emits_entries:
-            raise ManifestError(
-                f"{self.spec.robot}: products of rows need the entries of the base regressor in "
-                "double precision, which this C has not; use triangles"
-            )
-        given, steps = self._measured((q, qd, qdd, tau), use, s), np.asarray(last)
-        if steps.shape != (self._joints,) or steps.dtype.kind not in "iu":
-            raise ShapeError(
-                f"last: got {last!r}, expected {self._joints} whole numbers, one of each joint"
-            )
-        if steps.min(initial=0) < 0 or steps.max(initial=0) > PAST:
-            raise ShapeError(f"last: got {steps.tolist()}, expected numbers from 0 to {PAST}")
-        if not isinstance(first, Integral) or first < 0:
-            raise ShapeError(f"first: got {first!r}, expected a whole number of samples, from 0")
-        entries = self._entries(len(given.q))
-        return products_of_samples(self.pattern, entries, given, steps, int(first))
-
     def _measured(
-        self, motion: tuple[Any, Any, Any, Any], use: Any, s: Any, weight: Any = None
+        self, motion: tuple[Any, Any, Any, Any], use: Any, s: Any, weight: Any
     ) -> Samples:
         """Checked arrays; but for weights in use they may be not finite."""
         wanted = dict(zip(("q", "qd", "qdd", "tau"), motion, strict=True))
@@ -503,8 +416,3 @@ class Batches:
     def pattern(self) -> NonzeroPattern:
         """Which columns can enter the torque of each joint."""
         return pattern_of(self.spec.nonzeros, self._joints, len(self.spec.base))
-
-    @property
-    def emits_entries(self) -> bool:
-        """True if the C has the entries of the base regressor alone, in double precision."""
-        return self.spec.closure is None and self.spec.precision == "double"

@@ -180,32 +180,6 @@ def test_least_squares_of_a_triangle_is_that_of_the_rows():
     assert np.abs(found - expected).max() < 100 * EPS * scale
 
 
-@pytest.mark.parametrize("samples", [0, 5, 64, 333, 600])
-def test_products_are_those_of_rows_some_samples_apart(monkeypatch, samples):
-    wrist = plain("wrist")
-    q, qd, qdd = states(3, samples)
-    rng = np.random.default_rng(11)
-    tau, use = rng.normal(size=q.shape), rng.random(q.shape) < 0.8
-    last = [0, 3, fused.PAST]
-    rows = stacked(wrist, q, qd, qdd, tau) * use.T[:, :, None]
-    dirty = np.where(use, tau, np.nan)
-    if samples > 20:
-        use[20, 0], dirty[20, 0] = True, np.inf
-        rows[:, 20] = 0.0  # the whole sample counts as zeros
-    for block in (fused.BLOCK, 128):
-        monkeypatch.setattr(fused, "BLOCK", block)
-        for first in (0, 1):
-            found = wrist.products(q, qd, qdd, dirty, last, use=use, first=first)
-            for j, own in enumerate(found):
-                kept = [c for c, base in enumerate(wrist.spec.base) if j in base.rows]
-                x = rows[j][:, [*kept, len(wrist.spec.base)]]
-                assert len(own) == max(last[j] + 1 - first, 0)
-                for k, product in zip(range(first, last[j] + 1), own, strict=True):
-                    expected = x[: max(samples - k, 0)].T @ x[k:]
-                    size = np.linalg.norm(x) ** 2
-                    assert np.abs(product - expected).max() <= 50 * EPS * max(size, 1e-300)
-
-
 def test_wrong_arrays_are_refused_by_name():
     wrist = plain("wrist")
     q, qd, qdd = states(3, 5)
@@ -229,8 +203,6 @@ def test_every_array_but_weights_is_needed():
         given[place] = None
         with pytest.raises(ShapeError, match=f"^{name}: got no array of real numbers"):
             wrist.triangles(*given)
-        with pytest.raises(ShapeError, match=f"^{name}: got no array of real numbers"):
-            wrist.products(*given, [1, 1, 1])
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -0.5])
@@ -255,21 +227,3 @@ def test_a_state_is_of_the_same_robot():
         wrist.triangles(q, qd, qdd, q, state=state)
     with pytest.raises(ShapeError, match="state: got str, expected what `triangles` gave"):
         wrist.triangles(q, qd, qdd, q, state="x")
-
-
-@pytest.mark.parametrize(
-    ("last", "first", "says"),
-    [
-        (None, 0, "last: got None, expected 3 whole numbers"),
-        ([1, 1], 0, r"last: got \[1, 1\], expected 3 whole numbers"),
-        ([0.5, 1.0, 1.0], 0, "last: got .* expected 3 whole numbers"),
-        ([1, 1, fused.PAST + 1], 0, f"expected numbers from 0 to {fused.PAST}"),
-        ([1, -1, 1], 0, "expected numbers from 0"),
-        ([1, 1, 1], -1, "first: got -1, expected a whole number"),
-        ([1, 1, 1], None, "first: got None, expected a whole number"),
-    ],
-)
-def test_products_are_asked_for_by_whole_numbers(last, first, says):
-    q, qd, qdd = states(3, 5)
-    with pytest.raises(ShapeError, match=says):
-        plain("wrist").products(q, qd, qdd, q, last, first=first)

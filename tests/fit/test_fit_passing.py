@@ -75,7 +75,7 @@ SMOOTH = Processing(position_cutoff=0.0, parallel_cutoff=20.0, derivatives="log"
     ("name", "processing", "memory", "method"),
     [
         ("wrist", PLAIN, 0.0, "weighted"),
-        ("wrist", PLAIN, 0.2, "weighted"),  # more lags than products are made of
+        ("wrist", PLAIN, 0.2, "weighted"),  # residuals that remember
         ("wrist", PLAIN, 0.0, "ordinary"),
         ("wrist", THIRD, 0.0, "weighted"),
         ("wrist", SMOOTH, 0.1, "ordinary"),
