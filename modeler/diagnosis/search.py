@@ -27,7 +27,6 @@ from modeler.diagnosis.judge import (
 )
 from modeler.diagnosis.plausible import DRIVES, drives, objection
 from modeler.diagnosis.profile import values_of
-from modeler.diagnosis.ranking import fall, pool_of
 from modeler.diagnosis.state import SearchData, State, state_of, visible
 from modeler.effects import Effect, Shape
 
@@ -93,12 +92,12 @@ def _reach(state: State, candidate: Candidate, shape: Shape) -> float:
 
 
 def _explained(state: State, candidate: Candidate) -> float:
-    """Fall of the squared residual, weighted, in held-out blocks."""
+    """Fall of the squared residual, weighted, in held-out blocks; 0 of values that cannot be."""
     columns = state.rows.columns(candidate)
     if not visible(columns):
         return 0.0
-    base = state.folded
-    return float(fall(base, pool_of(base, [columns])).sum())
+    trial = tried(state, [(candidate, columns)])[0]
+    return trial.fall if trial.possible else 0.0
 
 
 # Every hypothesis in a state: at the best of its shapes, the leading ones refined.
@@ -198,7 +197,8 @@ class HypothesisScan:
         refined = [s.name for s in first.form.shapes if s.smooth and len(s.grid) > 1]
         if len(first.form.shapes) < 2 or not refined:
             return [first]
-        own = [t for t in self.trials if t.candidate.key == first.key]
+        every = [t for t in self.trials if t.candidate.key == first.key]
+        own = [t for t in every if t.possible] or every
         falls = np.array([trial.fall for trial in own])
         least = NEAR * float(falls.max()) if len(refined) == 1 else -np.inf
         near = [own[k].candidate for k in np.argsort(-falls) if falls[k] >= least]
