@@ -10,6 +10,7 @@ import pytest
 from modeler.core.table import printed
 from modeler.diagnosis.candidates import StatedEffects, candidates, scales_of
 from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.search import STARTS, scan_catalogue
 from modeler.effects.catalogue import effect_named
 from modeler.observation.log import Log
 from modeler.report.diagnosis import diagnosis_page
@@ -109,6 +110,18 @@ def test_a_helical_spring_and_a_constant_pull_are_told_apart(case: Case, helical
     assert (first.effect, first.joint) == (named, "2")
     pushing = () if not helical else (("constant_force_spring", "2"),)
     assert first.ties == pushing and (first.status == "fact") is not helical
+
+
+def test_shapes_are_sought_where_the_values_can_be(case: Case) -> None:
+    """Of a helical spring for a constant pull, some of the best shapes ask for the wrong sign."""
+    start = case.found(levers[False]).search.start
+    scan = scan_catalogue(start, only="counterbalance", joint="2")
+    best = sorted(scan.trials, key=lambda trial: -trial.fall)[:STARTS]
+    assert not all(trial.possible for trial in best)
+    can_be = [trial.candidate for trial in scan.trials if trial.possible]
+    starts = scan.starts(scan.best[0].candidate)
+    assert len(starts) == STARTS and all(start in can_be for start in starts)
+    assert scan.judged().ranked[0].possible
 
 
 def test_what_is_ruled_out_on_a_joint_is_neither_named_nor_tied(case: Case) -> None:
