@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -12,7 +13,8 @@ from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.plausible import SMOOTH, is_computed
 from modeler.diagnosis.search import Search
-from modeler.diagnosis.state import SearchData, State, state_of
+from modeler.diagnosis.state import SearchData, State, state_of, visible
+from modeler.diagnosis.timing import CONVENTION
 from modeler.effects import Acts, Effect
 from modeler.estimation import IdentifiedModel, log_findings
 from modeler.observation import TREMBLES, Doubt, trembling
@@ -155,6 +157,15 @@ MENDED = 0.25
 """Share of a joint's squared residual: with less of it left, its torque has the scale it should."""
 
 
+LATE_SHARE = 0.2
+"""Least share of the error variance left that the shift of one position explains."""
+
+AHEAD = 1.5
+"""Least ratio of what it explains to what the best effect of the catalogue would."""
+
+_SURE = 4.5  # falls over their standard error
+
+
 def doubts(
     model: IdentifiedModel, found: Search, other: SearchData | None, contradicting: Sequence[Doubt],
     window: Window | None = None,
@@ -169,6 +180,7 @@ def doubts(
         window: that was left out.
     """
     lines = [f.line for f in contradicting if f.certain or not _explained(found, f.joint)]
+    lines += [] if any(f.certain or " late" in f.line for f in contradicting) else _late(found)
     if window is not None and window.change is None:
         log = found.start.data.observation.logs[window.log]
         lines.append(
@@ -231,6 +243,43 @@ def _fitted_before(model: IdentifiedModel, other: SearchData) -> list[str]:
         f"held out: the model was fitted to {log.name}; {cost}"
         for log in other.observation.report.logs
         if any(used.shares_rows(log) for used in model.logs)
+    ]
+
+
+def _late(found: Search) -> list[str]:
+    """A sentence on the joint whose position comes late, or early, beside all other channels.
+
+    Delays of some ms show only in the band of a diagnosis. With q measured T too late, the torque
+    is that of q + T qd; its derivative with respect to T is a column like any other. It is believed
+    if it explains more of what the named effects leave than anything in the catalogue: nothing
+    there shifts one joint in time.
+    """
+    state = found.end
+    rows, driven = state.rows, [j for j, joint in enumerate(state.spec.joints) if joint.actuated]
+
+    def later(j: int, stretch: int, window: slice) -> np.ndarray:
+        """(n, J, 1) torque by the delay of the position of joint j."""
+        signals = rows.signals[stretch]
+        return signals.moved(j, signals.v[:, [j]], True, window)
+
+    columns = {j: own for j in driven if visible(own := rows.spread(partial(later, j)))}
+    if not columns:
+        return []
+    ranking = state.ranked(list(columns.values()))
+    drop = ranking.drop.sum(axis=0)
+    best = int(np.argmax(drop))
+    rivals = [judged.fall for judged in found.last.ranked if judged.possible]
+    step = float(np.median([signals.segment.step for signals in rows.signals]))
+    late, joint = float(ranking.value[best][0]), state.names[list(columns)[best]]
+    shown = drop[best] >= max(
+        LATE_SHARE * float(ranking.before.sum()), AHEAD * max(rivals, default=0.0)
+    )
+    if not shown or ranking.sure[best] < _SURE or abs(late) < CONVENTION * step:
+        return []
+    return [
+        f"joint {joint}: its position comes {1e3 * abs(late):.2g} ms too "
+        f"{'late' if late > 0.0 else 'early'} beside the other channels; check the clock or the "
+        "filter of that channel"
     ]
 
 
