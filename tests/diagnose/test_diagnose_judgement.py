@@ -279,7 +279,7 @@ def test_what_an_effect_explains_is_no_matter_of_the_channel(
     start, end = (
         SimpleNamespace(residual=[np.full(10, size)], data=None, picks=()) for size in (1.0, left)
     )
-    for name in ("_moved", "data_lines"):
+    for name in ("_late", "_moved", "data_lines"):
         monkeypatch.setattr(doubts, name, lambda *a: [])
     faults = [Doubt("torque 1 is 0.7 times the predicted", certain, joint=0)]
     found = SimpleNamespace(start=start, end=end)
