@@ -32,6 +32,10 @@ from modeler.effects import Effect, Shape
 
 _STEPS = 8
 
+WHOLE = 0.85
+"""Share of the best fall with which a whole number of waves per turn is preferred: teeth, poles and
+rollers are counted."""
+
 
 def refined(state: State, candidate: Candidate) -> Candidate:
     """The candidate at the shapes that explain most: variable projection, one shape at a time."""
@@ -62,6 +66,9 @@ def refined(state: State, candidate: Candidate) -> Candidate:
             options={"maxiter": _STEPS},
         )
         x, score = np.array([found.x]), float(found.fun)
+        whole = np.round(x)
+        if smooth[0].scale == "waves" and lost(whole) < WHOLE * score:
+            return candidate.moved(smooth, whole)
     else:
         corners = np.vstack([start, start + 0.5 * np.diag(reach)])
         found = minimize(

@@ -12,7 +12,7 @@ from modeler.diagnosis.ranking import pieces
 from modeler.diagnosis.signals import Signals
 from modeler.diagnosis.state import State, picked_columns
 from modeler.effects import Acts
-from modeler.observation import low_pass
+from modeler.observation import low_pass, nearest_closed
 
 DELAY_T_RATIO = 4.0
 """Least ratio of the instrumental estimate to its standard error."""
@@ -123,7 +123,10 @@ def smoothed(state: State) -> Rows:
 
 
 def _smooth(signals: Signals, cutoff: float) -> Signals:
+    """Where a smooth posture does not close the loops, the nearest that does stands in."""
     step = signals.step
     q = low_pass(signals.q, step, min(cutoff, 0.2 / step))
     v = np.gradient(q, step, axis=0)
+    nearest = nearest_closed(signals.reference.compiled, q)
+    q = signals.q if nearest is None else q[nearest]
     return dataclasses.replace(signals, q=q, v=v, a=np.gradient(v, step, axis=0))
