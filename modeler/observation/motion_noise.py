@@ -14,9 +14,9 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.manifest import JointSpec
+from modeler.core.table import percent
 from modeler.numerics.noise import resolution
 from modeler.numerics.spectra import BandSpectrum, MotionSpectrum, band_spectrum, motion_spectrum
-from modeler.observation.ringing import ringing
 from modeler.observation.segments import Piece
 
 FLAT = 3.0
@@ -201,7 +201,7 @@ class MotionNoise(Brief):
                 f"the {self.quantity} are noise above {found:.2g} Hz; twice the parallel "
                 "filter, which takes that off"
             )
-        if found >= HIGHEST_CUTOFF:
+        if found > 0.99 * HIGHEST_CUTOFF:  # a mean of logarithms
             return f"the {self.quantity} are no noise up to there"
         return f"above, the spectrum of the {self.quantity} is that of their noise"
 
@@ -430,3 +430,75 @@ def _valley(energy: np.ndarray) -> tuple[int, int] | None:
         if stop - first > _STEPS:
             return int(first), int(stop) - 1
     return None
+
+
+# Joints that ring far above their motion: a controller that oscillates, or a resonance.
+
+
+RINGS_ABOVE = 30.0
+"""Hz: below, it is motion."""
+
+EMPTY_GAP = 4.0
+"""Ratio of frequencies without energy between motion and ringing."""
+
+LEAST_MOTION = 1e-3
+"""Energy of the motion over that of the ringing, at least: below, the robot only shakes."""
+
+MOST_IN_GAP = 0.01
+"""Energy in the gap over that of the motion, at most."""
+
+LEAST_RINGING = 0.01
+"""Energy of the ringing over that of the motion, at least."""
+
+_MOTION_ENDS = RINGS_ABOVE / EMPTY_GAP * 1.25 ** np.arange(26)  # Hz where the motion may end
+
+
+@dataclass(frozen=True)
+class Ringing:
+    """A joint that rings.
+
+    Attributes:
+        joint: its index.
+        frequency: of the strongest line, Hz.
+        share: of the velocity's energy.
+    """
+
+    joint: int
+    frequency: float
+    share: float
+
+    def sentence(self, name: str) -> str:
+        """For the report."""
+        return (
+            f"joint {name} rings at {self.frequency:.3g} Hz, with {percent(self.share)} of "
+            "its velocity's energy, far above its motion; the cut-offs are chosen without it, and "
+            "friction looks smoother than it is: look at the controller's gains"
+        )
+
+
+def ringing(frequency: np.ndarray, energy: np.ndarray, joint: int) -> tuple[Ringing | None, int]:
+    """What rings, and the index of the first frequency that does; all of them if nothing does.
+
+    Ringing is energy above `RINGS_ABOVE` Hz that an empty gap of two octaves parts from motion.
+
+    Args:
+        frequency: (n,) Hz, from 0 on.
+        energy: (n,) of the velocity, above the noise.
+        joint: index.
+    """
+    whole = len(frequency)
+    total = np.concatenate([[0.0], np.cumsum(energy)])
+    for edge in _MOTION_ENDS:
+        low, high = np.searchsorted(frequency, [edge, EMPTY_GAP * edge])
+        if high >= whole:
+            continue
+        motion, between, above = total[low], total[high] - total[low], total[-1] - total[high]
+        if (
+            motion > LEAST_MOTION * above
+            and between < MOST_IN_GAP * motion
+            and above > LEAST_RINGING * motion
+        ):
+            top = high + int(np.argmax(energy[high:]))
+            share = float(above / total[-1])
+            return Ringing(joint, float(frequency[top]), share), int(high)
+    return None, whole

@@ -16,10 +16,15 @@ from modeler.numerics.spectra import MotionSpectrum, motion_spectrum
 from modeler.observation.consistency import Consistency, consistency, quieter, without_late
 from modeler.observation.log import Log
 from modeler.observation.motion import CAUSES, HIGHEST, OPEN, Segment, edge_of, segment_of
-from modeler.observation.motion_noise import MotionNoise, motion_bands, motion_noise
+from modeler.observation.motion_noise import (
+    MotionNoise,
+    Ringing,
+    motion_bands,
+    motion_noise,
+    ringing,
+)
 from modeler.observation.outliers import ChannelScales, Defects, defects
 from modeler.observation.report import Bands
-from modeler.observation.ringing import Ringing, ringing
 from modeler.observation.segments import Piece, SplitReport, split
 from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.runtime import CompiledModel

@@ -109,10 +109,11 @@ def test_tx40_the_motor_of_joint_6_turns_joint_5_too(tmp_path: Path) -> None:
     training, held_out = pieces("0:4.6", log), pieces("4.6:7.45", log)
     model = fitted(str(alone), training)
     found = diagnose(model, training, held_out)
-    assert ("coupled_friction", "6") in {(f.effect, f.joint) for f in found.effects}
+    named = {(f.effect, f.joint) for f in found.effects if f.status != "perhaps"}
+    assert ("coupled_friction", "6") in named
     assert found.joints["5"].error_before > 1.0
     after = {name: joint.error_after for name, joint in found.joints.items()}
-    assert after["2"] < 0.066 and after["3"] < 0.091 and after["4"] < 0.09 and after["5"] < 0.24
+    assert after["2"] < 0.066 and after["3"] < 0.091 and after["4"] < 0.09 and after["5"] < 0.23
 
 
 @pytest.mark.slow
@@ -125,7 +126,7 @@ def test_odrive_the_orders_of_its_ripple() -> None:
     for order in (7.0, 14.0, 12.0, 28.0):
         assert any(abs(order - m) < 0.1 for m in orders), order
     assert any(35.0 <= m <= 36.0 for m in orders), "35 and 36, which the stroke hardly separates"
-    assert found.joints["1"].error_after < 0.21
+    assert found.joints["1"].error_after < 0.2
 
 
 @pytest.mark.slow
