@@ -58,6 +58,7 @@ class Log(Presented):
             log keeps it. Empty if the log came from no file.
         robot_steps: usual and longest step, s, of the rows that are left where a recorder wrote
             some again; else None.
+        path: of its file as it was given, `@START:END` of a piece of it too; "" if none was.
     """
 
     name: str
@@ -74,6 +75,7 @@ class Log(Presented):
     notes: tuple[str, ...] = ()
     content: str = ""
     robot_steps: tuple[float, float] | None = None
+    path: str = ""
 
     @property
     def rows(self) -> int:
