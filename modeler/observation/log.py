@@ -10,7 +10,6 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.result import Presented
 
-
 GAP = 5.0
 """A step longer than this many median steps ends a piece of motion."""
 
