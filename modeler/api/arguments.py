@@ -28,6 +28,8 @@ _KINDS = {
     "HomeModes": "assembly modes (home gives them)",
     "Log": "a log",
     "SimulatedLog": "a simulated log",
+    "Frame": "a frame",
+    "Model": "a model",
     "str": "a text",
     "Path": "a path",
     "float": "a number",
@@ -117,9 +119,9 @@ def _sure(fits: bool, value: Any) -> Any:
 
 
 def _one_of(hints: Sequence[Any], value: Any) -> Any:
-    """As it is for the first kind that it fits; what is said is of the last list, if any."""
+    """As it is for the first kind that it fits, lists first; what is said is of these, if any."""
     wrong = _WrongKind(_got(value))
-    for hint in hints:
+    for hint in sorted(hints, key=lambda hint: get_origin(hint) is not Sequence):
         try:
             return _taken(hint, value)
         except _WrongKind as error:
@@ -128,7 +130,8 @@ def _one_of(hints: Sequence[Any], value: Any) -> Any:
 
 
 def _listed(hint: Any, value: Any) -> Any:
-    if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
+    one = isinstance(value, str | bytes | Mapping) or hasattr(value, "__arrow_c_stream__")
+    if one or not isinstance(value, Iterable):
         return [_taken(hint, value)]
     kept = value if isinstance(value, Sequence) else list(value)
     for each in kept:

@@ -21,13 +21,19 @@ from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.table import Table
 from modeler.effects import CATALOGUE
 from modeler.estimation import IdentifiedModel, check_currents, in_drive_units, model_file
-from modeler.logs import LogMap, map_from_table, map_from_words
+from modeler.logs import Frame, LogMap, map_from_table, map_from_words
 from modeler.robot import Robot, read_robot, robot_from_text, with_own_effect
 from modeler.runtime import CompiledModel, GpuModel, load as load_compiled, load_gpu
 from modeler.simulation import SimulatedLog, write_log
 
-AnyLog = str | Path | observation.Log | SimulatedLog
-"""A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated."""
+AnyLog = str | Path | observation.Log | SimulatedLog | Mapping[str, Any] | Frame
+"""A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated.
+
+Or columns in memory: a frame of pandas or Polars, a dict of arrays.
+"""
+
+Logs = AnyLog | Sequence[AnyLog]
+"""Logs; one alone stands for a list of it."""
 
 Mapped = Mapping[str, Any] | Sequence[str]
 """Whose column is which: a table as [log] of a robot file, or texts as `--map` takes them."""
@@ -99,7 +105,7 @@ def read_logs(
         mapping: over [log]: a table like it, or texts as `--map` takes them.
     """
     names = log_map(compiled, mapping)
-    return [_log(log, compiled.spec, names) for log in logs]
+    return [_log(log, compiled.spec, names, k) for k, log in enumerate(logs)]
 
 
 def read_currents(
@@ -111,7 +117,7 @@ def read_currents(
         DataError: a log gives a torque instead.
     """
     spec, names = in_drive_units(compiled.spec), log_map(compiled, mapping)
-    read = [_log(log, spec, names) for log in logs]
+    read = [_log(log, spec, names, k) for k, log in enumerate(logs)]
     check_currents(read, spec.joints)
     return read
 
@@ -129,11 +135,13 @@ def given_map(mapping: Mapped) -> LogMap:
     return map_from_words(mapping)
 
 
-def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> observation.Log:
+def _log(log: AnyLog, spec: ModuleSpec, names: LogMap, number: int) -> observation.Log:
     if isinstance(log, observation.Log):
         return log
-    if not isinstance(log, SimulatedLog):
+    if isinstance(log, str | Path):
         return read_mapped(log, spec, names)
+    if not isinstance(log, SimulatedLog):
+        return observation.log_in_memory(log, spec, names, f"logs[{number}]")
     with TemporaryDirectory() as folder:  # read as whoever gets the file will read it
         place = Path(folder) / f"{log.robot}-seed{log.settings.seed}.parquet"
         write_log(place, log)

@@ -38,11 +38,12 @@ class LogTable:
         any_topic: bool = False,
         part: Columns | None = None,
         before: int = 0,
+        whole: bool = False,
     ) -> None:
-        """Reads a file, or takes consecutive rows of it: a part, and how many stand before it."""
+        """Reads a file, or takes rows of it: a part, how many stand before it, if it is whole."""
         self.path = path
         mapping = mapping or LogMap()
-        self.whole, self.before = part is None, before
+        self.whole, self.before = whole or part is None, before
         self.found = part or read_columns(path, Wanted(mapping.topic, any_topic))
         self.rows: int = self.found.rows
         self._joints = joints
