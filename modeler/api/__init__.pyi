@@ -7,7 +7,15 @@ from .fitting import (
     side_by_side as side_by_side,
 )
 from .fleets import fleet as fleet
+from .identifying import identify as identify
 from .improve import add as add, auto as auto, diagnose as diagnose, undo as undo
+from .model import (
+    Model as Model,
+    Parameter as Parameter,
+    load as load,
+    open_model as open_model,
+    open_robot as open_robot,
+)
 from .motion import (
     excite as excite,
     forecast as forecast,
@@ -45,11 +53,9 @@ from .workflow import (
     estimators as estimators,
     file_and_span as file_and_span,
     generate as generate,
-    load as load,
     log_map as log_map,
     observe as observe,
     on_gpu as on_gpu,
-    open_model as open_model,
     own_effect as own_effect,
     read_currents as read_currents,
     read_logs as read_logs,

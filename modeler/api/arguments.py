@@ -64,7 +64,8 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
         hints = _hints(function)
         for name, value in given.arguments.items():
             if signature.parameters[name].kind is not inspect.Parameter.VAR_KEYWORD:
-                given.arguments[name] = fitting(function.__name__, name, hints[name], value)
+                hint = hints.get(name, Any)  # `self` has none
+                given.arguments[name] = fitting(function.__name__, name, hint, value)
         return function(*given.args, **given.kwargs)
 
     return checked_call
@@ -94,6 +95,8 @@ def fitting(where: str, name: str, hint: Any, value: Any) -> Any:
 
 
 def _taken(hint: Any, value: Any) -> Any:
+    if isinstance(hint, TypeVar):
+        hint = hint.__bound__
     origin, of = get_origin(hint), get_args(hint)
     if hint is Any:
         return value
@@ -119,9 +122,9 @@ def _sure(fits: bool, value: Any) -> Any:
 
 
 def _one_of(hints: Sequence[Any], value: Any) -> Any:
-    """As it is for the first kind that it fits, lists first; what is said is of these, if any."""
+    """As it is for the first kind that it fits; what is said is of the last list, if any."""
     wrong = _WrongKind(_got(value))
-    for hint in sorted(hints, key=lambda hint: get_origin(hint) is not Sequence):
+    for hint in hints:
         try:
             return _taken(hint, value)
         except _WrongKind as error:
@@ -161,6 +164,8 @@ def _got(value: Any) -> str:
 
 def _told(hint: Any) -> str:
     """What is expected, in words."""
+    if isinstance(hint, TypeVar):
+        hint = hint.__bound__
     origin, of = get_origin(hint), get_args(hint)
     if origin in (Union, types.UnionType):
         return " or ".join(_told(each) for each in of)

@@ -9,6 +9,7 @@ import numpy as np
 import modeler.api.workflow as workflow
 from modeler import estimation
 from modeler.api.arguments import Steps, fitting, silent
+from modeler.api.model import Model
 from modeler.api.workflow import AnyLog, Mapped
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
@@ -157,7 +158,7 @@ def fit(
     window: float | None = None,
     payloads: Sequence[estimation.Payload] = (),
     essential_below: float | None = None,
-) -> estimation.IdentifiedModel:
+) -> Model:
     """The base parameters from an observation, with all that a model file holds.
 
     Args:
@@ -198,7 +199,7 @@ def fitted(
     compiled: CompiledModel,
     observation: Observation,
     working: Steps = silent,
-) -> tuple[estimation.IdentifiedModel, FitOutcome]:
+) -> tuple[Model, FitOutcome]:
     """The same, and the way that was taken."""
     with working("estimating"):
         way = estimated(asked, derivation.robot, compiled, observation)
@@ -209,9 +210,9 @@ def fitted(
 
 def identified(
     derivation: Derivation, emitted: Emitted, observation: Observation, result: estimation.FitResult
-) -> estimation.IdentifiedModel:
+) -> Model:
     """A fit with all that a model file holds."""
-    return estimation.IdentifiedModel(
+    return Model(
         robot_text=derivation.robot.text,
         spec=emitted.spec,
         sources=emitted.code,
@@ -251,7 +252,7 @@ class Load:
 
 def fit_gains(
     derivation: Derivation, logs: Sequence[AnyLog], load: Load, processing: Processing | None = None
-) -> estimation.IdentifiedModel:
+) -> Model:
     """The model whose robot file has the drive gains that the logs tell (see docs/drive-gains.md).
 
     Args:
@@ -276,7 +277,7 @@ def found_with_gains(
     check: Callable[[Sequence[Log], Sequence[Log]], None] | None = None,
     working: Steps = silent,
     mapping: Mapped = (),
-) -> tuple[estimation.IdentifiedModel, Observation]:
+) -> tuple[Model, Observation]:
     """The same, and the observation that the model was fitted to.
 
     The gains are found first. Then the logs are read once more with them, as whoever uses the model

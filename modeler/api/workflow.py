@@ -2,11 +2,13 @@
 
 import dataclasses
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, TypeVar
 
 from modeler import observation
+from modeler.api.arguments import fitting
 from modeler.codegen import (
     Derivation as Derivation,
     derive as derive,
@@ -20,8 +22,14 @@ from modeler.core.files import write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.table import Table
 from modeler.effects import CATALOGUE
-from modeler.estimation import IdentifiedModel, check_currents, in_drive_units, model_file
-from modeler.logs import Frame, LogMap, map_from_table, map_from_words
+from modeler.estimation import (
+    OF_TRIANGLES,
+    IdentifiedModel,
+    check_currents,
+    in_drive_units,
+    model_file,
+)
+from modeler.logs import Frame, LogMap, blocks_of, map_from_table, map_from_words
 from modeler.robot import Robot, read_robot, robot_from_text, with_own_effect
 from modeler.runtime import CompiledModel, GpuModel, load as load_compiled, load_gpu
 from modeler.simulation import SimulatedLog, write_log
@@ -34,6 +42,15 @@ Or columns in memory: a frame of pandas or Polars, a dict of arrays.
 
 Logs = AnyLog | Sequence[AnyLog]
 """Logs; one alone stands for a list of it."""
+
+
+def listed(logs: Logs) -> Sequence[AnyLog]:
+    """One log alone as a list of it."""
+    found: Sequence[AnyLog] = fitting("logs", "logs", Sequence[AnyLog], logs)
+    return found
+
+
+M = TypeVar("M", bound=IdentifiedModel)
 
 Mapped = Mapping[str, Any] | Sequence[str]
 """Whose column is which: a table as [log] of a robot file, or texts as `--map` takes them."""
@@ -186,6 +203,68 @@ def file_and_span(place: str | Path) -> tuple[str | Path, tuple[float | None, fl
     return path, (span[0], span[1])
 
 
+# Long logs: whether some are, and their rows in blocks.
+
+
+def rows_of(places: Sequence[AnyLog]) -> int:
+    """Rows of logs, as far as their files tell without being read; of CSV files about.
+
+    Raises:
+        DataError: a file is damaged.
+    """
+    rows = 0
+    for place in places:
+        if isinstance(place, observation.Log):
+            rows += place.rows
+        elif isinstance(place, str | Path):
+            path, span = file_and_span(place)
+            blocks = blocks_of(Path(path)) if span is None else None
+            rows += 0 if blocks is None else blocks.rows
+    return rows
+
+
+def are_long(places: Sequence[AnyLog]) -> bool:
+    """True of logs whose fit reads them in chunks."""
+    return rows_of(places) > observation.LONG
+
+
+def too_long(places: Sequence[AnyLog]) -> bool:
+    """True of logs that are not read at once, whatever for."""
+    return rows_of(places) > observation.MOST_WHOLE
+
+
+def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
+    """Refuse logs that are too long to be read at once.
+
+    Raises:
+        DataError: they have more rows than that.
+    """
+    if too_long(places):
+        raise DataError(
+            f"fit: {what} keeps all rows in memory; got {rows_of(places)} rows, expected "
+            f"at most {observation.MOST_WHOLE}; give a part of the log, FILE@START:END, or take "
+            f"--method {' or '.join(OF_TRIANGLES)}, which read logs of any length"
+        )
+
+
+def sources_of(
+    compiled: CompiledModel, places: Sequence[AnyLog], mapping: Mapped = ()
+) -> list[observation.Source]:
+    """The rows of logs, in blocks where their format allows it.
+
+    Raises:
+        DataError: a log cannot be read.
+    """
+    names = log_map(compiled, mapping)
+    found: list[observation.Source] = []
+    for place in places:
+        source = None
+        if isinstance(place, str | Path) and file_and_span(place)[1] is None:
+            source = observation.source_of(Path(place), compiled.spec, names)
+        found.append(source or observation.MemorySource(read_logs(compiled, [place], mapping)[0]))
+    return found
+
+
 def observe(
     compiled: CompiledModel,
     logs: Sequence[AnyLog],
@@ -212,9 +291,7 @@ def recompile(model: IdentifiedModel) -> CompiledModel:
 
 def _emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
     """What the robot text of a model gives, if that is what its values belong to."""
-    robot = robot_from_text(model.robot_text, f"robot {model.spec.robot} in the model file")
-    derivation = derive(robot)
-    emitted = generate_robot(derivation)
+    derivation, emitted = derived(model.robot_text, f"robot {model.spec.robot} in the model file")
     if emitted.spec.signature() != model.spec.signature():
         what = "manifest" if _uncoded(emitted.spec) != _uncoded(model.spec) else "C"
         raise ManifestError(
@@ -225,17 +302,25 @@ def _emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivati
     return derivation, emitted
 
 
+@lru_cache(maxsize=4)
+def derived(text: str, where: str) -> tuple[Derivation, Emitted]:
+    """Of a robot file's text; the last ones are kept, for who asks again."""
+    derivation = derive(robot_from_text(text, where))
+    return derivation, generate_robot(derivation)
+
+
 def _uncoded(spec: ModuleSpec) -> ModuleSpec:
     return dataclasses.replace(spec, code="")
 
 
-def reduced(model: IdentifiedModel) -> IdentifiedModel:
+def reduced(model: M) -> M:
     """The model with its essential parameters only, estimated anew; all others are 0.
 
     Raises:
         DataError: the model was saved by a version that kept none.
     """
-    return model_file.with_essential_only(model, f"model of {model.spec.robot}")
+    found = model_file.with_essential_only(model, f"model of {model.spec.robot}")
+    return dataclasses.replace(model, fit=found.fit)
 
 
 def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
@@ -249,16 +334,6 @@ def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
     else:
         model_file.save_model(path, thing)
     return Path(path)
-
-
-def open_model(path: str | Path) -> IdentifiedModel:
-    """Read a model file. Robot files are read by `load`.
-
-    Raises:
-        ManifestError: missing, not a model file, of another format, damaged, or changed since it
-            was saved.
-    """
-    return model_file.load_model(path)
 
 
 # What is built in: robots, effects, estimators; each as a table.

@@ -160,6 +160,13 @@ class LogTable:
         unit = self._units[name]
         return values if unit is None else values / unit.factor - unit.zero
 
+    def as_logged(self, name: str, values: np.ndarray) -> np.ndarray:
+        """The same as the file has it: with its sign, scale and offset too."""
+        entry, values = self._entries.get(name), self.in_unit(name, values)
+        if entry is None or name not in self._taken:
+            return values
+        return (values - entry.offset) / (entry.sign * entry.scale)
+
     def source(self, name: str) -> str:
         """The same, ours first: `tau2`, or `tau2 from moment_b`."""
         column = self.column(name)

@@ -58,6 +58,7 @@ from .prepare import (
     nearest_closed as nearest_closed,
     noise_of_positions as noise_of_positions,
     prepare as prepare,
+    without_open as without_open,
 )
 from .read import (
     FileSource as FileSource,

@@ -99,7 +99,7 @@ def log_of(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
     Args:
         table: its columns.
         spec: the robot's manifest.
-        measured: False of motion whose torques are not asked for: all are 0.
+        measured: False of motion whose torques are not asked for: all are missing.
 
     Raises:
         DataError: as `read_log` does, but for what only a whole log can tell.
@@ -115,7 +115,7 @@ def log_of(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
                 "closed loops before; add the column"
             )
         positions.append(table.measured(f"q{joint.name}"))
-    none = np.zeros(table.rows), "0 (not read)"
+    none = np.full(table.rows, np.nan), "not read"
     torques = [_torque(table, joint, spec) if measured else none for joint in spec.joints]
     return Log(
         name=table.path.name,
