@@ -21,7 +21,7 @@ def run(capsys, *argv):
         ([], 90, 0, 0),
         pytest.param(["--effects", "viscous,coulomb"], 106, 16, 0, marks=pytest.mark.slow),
         (["--effects", "viscous,coulomb,asymmetric_viscous,offset"], 122, 24, 8),
-        (["--open"], 96, 0, 0),
+        (["--cut-loops"], 96, 0, 0),
     ],
 )
 def test_the_counts_of_evra(capsys, tmp_path, options, rank, friction, offset):
