@@ -213,6 +213,8 @@ class Robot(Presented):
         shared: parameters that similar legs have in common.
         reference: standard parameters at which effects that depend on the load are linearised.
         notes: source of the table and remarks, for people.
+        convention: in whose letters the table was given; `joints` are rows of Khalil's.
+        readings: what reading the file decided or left out, for people.
         text: the TOML text it was read from.
     """
 
@@ -241,6 +243,8 @@ class Robot(Presented):
     shared: tuple[SharedParameter, ...] = ()
     reference: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
     notes: str = ""
+    convention: str = "khalil"
+    readings: tuple[str, ...] = ()
     text: str = ""
 
     def opened(self) -> "Robot":
