@@ -167,6 +167,26 @@ def written(tree: ast.expr) -> str:
     return re.sub(r" (\*\*|\*|/) ", r"\1", ast.unparse(tree))
 
 
+def decimal_text(value: Fraction, halves: bool = False) -> str | None:
+    """`0.1564`, exactly; None for a whole number and what has no end as a decimal, such as 1/3.
+
+    Args:
+        value: the number.
+        halves: True to write 1/2, 3/4 and 5/8 as decimals too. They come from squared sines as
+            often as from lengths: True where the file itself writes such numbers with a point.
+    """
+    rest, places = value.denominator, 0
+    for prime in (2, 5):
+        count = 0
+        while rest % prime == 0:
+            rest, count = rest // prime, count + 1
+        places = max(places, count)
+    if rest != 1 or places == 0 or not (halves or value.denominator % 5 == 0):
+        return None
+    digits = str(abs(value.numerator) * 10**places // value.denominator).rjust(places + 1, "0")
+    return f"{'-' if value < 0 else ''}{digits[:-places]}.{digits[-places:]}"
+
+
 def _check_text(text: str) -> None:
     """Refuse text that is too long, or too deep in parentheses, before it is parsed."""
     if len(text) > MOST_LETTERS:

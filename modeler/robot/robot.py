@@ -271,6 +271,16 @@ class Robot(Presented):
         return tuple(joint for joint in self.free if joint.actuated or not self.loops)
 
     @property
+    def halves(self) -> bool:
+        """True if lengths and angles of the file hold decimals such as 0.5, 0.75 or 1.125."""
+        cells = [
+            getattr(j, c) for j in self.joints for c in ("gamma", "b", "alpha", "d", "theta", "r")
+        ]
+        given = (e for e in self.symbols.values() if e.names or e.uses_pi)
+        parts = (x.denominator for e in (*cells, *self.gravity, *given) for x in e.decimals)
+        return any(n > 1 and n & (n - 1) == 0 for n in parts)
+
+    @property
     def kept_first(self) -> tuple[str, ...]:
         """`priority`; where none is stated, the platform's parameters.
 
