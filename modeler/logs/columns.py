@@ -63,6 +63,7 @@ class Columns:
         units: that the file states: name -> text.
         notes: what was left out or joined, one sentence each.
         streams: topics or groups, if the file has such.
+        rate: Hz, that the file states of its rows; None if it does not.
     """
 
     columns: tuple[tuple[str, Column], ...]
@@ -70,6 +71,7 @@ class Columns:
     units: Mapping[str, str] = field(default_factory=lambda: _NONE)
     notes: tuple[str, ...] = ()
     streams: tuple[Stream, ...] = ()
+    rate: float | None = None
 
 
 @dataclass(frozen=True)
@@ -79,10 +81,12 @@ class Wanted:
     Attributes:
         topic: the part that holds the motion; "" if there is one only.
         any: True: take the likeliest part rather than asking which.
+        files: of a log in several files, our name -> how the name of the file ends.
     """
 
     topic: str = ""
     any: bool = False
+    files: Mapping[str, str] = field(default_factory=lambda: _NONE)
 
 
 @dataclass(frozen=True, eq=False)

@@ -43,7 +43,7 @@ class LogTable:
         self.path = path
         mapping = mapping or LogMap()
         self.whole, self.before = part is None, before
-        self.found = part or read_columns(path, Wanted(mapping.topic, any_topic))
+        self.found = part or read_columns(path, Wanted(mapping.topic, any_topic, mapping.files))
         self.rows: int = self.found.rows
         self._joints = joints
         self._columns: dict[str, Column] = dict(self.found.columns)
@@ -52,13 +52,14 @@ class LogTable:
         self._taken: dict[str, str] = {}  # which an error of the next line reads
         self._taken = self._matched()
         timed = "time" in self._taken or "time" in self._columns
-        self._rate = None if timed else mapping.rate
+        self._rate = None if timed else mapping.rate or self.found.rate
+        self._said = "" if mapping.rate else ", as the file says"
         self.rated = self._rate is not None
         used = set(self._taken.values())
         others = [name for name in self._columns if name not in used and name not in self._taken]
         self.names: tuple[str, ...] = (*self._taken, *(["time"] if self._rate else []), *others)
         self._units = {name: self._unit(name) for name in self.names}
-        self.notes: tuple[str, ...] = (*self.found.notes, *self._notes())
+        self.notes: tuple[str, ...] = (*self.found.notes, *mapping.told, *self._notes())
 
     def _check(self) -> None:
         names = [name for name, _ in self.found.columns]
@@ -132,7 +133,7 @@ class LogTable:
             named = ", ".join(f'{name} "{self.found.units[name]}"' for name in unknown[:_FEW])
             lines.append(f"the file states units that are not understood, taken as SI: {named}")
         if self._rate:
-            lines.append(f"no time column: rows counted at {self._rate:g} Hz")
+            lines.append(f"no time column: rows counted at {self._rate:g} Hz{self._said}")
         return lines
 
     def __contains__(self, name: str) -> bool:
