@@ -357,12 +357,16 @@ def side_by_side(
 
 
 def observe_held_out(
-    compiled: CompiledModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog], mapping: Mapped = ()
+    compiled: CompiledModel,
+    logs: Sequence[AnyLog],
+    holdout: Sequence[AnyLog],
+    mapping: Mapped = (),
+    processing: Processing | None = None,
 ) -> tuple[Observation, Observation | None]:
     """Logs to fit, and held-out ones processed alike; None without any."""
     given, kept = (workflow.read_logs(compiled, some, mapping) for some in (logs, holdout))
     check_apart(given, kept)
-    observation = observe(compiled, given)
+    observation = observe(compiled, given, processing)
     held = observe(compiled, kept, observation.report.processing) if kept else None
     return observation, held
 

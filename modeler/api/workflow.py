@@ -137,7 +137,8 @@ def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> observation.Log:
     with TemporaryDirectory() as folder:  # read as whoever gets the file will read it
         place = Path(folder) / f"{log.robot}-seed{log.settings.seed}.parquet"
         write_log(place, log)
-        return observation.read_log(place, spec)
+        read = observation.read_log(place, spec)
+    return dataclasses.replace(read, path="")
 
 
 def read_mapped(place: str | Path, spec: ModuleSpec, names: LogMap) -> observation.Log:
@@ -149,8 +150,10 @@ def read_mapped(place: str | Path, spec: ModuleSpec, names: LogMap) -> observati
     if source is not None and source.rows > (
         observation.LONG if source.exact else 2 * observation.LONG
     ):
-        return observation.read_part(source, spec, *span)
-    return observation.window(observation.read_log(path, spec, names), *span)
+        part = observation.read_part(source, spec, *span)
+    else:
+        part = observation.window(observation.read_log(path, spec, names), *span)
+    return dataclasses.replace(part, path=str(place))
 
 
 def file_and_span(place: str | Path) -> tuple[str | Path, tuple[float | None, float | None] | None]:

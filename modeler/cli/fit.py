@@ -1,4 +1,4 @@
-"""`modeler fit ROBOT LOG... --out MODEL`, and `modeler estimators`: all on the same logs."""
+"""`modeler fit ROBOT LOG... --out MODEL`; with several methods: all of them on the same logs."""
 
 import argparse
 from collections.abc import Sequence
@@ -8,11 +8,11 @@ from pathlib import Path
 import modeler.api.fitting as fitting
 import modeler.api.long_logs as long_logs
 from modeler.api.workflow import compile_model, derive, generate, read_logs
+from modeler.cli.command_table import ALL
 from modeler.cli.console import Json, draw_page, note, progress, say, say_lines, show_next, working
 from modeler.cli.lists import robot_of
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError
-from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
 from modeler.core.jobs import open_workers
 from modeler.core.json import entries
@@ -34,6 +34,8 @@ def run_fit(args: argparse.Namespace) -> Json:
         **entries(args, "parallel_cutoff derivatives low_speed keep_saturated keep_contradicted"),
         keep_damaged=args.keep_damaged,
     )
+    if args.method.several:
+        return _compare_methods(args, processing)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
@@ -68,6 +70,7 @@ def _check_options(args: argparse.Namespace) -> None:
         if value is not None and value is not False and not args.payload_log:  # 0 is given too
             flag = "--" + option.replace("_", "-")
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
+    _check_several(args)
     method, energy, gains = args.method, args.model == "energy", args.method == GAIN_METHOD
     refusals = (
         (args.payload_log and method in fitting.WITHOUT_LOADS,
@@ -96,6 +99,27 @@ def _check_options(args: argparse.Namespace) -> None:
     for refused, why in refusals:
         if refused:
             raise DataError(why)
+
+
+_OF_ONE = ("out", "robot_out", "payload_log", "window", "essential_below", "dask")
+
+
+def _check_several(args: argparse.Namespace) -> None:
+    """Several methods are compared on the rows of the torque model; one has no use for others."""
+    if not args.method.several:
+        if args.holdout:
+            raise DataError(
+                f"--holdout: got it with --method {args.method}; errors on other logs are shown of "
+                f"several methods, as in --method {ALL}, and of a model by `modeler compare`"
+            )
+        return
+    given = [name for name in _OF_ONE if getattr(args, name)]
+    given += ["model"] * (args.model != "torque")
+    if given:
+        raise DataError(
+            f"--{given[0].replace('_', '-')}: got it with --method {args.method}, which compares "
+            "methods and writes no model; leave it out, or choose one method"
+        )
 
 
 def _check_given(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence[Log]) -> None:
@@ -191,31 +215,19 @@ def _written(
     return model.fit.to_json()
 
 
-# `modeler estimators`.
+# Several methods on the same logs.
 
 
-def run_estimators(args: argparse.Namespace) -> Json:
-    """Prints the list, or the comparison."""
-    names = args.methods and [name.strip() for name in args.methods.split(",") if name.strip()]
-    methods = fitting.chosen_methods(names, "--methods")
-    if args.robot is None:
-        for about in (ABOUT[method] for method in methods):
-            say(f"{about.id:<10} {about.title}")
-            say(f"  law        {about.law}")
-            say(f"  source     {about.source}")
-            say(f"  not        {about.avoid}")
-            say(f"  assumes    {about.motion}")
-        return [{"method": m} | entries(ABOUT[m], "title law source avoid motion") for m in methods]
-    if not args.logs:
-        raise DataError(
-            f"estimators: got robot {args.robot} and no log; expected logs to fit, as in "
-            f"`modeler estimators {args.robot} run.parquet`"
-        )
+def _compare_methods(args: argparse.Namespace, processing: Processing) -> Json:
+    """Prints what each estimator makes of the logs; writes no model."""
+    methods = fitting.chosen_methods(None if args.method == ALL else args.method.split(","))
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         compiled = compile_model(generate(derive(robot)))
     with working("building the observation matrix"):
-        observation, held = fitting.observe_held_out(compiled, args.logs, args.holdout, args.map)
+        observation, held = fitting.observe_held_out(
+            compiled, args.logs, args.holdout, args.map, processing
+        )
     with progress("fitting") as bar:
         tried = side_by_side(observation, compiled, held, methods, bar)
     lines = tuple(observation.report.lines())

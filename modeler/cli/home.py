@@ -22,10 +22,10 @@ _MOST_VALUES = 6
 
 def run_home(args: argparse.Namespace) -> Json:
     """Prints the assembly modes, draws them, writes one into the robot file."""
-    kind = "" if args.pictures is None else Path(args.pictures).suffix.lower()
-    if args.pictures is not None and kind not in MODE_PICTURES:
+    kind = "" if args.picture is None else Path(args.picture).suffix.lower()
+    if args.picture is not None and kind not in MODE_PICTURES:
         raise DataError(
-            f"--pictures {args.pictures}: got {kind or 'no ending'}; expected a name that ends in "
+            f"--picture {args.picture}: got {kind or 'no ending'}; expected a name that ends in "
             f"{', '.join(MODE_PICTURES)}"
         )
     if args.write:
@@ -36,10 +36,11 @@ def run_home(args: argparse.Namespace) -> Json:
         found = home_modes(robot, near, args.anew)
     chosen = chosen_mode(found, args.mode, args.near is not None)
     say_lines(_table(found))
-    if args.pictures is not None:
-        with working("drawing"):
-            write_atomically(Path(args.pictures), _pictures(found, kind))
-        say(f"written: {args.pictures}")
+    for place, ending in ((args.picture, kind), (args.report, ".html")):
+        if place is not None:
+            with working("drawing"):
+                write_atomically(Path(place), _pictures(found, ending))
+            say(f"written: {place}")
     home = written(found.linkage, found.modes[chosen].posture)
     if args.write:
         path, text = Path(args.robot), with_home_text(robot.text, robot.home, home)
@@ -90,7 +91,7 @@ def _check_ours(robot: str) -> None:
     """What --write cannot write into is refused before any work."""
     if robot in builtin_names():
         raise DataError(
-            f"--write: {robot} is built in; save it with `modeler robots --show {robot}` "
+            f"--write: {robot} is built in; save it with `modeler robots {robot}` "
             "as a file of your own, and write into that"
         )
     path = Path(robot)

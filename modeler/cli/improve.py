@@ -90,9 +90,9 @@ def run_add(args: argparse.Namespace) -> Json:
             better = add_effect(model, compiled, args.effect, args.joint, logs)
     save_model(args.out, better)
     places, following = [args.out], report.after_add(args.out, args.holdout)
-    if args.robot is not None:
-        write_atomically(Path(args.robot), better.robot_text)
-        places.append(args.robot)
+    if args.robot_out is not None:
+        write_atomically(Path(args.robot_out), better.robot_text)
+        places.append(args.robot_out)
     if args.report is not None and better.history:
         held = better.history[-1].held_out
         origin = report.Origin(args.out, held or args.logs, bool(held), following)

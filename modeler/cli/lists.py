@@ -1,12 +1,15 @@
-"""Reading ROBOT as every command does, and `modeler robots`, `modeler effects`."""
+"""Reading ROBOT as every command does, and what is built in: robots, effects, estimators."""
 
 import argparse
 import math
 from collections.abc import Callable
 
 from modeler.cli.console import Json, note, say, say_lines, working
+from modeler.cli.options import unknown
 from modeler.core.builtin import builtin_names
-from modeler.core.errors import RobotError
+from modeler.core.errors import DataError, RobotError
+from modeler.core.estimators import ABOUT
+from modeler.core.json import entries
 from modeler.effects import CATALOGUE, Acts, Effect, Form, effect_named
 from modeler.robot import (
     Robot,
@@ -126,10 +129,10 @@ def read_robot_with_notes(name: str) -> Robot:
 
 def run_robots(args: argparse.Namespace) -> Json:
     """Prints the table of built-in robots, or one robot's file."""
-    if args.show is not None:
-        text = read_robot_with_notes(args.show).text
+    if args.robot is not None:
+        text = read_robot_with_notes(args.robot).text
         say(text.rstrip())
-        return {"name": args.show, "text": text}
+        return {"name": args.robot, "text": text}
     robots = [read_robot(name) for name in builtin_names()]
     width = max(len(robot.name) for robot in robots)
     for robot in robots:
@@ -172,6 +175,22 @@ def run_effects(args: argparse.Namespace) -> Json:
                     say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")
             say_lines(signature_lines(chosen[0]))
     return facts
+
+
+def run_estimators(args: argparse.Namespace) -> Json:
+    """Prints the list, or some of it."""
+    wanted = list(ABOUT) if args.methods is None else args.methods.split(",")
+    for name in wanted:
+        if name not in ABOUT:
+            raise DataError(f"estimators: {unknown(name, list(ABOUT))}")
+    chosen = [about for about in ABOUT.values() if about.id in wanted]
+    for about in chosen:
+        say(f"{about.id:<10} {about.title}")
+        say(f"  law        {about.law}")
+        say(f"  source     {about.source}")
+        say(f"  not        {about.avoid}")
+        say(f"  assumes    {about.motion}")
+    return [{"method": a.id} | entries(a, "title law source avoid motion") for a in chosen]
 
 
 def _facts(effect: Effect) -> dict[str, str | list[str]]:

@@ -61,10 +61,10 @@ def run_log(args: argparse.Namespace) -> Json:
     if args.report is not None:
         with working("drawing the page"):
             places.append(str(write_page(Path(args.report), log_page(seen, doubts, [], bands))))
-    if args.pictures is not None:
+    if args.picture is not None:
         with progress("drawing pictures") as bar:
-            written = write_files(Path(args.pictures), log_pictures(seen, bands), bar)
-        places.append(f"{len(written)} files in {args.pictures}")
+            written = write_files(Path(args.picture), log_pictures(seen, bands), bar)
+        places.append(f"{len(written)} files in {args.picture}")
     if places:
         say(f"written: {', '.join(places)}")
     return nulled(seen.to_json() | {"doubts": doubts, "bands": bands})

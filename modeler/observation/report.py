@@ -40,6 +40,7 @@ class LogReport(Brief):
         span: first and last time, s.
         torque_source: where each joint's torque comes from, in words.
         open_times: of samples with which the loops cannot be closed, s.
+        path: of the file as it was given; "" if none was.
     """
 
     name: str
@@ -64,6 +65,7 @@ class LogReport(Brief):
     span: tuple[float, float] = (0.0, 0.0)
     torque_source: tuple[str, ...] = ()
     open_times: tuple[float, ...] = ()
+    path: str = ""
 
     def lines(self) -> list[str]:
         """Text, the first line always, the others where there is something to say."""

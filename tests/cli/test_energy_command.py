@@ -37,7 +37,7 @@ def test_the_counts_of_evra(capsys, tmp_path, options, rank, friction, offset):
 
 
 def test_a_tree_has_no_loops_to_cut(capsys):
-    status, out, err = run(capsys, "derive", "scara", "--open")
+    status, out, err = run(capsys, "derive", "scara", "--cut-loops")
     assert (status, out) == (1, "")
     assert err == "modeler: --open: scara has no loops to cut; leave --open out\n"
 
