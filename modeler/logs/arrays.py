@@ -106,7 +106,9 @@ def columns_of(
         found += slices
         units |= {name: held.unit for name, _ in slices if held.unit}
     told = [f"{_listed(left)} left out: no columns of {rows} rows"] if left else []
-    single = ((a.name, a.data[()]) for a in arrays if math.prod(a.shape) == 1 and _tells_rate(a.name))
+    single = (
+        (a.name, a.data[()]) for a in arrays if math.prod(a.shape) == 1 and _tells_rate(a.name)
+    )
     return Columns(tuple(found), rows, units, (*notes, *told), rate=_stated_rate(single))
 
 
@@ -117,7 +119,9 @@ def _tells_rate(name: str) -> bool:
 def _stated_rate(values: Iterable[tuple[str, Any]]) -> float | None:
     """Hz, of single values such as fs or dt."""
     for name, value in values:
-        number = float(np.asarray(value).reshape(-1)[0]) if np.asarray(value).dtype.kind in "iuf" else 0
+        number = (
+            float(np.asarray(value).reshape(-1)[0]) if np.asarray(value).dtype.kind in "iuf" else 0
+        )
         if _tells_rate(name) and 0.0 < number < math.inf:
             return number if re.split(r"[./]", name)[-1].lower() in _RATES else 1.0 / number
     return None

@@ -28,13 +28,7 @@ from modeler.logs.clock_times import (
     stated_units,
 )
 from modeler.logs.columns import Columns, ColumnValues, NotNumbers, Wanted, unreadable
-from modeler.logs.datasets import (
-    Dataset,
-    dataset_of,
-    flattened,
-    needed_columns,
-    one_clock,
-)
+from modeler.logs.datasets import Dataset, dataset_of, flattened, needed_columns, one_clock
 from modeler.logs.dialect import TEXTS, bare, dialect_of
 
 _UNEVEN = re.compile(r"Row #(\d+): Expected (\d+) columns, got (\d+): (.*)", re.DOTALL)
@@ -132,7 +126,7 @@ def _parquet_columns(
     counted_from = {n: first for n, first in origins.items() if n != "index" or is_beyond(first)}
     found = arrow_columns(flattened(table, dataset), before, counted_from)
     rate = None if dataset is None else dataset.fps
-    return dataclasses.replace(found, notes=told, rate=rate)
+    return dataclasses.replace(found, told=told, rate=rate)
 
 
 def open_parquet(path: Path, **how: Any) -> pa.parquet.ParquetFile:
@@ -192,7 +186,7 @@ class _Text:
             table = self._parsed(dialect.table(text), before, parse, convert)
         found = arrow_columns(table, before, dialect.clocks)
         units = {**found.units, **head.units}
-        return dataclasses.replace(found, units=units, notes=dialect.notes, rate=head.rate)
+        return dataclasses.replace(found, units=units, told=dialect.told, rate=head.rate)
 
     def _parsed(
         self, text: bytes, before: int, parse: pa.csv.ParseOptions, convert: pa.csv.ConvertOptions
@@ -415,4 +409,4 @@ def windows_of(blocks: Blocks, count: int, size: int) -> Columns:
     )
     rows = len(values[0][1].values) if values else 0
     first = blocks.window(0.0, 1)
-    return Columns(values, rows, first.units, first.notes, rate=first.rate)
+    return Columns(values, rows, first.units, told=first.told, rate=first.rate)

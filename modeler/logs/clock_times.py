@@ -146,4 +146,6 @@ def stated_units(table: pa.Table, origins: Mapping[str, Any]) -> dict[str, str]:
     """`ns` for whole numbers that are nanoseconds since 1970."""
     low, high = _EPOCH_NS
     kinds = zip(table.column_names, table.columns, strict=True)
-    return {n: "ns" for n, c in kinds if pa.types.is_integer(c.type) and low < origins.get(n, 0) < high}
+    return {
+        n: "ns" for n, c in kinds if pa.types.is_integer(c.type) and low < origins.get(n, 0) < high
+    }

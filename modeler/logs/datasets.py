@@ -54,10 +54,10 @@ def dataset_of(path: Path) -> Dataset | None:
         raise DataError(f"{place}: cannot be read ({error}); copy the dataset again") from None
     info = info if isinstance(info, dict) else {}
     fps, features = info.get("fps"), info.get("features")
-    number = isinstance(fps, int | float) and not isinstance(fps, bool) and fps > 0
+    rate = float(fps) if isinstance(fps, int | float) and fps > 0 else None
     found = features.items() if isinstance(features, dict) else ()
     names = {n: tuple(_texts(f.get("names"))) for n, f in found if isinstance(f, dict)}
-    return Dataset(place, float(fps) if number else None, names)
+    return Dataset(place, rate, names)
 
 
 def _texts(names: Any) -> list[str]:
@@ -112,8 +112,8 @@ def one_clock(
     if "segment" not in table.column_names:
         table = table.append_column("segment", table.column("episode_index"))
     return table, (
-        f"time is that of the frames at {dataset.fps:g} Hz, as {dataset.place.name} says, and every "
-        "episode is a segment of its own",
+        f"time is that of the frames at {dataset.fps:g} Hz, as {dataset.place.name} says; every "
+        "episode is a segment",
     )
 
 

@@ -8,7 +8,6 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 from typing import BinaryIO
 
 from modeler.core.errors import DataError
@@ -18,7 +17,6 @@ from modeler.logs.mapping import find_unit
 TEXTS = (".csv", ".txt", ".dat", ".tsv", ".log", ".asc", ".lvm")
 """How the names of text files end."""
 
-_NONE: Mapping = MappingProxyType({})
 _SAMPLE = 2**16  # bytes by which a file is judged
 _LINE = 2**24  # bytes of the longest line that is looked at
 _JUDGED = 50  # rows by which the columns are told
@@ -53,7 +51,7 @@ class Head:
 
     names: tuple[str, ...]
     first: int
-    units: Mapping[str, str] = field(default_factory=lambda: _NONE)
+    units: Mapping[str, str] = field(default_factory=dict)
     rate: float | None = None
     told: tuple[str, ...] = ()
 
@@ -77,10 +75,10 @@ class Dialect:
     delimiter: str = ","
     decimal: str = "."
     encoding: str = "utf-8"
-    clocks: Mapping[str, Origin] = field(default_factory=lambda: _NONE)
+    clocks: Mapping[str, Origin] = field(default_factory=dict)
 
     @property
-    def notes(self) -> tuple[str, ...]:
+    def told(self) -> tuple[str, ...]:
         """What is unlike commas, points, and names in the first line: one sentence, or nothing."""
         told = [
             *([f"{_DELIMITERS[self.delimiter]} between columns"] * (self.delimiter != ",")),
@@ -176,7 +174,9 @@ def split(line: str, delimiter: str) -> list[str]:
     """The entries of a line, without blanks and quotes around them."""
     if delimiter == _BLANKS:
         return line.split()
-    entries = next(csv.reader([line], delimiter=delimiter)) if '"' in line else line.split(delimiter)
+    entries = (
+        next(csv.reader([line], delimiter=delimiter)) if '"' in line else line.split(delimiter)
+    )
     return [bare(entry) for entry in entries]
 
 
@@ -253,7 +253,9 @@ def head_of(
     valued = [row for row in last if any(_is_value(e, decimal) for e in row)] or last
     width = Counter(map(len, valued)).most_common(1)[0][0]
     even = [row for row in valued if len(row) == width]
-    places = [k for k in range(width) if 2 * sum(_is_value(r[k], decimal) for r in even) > len(even)]
+    places = [
+        k for k in range(width) if 2 * sum(_is_value(r[k], decimal) for r in even) > len(even)
+    ]
 
     def is_row(row: Sequence[str]) -> bool:
         if len(row) != width:

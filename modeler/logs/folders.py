@@ -66,9 +66,11 @@ def read_files(places: Mapping[Path, str], where: Path, reader: Reader) -> Colum
             columns.insert(0, (clock.clock, own[clock.clock]))
             units |= {n: u for n, u in part.found.units.items() if n == clock.clock}
     rate = next((p.found.rate for p in parts if p.found.rate), None)
-    names = ", ".join(part.path.name for part in parts)
-    notes = (f"one motion in {len(parts)} files: {names}{told}", *_notes(parts))
-    return Columns(tuple(columns), first.found.rows, units, notes, rate=rate)
+    listed = ", ".join(part.path.name for part in parts)
+    said = f"one motion in {len(parts)} files: {listed}{told}"
+    notes, told_of = (_sentences(parts, name) for name in ("notes", "told"))
+    rows = first.found.rows
+    return Columns(tuple(columns), rows, units, notes, rate=rate, told=(said, *told_of))
 
 
 def _part(path: Path, key: str, reader: Reader) -> _Part:
@@ -138,13 +140,17 @@ def _origin(part: _Part) -> Origin:
 
 def _times(part: _Part) -> np.ndarray:
     column = _column(part)
-    return column.numbers() if column.numeric else ColumnValues(np.arange(part.found.rows)).numbers()
+    return (
+        column.numbers() if column.numeric else ColumnValues(np.arange(part.found.rows)).numbers()
+    )
 
 
-def _notes(parts: Sequence[_Part]) -> list[str]:
-    """Notes of the files, each once."""
+def _sentences(parts: Sequence[_Part], kind: str) -> tuple[str, ...]:
+    """Notes of the files, or how they were read, each once."""
     by: dict[str, list[str]] = {}
     for part in parts:
-        for note in part.found.notes:
+        for note in getattr(part.found, kind):
             by.setdefault(note, []).append(part.path.name)
-    return [f"{n[0]}{f' and {len(n) - 1} more' * (len(n) > 1)}: {note}" for note, n in by.items()]
+    return tuple(
+        f"{n[0]}{f' and {len(n) - 1} more' * (len(n) > 1)}: {note}" for note, n in by.items()
+    )

@@ -231,7 +231,6 @@ def _wanted(own: str, joints: Sequence[JointSpec]) -> tuple[Powers | None, str, 
     return None, "", ""
 
 
-_NONE: Mapping = MappingProxyType({})
 _LARGEST = 1e100  # beyond, products are no numbers any more
 _KEYS = ("column", "unit", "sign", "scale", "offset")
 _SETTINGS = ("topic", "names", "rate", "files")
@@ -305,10 +304,10 @@ class LogMap:
     """
 
     layers: tuple[Mapping[str, MappedColumn], ...] = ()
-    names: Mapping[str, str] = field(default_factory=lambda: _NONE)
+    names: Mapping[str, str] = field(default_factory=dict)
     topic: str = ""
     rate: float | None = None
-    files: Mapping[str, str] = field(default_factory=lambda: _NONE)
+    files: Mapping[str, str] = field(default_factory=dict)
     auto: bool = False
     told: tuple[str, ...] = ()
 

@@ -29,7 +29,9 @@ def read_sheets(path: Path, wanted: Wanted) -> Columns:
     with reading(path, "spreadsheet", "save it again as .xlsx, or as CSV"):
         book = CalamineWorkbook.from_path(str(path))
         names = [n for n in book.sheet_names if wanted.topic in ("", n)]
-        sheets = {n: [[*map(_text, r)] for r in book.get_sheet_by_name(n).to_python()] for n in names}
+        sheets = {
+            n: [[*map(_text, r)] for r in book.get_sheet_by_name(n).to_python()] for n in names
+        }
     if not sheets:
         raise DataError(
             f"{path}: topic {wanted.topic}: no sheet of that name; the sheets are "
@@ -51,10 +53,10 @@ def read_sheets(path: Path, wanted: Wanted) -> Columns:
     found = arrow_columns(table, 0, clocks)
     told = [f"sheet {name}"] * (len(book.sheet_names) > 1) + [*head.told]
     told += [f"{n} counted from the first row" for n in clocks]
-    notes = (f"read with {', '.join(told)}",) if told else ()
+    read = (f"read with {', '.join(told)}",) if told else ()
     streams = tuple(Stream(n, "sheet", len(r), n == name) for n, r in sheets.items())
     streams *= len(streams) > 1
-    return Columns(found.columns, found.rows, head.units, notes, streams, head.rate)
+    return Columns(found.columns, found.rows, head.units, (), streams, head.rate, told=read)
 
 
 def _text(cell: Any) -> str:
