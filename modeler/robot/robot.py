@@ -3,6 +3,7 @@
 import enum
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from modeler.core.brief import Brief
 from modeler.core.expression import Expression
@@ -200,6 +201,7 @@ class Robot(Presented):
         physical: the letters of a paper for the links, by joint.
         terms: how a paper prints its coefficients (see `modeler.formulas`).
         log: which columns of logs are ours, and in which units (see `modeler.logs`).
+        fit, diagnose: options of these commands, by their names, for this robot.
         relations: variables of joints that follow others: row -> its variable as a linear
             expression of the variables of other rows (`q4 = "-q3"`).
         loops: joints that close kinematic chains.
@@ -232,6 +234,8 @@ class Robot(Presented):
     physical: Mapping[str, PhysicalLink] = field(default_factory=dict)
     terms: Mapping[str, object] = field(default_factory=dict)
     log: Mapping[str, object] = field(default_factory=dict)
+    fit: Mapping[str, Any] = field(default_factory=dict)
+    diagnose: Mapping[str, Any] = field(default_factory=dict)
     relations: Mapping[str, Expression] = field(default_factory=dict)
     loops: tuple[Loop, ...] = ()
     platform: tuple[str, ...] = ()
