@@ -56,7 +56,7 @@ PACKAGES: dict[str, set[str]] = {
     "simulation": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
     "papers": {"numpy", "sympy"},
     "report": {"numpy", "scipy", "matplotlib", "jinja2"},
-    "api": {"numpy"},
+    "api": {"numpy", "sklearn"},
     "cli": {"numpy", "rich"},
 }
 
@@ -73,6 +73,7 @@ ONLY_IN = {
     "h5py": ("logs/arrays.py",),
     "rosbags": ("logs/bags.py",),
     "distributed": ("core/jobs.py",),
+    "sklearn": ("api/regressor.py",),
     "matplotlib": ("report/", "excitation/result.py"),
 }
 
@@ -147,7 +148,8 @@ def _imports(relative: str, text: str) -> Iterator[tuple[int, str]]:
         if top == "":
             yield line, "relative import; write it absolute"
         elif not stage:
-            yield line, f"imports {name}; the package itself imports nothing"
+            if name != "modeler.api":  # in a function, when a name is asked for
+                yield line, f"imports {name}; the package itself imports nothing but modeler.api"
         elif top == "modeler":
             other = rest.split(".")[0]
             if other not in {stage, "__version__"} | STAGES[stage] | ROUND.get(relative, set()):

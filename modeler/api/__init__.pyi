@@ -1,4 +1,4 @@
-from .checks import compare as compare, contest as contest, free_run as free_run, look_at as look_at
+from .checks import compare as compare, contest as contest, free_run as free_run
 from .fitting import (
     Load as Load,
     fit as fit,
@@ -9,6 +9,13 @@ from .fitting import (
 from .fleets import fleet as fleet
 from .identifying import identify as identify
 from .improve import add as add, auto as auto, diagnose as diagnose, undo as undo
+from .log_maps import (
+    Mapped as Mapped,
+    file_and_span as file_and_span,
+    log_map as log_map,
+    look_at as look_at,
+    settled as settled,
+)
 from .model import (
     Model as Model,
     Parameter as Parameter,
@@ -46,14 +53,11 @@ from .reexports import (
 )
 from .workflow import (
     AnyLog as AnyLog,
-    Mapped as Mapped,
     compile_model as compile_model,
     derive as derive,
     effects as effects,
     estimators as estimators,
-    file_and_span as file_and_span,
     generate as generate,
-    log_map as log_map,
     observe as observe,
     on_gpu as on_gpu,
     own_effect as own_effect,

@@ -7,11 +7,13 @@ from typing import Any, Literal
 
 from modeler.api import fitting, workflow
 from modeler.api.arguments import Steps, silent
+from modeler.api.log_maps import Mapped, settled
 from modeler.api.long_logs import fit_long
 from modeler.api.model import Model
-from modeler.api.workflow import AnyLog, Logs, Mapped, listed, read_logs
+from modeler.api.workflow import AnyLog, Logs, listed, read_logs
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError, Method, RobotError
+from modeler.core.manifest import Emitted
 from modeler.derivation import with_home
 from modeler.effects import effect_named
 from modeler.estimation import OF_TRIANGLES
@@ -27,7 +29,7 @@ def identify(
     robot: Robot | str | Path,
     logs: Logs,
     holdout: Logs = (),
-    method: Method | Literal["two-step"] = "weighted",
+    method: Method | Literal["two-step"] | None = None,
     *,
     mapping: Mapped = (),
     effects: Effects | None = None,
@@ -46,11 +48,13 @@ def identify(
         robot: as loaded; its file, or the name of a built-in one.
         logs: to fit: paths, pieces of files (`run.parquet@0:10`), frames, dicts of arrays.
         holdout: logs of other motion that are not fitted; `error`, `missing`, `add` judge on them.
-        method: one of `estimators()`, or "two-step".
-        mapping: whose column is which, over [log] of the robot file; kept in the model.
+        method: one of `estimators()`, or "two-step"; None: that of [fit] of the robot file, whose
+            other options hold too, or "weighted".
+        mapping: whose column is which, over [log] of the robot file; "auto" takes the guess. It is
+            kept in the model.
         effects: instead of those of the robot file.
         load: that some logs carry.
-        processing: of the logs; None: chosen from them.
+        processing: of the logs; None: by [fit] of the robot file, or chosen from them.
         steps: is called with the title of each step.
 
     Raises:
@@ -59,13 +63,19 @@ def identify(
     """
     robot = robot_with(robot, effects)
     given, held = listed(logs), listed(holdout)
+    stated = {**robot.fit, **({} if method is None else {"method": method})}
     with steps(f"deriving {robot.name}"):
         derivation = workflow.derive(robot)
-    made, memory, kept = _fitted(
-        derivation, given, held, method, mapping, load, processing or Processing(), steps
-    )
-    table = dict(mapping) if isinstance(mapping, Mapping) else made.mapping
-    return dataclasses.replace(made, mapping=table, given=tuple(memory), held_out=tuple(kept))
+        emitted = workflow.generate(derivation)
+        compiled = workflow.compile_model(emitted)
+    mapping, kept = settled(compiled, given, mapping)
+    held = _in_memory(compiled, held, mapping)
+    made, memory = _fitted(
+        derivation, emitted, compiled, _in_memory(compiled, given, mapping), held,
+        fitting.request_of(stated), mapping, load, processing or fitting.processing_of(stated),
+        steps,
+    )  # fmt: skip
+    return dataclasses.replace(made, mapping=kept, given=tuple(memory), held_out=tuple(held))
 
 
 def robot_with(robot: Robot | str | Path, effects: Effects | None = None) -> Robot:
@@ -107,13 +117,12 @@ def _in_memory(compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped)
 
 
 def _fitted(
-    derivation: Derivation, logs: Sequence[AnyLog], holdout: Sequence[AnyLog], method: str,
-    mapping: Mapped, load: fitting.Load | None, processing: Processing, steps: Steps,
-) -> tuple[Model, list[Log], list[AnyLog]]:  # fmt: skip
-    """The model; the logs of the fit that are in memory only; those that were held out."""
-    emitted = workflow.generate(derivation)
-    compiled = workflow.compile_model(emitted)
-    if method == GAIN_METHOD:
+    derivation: Derivation, emitted: Emitted, compiled: CompiledModel, logs: Sequence[AnyLog],
+    holdout: Sequence[AnyLog], asked: fitting.FitRequest, mapping: Mapped,
+    load: fitting.Load | None, processing: Processing, steps: Steps,
+) -> tuple[Model, list[Log]]:  # fmt: skip
+    """The model; the logs of the fit that are in memory only."""
+    if asked.method == GAIN_METHOD:
         if load is None:
             raise DataError(
                 f"identify: method {GAIN_METHOD} finds the gains of drives from a weighed load; "
@@ -122,27 +131,27 @@ def _fitted(
         model, _ = fitting.found_with_gains(
             derivation, compiled, logs, load, processing, working=steps, mapping=mapping
         )
-        return model, [], list(holdout)
-    given, kept = (_in_memory(compiled, some, mapping) for some in (logs, holdout))
-    held = [log for log in given if isinstance(log, Log)]
-    if workflow.are_long(given) and load is None:
-        if method in OF_TRIANGLES:
+        return model, []
+    memory = [log for log in logs if isinstance(log, Log)]
+    if workflow.are_long(logs) and load is None:
+        if asked.method in OF_TRIANGLES and asked == fitting.FitRequest(asked.method):
             try:
-                sources = workflow.sources_of(compiled, given, mapping)
+                sources = workflow.sources_of(compiled, logs, mapping)
                 with steps("reading and reducing"):
-                    made, _ = fit_long(derivation, emitted, compiled, sources, method, processing)
-                return made, held, kept
+                    long = fit_long(
+                        derivation, emitted, compiled, sources, asked.method, processing
+                    )
+                return long[0], memory
             except WholeLogNeeded:
-                if workflow.too_long(given):
+                if workflow.too_long(logs):
                     raise
-        workflow.check_fits_memory(given, f"method {method}")
+        workflow.check_fits_memory(logs, f"method {asked.method}")
     with steps("building the observation matrix"):
-        read = read_logs(compiled, given, mapping)
+        read = read_logs(compiled, logs, mapping)
         loaded = [] if load is None else read_logs(compiled, load.logs, mapping)
-        check_apart([*read, *loaded], read_logs(compiled, kept, mapping))
+        check_apart([*read, *loaded], read_logs(compiled, holdout, mapping))
         observation = observe(compiled, [*read, *loaded], processing)
     payloads = () if load is None else tuple(load.payloads(loaded))
-    asked = fitting.FitRequest(method, payloads=payloads)
+    asked = dataclasses.replace(asked, payloads=payloads)
     model, _ = fitting.fitted(asked, derivation, emitted, compiled, observation, steps)
-    held += [log for log in loaded if not log.path]
-    return model, held, kept
+    return model, memory + [log for log in loaded if not log.path]

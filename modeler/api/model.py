@@ -13,8 +13,9 @@ import numpy as np
 from modeler import report, validation
 from modeler.api import checks, improve
 from modeler.api.arguments import checked
+from modeler.api.log_maps import Mapped
 from modeler.api.predicting import predicted_torque
-from modeler.api.workflow import AnyLog, Logs, Mapped, generate, listed, observe, recompile
+from modeler.api.workflow import AnyLog, Logs, generate, listed, observe, recompile
 from modeler.core.errors import DataError, Precision
 from modeler.core.files import read_file
 from modeler.core.manifest import Emitted
@@ -221,7 +222,7 @@ class Model(IdentifiedModel):
     def _rows(self) -> Observation:
         if self.fit.loads:
             raise DataError("resid: some logs carried a load, which is no part of the model")
-        return observe(recompile(self), self.its_logs(None, "resid"), self.processing, self.mapping)
+        return observe(recompile(self), self.its_logs(None, "resid"), self.processing)
 
     @checked
     def predict(self, log: AnyLog, mapping: Mapped = ()) -> Any:
@@ -239,12 +240,12 @@ class Model(IdentifiedModel):
         Raises:
             DataError: the log cannot be read, or lacks a position.
         """
-        return predicted_torque(self, recompile(self), log, mapping or self.mapping)
+        return predicted_torque(self, recompile(self), log, mapping)
 
     @checked
     def compare(self, logs: Logs | None = None, mapping: Mapped = ()) -> validation.Comparison:
         """Measured against predicted torque; None: on the logs that were held out."""
-        return checks.compare(self, self._others(logs, "compare"), mapping or self.mapping)
+        return checks.compare(self, self._others(logs, "compare"), mapping)
 
     @checked
     def error(self, logs: Logs | None = None, mapping: Mapped = ()) -> float:
@@ -257,7 +258,7 @@ class Model(IdentifiedModel):
             mapping: as of `read_logs`.
         """
         given = self._others(logs, "error")
-        return checks.compare(self, given, mapping or self.mapping).relative_error
+        return checks.compare(self, given, mapping).relative_error
 
     @checked
     def missing(
@@ -277,7 +278,7 @@ class Model(IdentifiedModel):
         """
         held = self.held_out if held_out is None else listed(held_out)
         own = self.its_logs(logs, "missing")
-        return improve.diagnose(self, own, held, without, mapping=mapping or self.mapping)
+        return improve.diagnose(self, own, held, without, mapping=mapping)
 
     @checked
     def add(
@@ -298,7 +299,7 @@ class Model(IdentifiedModel):
             mapping: as of `read_logs`.
         """
         held = self.held_out if held_out is None else tuple(listed(held_out))
-        own, mapping = self.its_logs(logs, "add"), mapping or self.mapping
+        own = self.its_logs(logs, "add")
         if effect == "auto":
             better = improve.auto(self, own, held, mapping=mapping)
         else:

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from modeler import observation, validation
-from modeler.api.workflow import AnyLog, Mapped, file_and_span, log_map
+from modeler.api.log_maps import Mapped, file_and_span, log_maps
+from modeler.api.workflow import AnyLog
 from modeler.core.manifest import JointSpec
 from modeler.core.table import labelled
 from modeler.estimation import IdentifiedModel
@@ -43,12 +44,12 @@ def _of_table(
     model: IdentifiedModel, compiled: CompiledModel, log: Any, mapping: Mapped
 ) -> tuple[observation.Log, dict[str, np.ndarray]]:
     """The motion of a log, and the torque under the names of its columns, in their units."""
-    spec, names, span = compiled.spec, log_map(compiled, mapping), None
+    spec, names, span = compiled.spec, log_maps(compiled, [log], mapping)[0], None
     if isinstance(log, str | Path):
         path, span = file_and_span(log)
         table = LogTable(Path(path), names, spec.joints)
     else:
-        table = observation.table_in_memory(log, spec, names, "log")
+        table = observation.table_in_memory(log, spec.joints, names, "log")
     read = observation.log_of(table, spec, measured=False)
     if span is not None:
         read = observation.window(read, *span)

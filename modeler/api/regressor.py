@@ -18,7 +18,8 @@ from sklearn.utils.validation import check_is_fitted, validate_data
 from modeler import observation, validation
 from modeler.api import fitting
 from modeler.api.identifying import robot_with
-from modeler.api.workflow import Logs, Mapped, compile_model, derived, listed, read_logs
+from modeler.api.log_maps import Mapped
+from modeler.api.workflow import Logs, compile_model, derived, listed, read_logs
 from modeler.codegen import Derivation
 from modeler.core.errors import DataError
 from modeler.core.manifest import Emitted

@@ -67,16 +67,16 @@ def log_in_memory(
     Raises:
         DataError: as `read_log`.
     """
-    log = whole_log(table_in_memory(given, spec, mapping, where), spec)
+    log = whole_log(table_in_memory(given, spec.joints, mapping, where), spec)
     return dataclasses.replace(log, name=f"frame {log.content[:6]}", path="")
 
 
 def table_in_memory(
-    given: InMemory, spec: ModuleSpec, mapping: LogMap | None, where: str
+    given: InMemory, joints: Sequence[JointSpec], mapping: LogMap | None, where: str
 ) -> LogTable:
     """Its columns under our names."""
-    columns = columns_given(given, where, spec.joints)
-    return LogTable(Path(where), mapping, spec.joints, part=columns, whole=True)
+    columns = columns_given(given, where, joints)
+    return LogTable(Path(where), mapping, joints, part=columns, whole=True)
 
 
 def whole_log(table: LogTable, spec: ModuleSpec) -> Log:
@@ -131,6 +131,7 @@ def log_of(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
         torque_source=tuple(source for _, source in torques),
         notes=tuple(notes),
         path=str(table.path),
+        told=table.told,
     )
 
 
