@@ -59,6 +59,7 @@ from .api import (
     reduced as reduced,
     robots as robots,
     save as save,
+    settled as settled,
     show as show,
     side_by_side as side_by_side,
     simulate as simulate,

@@ -79,8 +79,8 @@ ONLY_IN = {
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
-MOST_MODULES = 319  # noise.py; prior.py; api/model.py, predicting.py, identifying.py; frames.py
-MOST_CODE_LINES = 53_238  # the noise of the motion; what is known before; one line of Python
+MOST_MODULES = 327  # log files of every kind; api/model.py, identifying.py, regressor.py; frames.py
+MOST_CODE_LINES = 54_850  # the noise of the motion; what is known before; one line of Python
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.

@@ -75,7 +75,9 @@ def identify(
         fitting.request_of(stated), mapping, load, processing or fitting.processing_of(stated),
         steps,
     )  # fmt: skip
-    return dataclasses.replace(made, mapping=kept, given=tuple(memory), held_out=tuple(held))
+    return dataclasses.replace(
+        made, mapping=kept, given=tuple(memory), held_out=tuple(held), folder=str(Path.cwd())
+    )
 
 
 def robot_with(robot: Robot | str | Path, effects: Effects | None = None) -> Robot:

@@ -89,7 +89,8 @@ class Model(IdentifiedModel):
     Attributes:
         given: logs that it was fitted on, of those that came from no file.
         held_out: logs that were kept from the fit: paths, or what was read of frames.
-        folder: of the file that it was opened from; paths of logs may be relative to it.
+        folder: in which it was made, or of the file that it was opened from: paths of its logs
+            may be relative to it.
     """
 
     given: tuple[Log, ...] = ()
@@ -326,7 +327,11 @@ class Model(IdentifiedModel):
         for own in self.given:
             if own.content == log.content and own.name == log.name:
                 return own
-        ask = f"give the logs of the fit: {what}(..., logs=[...])"
+        ask = (
+            "`compare(logs)` takes the logs of the fit"
+            if what == "resid"
+            else (f"give the logs of the fit: {what}(..., logs=[...])")
+        )
         if not log.path:
             raise DataError(f"{what}: {log.name} was no file, and is not kept with a model; {ask}")
         places = [Path(log.path), Path(self.folder, log.path)]
