@@ -1,4 +1,4 @@
-"""`import modeler as md`: nothing is loaded before it is used, and all of `modeler.api` is there."""
+"""`import modeler as md`: nothing is loaded before it is used; all of `modeler.api` is there."""
 
 import ast
 import importlib

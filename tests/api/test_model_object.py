@@ -72,13 +72,10 @@ def test_a_lopsided_interval_stays_lopsided(model: md.Model) -> None:
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        (
-            "ZZ2",
-            r"tell no value of ZZ2 alone; ZZ2R = ZZ2 \+ .* holds it: ask for model\[\"ZZ2R\"\]",
-        ),
+        ("ZZ2", r"tell no value of ZZ2 alone; ZZ2R = ZZ2 \+ .* holds it: ask for .*ZZ2R"),
         ("M3", r"ZZ1R = .* holds it \(XX2R, ZZ2R, MX2R hold it too\)"),
         ("XX1", "XX1 has no effect on any torque of demo-arm, so no log tells it"),
-        ("Fs22", r"no such parameter \(did you mean Fs2"),
+        ("Fs22", r'no such parameter \(did you mean "Fs2'),
     ],
 )
 def test_who_asks_for_what_is_not_told_alone_learns_what_holds_it(
@@ -203,7 +200,9 @@ def test_it_remembers_frames_while_it_lives(logs: list[str]) -> None:
     better = made.add("load_friction", 2)
     assert better.resid.shape == made.resid.shape
     gone = dataclasses.replace(made, given=())
-    with pytest.raises(DataError, match=r"resid: frame \w+ was no file, .* give the logs of the f"):
+    with pytest.raises(
+        DataError, match=r"resid: frame \w+ was no file, .* `compare\(logs\)` takes"
+    ):
         _ = gone.resid
     np.testing.assert_allclose(gone.missing(logs=frame).joints["2"].systematic,
                                made.missing().joints["2"].systematic)  # fmt: skip
@@ -214,7 +213,7 @@ def test_effects_method_and_options_of_the_robot_file(logs: list[str], tmp_path:
     assert not {"Off1", "Ia3"} & {*bare.params.index}
     same = md.identify("demo-arm", logs, effects={"viscous": "all", "coulomb": ["1", "2"]})
     assert "Fs3" not in same and "Fv3" in same
-    with pytest.raises(RobotError, match=r"effects: got viscus \(did you mean viscous"):
+    with pytest.raises(RobotError, match=r'effects: got viscus \(did you mean "viscous'):
         md.identify("demo-arm", logs, effects=["viscus"])
     stated = tmp_path / "arm.toml"
     stated.write_text(md.open_robot("demo-arm").text + '\n[fit]\nmethod = "robust"\n')
