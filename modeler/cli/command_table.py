@@ -44,7 +44,8 @@ _MODEL = value("model", "MODEL", places.ModelFile, "a model file of `modeler fit
 _MAP = repeated(
     "--map", "NAME=COLUMN[:UNIT]", places.MapWord,
     "which column of the logs is ours, as 'q<j>=position_{j}:deg', or FILE.toml with such lines; "
-    "may be given several times; over [log] of the robot file",
+    "may be given several times; auto: what `modeler log` suggests for all else; over [log] of the "
+    "robot file; kept in the model",
 )  # fmt: skip
 _DASK = value(
     "--dask", "ADDRESS", places.Word,
@@ -245,6 +246,7 @@ _LOG = Command(
               f"Parquet, CSV, MAT, HDF5, numpy or MCAP file, or ROS bag; {_WINDOW}"),
         value("--robot", "ROBOT", places.RobotFile,
               f"{_ROBOT_FILE}: its [log], its joints, and doubts that a fit shows"),
+        flag("--write", "put the guessed [log] into the file of --robot, in place of its own"),
         _MAP, *_page(), _pictures(places.LogPictures),
     ),
     "write what is in it for machines",

@@ -71,7 +71,7 @@ class _Parser(argparse.ArgumentParser):
             )
         if lacks := found.lacks(found):
             self.error(lacks)
-        found.read_as = read.told
+        found.read_as, found.given = read.told, read.given
         return found, rest
 
     def _unknown(self, option: str) -> str:

@@ -8,7 +8,8 @@ from typing import Any
 
 import modeler.api.checks as checks
 from modeler import validation
-from modeler.api.workflow import Mapped, read_logs, recompile
+from modeler.api.log_maps import Mapped
+from modeler.api.workflow import read_logs, recompile
 from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, say_lines, working
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError

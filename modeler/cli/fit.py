@@ -1,39 +1,38 @@
 """`modeler fit ROBOT LOG... --out MODEL`; with several methods: all of them on the same logs."""
 
 import argparse
-from collections.abc import Sequence
+import dataclasses
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from pathlib import Path
+from typing import Any
 
 import modeler.api.fitting as fitting
 import modeler.api.long_logs as long_logs
+from modeler.api.log_maps import Mapped, settled
 from modeler.api.workflow import compile_model, derive, generate, read_logs
-from modeler.cli.command_table import ALL
+from modeler.cli.command_table import ALL, Methods
 from modeler.cli.console import Json, draw_page, note, progress, say, say_lines, show_next, working
-from modeler.cli.lists import robot_of
+from modeler.cli.lists import robot_of, use_options_of
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError
 from modeler.core.files import write_atomically
 from modeler.core.jobs import open_workers
-from modeler.core.json import entries
 from modeler.core.manifest import Emitted
 from modeler.core.table import aligned
 from modeler.estimation import OF_TRIANGLES, IdentifiedModel, save_model, side_by_side
 from modeler.observation import Log, Observation, Processing, WholeLogNeeded, check_apart, observe
 from modeler.report import after_fit, estimators_page, remarks_of, table_of, values_of, write_page
-from modeler.robot import INERTIAL, robot_from_text, with_parameters
+from modeler.robot import INERTIAL, read_robot, robot_from_text, with_parameters
 from modeler.runtime import CompiledModel
 
 
 def run_fit(args: argparse.Namespace) -> Json:
     """Fits, prints the table, saves the model."""
+    use_options_of(args, "fit", read_robot(args.robot).fit)
+    args.method = Methods(args.method)
     _check_options(args)
-    processing = Processing(
-        position_cutoff=args.cutoff,
-        decimation=args.decimate,
-        **entries(args, "parallel_cutoff derivatives low_speed keep_saturated keep_contradicted"),
-        keep_damaged=args.keep_damaged,
-    )
+    processing = fitting.processing_of(vars(args))
     if args.method.several:
         return _compare_methods(args, processing)
     robot = robot_of(args)
@@ -41,18 +40,21 @@ def run_fit(args: argparse.Namespace) -> Json:
         derivation = derive(robot)
         emitted = generate(derivation)
         compiled = compile_model(emitted)
+    with working("looking at the logs"):
+        mapping, kept = settled(compiled, args.logs, args.map)
     load = fitting.Load(args.payload_log, args.payload_mass, args.payload_link, args.payload_moved)
     if args.method == GAIN_METHOD:
         found = fitting.found_with_gains(
             derivation, compiled, args.logs, load, processing,
-            lambda logs, loaded: _check_given(args, logs, loaded), working, args.map,
+            lambda logs, loaded: _check_given(args, logs, loaded), working, mapping,
         )  # fmt: skip
-        return _written(args, *found)
-    if (long := _fit_if_long(args, derivation, emitted, compiled, processing)) is not None:
-        return _written(args, *long)
+        return _written(args, kept, *found)
+    long = _fit_if_long(args, derivation, emitted, compiled, processing, mapping)
+    if long is not None:
+        return _written(args, kept, *long)
     with working("building the observation matrix"):
-        logs = read_logs(compiled, args.logs, args.map)
-        loaded = read_logs(compiled, args.payload_log, args.map)
+        logs = read_logs(compiled, args.logs, mapping)
+        loaded = read_logs(compiled, args.payload_log, mapping)
         _check_given(args, logs, loaded)
         observation = observe(compiled, [*logs, *loaded], processing)
     payloads = tuple(load.payloads(loaded)) if loaded else ()
@@ -60,7 +62,7 @@ def run_fit(args: argparse.Namespace) -> Json:
         args.method, args.model == "energy", args.window, payloads, args.essential_below
     )
     model, way = fitting.fitted(asked, derivation, emitted, compiled, observation, working)
-    return _written(args, model, observation, way.lines) | way.further
+    return _written(args, kept, model, observation, way.lines) | way.further
 
 
 def _check_options(args: argparse.Namespace) -> None:
@@ -139,6 +141,7 @@ def _fit_if_long(
     emitted: Emitted,
     compiled: CompiledModel,
     processing: Processing,
+    mapping: Mapped,
 ) -> tuple[IdentifiedModel, Observation] | None:
     """The model of long logs, read in chunks; None where all rows are to be in memory.
 
@@ -162,7 +165,7 @@ def _fit_if_long(
     cluster = nullcontext() if args.dask is None else open_workers(args.dask)
     try:
         with progress("reading and reducing") as bar, cluster as workers:
-            sources = long_logs.sources_of(compiled, args.logs, args.map)
+            sources = long_logs.sources_of(compiled, args.logs, mapping)
             reducer = None if workers is None else long_logs.by_workers(workers, emitted)
             here = [each.name for each in sources if not long_logs.from_anywhere(each)]
             if workers is not None and here:
@@ -183,11 +186,13 @@ def _fit_if_long(
 
 def _written(
     args: argparse.Namespace,
+    mapping: Mapping[str, Any],
     model: IdentifiedModel,
     observation: Observation,
     lines: Sequence[str] = (),
 ) -> Json:
-    """Saves and prints the model."""
+    """Saves and prints the model, which keeps the mapping."""
+    model = dataclasses.replace(model, mapping=mapping)
     save_model(args.out, model)
     *told, verdict = model.fit.lines()
     say_lines([*observation.report.lines(), "", *lines, *told])
@@ -195,7 +200,7 @@ def _written(
     if args.report is not None:
         from modeler.report import fit_page  # pages take long to load
 
-        following = after_fit(args.out, args.logs, args.robot, model.fit)
+        following = after_fit(args.out, args.logs, args.robot, model.fit, args.map)
         page = fit_page(model, observation.report.lines(), args.out, following)
         say(f"written: {write_page(Path(args.report), page)}")
     if args.robot_out is not None:
@@ -211,7 +216,8 @@ def _written(
         write_atomically(Path(args.robot_out), text)
         say(f"written: {args.robot_out}")
     say(verdict)
-    show_next(after_fit(args.out, [*args.logs, *args.payload_log], args.robot, model.fit))
+    logs = [*args.logs, *args.payload_log]
+    show_next(after_fit(args.out, logs, args.robot, model.fit, args.map))
     return model.fit.to_json()
 
 

@@ -7,10 +7,9 @@ import numpy as np
 
 from modeler.api.postures import chosen_mode, home as home_modes
 from modeler.cli.console import Json, say, say_lines, working
-from modeler.cli.lists import read_robot_with_notes
-from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
+from modeler.cli.lists import check_own_file, read_robot_with_notes
 from modeler.core.errors import DataError
-from modeler.core.files import check_writable, write_atomically
+from modeler.core.files import write_atomically
 from modeler.derivation import HomeModes, Linkage, written
 from modeler.report import PICTURE_KINDS, Posture, modes_html, size_of, skeleton_of
 from modeler.robot import Place, Robot, home_lines, read_home, with_home_text
@@ -29,7 +28,7 @@ def run_home(args: argparse.Namespace) -> Json:
             f"{', '.join(MODE_PICTURES)}"
         )
     if args.write:
-        _check_ours(args.robot)
+        check_own_file(args.robot, "posture")
     robot = read_robot_with_notes(args.robot)
     near = _near(args, robot)
     with working(f"closing the loops of {robot.name}"):
@@ -85,23 +84,6 @@ def _pictures(found: HomeModes, kind: str) -> bytes:
     if kind != ".html":
         return drawn
     return modes_html(robot.name, robot.title, len(found.modes), drawn.decode()).encode()
-
-
-def _check_ours(robot: str) -> None:
-    """What --write cannot write into is refused before any work."""
-    if robot in builtin_names():
-        raise DataError(
-            f"--write: {robot} is built in; save it with `modeler robots {robot}` "
-            "as a file of your own, and write into that"
-        )
-    path = Path(robot)
-    if path.suffix.lower() in OTHER_PROGRAMS:
-        raise DataError(
-            f"--write: {path} is another program's file, which states no posture; convert it with "
-            f"`modeler convert {path} --out {path.with_suffix('.toml')}`, and write into that"
-        )
-    if path.is_file():
-        check_writable(path)
 
 
 def _near(args: argparse.Namespace, robot: Robot) -> dict[str, float] | None:

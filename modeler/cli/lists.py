@@ -2,24 +2,19 @@
 
 import argparse
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
 
 from modeler.cli.console import Json, note, say, say_lines, working
 from modeler.cli.options import unknown
-from modeler.core.builtin import builtin_names
+from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
 from modeler.core.errors import DataError, RobotError
 from modeler.core.estimators import ABOUT
-from modeler.core.json import entries
+from modeler.core.files import check_writable
+from modeler.core.json import entries, shown
 from modeler.effects import CATALOGUE, Acts, Effect, Form, effect_named
-from modeler.robot import (
-    Robot,
-    conversion_notes,
-    near,
-    read_robot,
-    robot_from_text,
-    with_effects,
-    with_home_text,
-)
+from modeler.robot import Robot, near, read_robot, robot_from_text, with_effects, with_home_text
 
 # The signature of an effect, drawn in characters: torque against what it depends on.
 
@@ -102,6 +97,33 @@ def robot_of(args: argparse.Namespace) -> Robot:
     return robot_from_text(text, f"{args.robot} with its [home]")
 
 
+def check_own_file(robot: str, what: str) -> None:
+    """What --write cannot write into is refused before any work."""
+    if robot in builtin_names():
+        raise DataError(
+            f"--write: {robot} is built in; save it with `modeler robots {robot}` "
+            "as a file of your own, and write into that"
+        )
+    path = Path(robot)
+    if path.suffix.lower() in OTHER_PROGRAMS:
+        raise DataError(
+            f"--write: {path} is another program's file, which states no {what}; convert it with "
+            f"`modeler convert {path} --out {path.with_suffix('.toml')}`, and write into that"
+        )
+    if path.is_file():
+        check_writable(path)
+
+
+def use_options_of(args: argparse.Namespace, head: str, stated: Mapping[str, Any]) -> None:
+    """Options that the robot file states, where they were not typed."""
+    taken = {name: value for name, value in stated.items() if name not in args.given}
+    for name, value in taken.items():
+        setattr(args, name, value)
+    if taken:
+        listed = ", ".join(f"{name} = {shown(value)}" for name, value in taken.items())
+        note(f"by [{head}] of the robot file: {listed}")
+
+
 def robot_with_effects(args: argparse.Namespace) -> Robot:
     """The robot that the arguments name, with the effects that they give it."""
     robot = read_robot_with_notes(args.robot)
@@ -120,9 +142,9 @@ def robot_with_effects(args: argparse.Namespace) -> Robot:
 
 
 def read_robot_with_notes(name: str) -> Robot:
-    """The robot of that name or file; what a conversion decided or left out, on stderr."""
+    """The robot of that name or file; what reading it decided or left out, on stderr."""
     robot = read_robot(name)
-    for line in conversion_notes(name):
+    for line in robot.readings:
         note(f"{name}: {line}")
     return robot
 

@@ -212,6 +212,7 @@ class Sorted:
         told: how a doubtful line was read; "" where nothing was given back.
         open: the option whose value the next word would be; None: it is an argument or an option.
         unknown: what looks like an option and is none.
+        given: options that were typed, by the names of their values.
     """
 
     words: list[str]
@@ -219,6 +220,7 @@ class Sorted:
     told: str
     open: argparse.Action | None
     unknown: list[str]
+    given: frozenset[str]
 
 
 def sorted_words(parser: argparse.ArgumentParser, words: Sequence[str]) -> Sorted:
@@ -251,6 +253,7 @@ def sorted_words(parser: argparse.ArgumentParser, words: Sequence[str]) -> Sorte
             if words[each.word].startswith("--")
             and not any(name.startswith(words[each.word].partition("=")[0]) for name in known)
         ],
+        given=frozenset(each.action.dest for each in taken if each.action is not None),
     )
 
 

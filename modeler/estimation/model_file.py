@@ -184,7 +184,9 @@ class IdentifiedModel(Presented):
             table = tomllib.loads(self.robot_text).get("log", {})
         except ValueError:
             table = {}
-        return load(self.spec, self.sources, table if isinstance(table, Mapping) else {})
+        return load(
+            self.spec, self.sources, self.mapping or (table if isinstance(table, Mapping) else {})
+        )
 
 
 def provenance(report: DataReport) -> tuple[LogProvenance, ...]:

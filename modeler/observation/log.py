@@ -10,7 +10,6 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.result import Presented
 
-
 GAP = 5.0
 """A step longer than this many median steps ends a piece of motion."""
 
@@ -52,6 +51,7 @@ class Log(Presented):
         extra: further numeric columns, (n,) each.
         torque_source: where each joint's torque comes from, in words.
         notes: doubtful but usable things seen while reading, one sentence each.
+        told: how it was read, one sentence each.
         content: fingerprint of the whole file's measurements, whatever its name; a piece of the
             log keeps it. Empty if the log came from no file.
         robot_steps: usual and longest step, s, of the rows that are left where a recorder wrote
@@ -74,6 +74,7 @@ class Log(Presented):
     content: str = ""
     robot_steps: tuple[float, float] | None = None
     path: str = ""
+    told: tuple[str, ...] = ()
 
     @property
     def rows(self) -> int:

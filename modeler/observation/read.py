@@ -81,6 +81,7 @@ def log_of(table: LogTable, spec: ModuleSpec) -> Log:
         torque_source=tuple(source for _, source in torques),
         notes=tuple(notes),
         path=str(table.path),
+        told=table.told,
     )
 
 

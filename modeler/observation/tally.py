@@ -213,6 +213,7 @@ def log_report(
         torque_source=log.torque_source,
         open_times=open_times,
         path=log.path,
+        told=log.told,
     )
 
 

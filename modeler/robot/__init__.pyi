@@ -1,4 +1,5 @@
 from .cells import linear_form as linear_form
+from .conventions import written_cell as written_cell, written_table as written_table
 from .edit import (
     home_lines as home_lines,
     with_coupling as with_coupling,
@@ -7,13 +8,14 @@ from .edit import (
     with_effects as with_effects,
     with_gravity as with_gravity,
     with_home_text as with_home_text,
+    with_log as with_log,
     with_own_effect as with_own_effect,
     with_parameters as with_parameters,
     with_reference as with_reference,
 )
 from .loops import read_home as read_home
 from .motors import joint_directions as joint_directions
-from .par_convert import conversion_notes as conversion_notes, converted as converted
+from .par_convert import converted as converted
 from .read import read_robot as read_robot, robot_from_text as robot_from_text
 from .robot import (
     INERTIAL as INERTIAL,

@@ -11,7 +11,7 @@ from typing import Any
 from modeler.core.errors import RobotError
 from modeler.core.toml_cells import Place
 from modeler.effects import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Effect, effect_named
-from modeler.robot.cells import pi_multiple
+from modeler.robot.angles import pi_multiple
 from modeler.robot.effects import parameter_owners, read_own_effects
 from modeler.robot.loops import MARK, expanded, leg_names
 from modeler.robot.robot import INERTIAL
@@ -103,6 +103,26 @@ def with_drive_gains(text: str, gains: Mapping[str, float]) -> str:
         raise RobotError(
             "the [drive_gains] table cannot be replaced; write it as a table of its own, one joint "
             "a line"
+        )
+    return changed
+
+
+def with_log(text: str, table: Mapping[str, Any]) -> str:
+    """The robot file with another table [log], where the old one stood, or at the end.
+
+    Raises:
+        RobotError: the file's own table is written in a way that cannot be replaced line by line.
+    """
+    own = [k for k, (head, _) in enumerate(_lines(text)) if re.match(r"\[\s*log\s*[].]", head)]
+    lines = text.rstrip("\n").split("\n")
+    new = ["[log]", *(f"{_toml_key(key)} = {_toml(entry)}" for key, entry in table.items()), ""]
+    kept = [line for k, line in enumerate(lines) if k not in own]
+    at = own[0] if own else len(kept)
+    before = kept[:at] if own else [*kept, ""]
+    changed = "\n".join([*before, *new, *kept[at:]]).rstrip("\n") + "\n"
+    if _document(changed) != {**tomllib.loads(text), "log": dict(table)}:
+        raise RobotError(
+            "the [log] table cannot be replaced; write it as a table of its own, one entry a line"
         )
     return changed
 

@@ -3,6 +3,7 @@
 import enum
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from modeler.core.brief import Brief
 from modeler.core.expression import Expression
@@ -200,6 +201,7 @@ class Robot(Presented):
         physical: the letters of a paper for the links, by joint.
         terms: how a paper prints its coefficients (see `modeler.formulas`).
         log: which columns of logs are ours, and in which units (see `modeler.logs`).
+        fit, diagnose: options of these commands, by their names, for this robot.
         relations: variables of joints that follow others: row -> its variable as a linear
             expression of the variables of other rows (`q4 = "-q3"`).
         loops: joints that close kinematic chains.
@@ -210,6 +212,8 @@ class Robot(Presented):
         shared: parameters that similar legs have in common.
         reference: standard parameters at which effects that depend on the load are linearised.
         notes: source of the table and remarks, for people.
+        convention: in whose letters the table was given; `joints` are rows of Khalil's.
+        readings: what reading the file decided or left out, for people.
         text: the TOML text it was read from.
     """
 
@@ -230,6 +234,8 @@ class Robot(Presented):
     physical: Mapping[str, PhysicalLink] = field(default_factory=dict)
     terms: Mapping[str, object] = field(default_factory=dict)
     log: Mapping[str, object] = field(default_factory=dict)
+    fit: Mapping[str, Any] = field(default_factory=dict)
+    diagnose: Mapping[str, Any] = field(default_factory=dict)
     relations: Mapping[str, Expression] = field(default_factory=dict)
     loops: tuple[Loop, ...] = ()
     platform: tuple[str, ...] = ()
@@ -238,6 +244,8 @@ class Robot(Presented):
     shared: tuple[SharedParameter, ...] = ()
     reference: Mapping[str, float] = field(default_factory=dict)
     notes: str = ""
+    convention: str = "khalil"
+    readings: tuple[str, ...] = ()
     text: str = ""
 
     def opened(self) -> "Robot":
@@ -262,6 +270,16 @@ class Robot(Presented):
         The free rows of a tree; the actuated ones among them once loops tie the others to them.
         """
         return tuple(joint for joint in self.free if joint.actuated or not self.loops)
+
+    @property
+    def halves(self) -> bool:
+        """True if lengths and angles of the file hold decimals such as 0.5, 0.75 or 1.125."""
+        cells = [
+            getattr(j, c) for j in self.joints for c in ("gamma", "b", "alpha", "d", "theta", "r")
+        ]
+        given = (e for e in self.symbols.values() if e.names or e.uses_pi)
+        parts = (x.denominator for e in (*cells, *self.gravity, *given) for x in e.decimals)
+        return any(n > 1 and n & (n - 1) == 0 for n in parts)
 
     @property
     def kept_first(self) -> tuple[str, ...]:
