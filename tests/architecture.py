@@ -46,7 +46,7 @@ PACKAGES: dict[str, set[str]] = {
     "formulas": {"numpy", "sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
     "runtime": {"numpy", "cffi", "cupy"},
-    "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags"},
+    "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags", "python_calamine"},
     "observation": {"numpy", "scipy"},
     "estimation": {"numpy", "scipy", "clarabel", "cvxpy"},
     "diagnosis": {"numpy", "scipy", "threadpoolctl"},
@@ -72,14 +72,15 @@ ONLY_IN = {
     "pandas": ("core/table.py",),
     "h5py": ("logs/arrays.py",),
     "rosbags": ("logs/bags.py",),
+    "python_calamine": ("logs/sheets.py",),
     "distributed": ("core/jobs.py",),
     "matplotlib": ("report/", "excitation/result.py"),
 }
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
-MOST_MODULES = 312  # observe.py, noise.py: what torques answer to; held.py: what stands; prior.py
-MOST_CODE_LINES = 53_238  # the noise of the motion; what is known before; one line of Python
+MOST_MODULES = 322  # held.py, prior.py; old names, pages that open; tables, logs, Python
+MOST_CODE_LINES = 54_150  # what is known before; tables, logs, one line of Python, one family
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, Any
 from modeler import __version__
 from modeler.core.errors import ModelerError
 from modeler.core.files import Kind, destination, write_atomically
-from modeler.core.json import nulled
 
 if TYPE_CHECKING:
     from modeler.core.figure import Picture
@@ -252,6 +251,8 @@ def run_command(args: argparse.Namespace, run: Callable[[argparse.Namespace], Js
     with contextlib.redirect_stdout(io.StringIO()) if alone else contextlib.nullcontext():
         content = run(args)
     if args.json is not None:
+        from modeler.core.json import nulled  # it reads TOML too, which help need not
+
         told = with_schema(args.command, nulled(content))
         text = json.dumps(told, indent=1, allow_nan=False) + "\n"
         if alone:
