@@ -150,7 +150,7 @@ def check_whose(columns: Sequence[str], rows: Sequence[Row], place: Place, state
     if convention != "khalil":
         if len(rows) > 1 and [row.get("d") for row in rows] == above:
             raise place.at("column a").error(
-                f"got {shown(above)}, the names of the rows above; a is a length in this "
+                f"got {listed(above)}, the names of the rows above; a is a length in this "
                 'convention: write convention = "khalil", where a is the antecedent'
             )
         return
@@ -184,19 +184,15 @@ def whose_line(columns: Sequence[str], rows: Sequence[Row]) -> str:
     if zero and zero[0] != zero[-1]:  # Craig's first axis is z0; often the last frame is the end
         classical = zero[-1]
     lines = [
-        'convention = "craig" in [mdh] if alpha and a stand before the joint',
-        'convention = "classical" if they stand behind it (Denavit-Hartenberg)',
+        'convention = "craig" in [mdh] (alpha and a stand before the joint)',
+        'convention = "classical" in [mdh] (behind it: Denavit and Hartenberg)',
     ]
     first, second = reversed(lines) if classical else lines
-    return f'write {first}, {second}; convention = "khalil" if a names antecedents'
+    return f'write {first} or {second}, and "khalil" where a names antecedents'
 
 
 def shifted(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:
-    """Classical rows as Khalil's, and a fixed frame at the end of the last link, if it is another.
-
-    Raises:
-        RobotError: more rows than one carry joints that nothing tells in which order.
-    """
+    """Classical rows as Khalil's, and a fixed frame at the end of the last link, if it is another."""
     found: list[tuple[Row, RowPlace]] = []
     carried: Row = {}
     before: RowPlace | None = None
@@ -209,7 +205,8 @@ def shifted(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:
         names = [row["j"] for row, _ in rows]
         name = next(n for n in (*_ENDS, *(f"end{k}" for k in range(len(rows)))) if n not in names)
         end = {"j": name, "a": names[-1], "mu": 0, "sigma": 2, **carried}
-        found.append((end, RowPlace(before.file, f'row "{name}"', None, name, {}, before)))
+        spot = before.spot.replace(f'"{names[-1]}"', f'"{name}"')
+        found.append((end, RowPlace(before.file, spot, None, name, before.letters, before)))
     return found
 
 
