@@ -192,7 +192,7 @@ def whose_line(columns: Sequence[str], rows: Sequence[Row]) -> str:
 
 
 def shifted(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:
-    """Classical rows as Khalil's, and a fixed frame at the end of the last link, if it is another."""
+    """Classical rows as Khalil's; a fixed frame ends the last link where it has a or alpha."""
     found: list[tuple[Row, RowPlace]] = []
     carried: Row = {}
     before: RowPlace | None = None
@@ -213,7 +213,7 @@ def shifted(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:
 # The table of a robot in the letters in which it was given.
 
 
-_STEPS = {
+STEPS = {
     "khalil": "T(a \u2192 j) = Rz(\u03b3) Tz(b) Rx(\u03b1) Tx(d) Rz(\u03b8) Tz(r)",
     "craig": "T(parent \u2192 j) = Rz(\u03b3) Tz(b) Rx(\u03b1) Tx(a) Rz(\u03b8) Tz(d) (Craig)",
     "classical": "row j is Rz(\u03b8) Tz(d) Tx(a) Rx(\u03b1) (Denavit and Hartenberg); frame j, of "
@@ -276,4 +276,4 @@ def written_table(robot: Robot) -> WrittenTable:
         if column in GEOMETRY and any(not cells[letter].expression.is_zero for _, cells in rows)
     }
     used = [(joint, {letter: cells[letter] for letter in units}) for joint, cells in rows]
-    return WrittenTable(letters.get("a", ""), units, used, _STEPS[robot.convention])
+    return WrittenTable(letters.get("a", ""), units, used, STEPS[robot.convention])
