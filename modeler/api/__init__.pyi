@@ -1,4 +1,4 @@
-from .checks import compare as compare, contest as contest, free_run as free_run, look_at as look_at
+from .checks import compare as compare, contest as contest, free_run as free_run
 from .fitting import (
     Load as Load,
     fit as fit,
@@ -8,6 +8,13 @@ from .fitting import (
 )
 from .fleets import fleet as fleet
 from .improve import add as add, auto as auto, diagnose as diagnose, undo as undo
+from .log_maps import (
+    Mapped as Mapped,
+    file_and_span as file_and_span,
+    log_map as log_map,
+    look_at as look_at,
+    settled as settled,
+)
 from .motion import (
     excite as excite,
     forecast as forecast,
@@ -38,15 +45,12 @@ from .reexports import (
 )
 from .workflow import (
     AnyLog as AnyLog,
-    Mapped as Mapped,
     compile_model as compile_model,
     derive as derive,
     effects as effects,
     estimators as estimators,
-    file_and_span as file_and_span,
     generate as generate,
     load as load,
-    log_map as log_map,
     new_robot as new_robot,
     observe as observe,
     on_gpu as on_gpu,

@@ -1,26 +1,16 @@
-"""Is a model true? Comparisons, free runs, several models on the same rows; and looks at logs."""
+"""Is a model true? Comparisons, free runs, several models on the same rows."""
 
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from string import ascii_uppercase
 
 import modeler.api.workflow as workflow
 from modeler import validation
+from modeler.api.log_maps import Mapped
 from modeler.api.long_logs import are_long, sources_of, too_long
-from modeler.api.workflow import AnyLog, Mapped
+from modeler.api.workflow import AnyLog
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
-from modeler.logs import LogInspection, LogTable, blocks_of, inspect_log, windows_of
-from modeler.observation import (
-    FINGER,
-    LONG,
-    WINDOW,
-    WINDOWS,
-    Log,
-    Observation,
-    WholeLogNeeded,
-    check_apart,
-)
+from modeler.observation import Log, Observation, WholeLogNeeded, check_apart
 from modeler.runtime import CompiledModel
 
 
@@ -143,31 +133,3 @@ def free_run(
         compiled,
         asked or validation.FreeRunSettings(),
     )
-
-
-# What is in a log, before anything is fitted to it.
-
-
-def look_at(
-    place: str | Path, compiled: CompiledModel | None = None, mapping: Mapped = ()
-) -> LogInspection:
-    """Channels, clock, gaps and doubts of a log.
-
-    Args:
-        place: of any format of `modeler.logs`; with `@start:end` a piece of it.
-        compiled: the robot that it may be of; None: the columns speak for themselves.
-        mapping: whose column is which, as of `read_logs`; what it leaves open is guessed.
-
-    Raises:
-        DataError: the file cannot be read, or has no rows in that piece.
-    """
-    path, span = workflow.file_and_span(str(place))
-    names = workflow.given_map(mapping) if compiled is None else workflow.log_map(compiled, mapping)
-    joints = () if compiled is None else compiled.spec.joints
-    blocks, span = blocks_of(Path(path)), span or (None, None)
-    if blocks is None or blocks.rows <= LONG:
-        table = LogTable(Path(path), names, joints, any_topic=True)
-        return inspect_log(table, names, joints, span)
-    seen = windows_of(blocks, WINDOWS, WINDOW)
-    every = (LogTable(Path(path), names, joints, part=own) for own in blocks.blocks(FINGER))
-    return inspect_log(LogTable(Path(path), names, joints, part=seen), names, joints, span, every)

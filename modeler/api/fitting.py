@@ -9,7 +9,8 @@ import numpy as np
 import modeler.api.workflow as workflow
 from modeler import estimation
 from modeler.api.arguments import Steps, fitting, silent
-from modeler.api.workflow import AnyLog, Mapped
+from modeler.api.log_maps import Mapped
+from modeler.api.workflow import AnyLog
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
@@ -43,6 +44,20 @@ class FitRequest:
     window: float | None = None
     payloads: tuple[estimation.Payload, ...] = ()
     below: float | None = None
+
+
+def processing_of(options: Mapping[str, Any]) -> Processing:
+    """The processing by options of `modeler fit`, or by `[fit]` of a robot file."""
+    names = {"cutoff": "position_cutoff", "decimate": "decimation"}
+    own = {field.name for field in dataclasses.fields(Processing)}
+    known = {names.get(name, name): value for name, value in options.items()}
+    return Processing(**{name: value for name, value in known.items() if name in own})
+
+
+def request_of(options: Mapping[str, Any]) -> FitRequest:
+    """The fit by `[fit]` of a robot file."""
+    energy, below = options.get("model") == "energy", options.get("essential_below")
+    return FitRequest(options.get("method", "weighted"), energy, options.get("window"), (), below)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -357,12 +372,16 @@ def side_by_side(
 
 
 def observe_held_out(
-    compiled: CompiledModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog], mapping: Mapped = ()
+    compiled: CompiledModel,
+    logs: Sequence[AnyLog],
+    holdout: Sequence[AnyLog],
+    mapping: Mapped = (),
+    processing: Processing | None = None,
 ) -> tuple[Observation, Observation | None]:
     """Logs to fit, and held-out ones processed alike; None without any."""
     given, kept = (workflow.read_logs(compiled, some, mapping) for some in (logs, holdout))
     check_apart(given, kept)
-    observation = observe(compiled, given)
+    observation = observe(compiled, given, processing)
     held = observe(compiled, kept, observation.report.processing) if kept else None
     return observation, held
 

@@ -4,7 +4,8 @@ import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from modeler.api.workflow import AnyLog, Mapped, compile_model, file_and_span, log_map, read_logs
+from modeler.api.log_maps import Mapped, file_and_span, log_maps
+from modeler.api.workflow import AnyLog, compile_model, read_logs
 from modeler.codegen import derive, generate
 from modeler.core.errors import DataError, LoopError, file_and_window
 from modeler.core.jobs import Workers, open_workers, untold
@@ -86,9 +87,9 @@ def reduce_logs(
     progress: Progress | None = None,
 ) -> list[LogSummary | SkippedLog]:
     """The summaries of all logs, each with the cut-offs that its own noise asks for."""
-    names = log_map(compiled, mapping)
     jobs = []
-    for each in named:
+    maps = log_maps(compiled, [each.place for each in named], mapping)
+    for each, names in zip(named, maps, strict=True):
         path, span = file_and_span(each.place)
         jobs.append(LogJob(each, str(Path(path).absolute()), span, processing, names))
     code = dataclasses.replace(emitted, files=emitted.code)

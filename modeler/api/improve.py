@@ -4,7 +4,8 @@ from collections.abc import Callable, Sequence
 
 from modeler import diagnosis
 from modeler.api.arguments import Steps, silent
-from modeler.api.workflow import AnyLog, Mapped, read_logs, recompile
+from modeler.api.log_maps import Mapped
+from modeler.api.workflow import AnyLog, read_logs, recompile
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.observation import check_apart

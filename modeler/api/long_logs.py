@@ -8,7 +8,8 @@ from typing import TypeGuard
 
 from modeler import observation
 from modeler.api.fitting import FitOutcome, identified, judged
-from modeler.api.workflow import AnyLog, Mapped, file_and_span, log_map, read_logs
+from modeler.api.log_maps import Mapped, file_and_span, log_maps
+from modeler.api.workflow import AnyLog, read_logs
 from modeler.codegen import Derivation
 from modeler.core.errors import DataError, Method
 from modeler.core.jobs import Workers
@@ -67,13 +68,12 @@ def sources_of(
     Raises:
         DataError: a log cannot be read.
     """
-    names = log_map(compiled, mapping)
     found: list[observation.Source] = []
-    for place in places:
+    for place, names in zip(places, log_maps(compiled, places, mapping), strict=True):
         source = None
         if isinstance(place, str | Path) and file_and_span(place)[1] is None:
             source = observation.source_of(Path(place), compiled.spec, names)
-        found.append(source or observation.MemorySource(read_logs(compiled, [place], mapping)[0]))
+        found.append(source or observation.MemorySource(read_logs(compiled, [place], names)[0]))
     return found
 
 

@@ -1,12 +1,13 @@
 """The chain: from a robot to its C, from logs to a model."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from modeler import observation
+from modeler.api.log_maps import Mapped, log_maps, read_mapped
 from modeler.codegen import (
     Derivation as Derivation,
     derive as derive,
@@ -14,14 +15,14 @@ from modeler.codegen import (
     load as load,
 )
 from modeler.core.builtin import builtin_names
-from modeler.core.errors import DataError, ManifestError, Precision, file_and_window
+from modeler.core.errors import DataError, ManifestError, Precision
 from modeler.core.estimators import ABOUT
 from modeler.core.files import Kind, destination, write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.table import Table
 from modeler.effects import CATALOGUE
 from modeler.estimation import IdentifiedModel, check_currents, in_drive_units, model_file
-from modeler.logs import LogMap, map_from_table, map_from_words
+from modeler.logs import LogMap
 from modeler.robot import (
     Robot,
     read_robot,
@@ -35,9 +36,6 @@ from modeler.simulation import SimulatedLog, write_log
 
 AnyLog = str | Path | observation.Log | SimulatedLog
 """A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated."""
-
-Mapped = Mapping[str, Any] | Sequence[str]
-"""Whose column is which: a table as [log] of a robot file, or texts as `--map` takes them."""
 
 
 def new_robot(
@@ -144,10 +142,11 @@ def read_logs(
     Args:
         compiled: the robot; its file's [log] says which columns are which.
         logs: of any format of `modeler.logs`.
-        mapping: over [log]: a table like it, or texts as `--map` takes them.
+        mapping: over [log]: a table like it, or texts as `--map` takes them; "auto" among them
+            takes the guess of `look_at` for what is left open.
     """
-    names = log_map(compiled, mapping)
-    return [_log(log, compiled.spec, names) for log in logs]
+    maps = log_maps(compiled, logs, mapping)
+    return [_log(log, compiled.spec, names) for log, names in zip(logs, maps, strict=True)]
 
 
 def read_currents(
@@ -158,23 +157,10 @@ def read_currents(
     Raises:
         DataError: a log gives a torque instead.
     """
-    spec, names = in_drive_units(compiled.spec), log_map(compiled, mapping)
-    read = [_log(log, spec, names) for log in logs]
+    spec, maps = in_drive_units(compiled.spec), log_maps(compiled, logs, mapping)
+    read = [_log(log, spec, names) for log, names in zip(logs, maps, strict=True)]
     check_currents(read, spec.joints)
     return read
-
-
-def log_map(compiled: CompiledModel, mapping: Mapped = ()) -> LogMap:
-    """Which columns of logs are ours: [log] of the robot file, and `mapping` over it."""
-    stated = map_from_table(compiled.log, f"{compiled.spec.robot}: [log]")
-    return given_map(mapping).overriding(stated)
-
-
-def given_map(mapping: Mapped) -> LogMap:
-    """A mapping as it was given, by itself."""
-    if isinstance(mapping, Mapping):
-        return map_from_table(mapping, "mapping", strict=True)
-    return map_from_words(mapping)
 
 
 def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> observation.Log:
@@ -185,42 +171,8 @@ def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> observation.Log:
     with TemporaryDirectory() as folder:  # read as whoever gets the file will read it
         place = Path(folder) / f"{log.robot}-seed{log.settings.seed}.parquet"
         write_log(place, log)
-        return observation.read_log(place, spec)
-
-
-def read_mapped(place: str | Path, spec: ModuleSpec, names: LogMap) -> observation.Log:
-    """A log, or a piece of it, with the columns of a map."""
-    path, span = file_and_span(place)
-    if span is None:
-        return observation.read_log(path, spec, names)
-    source = observation.source_of(Path(path), spec, names)
-    if source is not None and source.rows > (
-        observation.LONG if source.exact else 2 * observation.LONG
-    ):
-        return observation.read_part(source, spec, *span)
-    return observation.window(observation.read_log(path, spec, names), *span)
-
-
-def file_and_span(place: str | Path) -> tuple[str | Path, tuple[float | None, float | None] | None]:
-    """The file of a log, and the seconds that `@start:end` after it means; None for all of it.
-
-    Raises:
-        DataError: something else stands after the @.
-    """
-    path, times = file_and_window(str(place))
-    if times is None:
-        return place, None
-    start, colon, end = times.partition(":")
-    try:
-        span = tuple(float(side) if side else None for side in (start, end))
-    except ValueError:
-        span = ()
-    if not (colon and span):
-        raise DataError(
-            f"{place}: got @{times} after the file; expected @START:END in seconds, as in "
-            f"{path}@0:10, {path}@5: or {path}@:5"
-        )
-    return path, (span[0], span[1])
+        read = observation.read_log(place, spec)
+    return dataclasses.replace(read, path="")
 
 
 def observe(
@@ -244,7 +196,8 @@ def recompile(model: IdentifiedModel) -> CompiledModel:
         ManifestError: this version derives another manifest than the one that the values belong to.
     """
     otherwise = ", or use --run-embedded-c to run the C in the file if you trust its source"
-    return compile_model(_emitted_anew(model, otherwise)[1])
+    emitted = _emitted_anew(model, otherwise)[1]
+    return compile_model(dataclasses.replace(emitted, log=model.mapping or emitted.log))
 
 
 def _emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
@@ -343,7 +296,7 @@ def estimators() -> Table:
 def on_gpu(derivation: Derivation) -> GpuModel:
     """The base regressor of a robot without loops on the graphics processor of this machine.
 
-    It needs CuPy: `pip install '.[gpu]'`.
+    It needs CuPy: `pip install "modeler-robotics[gpu]"`.
 
     Raises:
         BuildError: no CuPy, no graphics processor, or the compiler refused.

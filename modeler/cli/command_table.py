@@ -5,7 +5,7 @@ usage, come at once.
 """
 
 import argparse
-from typing import get_args
+from typing import Any, get_args
 
 from modeler.cli import places
 from modeler.cli.options import (
@@ -18,6 +18,7 @@ from modeler.cli.options import (
     flag,
     repeated,
     several,
+    unknown,
     value,
 )
 from modeler.core import errors
@@ -35,7 +36,7 @@ _WINDOW = "FILE@START:END takes the rows between these seconds"
 _LOGS = f"Parquet, CSV, MAT, HDF5 or MCAP logs, ROS bags; {_WINDOW}"
 _EFFECTS = 'effects instead of those of the file, for all joints: "viscous,coulomb"'
 _PARALLEL = "the one low-pass of torques and all columns"
-_REQUIRED = {"required": True}
+_REQUIRED: dict[str, Any] = {"required": True}
 
 _ROBOT = value("robot", "ROBOT", places.RobotFile, _ROBOT_FILE)
 _CHANGED = value("--effects", "LIST", places.Word, f'{_EFFECTS}; "" for none')
@@ -43,7 +44,8 @@ _MODEL = value("model", "MODEL", places.ModelFile, "a model file of `modeler fit
 _MAP = repeated(
     "--map", "NAME=COLUMN[:UNIT]", places.MapWord,
     "which column of the logs is ours, as 'q<j>=position_{j}:deg', or FILE.toml with such lines; "
-    "may be given several times; over [log] of the robot file",
+    "may be given several times; auto: what `modeler log` suggests for all else; over [log] of the "
+    "robot file; kept in the model",
 )  # fmt: skip
 _DASK = value(
     "--dask", "ADDRESS", places.Word,
@@ -53,18 +55,44 @@ _DASK = value(
 _FORCE = flag(
     "--force", "write also over files of DIR that no earlier run wrote, or that were edited since"
 )
-_PAGE = "write one self-contained page"
-_PICTURES = "write every picture as PNG, SVG and CSV"
+_PICTURES = "folder for every picture as PNG, SVG and CSV"
+_OPEN = flag("--open", "show the page in the browser; without --report one in a temporary folder")
+_DRAWN = "draw it: .png, .svg or .pdf"
+METHODS = (*get_args(errors.Method), errors.GAIN_METHOD, errors.TWO_STEPS)
+ALL = "all"
+"""`--method all`: every estimator of `ABOUT`, side by side."""
 
 
 def _logs(text: str, nargs: str = "+") -> Argument:
     return value("logs", "LOG", places.LogFile, text, nargs=nargs)
 
 
-def _report(kind: type[places.Output] = places.Output) -> Argument:
-    """It may be called `--page`, as `derive` calls it."""
-    page = value("--report", "PAGE.html", kind, _PAGE)
-    return Argument(("--report", "--page"), page.settings)
+def _page(kind: type[places.Output] = places.Output) -> tuple[Argument, Argument]:
+    """`--report` and `--open`."""
+    text = "write one self-contained page"
+    return value("--report", "PAGE.html", kind, text, old=("--page",)), _OPEN
+
+
+def _pictures(kind: type[places.OutputFolder]) -> Argument:
+    return value("--picture", "DIR", kind, _PICTURES, old=("--pictures",))
+
+
+class Methods(places.Word):
+    """An estimator; several with commas between; or `ALL`."""
+
+    def __new__(cls, text: str) -> "Methods":
+        """Refuses a name that is none, as a wrong usage."""
+        names = text.split(",")
+        known = (*METHODS, ALL) if len(names) == 1 else tuple(ABOUT)
+        for name in names:
+            if name not in known:
+                raise argparse.ArgumentTypeError(unknown(name, known))
+        return super().__new__(cls, text)
+
+    @property
+    def several(self) -> bool:
+        """Whether they are compared, and no model is written."""
+        return self == ALL or "," in self
 
 
 # Of a robot: its model, its C, its pictures, its postures.
@@ -78,23 +106,26 @@ _DERIVE = Command(
     "modeler derive puma560 --format latex --document > puma560.tex",
     (
         _ROBOT, _CHANGED,
-        choice("--format", sorted(get_args(Form)), "of what is printed", "text"),
-        flag("--document",
-             "with --format latex: a whole document; without, what \\input takes beside amsmath"),
-        Argument(("--terms",), {"action": argparse.BooleanOptionalAction,
-                                "help": "PG/PJ/PS coefficients or not"}),
-        flag("--closed-form",
-             "M(q), Christoffel coefficients and gravity; of loops J_t and J_p too"),
-        flag("--regressor", "every base column, that of friction too"),
-        flag("--expanded",
-             "with --closed-form: sums of monomials instead of named quantities; with --terms: all "
-             "coefficients, those that follow from others too"),
-        flag("--nonzero",
-             "with --closed-form and --regressor: leave out base parameters that are 0 at the "
-             "values of [parameters]"),
-        value("--report", "FILE.md", places.Output, "write the page of the coefficients"),
-        value("--page", "FILE.html", places.Output, "write a page: table, relations, proof"),
-        flag("--open", "cut the loops: the tree, as counted leg by leg"),
+        Group("what is printed", None, (
+            choice("--format", sorted(get_args(Form)), "of what is printed", "text"),
+            flag("--document",
+                 "with --format latex: a whole document; without, what \\input takes beside "
+                 "amsmath"),
+            Argument(("--terms",), {"action": argparse.BooleanOptionalAction,
+                                    "help": "PG/PJ/PS coefficients or not"}),
+            flag("--closed-form",
+                 "M(q), Christoffel coefficients and gravity; of loops J_t and J_p too"),
+            flag("--regressor", "every base column, that of friction too"),
+            flag("--expanded",
+                 "with --closed-form: sums of monomials instead of named quantities; with --terms: "
+                 "all coefficients, those that follow from others too"),
+            flag("--nonzero",
+                 "with --closed-form and --regressor: leave out base parameters that are 0 at the "
+                 "values of [parameters]"),
+        )),
+        flag("--cut-loops", "cut the loops: the tree, as counted leg by leg"),
+        value("--coefficients-out", "FILE.md", places.Output, "write the page of the coefficients"),
+        *_page(),
     ),
 )  # fmt: skip
 
@@ -104,13 +135,13 @@ _SHOW = Command(
     "Draws the skeleton of ROBOT at home: frames, joint axes, links, loops, platform, gravity. The "
     "page stands alone, its sliders move the actuated joints and the loops follow. Loops that do "
     "not close are drawn open, with the gap.",
-    "modeler show orthoglide-2003 --png orthoglide.pdf",
+    "modeler show orthoglide-2003 --picture orthoglide.pdf",
     (
         _ROBOT,
         value("--out", "PAGE", places.Output,
-              "page to write (default NAME.html, if no picture is asked for)"),
-        value("--png", "FILE", places.Output,
-              "write a picture one column wide: .png, .svg or .pdf"),
+              "page to write (default NAME.html, if no picture is asked for)", old=("--report",)),
+        value("--picture", "FILE", places.Output, f"{_DRAWN}, one column wide", old=("--png",)),
+        flag("--open", "show the page in the browser"),
     ),
     "write poses at home and gaps of loops for machines",
 )  # fmt: skip
@@ -122,7 +153,7 @@ _HOME = Command(
     "[home] says, else in the middle of their [limits], else far from singularities; each gets a "
     "letter, A the best to start from. What [home] or --near say of passive joints ranks them: one "
     "near to it comes first.",
-    "modeler home crank.toml --pictures modes.html --mode B --write",
+    "modeler home crank.toml --report modes.html --mode B --write",
     (
         _ROBOT,
         value("--near", "q1=0.3,...", places.Word,
@@ -130,8 +161,9 @@ _HOME = Command(
         flag("--anew", "as if the file had no [home]"),
         value("--mode", "LETTER", places.Word, "the mode that is meant (default A)"),
         flag("--write", "write it into the robot file as [home]"),
-        value("--pictures", "FILE", places.Output,
-              "a small picture of every mode: .png, .svg or .pdf, or a page (.html)"),
+        value("--picture", "FILE", places.Output,
+              "draw every mode, beside each other: .png, .svg or .pdf", old=("--pictures",)),
+        *_page(),
     ),
     "write the modes for machines",
 )  # fmt: skip
@@ -222,18 +254,17 @@ _CONVERT = Command(
 _LOG = Command(
     "log", "log:run_log",
     "what is in a log: channels, rates, gaps, doubts, pictures",
-    "Lists what FILE holds: topics and columns, rate, jitter, gaps, ranges, resolution, missing "
+    "Lists what LOG holds: topics and columns, rate, jitter, gaps, ranges, resolution, missing "
     "values, limits. Names doubts, and suggests a [log] to start from, guessed from names and "
     "ranges. With a robot: fits it, and says what contradicts it.",
     "modeler log run1.mat --robot arm.toml --report run1.html",
     (
-        value("log", "FILE", places.LogFile,
+        value("log", "LOG", places.LogFile,
               f"Parquet, CSV, MAT, HDF5, numpy or MCAP file, or ROS bag; {_WINDOW}"),
         value("--robot", "ROBOT", places.RobotFile,
               f"{_ROBOT_FILE}: its [log], its joints, and doubts that a fit shows"),
-        _MAP,
-        _report(),
-        value("--pictures", "DIR", places.LogPictures, _PICTURES),
+        flag("--write", "put the guessed [log] into the file of --robot, in place of its own"),
+        _MAP, *_page(), _pictures(places.LogPictures),
     ),
     "write what is in it for machines",
 )  # fmt: skip
@@ -271,19 +302,31 @@ _LOAD = Group(
     ),
 )  # fmt: skip
 
+
+def _out_of_fit(args: argparse.Namespace) -> str:
+    """A model is written of one method, and of several none."""
+    alone = args.out is None and not args.method.several
+    return "the following arguments are required: --out" if alone else ""
+
+
 _FIT = Command(
     "fit", "fit:run_fit",
     "estimate the base parameters from logs",
     "Filters the logs, builds the observation matrix and estimates the base parameters of ROBOT: "
-    "value, sigma, %sigma, errors per joint; saves a model file.",
-    "modeler fit ur10e run1.parquet run2.parquet --out ur10e.model.json",
+    "value, sigma, %sigma, errors per joint; saves a model file. Of several methods it shows "
+    "values, errors, seconds and warnings side by side, and saves none.",
+    "modeler fit ur10e run1.parquet run2.parquet --out ur10e.model.json; which estimator: "
+    "modeler fit emps train.parquet --method all --holdout pulses.parquet",
     (
         _ROBOT, _CHANGED, _logs(_LOGS), _MAP,
-        value("--out", "MODEL", places.Output, "model file to write", **_REQUIRED),
-        choice("--method", (*get_args(errors.Method), errors.GAIN_METHOD, errors.TWO_STEPS),
-               "; ".join(f"{about.id}: {about.title}" for about in (*ABOUT.values(), *APART))
-               + "; `modeler estimators` says when each is the wrong one (default %(default)s)",
-               "weighted"),
+        value("--out", "MODEL", places.Output, "model file to write; none of several methods"),
+        value("--method", "METHOD[,METHOD...]", Methods,
+              "; ".join(f"{about.id}: {about.title}" for about in (*ABOUT.values(), *APART))
+              + f"; several with commas between, or {ALL}: compared on the same rows; `modeler "
+              "estimators` says when each is the wrong one (default %(default)s)",
+              default=Methods("weighted")),
+        several("--holdout", "LOG", places.LogFile,
+                "with several methods: logs of other motion, not fitted: their error"),
         value("--robot-out", "FILE.toml", places.Output,
               "write the robot file with the values found, for simulators (--method consistent), "
               "or with the drive gains found (--method tls)"),
@@ -296,7 +339,25 @@ _FIT = Command(
         value("--essential-below", "PERCENT", float,
               "keep in the reduced model what has a sigma below this share of its value (papers: "
               "15); left out: what an F-test misses"),
-        _PROCESSING, _LOAD, _DASK, _report(),
+        _PROCESSING, _LOAD, _DASK, *_page(),
+    ),
+    lacks=_out_of_fit,
+)  # fmt: skip
+
+_FREE_RUN = Group(
+    "free run", "positions instead of torques, simulated from the logged torques",
+    (
+        flag("--free-run",
+             "simulate the robot under the torques of the logs, window after window from the "
+             "measured state: fit of the positions per joint, how long the error stays within a "
+             "bound, and whether errors grow by the robot's nature whatever the model; where "
+             "commanded positions were logged, also under a controller that follows them"),
+        value("--window", "S", float, "seconds from one measured state to the next (default 1)"),
+        value("--bound", "SHARE", float,
+              "of a joint's range of motion: an error above it ends the horizon (default 0.05)"),
+        value("--controller", "HZ,RATIO[,INTEGRAL[,FORWARD]]", places.Word,
+              "the controller that follows the commands: speed loop, ratio of the position loop to "
+              "it, integral action and feedforward (1 or 0); default: the one that comes nearest"),
     ),
 )  # fmt: skip
 
@@ -305,59 +366,22 @@ _COMPARE = Command(
     "measured against predicted torque: how good, where it fails",
     "Predicts the torques of the logs with MODEL and shows per joint how good it is, where it "
     "fails, and whether the rest still has structure. Of several models: whose error is smaller on "
-    "which joint, and where that is beyond doubt.",
+    "which joint, and where that is beyond doubt. With --free-run: the positions that the robot "
+    "takes under the logged torques.",
     "modeler compare ur10e.model.json held_out.parquet --report page.html; "
-    "modeler compare ur10e.model.json better.model.json held_out.parquet",
+    "modeler compare ur10e.model.json better.model.json held_out.parquet; "
+    "modeler compare ur10e.model.json held_out.parquet --free-run --picture free_run",
     (
         _MODEL,
         value("logs", "LOG", places.model_or_log,
               f"{_LOGS}; before them perhaps further models, which are set beside the first",
               nargs="+"),
-        _MAP, _report(places.PageOrFolder),
-        value("--pictures", "DIR", places.PictureFolder, _PICTURES),
+        _MAP, *_page(places.PageOrFolder), _pictures(places.PictureFolder),
         flag("--essential",
              "predict with the reduced model of the fit: its essential parameters, all others 0"),
         flag("--run-embedded-c",
              "compile the C in MODEL instead of emitting it anew: only for files that you trust"),
-    ),
-)  # fmt: skip
-
-_FREE_RUN = Command(
-    "free-run", "compare:run_free_run",
-    "positions that the fitted robot takes under the logged torques",
-    "Simulates the robot of MODEL under the torques of the logs, window after window from the "
-    "measured state, and compares positions: fit per joint, how long the error stays within a "
-    "bound, and whether errors grow by the robot's nature whatever the model. Where commanded "
-    "positions were logged, also under a controller that follows them.",
-    "modeler free-run ur10e.model.json held_out.parquet --pictures free_run",
-    (
-        _MODEL, _logs(f"logs; {_WINDOW}"),
-        value("--window", "S", float, "seconds from one measured state to the next", default=1.0),
-        value("--bound", "SHARE", float,
-              "of a joint's range of motion: an error above it ends the horizon", default=0.05),
-        value("--controller", "HZ,RATIO[,INTEGRAL[,FORWARD]]", places.Word,
-              "the controller that follows the commands: speed loop, ratio of the position loop to "
-              "it, integral action and feedforward (1 or 0); default: the one that comes nearest"),
-        value("--pictures", "DIR", places.PictureFolder, _PICTURES),
-        _MAP,
-    ),
-)  # fmt: skip
-
-_ESTIMATORS = Command(
-    "estimators", "fit:run_estimators",
-    "the ways to estimate, and all of them on the same logs",
-    "Lists the estimators of `modeler fit --method`: law, source, and when not to use each. With "
-    "ROBOT and logs, fits all of them to the same rows and shows values, errors, seconds and "
-    "warnings side by side; no model is written.",
-    "modeler estimators emps train.parquet --holdout pulses.parquet",
-    (
-        value("robot", "ROBOT", places.RobotFile, _ROBOT_FILE, nargs="?"),
-        _logs(f"logs to fit; {_WINDOW}", "*"),
-        value("--effects", "LIST", places.Word, _EFFECTS),
-        several("--holdout", "LOG", places.LogFile,
-                "logs of other motion, not fitted: their error"),
-        value("--methods", "LIST", places.Word, "some of them, with commas between; default: all"),
-        _MAP, _report(),
+        _FREE_RUN,
     ),
 )  # fmt: skip
 
@@ -367,7 +391,7 @@ _FLEET = Command(
     "Fits all logs of machines of one kind together: inertial parameters in common, friction, "
     "offset and drive gain of every joint log by log. Says which of them drifts, leaps, or is "
     "apart from those of the other machines, beyond doubt.",
-    "modeler fleet ur10e plant/*/*.parquet --page fleet.html",
+    "modeler fleet ur10e plant/*/*.parquet --report fleet.html",
     (
         _ROBOT, _CHANGED, _logs(f"logs, or folders of logs; {_WINDOW}", "*"),
         Group("names", "which machine and period a log is of", (
@@ -388,7 +412,7 @@ _FLEET = Command(
                   "processes that read logs; left out: one for few logs, all processors for many"),
             _DASK,
         )),
-        _report(),
+        *_page(),
     ),
 )  # fmt: skip
 
@@ -407,7 +431,7 @@ _DIAGNOSE = Command(
                 "logs of other motion: errors come from them, nothing is fitted to them"),
         repeated("--without", "EFFECT[@J]", places.Word,
                  "an effect that this robot does not have, on one joint or at all"),
-        _MAP, _report(),
+        _MAP, *_page(),
     ),
 )  # fmt: skip
 
@@ -426,8 +450,9 @@ _ADD = Command(
         value("--joint", "J", places.Word, "default: where it explains most"),
         value("--out", "MODEL2", places.Output, "model file to write", **_REQUIRED),
         several("--holdout", "LOG", places.LogFile, "logs of other motion to judge on"),
-        value("--robot", "FILE", places.Output, "write the new robot file too"),
-        _MAP, _report(),
+        value("--robot-out", "FILE.toml", places.Output, "write the new robot file too",
+              old=("--robot",)),
+        _MAP, *_page(),
     ),
 )  # fmt: skip
 
@@ -444,32 +469,40 @@ _EXCITE = Command(
         _CHANGED,
         value("--out", "MOTION", places.NewLog,
               "motion to write, .csv or .parquet: time, q, qd and qdd of every joint"),
-        value("--picture", "FILE", places.Output, "draw it against its limits, .png, .svg or .pdf"),
-        value("--duration", "S", float, "seconds, from rest to rest", default=10.0),
-        value("--laps", "N", int, "times that this motion is driven in MOTION", default=1),
-        value("--rate", "HZ", float, "samples per second of MOTION", default=200.0),
-        value("--encoder-counts", "N", int,
-              "per turn, of the log whose sigmas are forecast; of a MODEL; default: exact"),
-        value("--position-noise", "X", float,
-              "rad or m, white, of the positions of that log; of a MODEL; default: none"),
-        value("--harmonics", "N", int, "of the Fourier series; default: 5 to 10, by the limits"),
-        choice("--objective", ("both", "condition", "information"),
-               "condition: the condition number, columns of length one; information: log det of "
-               "the information matrix; both: the sum of their logarithms (default %(default)s)",
-               "both"),
-        value("--starts", "N", int, "searches, from the best of 50 random motions", default=6),
-        value("--seed", "N", int, "of the random motions", default=0),
-        value("--time-limit", "S", float, "take the best after so many seconds"),
-        repeated("--limit", "J=LOWER,UPPER,SPEED,ACCELERATION[,TORQUE]", places.Word,
-                 "of a joint, instead of those of the file, SI units; may be repeated; torques "
-                 "need values of the parameters"),
-        repeated("--box", "FRAME=X0,X1,Y0,Y1,Z0,Z1", places.Word,
-                 "where the origin of a frame must stay, m, in frame 0; may be repeated"),
-        value("--between", "EFFECT@J,EFFECT@J", places.Word,
-              "make what the first effect alone explains large, and the second: of a MODEL"),
-        value("--choose", "N", int, "take N of the motions of --from; takes no --out"),
-        several("--from", "LOG", places.MotionFile,
-                "logs or motions to choose from", dest="candidates"),
+        value("--picture", "FILE", places.Output, "draw it against its limits: .png, .svg or .pdf"),
+        Group("the motion", None, (
+            value("--duration", "S", float, "seconds, from rest to rest", default=10.0),
+            value("--laps", "N", int, "times that this motion is driven in MOTION", default=1),
+            value("--rate", "HZ", float, "samples per second of MOTION", default=200.0),
+            repeated("--limit", "J=LOWER,UPPER,SPEED,ACCELERATION[,TORQUE]", places.Word,
+                     "of a joint, instead of those of the file, SI units; may be repeated; torques "
+                     "need values of the parameters"),
+            repeated("--box", "FRAME=X0,X1,Y0,Y1,Z0,Z1", places.Word,
+                     "where the origin of a frame must stay, m, in frame 0; may be repeated"),
+        )),
+        Group("the search", None, (
+            choice("--objective", ("both", "condition", "information"),
+                   "condition: the condition number, columns of length one; information: log det "
+                   "of the information matrix; both: the sum of their logarithms (default "
+                   "%(default)s)", "both"),
+            value("--harmonics", "N", int,
+                  "of the Fourier series; default: 5 to 10, by the limits"),
+            value("--starts", "N", int, "searches, from the best of 50 random motions", default=6),
+            value("--seed", "N", int, "of the random motions", default=0),
+            value("--time-limit", "S", float, "take the best after so many seconds"),
+        )),
+        Group("the forecast of sigmas", "of a MODEL", (
+            value("--encoder-counts", "N", int, "per turn, of the log; default: exact"),
+            value("--position-noise", "X", float,
+                  "rad or m, white, of its positions; default: none"),
+        )),
+        Group("other tasks", None, (
+            value("--between", "EFFECT@J,EFFECT@J", places.Word,
+                  "make what the first effect alone explains large, and the second: of a MODEL"),
+            value("--choose", "N", int, "take N of the motions of --from; takes no --out"),
+            several("--from", "LOG", places.MotionFile,
+                    "logs or motions to choose from", dest="candidates"),
+        )),
     ),
     "write what was found for machines",
 )  # fmt: skip
@@ -485,34 +518,42 @@ _SIMULATE = Command(
     (
         _ROBOT, _CHANGED,
         value("--out", "LOG", places.NewLog, "log to write, .parquet or .csv", **_REQUIRED),
-        value("--truth", "FILE", places.Output, "write the true parameters as JSON"),
-        value("--motion", "MOTION", places.MotionOrKind,
-              "exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
-              "[limits] allow; one-joint: one after the other alone; or a file of `modeler excite` "
-              "or a log, whose (commanded) positions are then the motion, as long as it is "
-              "(default %(default)s)", default=MOTIONS[0]),
-        value("--duration", "S", float,
-              f"seconds (default {SIMULATED['duration']:g}); not of a file, which is as long as it "
-              "is"),
-        value("--rate", "HZ", float, "samples per second", default=SIMULATED["rate"]),
-        value("--seed", "N", int, "of motion and noise", default=SIMULATED["seed"]),
-        value("--parameter-seed", "N", int,
-              "of parameters the file leaves open", default=SIMULATED["parameter_seed"]),
-        value("--noise", "SHARE", float,
-              "torque noise, share of the rms torque", default=SIMULATED["torque_noise"]),
-        value("--process-noise", "SHARE", float,
-              "random torque on the machine, share of the rms torque",
-              default=SIMULATED["process_noise"]),
-        flag("--controller",
-             "a robot with loops is moved by a controller too, as others always are"),
-        value("--encoder-counts", "N", int,
-              "per turn, 0 for an ideal encoder", default=SIMULATED["encoder_counts"]),
-        repeated("--hide", "EFFECT[@JOINT][:NAME=VALUE,...]", places.Word,
-                 "physics that the machine has and the robot file lacks; may be repeated; joint "
-                 f"and values left out are drawn from --parameter-seed: {', '.join(EFFECTS)}"),
-        repeated("--drive-gain", "JOINT=VALUE", places.Word,
-                 "true torque per drive unit of a joint; its current is logged in place of its "
-                 "torque; may be repeated"),
+        value("--truth-out", "FILE.json", places.Output, "write the true parameters",
+              old=("--truth",)),
+        Group("the motion", None, (
+            value("--motion", "MOTION", places.MotionOrKind,
+                  "exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
+                  "[limits] allow; one-joint: one after the other alone; or a file of `modeler "
+                  "excite` or a log, whose (commanded) positions are then the motion, as long as "
+                  "it is (default %(default)s)", default=MOTIONS[0]),
+            value("--duration", "S", float,
+                  f"seconds (default {SIMULATED['duration']:g}); not of a file, which is as long "
+                  "as it is"),
+            value("--rate", "HZ", float, "samples per second", default=SIMULATED["rate"]),
+            value("--seed", "N", int, "of motion and noise", default=SIMULATED["seed"]),
+            flag("--controller",
+                 "a robot with loops is moved by a controller too, as others always are"),
+        )),
+        Group("the machine", None, (
+            value("--parameter-seed", "N", int,
+                  "of parameters the file leaves open", default=SIMULATED["parameter_seed"]),
+            repeated("--hide", "EFFECT[@JOINT][:NAME=VALUE,...]", places.Word,
+                     "physics that the machine has and the robot file lacks; may be repeated; "
+                     "joint and values left out are drawn from --parameter-seed: "
+                     f"{', '.join(EFFECTS)}"),
+        )),
+        Group("what is measured", None, (
+            value("--noise", "SHARE", float,
+                  "torque noise, share of the rms torque", default=SIMULATED["torque_noise"]),
+            value("--process-noise", "SHARE", float,
+                  "random torque on the machine, share of the rms torque",
+                  default=SIMULATED["process_noise"]),
+            value("--encoder-counts", "N", int,
+                  "per turn, 0 for an ideal encoder", default=SIMULATED["encoder_counts"]),
+            repeated("--drive-gain", "JOINT=VALUE", places.Word,
+                     "true torque per drive unit of a joint; its current is logged in place of its "
+                     "torque; may be repeated"),
+        )),
     ),
     "write what was simulated for machines",
 )  # fmt: skip
@@ -521,16 +562,17 @@ _SIMULATE = Command(
 
 _ROBOTS = Command(
     "robots", "lists:run_robots",
-    "the built-in robots",
-    "Lists the built-in robots: names to use wherever a command asks for ROBOT.",
-    "modeler robots --json robots.json",
-    (value("--show", "NAME", places.RobotFile, "print that robot's file, to start your own"),),
+    "the built-in robots, or one's file",
+    "Lists the built-in robots: names to use wherever a command asks for ROBOT. With one, prints "
+    "its file, to start your own.",
+    "modeler robots wrist",
+    (value("robot", "ROBOT", places.RobotFile, "print this robot's file", nargs="?"),),
     "write the list for machines",
 )  # fmt: skip
 
 _CATALOGUE = Command(
     "effects", "lists:run_effects",
-    "the catalogue of physical effects",
+    "the physical effects, or all about one",
     "Lists the physical effects that a robot file may name under [effects].",
     "modeler effects coulomb",
     (
@@ -539,6 +581,16 @@ _CATALOGUE = Command(
               "with the effects that this robot file defines"),
     ),
     "write the catalogue for machines",
+)  # fmt: skip
+
+_ESTIMATORS = Command(
+    "estimators", "lists:run_estimators",
+    "the ways to estimate, and when each is the wrong one",
+    "Lists the estimators of `modeler fit --method`: law, source, and when not to use each. "
+    "`modeler fit ROBOT LOG... --method all` shows all of them on the same logs.",
+    "modeler estimators robust",
+    (value("methods", "METHOD", places.Word, "one, or some with commas between", nargs="?"),),
+    "write the list for machines",
 )  # fmt: skip
 
 _REPRODUCE = Command(
@@ -567,6 +619,7 @@ _DEMO = Command(
     (
         value("--out", "DIR", places.DemoFolder, "folder (default %(default)s)", default="demo"),
         _FORCE,
+        flag("--open", "show the pages in the browser"),
         value("--duration", "S", float, "seconds of each simulated run", default=20.0),
     ),
     "write the diagnoses for machines",
@@ -588,9 +641,14 @@ _COMPLETION = Command(
     "write the script for machines",
 )  # fmt: skip
 
-COMMANDS = (
-    _DERIVE, _SHOW, _HOME, _GENERATE, _LOG, _FIT, _COMPARE, _FREE_RUN, _DIAGNOSE, _ADD, _FLEET,
-    _PHYSICAL, _SIMULATE, _EXCITE, _NEW, _CONVERT, _ROBOTS, _CATALOGUE, _ESTIMATORS, _REPRODUCE,
-    _DEMO, _COMPLETION,
-)  # fmt: skip
-"""In the order of `modeler --help`."""
+FAMILIES: dict[str, tuple[Command, ...]] = {
+    "describe": (_NEW, _CONVERT, _SHOW, _HOME, _DERIVE),
+    "measure": (_EXCITE, _SIMULATE, _LOG),
+    "identify": (_FIT, _COMPARE),
+    "understand": (_DIAGNOSE, _ADD, _PHYSICAL, _FLEET),
+    "use": (_GENERATE,),
+    "about": (_ROBOTS, _CATALOGUE, _ESTIMATORS, _REPRODUCE, _DEMO, _COMPLETION),
+}
+"""What belongs together, in the order of `modeler --help`."""
+
+COMMANDS = {command.name: command for family in FAMILIES.values() for command in family}

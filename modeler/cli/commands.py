@@ -2,13 +2,21 @@
 
 import argparse
 from collections.abc import Sequence
-from difflib import get_close_matches
-from typing import NoReturn
+from itertools import takewhile
+from typing import Any, NoReturn
 
 from modeler import __version__
-from modeler.cli.command_table import COMMANDS
+from modeler.cli.command_table import COMMANDS, FAMILIES
 from modeler.cli.console import Loudness, write_stdout
-from modeler.cli.options import arguments_of, sorted_words, usage_of
+from modeler.cli.old_words import OLD_COMMANDS, renewed
+from modeler.cli.options import (
+    arguments_of,
+    did_you_mean,
+    options_of,
+    sorted_words,
+    unknown,
+    usage_of,
+)
 
 _EPILOG = """\
 example: modeler derive wrist
@@ -41,26 +49,64 @@ class _Parser(argparse.ArgumentParser):
 
     def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
         if self._subparsers is not None:
+            for word in takewhile(lambda word: word.startswith("--"), args):
+                if not any(name.startswith(word) for name in options_of(self)):
+                    self.error(self._unknown(word))
             return super().parse_known_args(args, namespace)
         if any(action.nargs == argparse.REMAINDER for action in self._actions):
             found, rest = super().parse_known_args(args, namespace)
             found.read_as = ""
             return found, rest
         read = sorted_words(self, args)
+        if read.unknown:
+            self.error(self._unknown(read.unknown[0]))
         words = read.words if arguments_of(self) else [w for w in read.words if w != "--"]
         found, rest = super().parse_known_args(words, namespace)
         if rest:
-            self.error(self._unknown(rest))
-        found.read_as = read.told
+            options = [word for word in rest if word.startswith("-") and len(word) > 1]
+            self.error(
+                self._unknown(options[0])
+                if options
+                else f"got {' '.join(rest)} as well; expected no more arguments"
+            )
+        if lacks := found.lacks(found):
+            self.error(lacks)
+        found.read_as, found.given = read.told, read.given
         return found, rest
 
-    def _unknown(self, rest: Sequence[str]) -> str:
-        """What is said of words that no argument takes."""
-        for word in rest:
-            if word.startswith("-") and len(word) > 1:
-                near = get_close_matches(word.partition("=")[0], self._option_string_actions, 1)
-                return f"unknown option {word}" + "".join(f" (did you mean {n}?)" for n in near)
-        return f"got {' '.join(rest)} as well; expected no more arguments"
+    def _unknown(self, option: str) -> str:
+        """What is said of an option that is none; one of before is not offered."""
+        name = option.partition("=")[0]
+        return f"unknown option {option}{did_you_mean(name, options_of(self))}"
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        if action.choices is None or value in action.choices:
+            return
+        if isinstance(action, argparse._SubParsersAction):
+            near = did_you_mean(value, [*COMMANDS, *OLD_COMMANDS])
+            self.error(f"unknown command {value}{near}")
+        raise argparse.ArgumentError(action, unknown(value, [*map(str, action.choices)]))
+
+    def format_help(self) -> str:
+        """Of all commands: those that belong together under their title."""
+        if self._subparsers is None:
+            return super().format_help()
+        (listed,) = (a for a in self._actions if isinstance(a, argparse._SubParsersAction))
+        told = {action.dest: action for action in listed._choices_actions}
+        text = self._get_formatter()
+        text.add_usage(self.usage, self._actions, self._mutually_exclusive_groups)
+        text.add_text(self.description)
+        sections = [(title, [told[c.name] for c in each]) for title, each in FAMILIES.items()]
+        sections += [
+            (group.title or "", [a for a in group._group_actions if a is not listed])
+            for group in self._action_groups
+        ]
+        for title, actions in sections:
+            text.start_section(title)
+            text.add_arguments(actions)
+            text.end_section()
+        text.add_text(self.epilog)
+        return text.format_help()
 
     def error(self, message: str) -> NoReturn:
         """One line, and the end."""
@@ -92,12 +138,18 @@ def parser() -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action=_Version, nargs=0, help="print it and stop")
     commands = top.add_subparsers(metavar="COMMAND", required=True, dest="command")
-    for command in COMMANDS:
+    for command in COMMANDS.values():
         command.add_to(commands)
     commands.choices["completion"].set_defaults(top=top)
     for each in (top, *commands.choices.values()):
         _add_loudness(each)
     return top
+
+
+def commands_of(top: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+    """The parser of each command."""
+    (listed,) = (a for a in top._actions if isinstance(a, argparse._SubParsersAction))
+    return dict(listed.choices)
 
 
 def _add_loudness(parser: argparse.ArgumentParser) -> None:
@@ -118,7 +170,9 @@ def parsed(words: Sequence[str]) -> tuple[argparse.Namespace, Loudness]:
     Wrong usage ends the program with status 2.
     """
     top = parser()
-    args = top.parse_args(list(words))
+    read = renewed(words, commands_of(top))
+    args = top.parse_args(read.words)
+    args.read_as = [*read.told, *filter(None, [args.read_as])]
     wanted = [loudness for loudness in Loudness if vars(args).pop(loudness.value, False)]
     if len(wanted) > 1:
         top.error("got --quiet and --verbose; expected one of them")

@@ -1,13 +1,15 @@
-"""`modeler compare MODEL LOG...`, several models on the same rows, and `modeler free-run`."""
+"""`modeler compare MODEL LOG...`: torques, several models on the same rows, positions."""
 
 import argparse
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import modeler.api.checks as checks
 from modeler import validation
-from modeler.api.workflow import Mapped, read_logs, recompile
+from modeler.api.log_maps import Mapped
+from modeler.api.workflow import read_logs, recompile
 from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, say_lines, working
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError
@@ -23,6 +25,9 @@ _TRAINING = "training only: "
 def run_compare(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes page and pictures."""
     others = [place for place in args.logs if isinstance(place, ModelFile)]
+    _check_free_run(args, others)
+    if args.free_run:
+        return _run_free(args)
     if others:
         return _run_contest(args, [args.model, *others])
     model = _loaded(args, args.model)
@@ -42,7 +47,7 @@ def run_compare(args: argparse.Namespace) -> Json:
     following = after_compare(args.model, fitted, args.logs, held, noise)
     origin = Origin(args.model, comparison.prediction.logs, held, [following])
     draw_page(args.report, lambda: pages.comparison_page(comparison, lines, origin))
-    draw_pictures(args.pictures, lambda: pages.all_pictures(comparison))
+    draw_pictures(args.picture, lambda: pages.all_pictures(comparison))
     say_lines([following], "next: ")
     return comparison.as_dict() | {"doubts": doubts}
 
@@ -116,7 +121,7 @@ def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
         [*validation.contest_lines(found), *lines, *(w for model in models for w in model.warning)]
     )
     draw_page(args.report, lambda: pages.contest_page(found, lines, not trained))
-    draw_pictures(args.pictures, lambda: pages.contest_pictures(found))
+    draw_pictures(args.picture, lambda: pages.contest_pictures(found))
     return validation.compare(found.predictions[0]).as_dict() | {
         "models": found.as_dicts(),
         "doubts": [],
@@ -145,22 +150,44 @@ def _names(places: Sequence[str]) -> list[str]:
     return short if len(set(short)) == len(short) else [str(place) for place in places]
 
 
-# `modeler free-run MODEL LOG...`.
+# `--free-run`.
 
 
-def run_free_run(args: argparse.Namespace) -> Json:
+def _run_free(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes the pictures."""
-    asked = validation.FreeRunSettings(args.window, args.bound, _gains(args.controller))
-    model = load_model(args.model)
+    asked = validation.FreeRunSettings(gains=_gains(args.controller), **_given(args, _SETTINGS))
+    model = _loaded(args, args.model)
     with working("deriving the robot of the model"):
-        compiled = recompile(model)
+        compiled = _compiled(args, model)
         logs = read_logs(compiled, args.logs, args.map)
     check_apart(logs, places=args.logs)
     with progress("simulating") as bar:
         found = validation.free_run(model, logs, compiled, asked, bar)
     say_lines([*found.summary().splitlines(), *model.warning])
-    draw_pictures(args.pictures, lambda: validation.free_run_pictures(found))
+    draw_pictures(args.picture, lambda: validation.free_run_pictures(found))
     return found.to_json()
+
+
+_SETTINGS = ("window", "bound")
+
+
+def _given(args: argparse.Namespace, names: Sequence[str]) -> dict[str, Any]:
+    """Of these options those that were typed."""
+    return {name: value for name in names if (value := getattr(args, name)) is not None}
+
+
+def _check_free_run(args: argparse.Namespace, others: Sequence[str]) -> None:
+    """Refuses what does not go with `--free-run`, or only with it."""
+    given = _given(args, (*_SETTINGS, "controller"))
+    if not args.free_run:
+        for name in given:
+            raise DataError(f"--{name}: is of --free-run; add that, or leave --{name} out")
+    elif others:
+        raise DataError(f"--free-run: got {others[0]} too; expected one model, and logs")
+    elif args.report is not None:
+        raise DataError(
+            "--report, --open: got it with --free-run, which draws pictures; expected --picture DIR"
+        )
 
 
 def _gains(text: str | None) -> validation.Gains | None:

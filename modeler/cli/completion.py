@@ -6,7 +6,10 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from modeler.cli import places
+from modeler.cli.command_table import ALL, COMMANDS, METHODS
+from modeler.cli.commands import commands_of
 from modeler.cli.console import Json, say, say_lines
+from modeler.cli.old_words import OLD_COMMANDS, renewed
 from modeler.cli.options import arguments_of, options_of, sorted_words
 from modeler.core.builtin import paper_names
 from modeler.core.estimators import ABOUT
@@ -64,15 +67,18 @@ def candidates(words: Sequence[str], top: argparse.ArgumentParser) -> list[str]:
         top: the parser of all commands.
     """
     words, before = _joined(words)
-    (commands,) = (a for a in top._actions if isinstance(a, argparse._SubParsersAction))
-    names: dict[str, argparse.ArgumentParser] = dict(commands.choices)
+    names = commands_of(top)
     *typed, last = words or [""]
+    typed = renewed(typed, names).words
     command = next((word for word in typed if not word.startswith("-")), None)
     if command is None:
-        return _beginning(last, [*names, *options_of(top)] if last[:1] == "-" else names)
+        found = _beginning(last, [*names, *options_of(top)] if last[:1] == "-" else names)
+        return found or _beginning(last, OLD_COMMANDS)
     if command not in names:
         return []
     found = _of_command(names[command], typed[typed.index(command) + 1 :], last)
+    if last.startswith("--"):  # an old name only where there is no other
+        found = found or _beginning(last, COMMANDS[command].old)
     return [before + each for each in found]
 
 
@@ -165,6 +171,7 @@ def _beginning(start: str, names: Iterable[str]) -> list[str]:
 _EFFECT_IDS = tuple(effect.id for effect in EFFECTS)
 _LISTED: dict[str, Iterable[str]] = {
     **dict.fromkeys(("effect", "effects", "without", "between", "hide"), _EFFECT_IDS),
+    "method": (*METHODS, ALL),
     "methods": ABOUT,
     "paper": paper_names(),
 }

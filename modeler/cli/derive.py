@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler import formulas
-from modeler.cli.console import Json, print_error, say, say_lines, working
+from modeler.cli.browser import forget_page
+from modeler.cli.console import Json, note, print_error, say, say_lines, working
 from modeler.cli.lists import robot_of, robot_with_effects
+from modeler.cli.old_words import OPEN_CUT
 from modeler.cli.options import FEW_JOINTS, Form
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.errors import DataError, ModelerError, RobotError
@@ -27,6 +29,7 @@ from modeler.derivation import (
     regressor_values,
     relations,
 )
+from modeler.robot import Robot
 
 if TYPE_CHECKING:
     from modeler.estimation import IdentifiedModel
@@ -125,11 +128,11 @@ def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
         ModelerError: coefficients or expanded forms are asked for.
     """
     looped = derivation.model.closure is not None
-    if looped and (args.terms or args.report is not None or args.expanded):
+    if looped and (args.terms or args.coefficients_out is not None or args.expanded):
         raise ModelerError(
             f"{derivation.robot.name}: coefficients and expanded forms are written for robots "
-            "whose loops, if any, follow linear relations; leave out --terms, --report and "
-            "--expanded, or ask for --closed-form, which has J_t and J_p"
+            "whose loops, if any, follow linear relations; leave out --terms, "
+            "--coefficients-out and --expanded, or ask for --closed-form, which has J_t and J_p"
         )
 
 
@@ -163,10 +166,13 @@ _COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
 def run_derive(args: argparse.Namespace) -> Json:
     """Prints relations, proof, and for small robots the coefficients."""
     check_request(args)
-    if args.open:  # the tree of loops that are not closed: every joint has a torque
-        robot = robot_with_effects(args)
+    robot = robot_with_effects(args) if args.cut_loops or args.open else None
+    if robot is not None and (args.cut_loops or _cut_as_before(args, robot)):
+        # the tree of loops that are not closed: every joint has a torque
         if not robot.loops:
-            raise RobotError(f"--open: {robot.name} has no loops to cut; leave --open out")
+            raise RobotError(
+                f"--cut-loops: {robot.name} has no loops to cut; leave --cut-loops out"
+            )
         title = f"{robot.title}, its loops cut open"
         robot = dataclasses.replace(robot.opened(), title=title)
     else:
@@ -191,16 +197,25 @@ def run_derive(args: argparse.Namespace) -> Json:
     words.say(relations.proof_text(base.proof))
     words.say(agreement)
     result |= print_closed_forms(args, derivation, words)
-    if args.page is not None:
+    if args.report is not None:
         from modeler.report import (
             derivation_page,  # pages take long to load
             write_page,
         )
 
         page = derivation_page(derivation, tied, agreement, args.robot)
-        words.say(f"written: {write_page(Path(args.page), page)}")
+        words.say(f"written: {write_page(Path(args.report), page)}")
     words.end()
     return result
+
+
+def _cut_as_before(args: argparse.Namespace, robot: Robot) -> bool:
+    """`--open` alone cut loops until it showed pages; with a page it shows that."""
+    if not (args.page_is_temporary and robot.loops):
+        return False
+    forget_page(args)
+    note(OPEN_CUT)
+    return True
 
 
 def _tied_lines(model: SymbolicModel) -> list[str]:
@@ -276,15 +291,15 @@ def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: 
     wanted = unasked if args.terms is None else args.terms
     if wanted:
         _print_coefficients(args, derivation, words)
-    if args.report is not None:
-        write_atomically(Path(args.report), formulas.terms_report(model, derivation.base))
-        words.say(f"written: {args.report}")
+    if args.coefficients_out is not None:
+        write_atomically(Path(args.coefficients_out), formulas.terms_report(model, derivation.base))
+        words.say(f"written: {args.coefficients_out}")
     return added
 
 
 def _print_coefficients(args: argparse.Namespace, derivation: Derivation, words: Words) -> None:
     # What was not asked for must not take away what was.
-    unasked = args.terms is None and args.report is None
+    unasked = args.terms is None and args.coefficients_out is None
     try:
         table = formulas.coefficients.coefficient_table(derivation.model, derivation.base)
         few = args.expanded or len(table.coefficients) <= MANY

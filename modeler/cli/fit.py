@@ -1,56 +1,60 @@
-"""`modeler fit ROBOT LOG... --out MODEL`, and `modeler estimators`: all on the same logs."""
+"""`modeler fit ROBOT LOG... --out MODEL`; with several methods: all of them on the same logs."""
 
 import argparse
-from collections.abc import Sequence
+import dataclasses
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from pathlib import Path
+from typing import Any
 
 import modeler.api.fitting as fitting
 import modeler.api.long_logs as long_logs
+from modeler.api.log_maps import Mapped, settled
 from modeler.api.workflow import compile_model, derive, generate, read_logs
+from modeler.cli.command_table import ALL, Methods
 from modeler.cli.console import Json, draw_page, note, progress, say, say_lines, show_next, working
-from modeler.cli.lists import robot_of
+from modeler.cli.lists import robot_of, use_options_of
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError
-from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
 from modeler.core.jobs import open_workers
-from modeler.core.json import entries
 from modeler.core.manifest import Emitted
 from modeler.core.table import aligned
 from modeler.estimation import OF_TRIANGLES, IdentifiedModel, save_model, side_by_side
 from modeler.observation import Log, Observation, Processing, WholeLogNeeded, check_apart, observe
 from modeler.report import after_fit, estimators_page, remarks_of, table_of, values_of, write_page
-from modeler.robot import INERTIAL, robot_from_text, with_parameters
+from modeler.robot import INERTIAL, read_robot, robot_from_text, with_parameters
 from modeler.runtime import CompiledModel
 
 
 def run_fit(args: argparse.Namespace) -> Json:
     """Fits, prints the table, saves the model."""
+    use_options_of(args, "fit", read_robot(args.robot).fit)
+    args.method = Methods(args.method)
     _check_options(args)
-    processing = Processing(
-        position_cutoff=args.cutoff,
-        decimation=args.decimate,
-        **entries(args, "parallel_cutoff derivatives low_speed keep_saturated keep_contradicted"),
-        keep_damaged=args.keep_damaged,
-    )
+    processing = fitting.processing_of(vars(args))
+    if args.method.several:
+        return _compare_methods(args, processing)
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         derivation = derive(robot)
         emitted = generate(derivation)
         compiled = compile_model(emitted)
+    with working("looking at the logs"):
+        mapping, kept = settled(compiled, args.logs, args.map)
     load = fitting.Load(args.payload_log, args.payload_mass, args.payload_link, args.payload_moved)
     if args.method == GAIN_METHOD:
         found = fitting.found_with_gains(
             derivation, compiled, args.logs, load, processing,
-            lambda logs, loaded: _check_given(args, logs, loaded), working, args.map,
+            lambda logs, loaded: _check_given(args, logs, loaded), working, mapping,
         )  # fmt: skip
-        return _written(args, *found)
-    if (long := _fit_if_long(args, derivation, emitted, compiled, processing)) is not None:
-        return _written(args, *long)
+        return _written(args, kept, *found)
+    long = _fit_if_long(args, derivation, emitted, compiled, processing, mapping)
+    if long is not None:
+        return _written(args, kept, *long)
     with working("building the observation matrix"):
-        logs = read_logs(compiled, args.logs, args.map)
-        loaded = read_logs(compiled, args.payload_log, args.map)
+        logs = read_logs(compiled, args.logs, mapping)
+        loaded = read_logs(compiled, args.payload_log, mapping)
         _check_given(args, logs, loaded)
         observation = observe(compiled, [*logs, *loaded], processing)
     payloads = tuple(load.payloads(loaded)) if loaded else ()
@@ -58,7 +62,7 @@ def run_fit(args: argparse.Namespace) -> Json:
         args.method, args.model == "energy", args.window, payloads, args.essential_below
     )
     model, way = fitting.fitted(asked, derivation, emitted, compiled, observation, working)
-    return _written(args, model, observation, way.lines) | way.further
+    return _written(args, kept, model, observation, way.lines) | way.further
 
 
 def _check_options(args: argparse.Namespace) -> None:
@@ -68,6 +72,7 @@ def _check_options(args: argparse.Namespace) -> None:
         if value is not None and value is not False and not args.payload_log:  # 0 is given too
             flag = "--" + option.replace("_", "-")
             raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
+    _check_several(args)
     method, energy, gains = args.method, args.model == "energy", args.method == GAIN_METHOD
     refusals = (
         (args.payload_log and method in fitting.WITHOUT_LOADS,
@@ -98,6 +103,27 @@ def _check_options(args: argparse.Namespace) -> None:
             raise DataError(why)
 
 
+_OF_ONE = ("out", "robot_out", "payload_log", "window", "essential_below", "dask")
+
+
+def _check_several(args: argparse.Namespace) -> None:
+    """Several methods are compared on the rows of the torque model; one has no use for others."""
+    if not args.method.several:
+        if args.holdout:
+            raise DataError(
+                f"--holdout: got it with --method {args.method}; errors on other logs are shown of "
+                f"several methods, as in --method {ALL}, and of a model by `modeler compare`"
+            )
+        return
+    given = [name for name in _OF_ONE if getattr(args, name)]
+    given += ["model"] * (args.model != "torque")
+    if given:
+        raise DataError(
+            f"--{given[0].replace('_', '-')}: got it with --method {args.method}, which compares "
+            "methods and writes no model; leave it out, or choose one method"
+        )
+
+
 def _check_given(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence[Log]) -> None:
     check_apart([*logs, *loaded], places=[*args.logs, *args.payload_log])
     places = {log.name: place for place, log in zip(args.logs, logs, strict=True)}
@@ -115,6 +141,7 @@ def _fit_if_long(
     emitted: Emitted,
     compiled: CompiledModel,
     processing: Processing,
+    mapping: Mapped,
 ) -> tuple[IdentifiedModel, Observation] | None:
     """The model of long logs, read in chunks; None where all rows are to be in memory.
 
@@ -138,7 +165,7 @@ def _fit_if_long(
     cluster = nullcontext() if args.dask is None else open_workers(args.dask)
     try:
         with progress("reading and reducing") as bar, cluster as workers:
-            sources = long_logs.sources_of(compiled, args.logs, args.map)
+            sources = long_logs.sources_of(compiled, args.logs, mapping)
             reducer = None if workers is None else long_logs.by_workers(workers, emitted)
             here = [each.name for each in sources if not long_logs.from_anywhere(each)]
             if workers is not None and here:
@@ -159,11 +186,13 @@ def _fit_if_long(
 
 def _written(
     args: argparse.Namespace,
+    mapping: Mapping[str, Any],
     model: IdentifiedModel,
     observation: Observation,
     lines: Sequence[str] = (),
 ) -> Json:
-    """Saves and prints the model."""
+    """Saves and prints the model, which keeps the mapping."""
+    model = dataclasses.replace(model, mapping=mapping)
     save_model(args.out, model)
     *told, verdict = model.fit.lines()
     say_lines([*observation.report.lines(), "", *lines, *told])
@@ -171,7 +200,7 @@ def _written(
     if args.report is not None:
         from modeler.report import fit_page  # pages take long to load
 
-        following = after_fit(args.out, args.logs, args.robot, model.fit)
+        following = after_fit(args.out, args.logs, args.robot, model.fit, args.map)
         page = fit_page(model, observation.report.lines(), args.out, following)
         say(f"written: {write_page(Path(args.report), page)}")
     if args.robot_out is not None:
@@ -187,35 +216,24 @@ def _written(
         write_atomically(Path(args.robot_out), text)
         say(f"written: {args.robot_out}")
     say(verdict)
-    show_next(after_fit(args.out, [*args.logs, *args.payload_log], args.robot, model.fit))
+    logs = [*args.logs, *args.payload_log]
+    show_next(after_fit(args.out, logs, args.robot, model.fit, args.map))
     return model.fit.to_json()
 
 
-# `modeler estimators`.
+# Several methods on the same logs.
 
 
-def run_estimators(args: argparse.Namespace) -> Json:
-    """Prints the list, or the comparison."""
-    names = args.methods and [name.strip() for name in args.methods.split(",") if name.strip()]
-    methods = fitting.chosen_methods(names, "--methods")
-    if args.robot is None:
-        for about in (ABOUT[method] for method in methods):
-            say(f"{about.id:<10} {about.title}")
-            say(f"  law        {about.law}")
-            say(f"  source     {about.source}")
-            say(f"  not        {about.avoid}")
-            say(f"  assumes    {about.motion}")
-        return [{"method": m} | entries(ABOUT[m], "title law source avoid motion") for m in methods]
-    if not args.logs:
-        raise DataError(
-            f"estimators: got robot {args.robot} and no log; expected logs to fit, as in "
-            f"`modeler estimators {args.robot} run.parquet`"
-        )
+def _compare_methods(args: argparse.Namespace, processing: Processing) -> Json:
+    """Prints what each estimator makes of the logs; writes no model."""
+    methods = fitting.chosen_methods(None if args.method == ALL else args.method.split(","))
     robot = robot_of(args)
     with working(f"deriving {robot.name}"):
         compiled = compile_model(generate(derive(robot)))
     with working("building the observation matrix"):
-        observation, held = fitting.observe_held_out(compiled, args.logs, args.holdout, args.map)
+        observation, held = fitting.observe_held_out(
+            compiled, args.logs, args.holdout, args.map, processing
+        )
     with progress("fitting") as bar:
         tried = side_by_side(observation, compiled, held, methods, bar)
     lines = tuple(observation.report.lines())

@@ -7,10 +7,9 @@ import numpy as np
 
 from modeler.api.postures import chosen_mode, home as home_modes
 from modeler.cli.console import Json, say, say_lines, working
-from modeler.cli.lists import read_robot_with_notes
-from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
+from modeler.cli.lists import check_own_file, read_robot_with_notes
 from modeler.core.errors import DataError
-from modeler.core.files import check_writable, write_atomically
+from modeler.core.files import write_atomically
 from modeler.derivation import HomeModes, Linkage, written
 from modeler.report import PICTURE_KINDS, Posture, modes_html, size_of, skeleton_of
 from modeler.robot import Place, Robot, home_lines, read_home, with_home_text
@@ -22,24 +21,25 @@ _MOST_VALUES = 6
 
 def run_home(args: argparse.Namespace) -> Json:
     """Prints the assembly modes, draws them, writes one into the robot file."""
-    kind = "" if args.pictures is None else Path(args.pictures).suffix.lower()
-    if args.pictures is not None and kind not in MODE_PICTURES:
+    kind = "" if args.picture is None else Path(args.picture).suffix.lower()
+    if args.picture is not None and kind not in MODE_PICTURES:
         raise DataError(
-            f"--pictures {args.pictures}: got {kind or 'no ending'}; expected a name that ends in "
+            f"--picture {args.picture}: got {kind or 'no ending'}; expected a name that ends in "
             f"{', '.join(MODE_PICTURES)}"
         )
     if args.write:
-        _check_ours(args.robot)
+        check_own_file(args.robot, "posture")
     robot = read_robot_with_notes(args.robot)
     near = _near(args, robot)
     with working(f"closing the loops of {robot.name}"):
         found = home_modes(robot, near, args.anew)
     chosen = chosen_mode(found, args.mode, args.near is not None)
     say_lines(_table(found))
-    if args.pictures is not None:
-        with working("drawing"):
-            write_atomically(Path(args.pictures), _pictures(found, kind))
-        say(f"written: {args.pictures}")
+    for place, ending in ((args.picture, kind), (args.report, ".html")):
+        if place is not None:
+            with working("drawing"):
+                write_atomically(Path(place), _pictures(found, ending))
+            say(f"written: {place}")
     home = written(found.linkage, found.modes[chosen].posture)
     if args.write:
         path, text = Path(args.robot), with_home_text(robot.text, robot.home, home)
@@ -84,23 +84,6 @@ def _pictures(found: HomeModes, kind: str) -> bytes:
     if kind != ".html":
         return drawn
     return modes_html(robot.name, robot.title, len(found.modes), drawn.decode()).encode()
-
-
-def _check_ours(robot: str) -> None:
-    """What --write cannot write into is refused before any work."""
-    if robot in builtin_names():
-        raise DataError(
-            f"--write: {robot} is built in; save it with `modeler robots --show {robot}` "
-            "as a file of your own, and write into that"
-        )
-    path = Path(robot)
-    if path.suffix.lower() in OTHER_PROGRAMS:
-        raise DataError(
-            f"--write: {path} is another program's file, which states no posture; convert it with "
-            f"`modeler convert {path} --out {path.with_suffix('.toml')}`, and write into that"
-        )
-    if path.is_file():
-        check_writable(path)
 
 
 def _near(args: argparse.Namespace, robot: Robot) -> dict[str, float] | None:

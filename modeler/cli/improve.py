@@ -6,13 +6,14 @@ from pathlib import Path
 import modeler.api.improve as improve
 from modeler import report
 from modeler.cli.console import Json, progress, say, say_lines, show_next, working
+from modeler.cli.lists import use_options_of
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.table import DIGITS, percent
 from modeler.diagnosis import add_effect, added, lines, notes, undone
 from modeler.effects import effect_named
 from modeler.estimation import IdentifiedModel, load_model, save_model
-from modeler.robot import near, robot_from_text
+from modeler.robot import Robot, near, robot_from_text
 
 _WIDTH = 40  # characters of the longest bar
 
@@ -20,7 +21,9 @@ _WIDTH = 40  # characters of the longest bar
 def run_diagnose(args: argparse.Namespace) -> Json:
     """Prints the verdict, the effects and what cannot be told."""
     model = load_model(args.model)
-    _check_without(args, model)
+    robot = robot_from_text(model.robot_text, f"{args.model}, robot")
+    use_options_of(args, "diagnose", robot.diagnose)
+    _check_without(args, robot, model)
     with working("deriving the robot of the model"):
         compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map)
     with progress("looking for missing effects") as bar:
@@ -46,9 +49,9 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     return diagnosis.to_json()
 
 
-def _check_without(args: argparse.Namespace, model: IdentifiedModel) -> None:
+def _check_without(args: argparse.Namespace, robot: Robot, model: IdentifiedModel) -> None:
     """Refuses effects that there are not, then joints."""
-    catalogue = robot_from_text(model.robot_text, f"{args.model}, robot").catalogue
+    catalogue = robot.catalogue
     known = [effect.id for effect in catalogue]
     names = [joint.name for joint in model.spec.joints]
     closure = model.spec.closure
@@ -90,9 +93,9 @@ def run_add(args: argparse.Namespace) -> Json:
             better = add_effect(model, compiled, args.effect, args.joint, logs)
     save_model(args.out, better)
     places, following = [args.out], report.after_add(args.out, args.holdout)
-    if args.robot is not None:
-        write_atomically(Path(args.robot), better.robot_text)
-        places.append(args.robot)
+    if args.robot_out is not None:
+        write_atomically(Path(args.robot_out), better.robot_text)
+        places.append(args.robot_out)
     if args.report is not None and better.history:
         held = better.history[-1].held_out
         origin = report.Origin(args.out, held or args.logs, bool(held), following)

@@ -1,12 +1,18 @@
-"""Reading ROBOT as every command does, and `modeler robots`, `modeler effects`."""
+"""Reading ROBOT as every command does, and what is built in: robots, effects, estimators."""
 
 import argparse
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
 
 from modeler.cli.console import Json, note, say, say_lines, working
-from modeler.core.builtin import builtin_names
-from modeler.core.errors import RobotError
+from modeler.cli.options import unknown
+from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
+from modeler.core.errors import DataError, RobotError
+from modeler.core.estimators import ABOUT
+from modeler.core.files import check_writable
+from modeler.core.json import entries, shown
 from modeler.effects import CATALOGUE, Acts, Effect, Form, effect_named
 from modeler.robot import Robot, near, read_robot, robot_from_text, with_effects, with_home_text
 
@@ -91,6 +97,33 @@ def robot_of(args: argparse.Namespace) -> Robot:
     return robot_from_text(text, f"{args.robot} with its [home]")
 
 
+def check_own_file(robot: str, what: str) -> None:
+    """What --write cannot write into is refused before any work."""
+    if robot in builtin_names():
+        raise DataError(
+            f"--write: {robot} is built in; save it with `modeler robots {robot}` "
+            "as a file of your own, and write into that"
+        )
+    path = Path(robot)
+    if path.suffix.lower() in OTHER_PROGRAMS:
+        raise DataError(
+            f"--write: {path} is another program's file, which states no {what}; convert it with "
+            f"`modeler convert {path} --out {path.with_suffix('.toml')}`, and write into that"
+        )
+    if path.is_file():
+        check_writable(path)
+
+
+def use_options_of(args: argparse.Namespace, head: str, stated: Mapping[str, Any]) -> None:
+    """Options that the robot file states, where they were not typed."""
+    taken = {name: value for name, value in stated.items() if name not in args.given}
+    for name, value in taken.items():
+        setattr(args, name, value)
+    if taken:
+        listed = ", ".join(f"{name} = {shown(value)}" for name, value in taken.items())
+        note(f"by [{head}] of the robot file: {listed}")
+
+
 def robot_with_effects(args: argparse.Namespace) -> Robot:
     """The robot that the arguments name, with the effects that they give it."""
     robot = read_robot_with_notes(args.robot)
@@ -118,10 +151,10 @@ def read_robot_with_notes(name: str) -> Robot:
 
 def run_robots(args: argparse.Namespace) -> Json:
     """Prints the table of built-in robots, or one robot's file."""
-    if args.show is not None:
-        text = read_robot_with_notes(args.show).text
+    if args.robot is not None:
+        text = read_robot_with_notes(args.robot).text
         say(text.rstrip())
-        return {"name": args.show, "text": text}
+        return {"name": args.robot, "text": text}
     robots = [read_robot(name) for name in builtin_names()]
     width = max(len(robot.name) for robot in robots)
     for robot in robots:
@@ -164,6 +197,22 @@ def run_effects(args: argparse.Namespace) -> Json:
                     say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")
             say_lines(signature_lines(chosen[0]))
     return facts
+
+
+def run_estimators(args: argparse.Namespace) -> Json:
+    """Prints the list, or some of it."""
+    wanted = list(ABOUT) if args.methods is None else args.methods.split(",")
+    for name in wanted:
+        if name not in ABOUT:
+            raise DataError(f"estimators: {unknown(name, list(ABOUT))}")
+    chosen = [about for about in ABOUT.values() if about.id in wanted]
+    for about in chosen:
+        say(f"{about.id:<10} {about.title}")
+        say(f"  law        {about.law}")
+        say(f"  source     {about.source}")
+        say(f"  not        {about.avoid}")
+        say(f"  assumes    {about.motion}")
+    return [{"method": a.id} | entries(a, "title law source avoid motion") for a in chosen]
 
 
 def _facts(effect: Effect) -> dict[str, str | list[str]]:

@@ -2,53 +2,63 @@
 
 import argparse
 import dataclasses
-import tomllib
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import modeler.api.workflow as workflow
-from modeler.api.checks import look_at
 from modeler.api.fitting import FitOutcome, judged
+from modeler.api.log_maps import (
+    Heard,
+    believed,
+    file_and_span,
+    log_map,
+    log_maps,
+    look_at,
+    read_mapped,
+    suggested_map,
+)
 from modeler.api.long_logs import are_long, judged_long, too_long
 from modeler.cli.console import Json, progress, say, say_lines, working
-from modeler.cli.lists import read_robot_with_notes
-from modeler.core.errors import ModelerError
+from modeler.cli.lists import check_own_file, read_robot_with_notes
+from modeler.core.errors import DataError, ModelerError
+from modeler.core.files import write_atomically
 from modeler.core.json import nulled
 from modeler.core.table import aligned, percent
 from modeler.estimation import FitResult, identify, log_findings, stream
-from modeler.logs import LogInspection, LogMap, map_from_table, map_from_words
-from modeler.observation import (
-    DataReport,
-    Observation,
-    WholeLogNeeded,
-    bands_of,
-    noise_of_positions,
-    source_of,
-)
+from modeler.logs import LogInspection, LogMap, map_from_words
+from modeler.observation import Observation, WholeLogNeeded, bands_of, noise_of_positions, source_of
 from modeler.report import channel_rows, clock_line, log_page, log_pictures, write_files, write_page
+from modeler.robot import with_log
 from modeler.runtime import CompiledModel
 
 _WIDEST = 44  # letters of a cell
 
 _POOR = 0.2  # relative error of a fit that is told
-_BETTER = 0.5  # of the error, that a guess must reach to be believed
 
 
 def run_log(args: argparse.Namespace) -> Json:
     """Prints what the log holds, its doubts, and a [log] to start from."""
     compiled = None
+    if args.write:
+        if args.robot is None:
+            raise DataError("--write: got no robot file to write into; expected --robot FILE.toml")
+        check_own_file(args.robot, "columns of logs")
     if args.robot is not None:
         robot = read_robot_with_notes(args.robot)
         with working(f"deriving {robot.name}"):
             compiled = workflow.compile_model(workflow.generate(workflow.derive(robot)))
-    mapping = map_from_words(args.map) if compiled is None else workflow.log_map(compiled, args.map)
+    mapping = map_from_words(args.map) if compiled is None else log_map(compiled, args.map)
     seen = look_at(args.log, compiled, args.map)
     doubts = [*seen.doubts]
     noise = noise_of_positions(seen.positions)
     bands = bands_of(noise)
     if compiled is not None:
-        heard, stands = heard_of_fit(compiled, args.log, mapping, seen)
+        sure = suggested_map(seen.plain, mapping)
+        ranged = suggested_map(seen.suggested, mapping)
+        heard, _, stands = believed(
+            lambda names: _heard(compiled, args.log, names, seen), sure,
+            None if seen.suggested == seen.plain else ranged,
+        )  # fmt: skip
         if heard.report is not None:
             noise, bands = heard.report.noise, heard.report.bands
         if stands:  # it fits as it is: a range alone is no doubt
@@ -58,13 +68,19 @@ def run_log(args: argparse.Namespace) -> Json:
     said = [*noise.channel_lines(), *bands.chosen_by] if noise is not None else []
     say_lines(_lines(seen, doubts, said))
     places = []
+    if args.write and compiled is not None:
+        named = dataclasses.replace(map_from_words(args.map), auto=True)
+        table = log_maps(compiled, [args.log], named)[0].table(compiled.spec.joints)
+        before = " in place of its own" if robot.log else ""
+        write_atomically(Path(args.robot), with_log(robot.text, table))
+        places.append(f"[log] in {args.robot}{before}")
     if args.report is not None:
         with working("drawing the page"):
             places.append(str(write_page(Path(args.report), log_page(seen, doubts, [], bands))))
-    if args.pictures is not None:
+    if args.picture is not None:
         with progress("drawing pictures") as bar:
-            written = write_files(Path(args.pictures), log_pictures(seen, bands), bar)
-        places.append(f"{len(written)} files in {args.pictures}")
+            written = write_files(Path(args.picture), log_pictures(seen, bands), bar)
+        places.append(f"{len(written)} files in {args.picture}")
     if places:
         say(f"written: {', '.join(places)}")
     return nulled(seen.to_json() | {"doubts": doubts, "bands": bands})
@@ -88,39 +104,6 @@ def _lines(seen: LogInspection, doubts: Sequence[str], noise: Sequence[str]) -> 
         told = "a mapping to start from, a guess: paste it into the robot file, or --map FILE.toml"
         lines += ["", told, "", seen.suggested.rstrip()]
     return lines
-
-
-@dataclass(frozen=True)
-class Heard:
-    """What a fit says: relative error, infinite without fit; doubts; if it is usable; its data."""
-
-    error: float
-    lines: tuple[str, ...]
-    usable: bool = False
-    report: DataReport | None = None
-
-
-def heard_of_fit(
-    compiled: CompiledModel, place: str, mapping: LogMap, seen: LogInspection
-) -> tuple[Heard, bool]:
-    """What contradicts the robot; and whether the log fits without what ranges say of positions.
-
-    A guess by range is believed if it halves the error of the log as it stands, or alone is
-    usable; what goes wrong under a guess is never told of the log.
-    """
-    plain = _heard(compiled, place, _mapped(seen.plain, mapping), seen)
-    if seen.suggested == seen.plain:
-        return plain, False
-    guessed = _heard(compiled, place, _mapped(seen.suggested, mapping), seen)
-    better = guessed.error < _BETTER * plain.error and guessed.usable >= plain.usable
-    if better or (guessed.usable and not plain.usable):
-        return guessed, False
-    return plain, plain.usable
-
-
-def _mapped(text: str, mapping: LogMap) -> LogMap:
-    table = tomllib.loads(text)["log"] if text else {}
-    return map_from_table(table, "guessed [log]").overriding(mapping) if table else mapping
 
 
 def _heard(compiled: CompiledModel, place: str, mapping: LogMap, seen: LogInspection) -> Heard:
@@ -148,13 +131,13 @@ def _fitted(compiled: CompiledModel, place: str, mapping: LogMap) -> tuple[Obser
     """A weighted fit with its verdict, of a long log in chunks."""
     if are_long([place]):
         try:
-            source = source_of(Path(workflow.file_and_span(place)[0]), compiled.spec, mapping)
+            source = source_of(Path(file_and_span(place)[0]), compiled.spec, mapping)
             assert source is not None  # others are not known to be long
             streamed = stream(compiled, [source])
             return streamed.observation, judged_long(compiled, streamed, "weighted")
         except WholeLogNeeded:
             if too_long([place]):
                 raise
-    observation = workflow.observe(compiled, [workflow.read_mapped(place, compiled.spec, mapping)])
+    observation = workflow.observe(compiled, [read_mapped(place, compiled.spec, mapping)])
     way = FitOutcome(identify(observation, "weighted", compiled))
     return observation, judged(compiled, observation, way)

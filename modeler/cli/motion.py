@@ -234,8 +234,8 @@ def run_simulate(args: argparse.Namespace) -> Json:
     except DataError as error:
         raise error if made else DataError(f"{args.motion}: {error}") from None
     simulation.write_log(Path(args.out), log)
-    if args.truth is not None:
-        simulation.write_truth(Path(args.truth), log)
+    if args.truth_out is not None:
+        simulation.write_truth(Path(args.truth_out), log)
     drawn = f", {len(log.truth.drawn)} parameters drawn" if log.truth.drawn else ""
     say(f"{robot.name}: {len(log.time)} samples of {len(log.joints)} joints{drawn}")
     for effect in log.truth.hidden:

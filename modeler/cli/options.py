@@ -2,13 +2,14 @@
 
 import argparse
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from functools import partial
 from importlib import import_module
 from typing import Any, Literal
 
-from modeler.cli.places import JsonFile
+from modeler.cli.places import JsonFile, LogFile, MapWord, Output, OutputFolder
 
 Form = Literal["text", "latex", "markdown"]
 """How relations are printed."""
@@ -22,14 +23,35 @@ Run = Callable[[argparse.Namespace], Any]
 
 @dataclass(frozen=True)
 class Argument:
-    """An argument or an option, as argparse takes it."""
+    """An argument or an option, as argparse takes it.
+
+    Attributes:
+        names: as typed.
+        settings: of argparse.
+        old: names that it had before, which work still; see `old_words`.
+    """
 
     names: tuple[str, ...]
     settings: Mapping[str, Any]
+    old: tuple[str, ...] = ()
 
     def add_to(self, parser: argparse._ActionsContainer) -> None:
         """To the parser of a command, or a group in it."""
         parser.add_argument(*self.names, **self.settings)
+
+    @property
+    def title(self) -> str | None:
+        """The group of the help that it stands in by itself; None: with all others."""
+        kind, name = self.settings.get("type"), self.names[0]
+        if name[0] != "-":
+            return None
+        if name in _OF_WRITING or (isinstance(kind, type) and issubclass(kind, _WRITTEN)):
+            return "what is written"
+        return "logs" if isinstance(kind, type) and issubclass(kind, _LOGS) else None
+
+
+_WRITTEN, _LOGS = (Output, OutputFolder), (LogFile, MapWord)
+_OF_WRITING = ("--json", "--open", "--force", "--write")
 
 
 @dataclass(frozen=True)
@@ -59,6 +81,7 @@ class Command:
         example: ends it.
         arguments: in the order of the help; `--json` follows them.
         json: what that writes.
+        lacks: what is wrong with a line that argparse takes; "" for nothing.
     """
 
     name: str
@@ -68,6 +91,13 @@ class Command:
     example: str
     arguments: tuple[Argument | Group, ...]
     json: str = "write the result for machines"
+    lacks: Callable[[argparse.Namespace], str] = lambda args: ""
+
+    @property
+    def old(self) -> dict[str, str]:
+        """{name of an option until now: its name}."""
+        flat = [o for a in self.arguments for o in (a.options if isinstance(a, Group) else [a])]
+        return {old: option.names[0] for option in flat for old in option.old}
 
     def add_to(self, commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
         """Its parser, among those of all commands."""
@@ -78,9 +108,18 @@ class Command:
             epilog=f"example: {self.example}",
         )
         json = value("--json", "FILE", JsonFile, f"{self.json}; - for stdout")
+        titled: dict[str, list[Argument]] = {"logs": [], "what is written": []}
+        groups = [each for each in self.arguments if isinstance(each, Group)]
         for each in (*self.arguments, json):
-            each.add_to(parser)
-        parser.set_defaults(load=partial(_imported, self.run))
+            if isinstance(each, Argument):
+                if each.title is None:
+                    each.add_to(parser)
+                else:
+                    titled[each.title].append(each)
+        own = [Group(title, None, tuple(options)) for title, options in titled.items() if options]
+        for group in (*own[:-1], *groups, own[-1]):
+            group.add_to(parser)
+        parser.set_defaults(load=partial(_imported, self.run), lacks=self.lacks)
 
 
 def _imported(place: str) -> Run:
@@ -90,12 +129,17 @@ def _imported(place: str) -> Run:
 
 
 def value(
-    name: str, metavar: str, kind: Callable[[str], Any], text: str, **further: Any
+    name: str,
+    metavar: str,
+    kind: Callable[[str], Any],
+    text: str,
+    old: tuple[str, ...] = (),
+    **further: Any,
 ) -> Argument:
     """An argument, or an option with a value; the help of a number tells its default, if any."""
     if kind in (int, float) and further.get("default") is not None:
         text += " (default %(default)s)"
-    return Argument((name,), {"metavar": metavar, "type": kind, "help": text, **further})
+    return Argument((name,), {"metavar": metavar, "type": kind, "help": text, **further}, old)
 
 
 def repeated(name: str, metavar: str, kind: type[str], text: str) -> Argument:
@@ -114,9 +158,20 @@ def choice(name: str, choices: Sequence[str], text: str, default: str | None = N
     return Argument((name,), {"choices": choices, "default": default, "help": text})
 
 
-def flag(name: str, text: str) -> Argument:
+def flag(name: str, text: str, old: tuple[str, ...] = ()) -> Argument:
     """An option without a value."""
-    return Argument((name,), {"action": "store_true", "help": text})
+    return Argument((name,), {"action": "store_true", "help": text}, old)
+
+
+def did_you_mean(got: str, known: Iterable[str]) -> str:
+    """` (did you mean x?)` of a misspelt name, else nothing."""
+    near = get_close_matches(got.lower(), known, 1)
+    return f" (did you mean {near[0]}?)" if near else ""
+
+
+def unknown(got: str, known: Sequence[str]) -> str:
+    """What is said of a word that is none of a few."""
+    return f"got {got}{did_you_mean(got, known)}; expected one of {', '.join(known)}"
 
 
 # Words in any order: options before or after what they stand beside.
@@ -156,12 +211,16 @@ class Sorted:
         arguments: those.
         told: how a doubtful line was read; "" where nothing was given back.
         open: the option whose value the next word would be; None: it is an argument or an option.
+        unknown: what looks like an option and is none.
+        given: options that were typed, by the names of their values.
     """
 
     words: list[str]
     arguments: list[str]
     told: str
     open: argparse.Action | None
+    unknown: list[str]
+    given: frozenset[str]
 
 
 def sorted_words(parser: argparse.ArgumentParser, words: Sequence[str]) -> Sorted:
@@ -174,16 +233,37 @@ def sorted_words(parser: argparse.ArgumentParser, words: Sequence[str]) -> Sorte
     taken, free, ended = _split(parser, words)
     back = _given_back(parser, taken, len(free)) if not ended else []
     free = sorted([*free, *back])
-    options = [i for each in taken for i in (each.word, *each.values)]
+    known = options_of(parser)
+    options = [
+        word
+        for each in taken
+        for word in (_whole(words[each.word], each.action, known), *(words[i] for i in each.values))
+    ]
     arguments = [words[i] for i in free]
     last = taken[-1] if taken else None
     opened = last if last is not None and _may_take(last, words) and not ended else None
     return Sorted(
-        words=[*(words[i] for i in options), *(["--", *arguments] if arguments or ended else [])],
+        words=[*options, *(["--", *arguments] if arguments or ended else [])],
         arguments=arguments,
         told=_told(parser, taken, words, arguments) if back else "",
         open=None if opened is None else opened.action,
+        unknown=[
+            words[each.word]
+            for each in taken
+            if words[each.word].startswith("--")
+            and not any(name.startswith(words[each.word].partition("=")[0]) for name in known)
+        ],
+        given=frozenset(each.action.dest for each in taken if each.action is not None),
     )
+
+
+def _whole(word: str, action: argparse.Action | None, known: Mapping[str, argparse.Action]) -> str:
+    """An option that was cut short, in full."""
+    name, equals, value = word.partition("=")
+    if action is None or name in known:
+        return word
+    full = next(full for full, each in known.items() if each is action and full.startswith(name))
+    return full + equals + value
 
 
 def options_of(parser: argparse.ArgumentParser) -> dict[str, argparse.Action]:

@@ -89,11 +89,13 @@ def _answer(words: Sequence[str], phase: Phase) -> None:
 
 def _carried_out(args: "argparse.Namespace", phase: Phase, every_line: bool) -> None:
     with phase():
+        from modeler.cli.browser import place_page, show_page
         from modeler.cli.console import clock, note, run_command, step
         from modeler.cli.places import check_places
 
-    if args.read_as:
-        note(args.read_as)
+    for line in args.read_as:
+        note(line)
+    place_page(args)
     check_places(args)
     with phase(), step("loading"), clock("loading"):
         import logging
@@ -104,6 +106,7 @@ def _carried_out(args: "argparse.Namespace", phase: Phase, every_line: bool) -> 
         run = args.load()
     with step(args.command):
         run_command(args, run)
+    show_page(args)
 
 
 @contextlib.contextmanager

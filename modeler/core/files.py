@@ -3,6 +3,7 @@
 import contextlib
 import enum
 import errno
+import hashlib
 import os
 import re
 import signal
@@ -11,6 +12,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Literal
 
@@ -140,6 +142,28 @@ def read_text(path: Path) -> str:
         UnicodeDecodeError: it is no UTF-8.
     """
     return read_file(path).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def checksum(path: Path) -> str:
+    """SHA-256 of the bytes of a file, or of the names and bytes of the files in a folder.
+
+    Raises:
+        OSError: it cannot be read.
+    """
+    if not path.is_dir():
+        status = path.stat()
+        return _checksum(path.absolute(), status.st_size, status.st_mtime_ns)
+    inside = sorted(one for one in path.rglob("*") if one.is_file())
+    names = (one.relative_to(path).as_posix() for one in inside)
+    lines = (f"{name}\0{checksum(one)}\n" for name, one in zip(names, inside, strict=True))
+    return hashlib.sha256("".join(lines).encode(errors="surrogateescape")).hexdigest()
+
+
+@lru_cache(maxsize=256)
+def _checksum(path: Path, size: int, written: int) -> str:
+    """Of a file; taken once for a state of it."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def check_unpacked(path: Path, size: int) -> None:

@@ -263,7 +263,7 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
     before = model.history[-2]
     processing = dataclasses.replace(model.processing, delay=before.delay)
     fitted = _fitted(
-        before.robot_text, lambda compiled: rows_of(compiled, Logs(logs.fitted), processing)
+        model, before.robot_text, lambda made: rows_of(made, Logs(logs.fitted), processing)
     )
     return _finished(fitted.with_history(model.history[:-1]))
 
@@ -365,9 +365,9 @@ def _with(before: _Fitted, pick: Pick) -> _Fitted:
     if effect.acts is Acts.TORQUE:
         seen = pick.state.data.observation.report.processing
         processing = dataclasses.replace(model.processing, delay=seen.delay + float(pick.values[0]))
-        return _fitted(model.robot_text, lambda made: rows_of(made, rows.logs, processing))
+        return _fitted(model, model.robot_text, lambda made: rows_of(made, rows.logs, processing))
     text = described(model.robot_text, pick.candidate, pick.values, pick.state.reference)
-    return _fitted(text, rows.of)
+    return _fitted(model, text, rows.of)
 
 
 def _finished(fitted: _Fitted) -> IdentifiedModel:
@@ -379,10 +379,13 @@ def _finished(fitted: _Fitted) -> IdentifiedModel:
     return dataclasses.replace(model, fit=fit)
 
 
-def _fitted(text: str, seen: Callable[[CompiledModel], HoldoutRows]) -> _Fitted:
-    """The robot of that file fitted to the logs."""
+def _fitted(
+    before: IdentifiedModel, text: str, seen: Callable[[CompiledModel], HoldoutRows]
+) -> _Fitted:
+    """The robot of that file fitted to the logs, which are read as those of the model before."""
     derivation = derive(robot_from_text(text, "robot with the effect"))
     emitted = generate(derivation)
     rows = seen(load(emitted.spec, emitted.code))
     fit, used = identify(rows.fitted, "weighted", rows.compiled), provenance(rows.fitted.report)
-    return _Fitted(IdentifiedModel(text, emitted.spec, emitted.code, fit, used), rows)
+    model = IdentifiedModel(text, emitted.spec, emitted.code, fit, used, mapping=before.mapping)
+    return _Fitted(model, rows)

@@ -8,6 +8,7 @@ import dataclasses
 import hashlib
 import itertools
 import json
+import os
 import shlex
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -17,8 +18,8 @@ from typing import Any, get_type_hints
 
 import numpy as np
 
-from modeler.core.errors import DataError, ManifestError
-from modeler.core.files import read_file, read_text, write_atomically
+from modeler.core.errors import DataError, ManifestError, file_and_window
+from modeler.core.files import checksum, read_file, read_text, write_atomically
 from modeler.core.json import JsonError, UndeclaredEntry, entries, parse_json, plain, shown
 from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, module_from_plain
 from modeler.core.result import Presented
@@ -27,8 +28,10 @@ from modeler.estimation.result import FitResult, fit_from_json
 from modeler.observation import DataReport, LogRows, Processing, shared_rows
 from modeler.runtime import CompiledModel, load
 
-FORMAT = 3
+FORMAT = 4
 KIND = "modeler model"
+
+_OPENED = (3, FORMAT)  # format 3 has no mapping, and no paths of logs
 
 
 CHECKSUMS = "checksums"
@@ -45,6 +48,7 @@ _MEANING = {
     "manifest": "manifest (what the C looks like)",
     "sources": "sources (the C)",
     "logs": "logs (what was fitted)",
+    "mapping": "mapping (which columns of the logs are ours)",
     "history": "history (the effects added)",
 }
 
@@ -59,6 +63,9 @@ class LogProvenance:
         samples: after decimation.
         content: fingerprint of the whole file's measurements; it tells the file under any name.
         start, end: s, first and last row that was used of it.
+        path: as it was given, `@START:END` of a piece of it too; relative to the folder of work, or
+            to that of the model file. A hint, where the model was mailed; "" of what was no file.
+        checksum: of the bytes of that file or folder, see `core.files.checksum`; "" without one.
     """
 
     name: str
@@ -67,6 +74,8 @@ class LogProvenance:
     content: str
     start: float
     end: float
+    path: str = ""
+    checksum: str = ""
 
     def shares_rows(self, log: LogRows) -> bool:
         """True if rows of `log` were fitted."""
@@ -133,6 +142,8 @@ class IdentifiedModel(Presented):
         fit: the estimate; `fit.processing` is how its data were processed.
         logs: what it was fitted on.
         history: the model as first fitted and every effect added since; empty before the first.
+        mapping: which columns of its logs are ours, a table as [log] of a robot file, over that;
+            empty if the robot file says it all.
     """
 
     robot_text: str
@@ -141,6 +152,7 @@ class IdentifiedModel(Presented):
     fit: FitResult
     logs: tuple[LogProvenance, ...]
     history: tuple[Addition, ...] = ()
+    mapping: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def beta(self) -> np.ndarray:
@@ -172,15 +184,29 @@ class IdentifiedModel(Presented):
             table = tomllib.loads(self.robot_text).get("log", {})
         except ValueError:
             table = {}
-        return load(self.spec, self.sources, table if isinstance(table, Mapping) else {})
+        return load(
+            self.spec, self.sources, self.mapping or (table if isinstance(table, Mapping) else {})
+        )
 
 
 def provenance(report: DataReport) -> tuple[LogProvenance, ...]:
     """Which logs went into an observation."""
     return tuple(
-        LogProvenance(log.name, log.rows, log.samples, log.content, *log.span)
+        LogProvenance(
+            log.name, log.rows, log.samples, log.content, *log.span,
+            path=os.fsencode(log.path).decode(errors="replace"),
+            checksum=checksum_of(log.path),
+        )
         for log in report.logs
-    )
+    )  # fmt: skip
+
+
+def checksum_of(place: str) -> str:
+    """Of the file or folder of a log, `@START:END` left aside; "" if there is none."""
+    try:
+        return checksum(Path(file_and_window(place)[0])) if place else ""
+    except OSError:
+        return ""
 
 
 def save_model(path: str | Path, model: IdentifiedModel) -> None:
@@ -197,6 +223,7 @@ def save_model(path: str | Path, model: IdentifiedModel) -> None:
         "fit": model.fit.to_json(),
         "covariance": model.fit.covariance.tolist(),
         "logs": [vars(log) for log in model.logs],
+        "mapping": dict(model.mapping),
         "robot_text": model.robot_text,
         "history": [vars(step) for step in model.history],
         "manifest": json.loads(model.spec.to_json()),
@@ -236,7 +263,8 @@ def load_model(path: str | Path) -> IdentifiedModel:
     for what in itertools.chain(_wrong_values(fit), _wrong_covariance(fit)):
         raise _refused(where, what)
     kinds = get_type_hints(IdentifiedModel)
-    as_saved = ("robot_text", "sources", "logs", "history")
+    as_saved = ("robot_text", "sources", "logs", "history", "mapping")
+    raw = {"mapping": {}} | raw if raw["format"] < FORMAT else raw
     further = {name: _entry(raw, name, kinds[name], where) for name in as_saved}
     return IdentifiedModel(spec=spec, fit=fit, **further)
 
@@ -278,9 +306,13 @@ def _read(path: Path) -> dict[str, Any]:
         raise ManifestError(
             f"{path}: JSON, but not a model file; expected the output of `modeler fit --out`"
         )
-    if raw.get("format") != FORMAT:
-        got = f"model format {shown(raw['format'])}" if "format" in raw else "no model format"
-        raise ManifestError(f"{path}: {got}, this version reads {FORMAT}; fit the model again")
+    if (got := raw.get("format")) not in _OPENED:
+        told = f"model format {shown(got)}" if "format" in raw else "no model format"
+        newer = isinstance(got, int) and got > FORMAT
+        raise ManifestError(
+            f"{path}: {told}, this version opens {_OPENED[0]} to {FORMAT}; "
+            f"{'upgrade modeler to open it' if newer else 'fit the model again'}"
+        )
     return raw
 
 

@@ -1,11 +1,13 @@
 """Arrays by name, as MAT, HDF5 and numpy files hold them, as columns; numpy files."""
 
+import dataclasses
 import math
 import os
+import re
 import struct
 import zlib
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -21,6 +23,8 @@ LEAST_ROWS = 10
 """A log of fewer rows carries no motion: fifth of a second at the slowest usual rate."""
 
 _SHOWN = 8  # names in a note
+_RATES = ("fs", "fps", "rate", "sample_rate", "samplerate", "sampling_rate", "f_s")
+_STEPS = ("ts", "dt", "sample_time", "sampletime", "delta_t", "t_s")
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +106,25 @@ def columns_of(
         found += slices
         units |= {name: held.unit for name, _ in slices if held.unit}
     told = [f"{_listed(left)} left out: no columns of {rows} rows"] if left else []
-    return Columns(tuple(found), rows, units, (*notes, *told))
+    single = (
+        (a.name, a.data[()]) for a in arrays if math.prod(a.shape) == 1 and _tells_rate(a.name)
+    )
+    return Columns(tuple(found), rows, units, (*notes, *told), rate=_stated_rate(single))
+
+
+def _tells_rate(name: str) -> bool:
+    return re.split(r"[./]", name)[-1].lower() in (*_RATES, *_STEPS)
+
+
+def _stated_rate(values: Iterable[tuple[str, Any]]) -> float | None:
+    """Hz, of single values such as fs or dt."""
+    for name, value in values:
+        number = (
+            float(np.asarray(value).reshape(-1)[0]) if np.asarray(value).dtype.kind in "iuf" else 0
+        )
+        if _tells_rate(name) and 0.0 < number < math.inf:
+            return number if re.split(r"[./]", name)[-1].lower() in _RATES else 1.0 / number
+    return None
 
 
 def _in_group(path: Path, arrays: Sequence[Held], wanted: Wanted) -> list[Held]:
@@ -314,7 +336,9 @@ def read_mat(path: Path, wanted: Wanted) -> Columns:
             f"{', '.join(other[:8])} left out: an object that only MATLAB reads; of a timeseries, "
             "save its Time and Data"
         )
-    return columns_of(path, "MAT file", found, wanted, notes)
+    columns = columns_of(path, "MAT file", found, wanted, notes)
+    single = ((n, v) for n, v in _values(content) if isinstance(v, int | float | np.number))
+    return dataclasses.replace(columns, rate=columns.rate or _stated_rate(single))
 
 
 def _check_size(path: Path) -> None:

@@ -1,11 +1,14 @@
 """Parquet and CSV files: whole, or block by block, so that one of any length fits in memory."""
 
+import dataclasses
+import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from types import MappingProxyType
+from typing import Any, BinaryIO
 
 import numpy as np
 import pyarrow as pa
@@ -15,15 +18,21 @@ import pyarrow.parquet
 
 from modeler.core.errors import DataError
 from modeler.core.files import check_unpacked
+from modeler.logs.clock_times import (
+    Origin,
+    counted,
+    is_beyond,
+    is_moment,
+    origins_of,
+    seconds_from,
+    stated_units,
+)
 from modeler.logs.columns import Columns, ColumnValues, NotNumbers, Wanted, unreadable
+from modeler.logs.datasets import Dataset, dataset_of, flattened, needed_columns, one_clock
+from modeler.logs.dialect import TEXTS, bare, dialect_of
 
 _UNEVEN = re.compile(r"Row #(\d+): Expected (\d+) columns, got (\d+): (.*)", re.DOTALL)
 """What Arrow says of a row; it counts the header."""
-
-_MARKS = {";": "semicolons", "\t": "tabs", "|": "bars"}
-_DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d")
-_LINE = 2**24  # bytes of the longest line that is looked at
-_BOM = "\ufeff"
 
 State = tuple[int, int]
 """Bytes of a file, and when it was last written to."""
@@ -34,18 +43,30 @@ _BYTES = 1 << 20  # of a file at a time
 
 @dataclass(frozen=True, eq=False)
 class _Arrow:
-    """A column of a table of Arrow."""
+    """A column of a table of Arrow.
+
+    Attributes:
+        column: of it.
+        before: rows of the file that stand before it.
+        origin: what a time is counted from: day and second of a text, a whole number else.
+    """
 
     column: pa.ChunkedArray
-    before: int = 0  # rows of the file that stand before it
+    before: int = 0
+    origin: Origin = None
 
     @property
     def numeric(self) -> bool:
         t = pa.types
         numbers = (t.is_integer, t.is_floating, t.is_decimal, t.is_null)
-        return any(is_one(self.column.type) for is_one in numbers)
+        kind = self.column.type
+        return self.origin is not None or any(is_one(kind) for is_one in numbers)
 
     def numbers(self) -> np.ndarray:
+        if isinstance(self.origin, tuple):
+            return seconds_from(self.column, self.origin, self.before)
+        if self.origin is not None:
+            return counted(self.column, self.origin)
         if not self.numeric:
             kind = self.column.type
             text = pa.types.is_string(kind) or pa.types.is_large_string(kind)
@@ -69,18 +90,43 @@ class _Arrow:
 
 
 def read_csv(path: Path, wanted: Wanted) -> Columns:
-    """The columns of a CSV file."""
+    """The columns of a text file."""
     del wanted  # one table, no parts
     with arrow_errors(path, "CSV"):
-        check_csv(path)
-        return arrow_columns(_parsed(path))
+        text = _Text(path)
+        with text.dialect.open(path) as file:
+            file.seek(text.dialect.start)
+            return text.columns(file.read())
 
 
 def read_parquet(path: Path, wanted: Wanted) -> Columns:
     """The columns of a Parquet file."""
     del wanted
     with arrow_errors(path, "PARQUET"):
-        return arrow_columns(open_parquet(path).read())  # read_table refuses equal names
+        table = open_parquet(path).read()  # read_table refuses equal names
+        return _parquet_columns(table, dataset_of(path), origins_of(table))
+
+
+def read_dataset(folder: Path, wanted: Wanted) -> Columns:
+    """The columns of all Parquet files of a LeRobot dataset, one after the other."""
+    del wanted
+    places = sorted((folder / "data").rglob("*.parquet"))
+    if not places:
+        raise DataError(f"{folder}: no Parquet files in data/; copy the dataset again")
+    with arrow_errors(folder, "PARQUET"):
+        table = pa.concat_tables([open_parquet(p).read() for p in places])
+        return _parquet_columns(table, dataset_of(folder), origins_of(table))
+
+
+def _parquet_columns(
+    table: pa.Table, dataset: Dataset | None, origins: Mapping[str, int], before: int = 0
+) -> Columns:
+    """With entries of lists as columns, and the clock of a dataset."""
+    table, told = one_clock(table, dataset, origins.get("index", 0))
+    counted_from = {n: first for n, first in origins.items() if n != "index" or is_beyond(first)}
+    found = arrow_columns(flattened(table, dataset), before, counted_from)
+    rate = None if dataset is None else dataset.fps
+    return dataclasses.replace(found, told=told, rate=rate)
 
 
 def open_parquet(path: Path, **how: Any) -> pa.parquet.ParquetFile:
@@ -112,91 +158,68 @@ def arrow_errors(path: Path, what: str) -> Iterator[None]:
         ) from None
 
 
-def _parsed(source: Any, **options: Any) -> pa.Table:
-    """The table of a CSV file, or of some of its lines; an error of one row names it."""
-    names = options.pop("column_names", None)
-    convert = pa.csv.ConvertOptions(**options)
-    try:
-        return pa.csv.read_csv(
-            source, pa.csv.ReadOptions(column_names=names), convert_options=convert
-        )
-    except pa.ArrowInvalid:
-        # Rows are counted only where one thread reads all.
-        alone = pa.csv.ReadOptions(column_names=names, use_threads=False)
-        return pa.csv.read_csv(source, alone, convert_options=convert)
+class _Text:
+    """The rows of a text file, some lines at a time."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.dialect = dialect_of(path)
+        self.names = self.dialect.head.names
+
+    def columns(self, text: bytes, wanted: Sequence[str] = (), before: int = 0) -> Columns:
+        """Those of whole lines, `before` rows after the first; an error of a row names its place.
+
+        Raises:
+            ArrowInvalid: a row has more or fewer entries.
+        """
+        dialect, head = self.dialect, self.dialect.head
+        names = [name for name in self.names if not wanted or name in wanted]
+        parse = pa.csv.ParseOptions(delimiter=dialect.delimiter)
+        convert = pa.csv.ConvertOptions(
+            decimal_point=dialect.decimal, include_columns=names,
+            column_types={name: pa.int64() if isinstance(first, int) else pa.string()
+                          for name, first in dialect.clocks.items() if name in names},
+        )  # fmt: skip
+        if not text.strip():
+            table = pa.table({name: pa.nulls(0) for name in dict.fromkeys(names)})
+        else:
+            table = self._parsed(dialect.table(text), before, parse, convert)
+        found = arrow_columns(table, before, dialect.clocks)
+        units = {**found.units, **head.units}
+        return dataclasses.replace(found, units=units, told=dialect.told, rate=head.rate)
+
+    def _parsed(
+        self, text: bytes, before: int, parse: pa.csv.ParseOptions, convert: pa.csv.ConvertOptions
+    ) -> pa.Table:
+        source = pa.py_buffer(text)
+        for threads in (True, False):  # rows are counted only where one thread reads all
+            how = pa.csv.ReadOptions(column_names=list(self.names), use_threads=threads)
+            try:
+                return pa.csv.read_csv(source, how, parse, convert)
+            except pa.ArrowInvalid as error:
+                if threads:
+                    continue
+                # As in a file whose first line is the header, that is row 1.
+                told = re.sub(r"Row #(\d+)", lambda m: f"Row #{int(m[1]) + before + 1}", str(error))
+                raise pa.ArrowInvalid(told) from None
+        raise AssertionError
 
 
-def arrow_columns(table: pa.Table, before: int = 0) -> Columns:
-    """The columns of a table; `before` rows of its file stand before it."""
-    named = [
-        (bare(name), _Arrow(table.column(i), before)) for i, name in enumerate(table.column_names)
-    ]
-    return Columns(tuple(named), table.num_rows)
+def arrow_columns(
+    table: pa.Table, before: int = 0, origins: Mapping[str, Any] = MappingProxyType({})
+) -> Columns:
+    """The columns of a table; `before` rows of its file stand before it.
 
-
-def bare(name: str) -> str:
-    """A column name without blanks and quotes around it: `"time", "q1"` leaves both."""
-    name = name.strip()
-    if len(name) > 1 and name[0] == name[-1] and name[0] in "\"'":
-        name = name[1:-1].strip()
-    return name
-
-
-def check_csv(path: Path) -> None:
-    """Refuse what is not comma-separated UTF-8 with decimal points and its header in row 1.
-
-    Raises:
-        DataError: the header is in another encoding, a comment, or separated by something else;
-            or the first row has more entries than there are columns.
-        OSError: the file cannot be read.
+    Args:
+        table: of some rows.
+        before: rows of the file that stand before them.
+        origins: what columns of times are counted from.
     """
-    with path.open("rb") as file:
-        lines = iter(lambda: file.readline(_LINE), b"")
-        written = (line for line in lines if line.strip())  # the parser skips blank lines too
-        header = _header(path, next(written, b""))
-        if len(header) >= _LINE:
-            raise DataError(
-                f"{path}: the first line does not end within {_LINE >> 20} MiB; expected the names "
-                "of the columns; write the file again"
-            )
-        # Text columns are left out, so what they hold need not be readable.
-        first = next(written, b"").decode("utf-8", errors="replace")
-    if header.lstrip().startswith("#"):
-        raise DataError(
-            f'{path}: starts with a comment, "{header[:40]}"; expected the names of the columns; '
-            'delete the lines before them, and a "#" in front of them'
-        )
-    if header.count('"') % 2:
-        raise DataError(
-            f'{path}: the first line has a quote (") that is not closed; expected the names of the '
-            "columns; close it, or delete it"
-        )
-    if "," not in header:
-        for mark, name in _MARKS.items():
-            if mark in header:
-                decimals = any(_DECIMAL_COMMA.match(entry) for entry in first.split(mark))
-                also = ", and decimal points for the decimal commas" if decimals else ""
-                raise DataError(
-                    f"{path}: columns separated by {name}; expected columns separated by commas; "
-                    f"write the file again with commas{also}"
-                )
-    columns, entries = header.count(",") + 1, first.count(",") + 1
-    if entries > columns and '"' not in header + first:
-        raise DataError(
-            f"{path}: row 1: got {entries} entries for {columns} columns; expected one each; "
-            "write decimal points where numbers have decimal commas"
-        )
-
-
-def _header(path: Path, line: bytes) -> str:
-    try:
-        return line.decode("utf-8").removeprefix(_BOM).rstrip("\r\n")
-    except UnicodeDecodeError as error:
-        before = line[: error.start].decode("utf-8")[-40:]
-        raise DataError(
-            f'{path}: the header is not UTF-8: byte 0x{line[error.start]:02x} after "{before}"; '
-            "save the file as UTF-8"
-        ) from None
+    named = [
+        (bare(name), _Arrow(table.column(i), before, origins.get(name)))
+        for i, name in enumerate(table.column_names)
+    ]
+    return Columns(tuple(named), table.num_rows, stated_units(table, origins))
 
 
 def state_of(path: Path) -> State:
@@ -226,25 +249,27 @@ def check_unchanged(path: Path, before: State) -> None:
 
 
 class CsvBlocks:
-    """The lines of a CSV file; a block is parsed by itself, and its columns are what it holds."""
+    """The lines of a text file; a block is parsed by itself, and its columns are what it holds."""
 
     def __init__(self, path: Path) -> None:
         self._path, self._state = path, state_of(path)
         with arrow_errors(path, "CSV"):
-            check_csv(path)
-            with path.open("rb") as file:
-                header = file.readline()
-                while header and not header.strip():
-                    header = file.readline()
-                self._start = file.tell()
+            self._text = _Text(path)
+            self._start = self._text.dialect.start
+            with self._open() as file:
                 lines = [line for _, line in zip(range(_LINES), file, strict=False) if line.strip()]
-            self._names = pa.csv.read_csv(pa.py_buffer(header)).column_names
+                self._size = file.seek(0, os.SEEK_END)
         self._line = max(1.0, sum(map(len, lines)) / max(1, len(lines)))  # bytes
+
+    def _open(self) -> BinaryIO:
+        file = self._text.dialect.open(self._path)
+        file.seek(self._start)
+        return file
 
     @property
     def rows(self) -> int:
         """About as many as the file has."""
-        return round((self._state[0] - self._start) / self._line)
+        return round((self._size - self._start) / self._line)
 
     def blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
         """All rows in their order, about `size` at a time.
@@ -257,8 +282,7 @@ class CsvBlocks:
             DataError: the file is damaged, or was written to while it was read.
         """
         read, rest = 0, b""
-        with arrow_errors(self._path, "CSV"), self._path.open("rb") as file:
-            file.seek(self._start)
+        with arrow_errors(self._path, "CSV"), self._open() as file:
             while True:
                 text = file.read(max(1, int(size * self._line)))
                 end = text.rfind(b"\n") + 1
@@ -267,9 +291,9 @@ class CsvBlocks:
                     continue
                 whole, rest = (rest + text[:end], text[end:]) if text else (rest, b"")
                 if whole.strip():
-                    table = self._parsed(whole, names, read)
-                    yield arrow_columns(table, read)
-                    read += table.num_rows
+                    found = self._columns(whole, names, read)
+                    yield found
+                    read += found.rows
                 if not text:
                     break
         check_unchanged(self._path, self._state)
@@ -277,25 +301,21 @@ class CsvBlocks:
     def window(self, share: float, size: int, names: Sequence[str] = ()) -> Columns:
         """Up to `size` rows from about a share of the file on."""
         room = int(size * self._line)
-        start = max(self._start, min(self._start + int(share * self._state[0]),
-                                     self._state[0] - room))  # fmt: skip
-        with arrow_errors(self._path, "CSV"), self._path.open("rb") as file:
-            file.seek(start - 1)
-            file.readline()  # the line that begins before
+        start = max(self._start, min(self._start + int(share * self._size), self._size - room))
+        with arrow_errors(self._path, "CSV"), self._open() as file:
+            if start > self._start:
+                file.seek(start - 1)
+                file.readline()  # the line that begins before
             text = file.read(room)
             text += file.readline()
-            return arrow_columns(self._parsed(text, names, 0))
+            return self._text.columns(text, names)
 
-    def _parsed(self, text: bytes, names: Sequence[str], before: int) -> pa.Table:
-        """A table of whole lines; an error of one row names its place in the file."""
-        wanted = [name for name in self._names if not names or bare(name) in names]
+    def _columns(self, text: bytes, names: Sequence[str], before: int) -> Columns:
         try:
-            return _parsed(pa.py_buffer(text), column_names=self._names, include_columns=wanted)
-        except pa.ArrowInvalid as error:
+            return self._text.columns(text, names, before)
+        except pa.ArrowInvalid:
             check_unchanged(self._path, self._state)
-            # As in a file that is read whole, the header is row 1.
-            placed = re.sub(r"Row #(\d+)", lambda m: f"Row #{int(m[1]) + before + 1}", str(error))
-            raise pa.ArrowInvalid(placed) from None
+            raise
 
 
 class ParquetBlocks:
@@ -310,14 +330,20 @@ class ParquetBlocks:
         with arrow_errors(path, "PARQUET"):
             meta = self._open().metadata
             rows = [meta.row_group(place).num_rows for place in range(meta.num_row_groups)]
+            self._dataset, schema = dataset_of(path), self._open().schema_arrow
+            self._stored = schema.names
+            timed = [f.name for f in schema if is_moment(f.type) or pa.types.is_integer(f.type)]
         self._starts = np.concatenate([[0], np.cumsum(rows, dtype=int)])  # of the row groups
         self.rows = int(self._starts[-1])
+        self._origins: Mapping[str, int] = {}
+        if timed and self.rows:
+            self._origins = origins_of(next(self._read(0, 1, timed)))
 
     def blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
         """All rows in their order, `size` at a time."""
         read = 0
         for table in self._read(0, size, names):
-            yield arrow_columns(table, read)
+            yield _parquet_columns(table, self._dataset, self._origins, read)
             read += table.num_rows
         check_unchanged(self._path, self._state)
 
@@ -333,7 +359,7 @@ class ParquetBlocks:
             rows += taken.num_rows
             if rows >= size:
                 break
-        return arrow_columns(pa.concat_tables(parts), start)
+        return _parquet_columns(pa.concat_tables(parts), self._dataset, self._origins, start)
 
     def _open(self) -> pa.parquet.ParquetFile:
         return open_parquet(self._path, buffer_size=_BYTES, pre_buffer=False)
@@ -343,7 +369,8 @@ class ParquetBlocks:
         read, places = int(self._starts[first]), list(range(first, len(self._starts) - 1))
         try:
             file = self._open()
-            for batch in file.iter_batches(size, row_groups=places, columns=list(names) or None):
+            some = needed_columns(list(names), self._stored) or None
+            for batch in file.iter_batches(size, row_groups=places, columns=some):
                 yield pa.Table.from_batches([batch])
                 read += batch.num_rows
         except (pa.ArrowException, OSError) as error:
@@ -367,9 +394,9 @@ def blocks_of(path: Path) -> Blocks | None:
     """
     if not path.is_file() or path.stat().st_size == 0:
         return None
-    kinds: Mapping[str, type[Blocks]] = {".parquet": ParquetBlocks, ".csv": CsvBlocks}
-    kind = kinds.get(path.suffix.lower())
-    return None if kind is None else kind(path)
+    if path.suffix.lower() == ".parquet":
+        return ParquetBlocks(path)
+    return CsvBlocks(path) if path.suffix.lower() in TEXTS else None
 
 
 def windows_of(blocks: Blocks, count: int, size: int) -> Columns:
@@ -380,4 +407,6 @@ def windows_of(blocks: Blocks, count: int, size: int) -> Columns:
         for name in found[0]
         if all(own[name].numeric for own in found)
     )
-    return Columns(values, len(values[0][1].values) if values else 0)
+    rows = len(values[0][1].values) if values else 0
+    first = blocks.window(0.0, 1)
+    return Columns(values, rows, first.units, told=first.told, rate=first.rate)

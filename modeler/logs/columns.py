@@ -6,15 +6,12 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
 
-from modeler.core.errors import DataError, short_of_memory
+from modeler.core.errors import DataError, installing, short_of_memory
 from modeler.core.files import PACKED, UNPACKED
-
-_NONE: Mapping = MappingProxyType({})
 
 
 class Column(Protocol):
@@ -62,14 +59,18 @@ class Columns:
         rows: of every column.
         units: that the file states: name -> text.
         notes: what was left out or joined, one sentence each.
+        told: how it was read, one sentence each: nothing to doubt.
         streams: topics or groups, if the file has such.
+        rate: Hz, that the file states of its rows; None if it does not.
     """
 
     columns: tuple[tuple[str, Column], ...]
     rows: int
-    units: Mapping[str, str] = field(default_factory=lambda: _NONE)
+    units: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    told: tuple[str, ...] = field(default=(), kw_only=True)
     streams: tuple[Stream, ...] = ()
+    rate: float | None = None
 
 
 @dataclass(frozen=True)
@@ -79,10 +80,12 @@ class Wanted:
     Attributes:
         topic: the part that holds the motion; "" if there is one only.
         any: True: take the likeliest part rather than asking which.
+        files: of a log in several files, our name -> how the name of the file ends.
     """
 
     topic: str = ""
     any: bool = False
+    files: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,6 +137,11 @@ def unreadable(path: Path, what: str, error: Exception, advice: str) -> DataErro
     )
 
 
+READERS = {"h5py": "hdf5", "rosbags": "rosbags"}
+"""Packages that read a format, and the extra that installs them."""
+
+
 def missing_package(path: Path, what: str, package: str) -> DataError:
     """The error of a format whose reader is not installed."""
-    return DataError(f"{path}: {what} needs the package {package}; run: pip install {package}")
+    part = READERS.get(package, package)
+    return DataError(f"{path}: {what} needs the package {package}; run: {installing(part)}")

@@ -162,6 +162,11 @@ def _role(template: str) -> str:
     return "qc" if words and words[-1] == "qc" else ""
 
 
+def role_of(name: str) -> str:
+    """What a column of that name looks like: "time", "q", "tau" ...; "" for nothing of ours."""
+    return _role(template_of(name)[0])
+
+
 def _rises(values: np.ndarray) -> bool:
     """True of a column that goes up, as a time does, but for a few rows."""
     steps = np.diff(values[np.isfinite(values)])

@@ -217,7 +217,7 @@ def inspect_log(
                 constant=low == high,
             )
         )
-    notes, pairs = table.notes, speeds_by_position(found)
+    notes, pairs = (*table.told, *table.notes), speeds_by_position(found)
     if every is not None:
         notes = (*notes, _TOLD.format(rows, len(time)))
     doubts = [*_of_clock(clock), *absent_roles(found), *unlike_si(found)]

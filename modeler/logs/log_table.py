@@ -9,6 +9,7 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.logs.arrays import LEAST_ROWS
 from modeler.logs.columns import Column, Columns, NotNumbers, Wanted
+from modeler.logs.guess import role_of
 from modeler.logs.mapping import LogMap, MappedColumn, Unit, find_unit, near, si_unit
 from modeler.logs.readers import read_columns
 
@@ -28,6 +29,7 @@ class LogTable:
         rated: True if time is counted from the rate, for want of a column.
         rows: of every column.
         notes: what reading left out, one sentence each.
+        told: how it was read, one sentence each: nothing to doubt.
     """
 
     def __init__(
@@ -43,7 +45,7 @@ class LogTable:
         self.path = path
         mapping = mapping or LogMap()
         self.whole, self.before = part is None, before
-        self.found = part or read_columns(path, Wanted(mapping.topic, any_topic))
+        self.found = part or read_columns(path, Wanted(mapping.topic, any_topic, mapping.files))
         self.rows: int = self.found.rows
         self._joints = joints
         self._columns: dict[str, Column] = dict(self.found.columns)
@@ -52,13 +54,16 @@ class LogTable:
         self._taken: dict[str, str] = {}  # which an error of the next line reads
         self._taken = self._matched()
         timed = "time" in self._taken or "time" in self._columns
-        self._rate = None if timed else mapping.rate
+        timed = timed or (not mapping.rate and any(role_of(n) == "time" for n in self._columns))
+        self._rate = None if timed else mapping.rate or self.found.rate
+        self._said = "" if mapping.rate else ", as the file says"
         self.rated = self._rate is not None
         used = set(self._taken.values())
         others = [name for name in self._columns if name not in used and name not in self._taken]
         self.names: tuple[str, ...] = (*self._taken, *(["time"] if self._rate else []), *others)
         self._units = {name: self._unit(name) for name in self.names}
         self.notes: tuple[str, ...] = (*self.found.notes, *self._notes())
+        self.told: tuple[str, ...] = (*self.found.told, *mapping.told, *self._taken_as_stated())
 
     def _check(self) -> None:
         names = [name for name, _ in self.found.columns]
@@ -113,26 +118,29 @@ class LogTable:
         return None if stated is None else si_unit(own, where or own, stated, self._joints)
 
     def _notes(self) -> list[str]:
-        """Entries of [log] that found nothing, units of the file's own, a time without column."""
+        """Entries of [log] that found nothing, units that nobody knows."""
         lines = []
         for own, entry in self._entries.items():
             if own not in self._taken and own not in self._columns and own != "time":
                 lines.append(f"no column {entry.columns[0]} for {own}")
-        stated = [
-            f"{own} in {unit.text}"
-            for own, unit in self._units.items()
-            if unit is not None and not (own in self._taken and self._entries[own].unit)
-        ]
-        if stated:
-            lines.append(f"by the units that the file states: {', '.join(stated)}")
         unknown = [
             n for n, t in self.found.units.items() if n in self._columns and not find_unit(t)
         ]
         if unknown:
             named = ", ".join(f'{name} "{self.found.units[name]}"' for name in unknown[:_FEW])
             lines.append(f"the file states units that are not understood, taken as SI: {named}")
+        return lines
+
+    def _taken_as_stated(self) -> list[str]:
+        """Units of the file's own, a time without column."""
+        stated = [
+            f"{own} in {unit.text}"
+            for own, unit in self._units.items()
+            if unit is not None and not (own in self._taken and self._entries[own].unit)
+        ]
+        lines = [f"by the units that the file states: {', '.join(stated)}"] if stated else []
         if self._rate:
-            lines.append(f"no time column: rows counted at {self._rate:g} Hz")
+            lines.append(f"no time column: rows counted at {self._rate:g} Hz{self._said}")
         return lines
 
     def __contains__(self, name: str) -> bool:

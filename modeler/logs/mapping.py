@@ -231,10 +231,12 @@ def _wanted(own: str, joints: Sequence[JointSpec]) -> tuple[Powers | None, str, 
     return None, "", ""
 
 
-_NONE: Mapping = MappingProxyType({})
 _LARGEST = 1e100  # beyond, products are no numbers any more
 _KEYS = ("column", "unit", "sign", "scale", "offset")
-_SETTINGS = ("topic", "names", "rate")
+_SETTINGS = ("topic", "names", "rate", "files")
+AUTO = "auto"
+"""What `--map` is given for the guess."""
+_TOKEN = re.compile(r"\{(?:j|name|n([+-]\d{1,3})?)\}")
 _BRACKETS = re.compile(r"(.*\S)\s+\[([^\[\]]+)\]")
 JOINT = "<j>"
 """Stands for every joint of the robot in our name of a column."""
@@ -246,7 +248,7 @@ class MappedColumn:
 
     Attributes:
         columns: names that the file may have for it; in patterns `{j}` is the joint's name, `{n}`
-            its place counted from 1, `{n-1}` from 0, `{name}` its name in the log.
+            its place counted from 1, `{n-1}` from 0, `{n+6}` from 7, `{name}` its name in the log.
         unit: of the value; None: SI, or what the file says.
         sign, scale, offset: of the equation; the offset in that unit.
         where: place of the entry, for messages.
@@ -268,13 +270,23 @@ class MappedColumn:
 
     def of(self, joint: str, place: int, name: str) -> "MappedColumn":
         """The entry of a pattern for one joint."""
-        tokens = {"{j}": joint, "{n}": f"{place + 1}", "{n-1}": f"{place}", "{name}": name}
-        written = []
-        for column in self.columns:
-            for token, text in tokens.items():
-                column = column.replace(token, text)
-            written.append(column)
+
+        def text(token: re.Match[str]) -> str:
+            words = {"{j}": joint, "{name}": name}
+            return words.get(token[0]) or f"{place + 1 + int(token[1] or 0)}"
+
+        written = [_TOKEN.sub(text, column) for column in self.columns]
         return dataclasses.replace(self, columns=tuple(written))
+
+    def table(self) -> str | dict[str, Any]:
+        """The entry as [log] has it."""
+        column = self.columns[0]
+        if self.unit is None and (self.sign, self.scale, self.offset) == (1.0, 1.0, 0.0):
+            return column
+        said = {"unit": self.unit and self.unit.text, "sign": int(self.sign), "scale": self.scale,
+                "offset": self.offset}  # fmt: skip
+        plain = {"unit": None, "sign": 1, "scale": 1.0, "offset": 0.0}
+        return {"column": column} | {k: v for k, v in said.items() if v != plain[k]}
 
 
 @dataclass(frozen=True)
@@ -286,12 +298,18 @@ class LogMap:
         names: joint -> its name in logs.
         topic: of a bag, or group of a file, that holds the motion; "" if there is one only.
         rate: Hz, of a log without a time column.
+        files: of logs in several files, our name -> how the name of the file ends.
+        auto: what these leave open is to be guessed.
+        told: what was guessed, one line each.
     """
 
     layers: tuple[Mapping[str, MappedColumn], ...] = ()
-    names: Mapping[str, str] = field(default_factory=lambda: _NONE)
+    names: Mapping[str, str] = field(default_factory=dict)
     topic: str = ""
     rate: float | None = None
+    files: Mapping[str, str] = field(default_factory=dict)
+    auto: bool = False
+    told: tuple[str, ...] = ()
 
     def overriding(self, other: "LogMap") -> "LogMap":
         """This one, and under it another."""
@@ -300,7 +318,25 @@ class LogMap:
             {**other.names, **self.names},
             self.topic or other.topic,
             self.rate or other.rate,
+            self.files or other.files,
+            self.auto or other.auto,
+            (*other.told, *self.told),
         )
+
+    def table(self, joints: Sequence[JointSpec] = ()) -> dict[str, Any]:
+        """What is said, as one table [log]: `map_from_table` of it reads logs alike.
+
+        A pattern of a layer goes before entries of lower layers for single joints of a robot.
+        """
+        found: dict[str, MappedColumn] = {}
+        for layer in self.layers:
+            for key in (key for key in layer if JOINT in key):
+                for own in (key.replace(JOINT, joint.name) for joint in joints):
+                    found.pop(own, None)
+            found |= layer
+        said = {"topic": self.topic, "rate": self.rate, "names": dict(self.names),
+                "files": dict(self.files)}  # fmt: skip
+        return {k: v for k, v in said.items() if v} | {k: e.table() for k, e in found.items()}
 
     def entries(self, joints: Sequence[JointSpec]) -> dict[str, MappedColumn]:
         """Our name -> entry, for the joints of a robot; an entry of its own beats a pattern."""
@@ -349,8 +385,14 @@ def map_from_table(table: Any, where: str, strict: bool = False) -> LogMap:
         )
     if table.get("rate") is not None and (rate := _float(table, "rate", where)) <= 0.0:
         raise DataError(f"{where}: rate is {rate:g}; expected the samples in a second, such as 500")
+    files = table.get("files", {})
+    if not isinstance(files, Mapping) or not all(isinstance(n, str) for n in files.values()):
+        raise DataError(
+            f"{where}, files: got {shown(files)}; expected how the names of the files of one log "
+            'end, such as {q = "_q.csv", tau = "_tau.csv"}'
+        )
     named = {str(joint): name for joint, name in names.items()}
-    return LogMap((entries,) if entries else (), named, topic, rate)
+    return LogMap((entries,) if entries else (), named, topic, rate, dict(files))
 
 
 def map_from_words(words: Sequence[str]) -> LogMap:
@@ -377,11 +419,13 @@ def _of_word(word: str) -> LogMap:
         except ValueError as error:  # of TOML, or of UTF-8
             raise DataError(f"--map {path}: not TOML ({error}); correct that line") from None
         return map_from_table(document.get("log", document), f"{path}: [log]", strict=True)
+    if word.strip() == AUTO:
+        return LogMap(auto=True)
     key, equals, column = (part.strip() for part in word.partition("="))
     if not (key and equals and column):
         raise DataError(
-            f"{where}: expected NAME=COLUMN[:UNIT] such as 'q<j>=position_{{j}}:deg', or the name "
-            "of a .toml file"
+            f"{where}: expected NAME=COLUMN[:UNIT] such as 'q<j>=position_{{j}}:deg', the name of "
+            "a .toml file, or auto"
         )
     if key == "rate":
         try:

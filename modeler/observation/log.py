@@ -3,15 +3,12 @@
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.result import Presented
-
-_NONE: Mapping = MappingProxyType({})
 
 GAP = 5.0
 """A step longer than this many median steps ends a piece of motion."""
@@ -54,10 +51,12 @@ class Log(Presented):
         extra: further numeric columns, (n,) each.
         torque_source: where each joint's torque comes from, in words.
         notes: doubtful but usable things seen while reading, one sentence each.
+        told: how it was read, one sentence each.
         content: fingerprint of the whole file's measurements, whatever its name; a piece of the
             log keeps it. Empty if the log came from no file.
         robot_steps: usual and longest step, s, of the rows that are left where a recorder wrote
             some again; else None.
+        path: of its file as it was given, `@START:END` of a piece of it too; "" if none was.
     """
 
     name: str
@@ -69,11 +68,13 @@ class Log(Presented):
     qdd: np.ndarray | None = None
     commanded: np.ndarray | None = None
     segment: np.ndarray | None = None
-    extra: Mapping[str, np.ndarray] = field(default_factory=lambda: _NONE)
+    extra: Mapping[str, np.ndarray] = field(default_factory=dict)
     torque_source: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     content: str = ""
     robot_steps: tuple[float, float] | None = None
+    path: str = ""
+    told: tuple[str, ...] = ()
 
     @property
     def rows(self) -> int:

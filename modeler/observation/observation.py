@@ -163,9 +163,7 @@ class Evaluated:
 
     def __init__(self, model: CompiledModel, stretches: Sequence[Stretch]) -> None:
         self._model = model
-        self._signals = {
-            id(part.segment): signals_of(model.spec, part.segment) for part in stretches
-        }
+        self._signals = {part.segment: signals_of(model.spec, part.segment) for part in stretches}
 
     def __call__(self, s: Segment, w: slice | np.ndarray) -> np.ndarray:
         """(b, n, c) for the b samples of a window, or of indices."""
@@ -200,7 +198,7 @@ class Evaluated:
         return found
 
     def _read(self, s: Segment, w: slice | np.ndarray) -> np.ndarray | None:
-        read = self._signals[id(s)]
+        read = self._signals[s]
         return None if read is None else read[w]
 
 

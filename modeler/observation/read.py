@@ -80,6 +80,8 @@ def log_of(table: LogTable, spec: ModuleSpec) -> Log:
         extra=_extra(table, spec, notes),
         torque_source=tuple(source for _, source in torques),
         notes=tuple(notes),
+        path=str(table.path),
+        told=table.told,
     )
 
 

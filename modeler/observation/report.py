@@ -40,6 +40,8 @@ class LogReport(Brief):
         span: first and last time, s.
         torque_source: where each joint's torque comes from, in words.
         open_times: of samples with which the loops cannot be closed, s.
+        path: of the file as it was given; "" if none was.
+        told: how it was read, sentences.
     """
 
     name: str
@@ -64,6 +66,8 @@ class LogReport(Brief):
     span: tuple[float, float] = (0.0, 0.0)
     torque_source: tuple[str, ...] = ()
     open_times: tuple[float, ...] = ()
+    path: str = ""
+    told: tuple[str, ...] = ()
 
     def lines(self) -> list[str]:
         """Text, the first line always, the others where there is something to say."""
@@ -90,7 +94,7 @@ class LogReport(Brief):
             text.append(f"  {self.contradicted} samples with impossible derivatives, all joints:")
         text += [f"  {found.line()}" for found in self.contradictions]
         text += [f"  {line}" for line in self._open()]
-        return text + [f"  {note}" for note in self.notes]
+        return text + [f"  {note}" for note in (*self.told, *self.notes)]
 
     def doubts(self) -> list[str]:
         """What is wrong with the measurements, one sentence each, with the name of the file."""

@@ -212,6 +212,8 @@ def log_report(
         span=log.span,
         torque_source=log.torque_source,
         open_times=open_times,
+        path=log.path,
+        told=log.told,
     )
 
 

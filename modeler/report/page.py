@@ -281,7 +281,9 @@ def write_page(path: Path, sheet: Page) -> Path:
 # The command to go on with, after each page, with the files of the one that was given.
 
 
-def after_fit(model: str, logs: Sequence[str], robot: str, fit: "FitResult") -> list[str]:
+def after_fit(
+    model: str, logs: Sequence[str], robot: str, fit: "FitResult", mapped: Sequence[str] = ()
+) -> list[str]:
     """Judge the model on other data, and look for what it lacks; first what the fit asks for.
 
     Args:
@@ -289,13 +291,15 @@ def after_fit(model: str, logs: Sequence[str], robot: str, fit: "FitResult") -> 
         logs: that were fitted.
         robot: as it was given.
         fit: judged.
+        mapped: what `--map` was given; the model keeps it, the robot file does not.
     """
     own = _listed([model])
     judge = f"modeler compare {own} HELD_OUT_LOG --report compare.html"
     look = f"modeler diagnose {_listed([model, *logs])} --report diagnosis.html"
     verdict = fit.verdict
     if verdict is not None and not verdict.usable:
-        return [f"modeler log {_listed(logs[:1])} --robot {_listed([robot])}", look]
+        words = "".join(f" --map {_listed([word])}" for word in mapped)
+        return [f"modeler log {_listed(logs[:1])} --robot {_listed([robot])}{words}", look]
     lacks = verdict is not None and verdict.usable_for != "physics"
     lacks = lacks or any("`modeler diagnose`" in line for line in fit.sentences)
     return [look, judge] if lacks else [judge, look]

@@ -8,6 +8,7 @@ from .edit import (
     with_effects as with_effects,
     with_gravity as with_gravity,
     with_home_text as with_home_text,
+    with_log as with_log,
     with_own_effect as with_own_effect,
     with_parameters as with_parameters,
     with_reference as with_reference,

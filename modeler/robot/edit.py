@@ -107,6 +107,26 @@ def with_drive_gains(text: str, gains: Mapping[str, float]) -> str:
     return changed
 
 
+def with_log(text: str, table: Mapping[str, Any]) -> str:
+    """The robot file with another table [log], where the old one stood, or at the end.
+
+    Raises:
+        RobotError: the file's own table is written in a way that cannot be replaced line by line.
+    """
+    own = [k for k, (head, _) in enumerate(_lines(text)) if re.match(r"\[\s*log\s*[].]", head)]
+    lines = text.rstrip("\n").split("\n")
+    new = ["[log]", *(f"{_toml_key(key)} = {_toml(entry)}" for key, entry in table.items()), ""]
+    kept = [line for k, line in enumerate(lines) if k not in own]
+    at = own[0] if own else len(kept)
+    before = kept[:at] if own else [*kept, ""]
+    changed = "\n".join([*before, *new, *kept[at:]]).rstrip("\n") + "\n"
+    if _document(changed) != {**tomllib.loads(text), "log": dict(table)}:
+        raise RobotError(
+            "the [log] table cannot be replaced; write it as a table of its own, one entry a line"
+        )
+    return changed
+
+
 def _with_numbers(text: str, table: str, values: Mapping[str, float]) -> str:
     """The text with another table of numbers, at its end."""
     kept = [line for head, line in _lines(text) if head != f"[{table}]"]

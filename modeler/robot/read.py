@@ -40,7 +40,9 @@ from modeler.robot.par_convert import check_known_format, converted
 from modeler.robot.robot import Joint, Robot
 from modeler.robot.sections import (
     read_coupling,
+    read_diagnose,
     read_drive_gains,
+    read_fit,
     read_limits,
     read_numbers,
     read_parameters,
@@ -52,6 +54,7 @@ _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
     "relations", "platform", "loops", "home", "links", "effects", "own_effects", "coupling",
     "motors", "parameters", "reference", "drive_gains", "limits", "physical", "terms", "log",
+    "fit", "diagnose",
 )  # fmt: skip
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
@@ -205,6 +208,8 @@ def _with_tables(
         physical=read_physical(section("physical"), moving),
         terms=section("terms").table("[terms]"),
         log=section("log").table('"q<j>" = "position_{j} [deg]"'),
+        fit=read_fit(section("fit")),
+        diagnose=read_diagnose(section("diagnose")),
     )
 
 

@@ -3,7 +3,7 @@
 import enum
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
+from typing import Any
 
 from modeler.core.brief import Brief
 from modeler.core.expression import Expression
@@ -76,8 +76,6 @@ INERTIAL = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 """The ten standard inertial parameters of a link at the origin of its frame, in that frame
 (Khalil and Dombre 2002, section 9.2): inertia [kg m2], first moments [kg m], mass [kg]."""
 
-_EMPTY: Mapping = MappingProxyType({})
-
 
 @dataclass(frozen=True)
 class EffectInstance:
@@ -92,7 +90,7 @@ class EffectInstance:
 
     joint: str
     form: int = 0
-    shapes: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    shapes: Mapping[str, float] = field(default_factory=dict)
     label: str = ""
 
 
@@ -203,6 +201,7 @@ class Robot(Presented):
         physical: the letters of a paper for the links, by joint.
         terms: how a paper prints its coefficients (see `modeler.formulas`).
         log: which columns of logs are ours, and in which units (see `modeler.logs`).
+        fit, diagnose: options of these commands, by their names, for this robot.
         relations: variables of joints that follow others: row -> its variable as a linear
             expression of the variables of other rows (`q4 = "-q3"`).
         loops: joints that close kinematic chains.
@@ -225,23 +224,25 @@ class Robot(Presented):
     joints: tuple[Joint, ...]
     own_effects: tuple[Effect, ...] = ()
     effects: tuple[EffectUse, ...] = ()
-    coupling: Mapping[str, Mapping[str, float]] = field(default_factory=lambda: _EMPTY)
-    motors: Mapping[str, Mapping[str, float]] = field(default_factory=lambda: _EMPTY)
+    coupling: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    motors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     priority: tuple[str, ...] = ()
-    parameters: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
-    uncertainty: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
-    drive_gains: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
-    limits: Mapping[str, Limits] = field(default_factory=lambda: _EMPTY)
-    physical: Mapping[str, PhysicalLink] = field(default_factory=lambda: _EMPTY)
-    terms: Mapping[str, object] = field(default_factory=lambda: _EMPTY)
-    log: Mapping[str, object] = field(default_factory=lambda: _EMPTY)
-    relations: Mapping[str, Expression] = field(default_factory=lambda: _EMPTY)
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    uncertainty: Mapping[str, float] = field(default_factory=dict)
+    drive_gains: Mapping[str, float] = field(default_factory=dict)
+    limits: Mapping[str, Limits] = field(default_factory=dict)
+    physical: Mapping[str, PhysicalLink] = field(default_factory=dict)
+    terms: Mapping[str, object] = field(default_factory=dict)
+    log: Mapping[str, object] = field(default_factory=dict)
+    fit: Mapping[str, Any] = field(default_factory=dict)
+    diagnose: Mapping[str, Any] = field(default_factory=dict)
+    relations: Mapping[str, Expression] = field(default_factory=dict)
     loops: tuple[Loop, ...] = ()
     platform: tuple[str, ...] = ()
-    home: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
-    links: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: _EMPTY)
+    home: Mapping[str, float] = field(default_factory=dict)
+    links: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     shared: tuple[SharedParameter, ...] = ()
-    reference: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    reference: Mapping[str, float] = field(default_factory=dict)
     notes: str = ""
     convention: str = "khalil"
     readings: tuple[str, ...] = ()

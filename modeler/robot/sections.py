@@ -1,8 +1,10 @@
 """The tables of a robot file that name joints: effects, coupling, drives, limits, links."""
 
+import math
 from collections.abc import Collection, Iterator, Mapping
-from typing import Any
+from typing import Any, get_args
 
+from modeler.core.errors import GAIN_METHOD, TWO_STEPS, Derivatives, Method
 from modeler.core.expression import Expression
 from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import joint_sum, name_of, number_at
@@ -170,6 +172,53 @@ def read_drive_gains(place: Place, moving: Mapping[str, Joint]) -> dict[str, flo
                 "joint out if its gain is unknown"
             )
     return gains
+
+
+_SHARE, _POSITIVE = "a share from 0 to 1, such as 0.05", "a number of 0 or more, such as 20"
+FIT_OPTIONS: Mapping[str, str | tuple[str, ...]] = {
+    "cutoff": _POSITIVE, "parallel_cutoff": _POSITIVE, "decimate": "a whole number from 1",
+    "derivatives": get_args(Derivatives), "low_speed": _SHARE,
+    "method": (*get_args(Method), GAIN_METHOD, TWO_STEPS), "model": ("torque", "energy"),
+    "window": _POSITIVE, "essential_below": _POSITIVE, "keep_saturated": "true or false",
+    "keep_contradicted": "true or false", "keep_damaged": "true or false",
+}  # fmt: skip
+"""What `[fit]` may hold, by names of options of `modeler fit`: words, or what is expected."""
+
+
+def read_fit(place: Place) -> dict[str, Any]:
+    """Options of `modeler fit` that this robot needs always: `[fit]`.
+
+    Raises:
+        RobotError: an unknown option, or a value that it cannot have.
+    """
+    table = place.checked_table(FIT_OPTIONS, "[fit] cutoff = 20")
+    for name, value in table.items():
+        here, expected = place.at(name, value), FIT_OPTIONS[name]
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        fine = {
+            "true or false": isinstance(value, bool),
+            _POSITIVE: number and 0.0 <= value < math.inf,
+            _SHARE: number and 0.0 <= value < 1.0,
+        }.get(expected, isinstance(value, int) and number and value >= 1)  # type: ignore[arg-type]
+        if isinstance(expected, tuple):
+            fine, known = value in expected, expected
+            expected = f"one of {listed(known)}{near(str(value), known)}"
+        if not fine:
+            raise here.mismatch(expected)
+    return table
+
+
+def read_diagnose(place: Place) -> dict[str, Any]:
+    """Options of `modeler diagnose` that this robot needs always: `[diagnose]`.
+
+    Raises:
+        RobotError: an unknown option, or no list of effects.
+    """
+    table = place.checked_table(("without",), '[diagnose] without = ["spring@2"]')
+    here = place.at("without", table.get("without", []))
+    for entry in here.entries('["spring@2"]'):
+        here.holding(entry).text('"spring@2"')
+    return table
 
 
 def read_limits(

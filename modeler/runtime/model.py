@@ -1,6 +1,6 @@
 """The compiled model of a robot: dynamics over arrays of samples."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +51,10 @@ class CompiledModel(Batches, Presented):
             function.name.removeprefix(f"{spec.prefix}_"): function for function in spec.functions
         }
         self._joints = len(spec.joints)
+
+    def __reduce__(self) -> tuple[Callable[..., "CompiledModel"], tuple[Any, ...]]:
+        """Pickled as its C: where it lands it is compiled, or taken from the cache there."""
+        return load, (self.spec, dict(self._tile_files), self.log)
 
     def base_regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
         """Phi of the base parameters, (n, joints, c): tau = phi beta.

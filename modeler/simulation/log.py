@@ -5,7 +5,6 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 
 import numpy as np
 import pyarrow as pa
@@ -69,7 +68,7 @@ class SimulatedLog(Presented):
     tau: np.ndarray
     settings: SimulationSettings
     truth: Truth
-    further: Mapping[str, np.ndarray] = field(default_factory=lambda: MappingProxyType({}))
+    further: Mapping[str, np.ndarray] = field(default_factory=dict)
     range_share: float = 1.0
 
 

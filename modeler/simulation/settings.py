@@ -3,7 +3,6 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from modeler.core.brief import Brief
@@ -20,7 +19,6 @@ _MOST = {
     "linear_resolution": 1.0, "torque_noise": 100.0, "process_noise": 100.0,
 }  # fmt: skip
 """What may be 0 and more, up to this."""
-_EMPTY: Mapping = MappingProxyType({})
 _MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
 _FORM = "EFFECT, EFFECT@JOINT or EFFECT@JOINT:name=value,..., as in stribeck@2:extra=3"
 
@@ -38,7 +36,7 @@ class HiddenEffect:
 
     effect: str
     joint: str | None = None
-    values: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    values: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -83,11 +81,11 @@ class SimulationSettings(Brief):
     controller: bool = False
     bandwidth: float = 20.0
     feedforward: bool = True
-    limits: Mapping[str, Limits] = field(default_factory=lambda: _EMPTY)
-    torque_limits: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    limits: Mapping[str, Limits] = field(default_factory=dict)
+    torque_limits: Mapping[str, float] = field(default_factory=dict)
     process_noise: float = 0.0
     hidden: tuple[HiddenEffect, ...] = ()
-    drive_gains: Mapping[str, float] = field(default_factory=lambda: _EMPTY)
+    drive_gains: Mapping[str, float] = field(default_factory=dict)
     commanded: "Reference | None" = None
 
 

@@ -1,5 +1,6 @@
 """The Python API does what the commands do, and refuses in one line what cannot be."""
 
+import hashlib
 import json
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import pytest
 import modeler.api as api
 from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError
+from modeler.core.files import checksum
 from modeler.estimation.payload import Payload
 from tests.notebook.session import session
 
@@ -99,6 +101,35 @@ def test_a_model_is_saved_opened_and_reduced(tmp_path: Path, chain) -> None:
     assert np.count_nonzero(small.beta) == len(model.fit.essential.parameters)
     robot = api.load("two-link")
     assert api.load(api.save(robot, tmp_path / "r.toml")).text == robot.text
+
+
+def test_a_model_says_where_its_logs_lay_and_what_they_were(tmp_path, chain, logs) -> None:
+    derivation, emitted, _ = chain
+    compiled = api.compile_model(emitted)
+    read, piece = api.read_logs(compiled, [logs[0], f"{logs[1]}@1:7"])
+    model = api.fit(derivation, emitted, api.observe(compiled, [read, piece]))
+    bytes_ = [hashlib.sha256(Path(place).read_bytes()).hexdigest() for place in logs]
+    assert [log.path for log in model.logs] == [logs[0], f"{logs[1]}@1:7"]
+    assert [log.checksum for log in model.logs] == bytes_
+    again = api.open_model(api.save(model, tmp_path / "m.json"))
+    assert again.logs == model.logs
+    pathless = api.fit(derivation, emitted, api.observe(compiled, session()["simulated"]))
+    assert [(log.path, log.checksum) for log in pathless.logs] == [("", "")]
+    texts = api.generate(model).code.values()  # the C says nothing of logs
+    assert not any(logs[0] in text or Path(logs[0]).name in text for text in texts)
+
+
+def test_a_folder_has_the_checksum_of_what_lies_in_it(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        (tmp_path / name / "deep").mkdir(parents=True)
+        (tmp_path / name / "x.csv").write_text("1")
+        (tmp_path / name / "deep" / "y.csv").write_text("2")
+    assert checksum(tmp_path / "a") == checksum(tmp_path / "b")
+    (tmp_path / "b" / "deep" / "y.csv").rename(tmp_path / "b" / "y.csv")
+    moved = checksum(tmp_path / "b")
+    assert moved != checksum(tmp_path / "a")
+    (tmp_path / "b" / "y.csv").write_text("changed")
+    assert checksum(tmp_path / "b") != moved
 
 
 def test_add_undo_and_auto(tmp_path: Path, chain, logs) -> None:

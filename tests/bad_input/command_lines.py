@@ -82,7 +82,7 @@ WORDS = [
     row("usage: without at no joint", "refused", "diagnose m.json b.csv --without spring@9", "9"),
     row("usage: effect unknown", "refused", "effects ghost", "ghost"),
     row("usage: effects of no robot", "refused", "effects --robot nowhere.toml", "nowhere.toml"),
-    row("usage: robot to show unknown", "refused", "robots --show ghost", "ghost"),
+    row("usage: robot to show unknown", "refused", "robots ghost", "ghost"),
     row("usage: paper unknown", "refused", "reproduce ghost-1999", "ghost-1999", "hanssen-2000"),
     row("usage: a dash of Word", "refused", ("derive", "wrist", "—json", "x.json"), "—json"),
     row("usage: argument of a million letters", "refused", ("derive", "x" * 100000), "long|name"),
@@ -114,7 +114,7 @@ WINDOWS = [
 
 # That no input is written over: tests/cli/test_places.py, of every command and option.
 PLACES = [
-    row("place: compare --pictures is a log", "refused", "compare m.json b.csv --pictures b.csv",
+    row("place: compare --picture is a log", "refused", "compare m.json b.csv --picture b.csv",
         "b.csv"),
     row("place: generate into the folder of the user's own Makefile", "refused",
         "generate two-link --out .", "Makefile", "--force",
@@ -146,7 +146,7 @@ PLACES = [
         "mine")),
     row("place: a refused command leaves the old file", "refused",
         "fit two-link no.csv --out old.json", "no.csv", make=writes("old.json", "{}")),
-    row("place: pictures into a file", "refused", "compare m.json b.csv --pictures file", "file",
+    row("place: pictures into a file", "refused", "compare m.json b.csv --picture file", "file",
         make=writes("file", "mine")),
 ]  # fmt: skip
 

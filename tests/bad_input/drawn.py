@@ -41,7 +41,7 @@ COMMANDS = (
     "fit two-link a.csv --cutoff 20 --out f.json", "compare m.json b.csv@1:6 --json c.json",
     "log a.csv --json l.json", "generate two-link --out c", "effects --robot two-link",
     "convert x.par --out x.toml", "add m.json offset --joint 1 a.csv --out n.json",
-    "diagnose m.json b.csv --json d.json", "robots --show wrist",
+    "diagnose m.json b.csv --json d.json", "robots wrist",
     "fit two-link a.csv --map q1=q1:rad --map tau1=tau1 --out f.json",
 )  # fmt: skip
 WORDS = (*NUMBERS, '"', "[", "]", "{", "}", "=", ",", "\n", "#", "q1", "sin(", ")", "**", "pi",

@@ -211,7 +211,7 @@ def test_pages_without_pictures_are_legible(
     browser: Chromium, tmp_path: Path, size: tuple[int, int]
 ) -> None:
     """Formulas, the index and the robot; the verdict and the next command on the first screen."""
-    assert main(["derive", "wrist", "--page", str(tmp_path / "derive.html")]) == 0
+    assert main(["derive", "wrist", "--report", str(tmp_path / "derive.html")]) == 0
     assert main(["show", "wrist", "--out", str(tmp_path / "show.html")]) == 0
     write_index(tmp_path)
     for name in ("derive.html", "show.html", "index.html"):

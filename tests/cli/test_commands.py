@@ -213,7 +213,7 @@ def test_robots_and_effects(capsys):
     assert status == 0
     for name in ("wrist", "rx90", "puma560", "scara", "panda", "sr400-tree", "ur10e", "emps"):
         assert f"\n{name} " in f"\n{out}"
-    status, out, _ = run(capsys, "robots", "--show", "wrist")
+    status, out, _ = run(capsys, "robots", "wrist")
     assert 'name = "wrist"' in out
     status, out, _ = run(capsys, "effects", "asymmetric_coulomb")
     assert status == 0 and "offset" in out
@@ -321,7 +321,7 @@ def test_coefficients_that_nobody_asked_for_are_no_error(capsys, tmp_path):
     assert (status, err) == (0, "")
     assert "ZZ1R = " in out and "no coefficients: got sqrt(L) in the table; closed forms" in out
     assert json.loads((tmp_path / "d.json").read_text())["robot"] == "arm"
-    for asked in (("--terms",), ("--report", tmp_path / "page.md")):
+    for asked in (("--terms",), ("--coefficients-out", tmp_path / "page.md")):
         status, _, err = run(capsys, "derive", path, *asked)
         assert status == 1 and err.startswith("modeler: got sqrt(L) in the table")
     assert not (tmp_path / "page.md").exists()

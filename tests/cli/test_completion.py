@@ -57,7 +57,7 @@ CASES = [
     (["fit", "emps", "run2.csv", "r"], ["run 1.parquet", "run2.csv"]),
     (["fit", "emps", "logs/"], ["logs/one.parquet"]),
     (["fit", "emps", "logs/../r"], ["logs/../run 1.parquet", "logs/../run2.csv"]),
-    (["fit", "emps", "--method", ""], [*ABOUT, "tls", "two-step"]),
+    (["fit", "emps", "--method", ""], [*ABOUT, "tls", "two-step", "all"]),
     (["fit", "emps", "--window", ""], []),
     (["compare", ""], ["arm.model.json", "logs/"]),
     (["diagnose", "arm.model.json", "--holdout", ""], LOGS),
@@ -70,7 +70,7 @@ CASES = [
     (["generate", "wrist", "--out", ""], ["logs/"]),
     (["show", "wrist", "--out", "n"], ["note.txt"]),
     (["physical", "arm.m"], ["arm.model.json"]),
-    (["robots", "--show", "wrist-"], ["wrist-coupled"]),
+    (["robots", "wrist-"], ["wrist-coupled"]),
     (["reproduce", "gue"], ["guegan-2003"]),
     (["completion", ""], ["bash", "zsh", "fish"]),
     (["fit", "nowhere/"], []),
@@ -104,7 +104,10 @@ def test_the_script_is_printed(capsys, shell: str) -> None:
 def test_another_shell_is_wrong_usage(capsys) -> None:
     with pytest.raises(SystemExit) as stop:
         main(["completion", "tcsh"])
-    assert stop.value.code == 2 and "invalid choice: 'tcsh'" in capsys.readouterr().err
+    assert (
+        stop.value.code == 2
+        and "got tcsh; expected one of bash, zsh, fish" in capsys.readouterr().err
+    )
 
 
 def shell_of(name: str) -> str:

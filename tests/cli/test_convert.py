@@ -91,14 +91,14 @@ def test_every_command_reads_a_par(capsys, par, tmp_path, monkeypatch):
 def test_a_mistake_in_a_par_is_one_line_of_every_command(capsys, tmp_path):
     bad = tmp_path / "bad.par"
     bad.write_text(TWO.replace("Ant", "Antt"))
-    for argv in (["derive", bad], ["robots", "--show", bad], ["effects", "--robot", bad]):
+    for argv in (["derive", bad], ["robots", bad], ["effects", "--robot", bad]):
         status, out, err = run(capsys, *argv)
         assert (status, out) == (1, "") and err.count("\n") == 1
         assert f'{bad}: line 12: unknown keyword "Antt"' in err
 
 
 def test_a_par_is_shown_as_a_robot_file(capsys, par):
-    status, out, _ = run(capsys, "robots", "--show", par)
+    status, out, _ = run(capsys, "robots", par)
     assert status == 0 and out.startswith('name = "arm"\n') and "[mdh]" in out
 
 

@@ -35,7 +35,7 @@ def test_help_and_docs_name_the_same(capsys) -> None:
 
 @pytest.mark.parametrize(
     ("words", "status"),
-    [("robots", 0), ("robots --show no-such-robot", 1), ("derive wrist --no-such-option", 2)],
+    [("robots", 0), ("robots no-such-robot", 1), ("derive wrist --no-such-option", 2)],
 )
 def test_done_at_fault_wrong_usage(words: str, status: int) -> None:
     done = run(*words.split())

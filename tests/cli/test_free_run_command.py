@@ -20,9 +20,16 @@ def slide(tmp_path_factory) -> Path:
 
 
 def test_text_json_and_pictures(capsys, slide: Path) -> None:
-    words = ["free-run", str(slide / "m.json"), str(slide / "a.parquet"), "--window", "0.5"]
+    words = [
+        "compare",
+        "--free-run",
+        str(slide / "m.json"),
+        str(slide / "a.parquet"),
+        "--window",
+        "0.5",
+    ]
     capsys.readouterr()
-    assert main([*words, "--json", str(slide / "f.json"), "--pictures", str(slide / "p")]) == 0
+    assert main([*words, "--json", str(slide / "f.json"), "--picture", str(slide / "p")]) == 0
     out, err = capsys.readouterr()
     assert err == "" and out.startswith("emps: free run under the logged torques on a.parquet: 7")
     assert "integrated twice" in out and "written: 3 files in" in out
@@ -49,7 +56,13 @@ def test_text_json_and_pictures(capsys, slide: Path) -> None:
     ],
 )
 def test_bad_input_is_one_line(capsys, slide: Path, words: str, told: str) -> None:
-    argv = ["free-run", str(slide / "m.json"), str(slide / "a.parquet"), *words.split()]
+    argv = [
+        "compare",
+        "--free-run",
+        str(slide / "m.json"),
+        str(slide / "a.parquet"),
+        *words.split(),
+    ]
     assert main(argv) == 1
     out, err = capsys.readouterr()
     assert out == "" and err.startswith(f"modeler: {told}") and err.count("\n") == 1
@@ -57,5 +70,5 @@ def test_bad_input_is_one_line(capsys, slide: Path, words: str, told: str) -> No
 
 def test_a_log_given_twice_is_refused(capsys, slide: Path) -> None:
     log = str(slide / "a.parquet")
-    assert main(["free-run", str(slide / "m.json"), log, log]) == 1
+    assert main(["compare", "--free-run", str(slide / "m.json"), log, log]) == 1
     assert "rows of" in capsys.readouterr().err

@@ -90,7 +90,7 @@ def test_the_file_stays_a_file_of_its_system(crank, capsys) -> None:
 @pytest.mark.parametrize("kind", ["html", "svg", "png", "pdf"])
 def test_pictures_show_every_mode_and_need_no_other_file(crank, capsys, kind) -> None:
     name = f"modes.{kind}"
-    assert f"written: {name}" in answer(capsys, "crank.toml", "--pictures", name)
+    assert f"written: {name}" in answer(capsys, "crank.toml", "--picture", name)
     if kind == "pdf":
         assert Path(name).read_bytes().startswith(b"%PDF")
     elif kind == "png":
@@ -109,10 +109,10 @@ def test_pictures_show_every_mode_and_need_no_other_file(crank, capsys, kind) ->
 def test_modes_stand_in_rows_of_four(crank, capsys, monkeypatch) -> None:
     modes = home(load("stewart"))  # which takes seconds
     monkeypatch.setattr("modeler.cli.home.home_modes", lambda *given: modes)
-    answer(capsys, "stewart", "--pictures", "modes.svg")
+    answer(capsys, "stewart", "--picture", "modes.svg")
     found = re.findall(r"<text [^>]*>([A-Z][^<]*)</text>", Path("modes.svg").read_text())
     assert found == ["A (as in the file)", *"BCDEFGH"]
-    answer(capsys, "stewart", "--pictures", "modes.png")
+    answer(capsys, "stewart", "--picture", "modes.png")
     pixels = np.any(imread("modes.png")[:, :, :3] < 0.95, axis=2)
     assert pixels.shape[1] == 2800
     panels = [half[:, 700 * k : 700 * (k + 1)] for half in np.vsplit(pixels, 2) for k in range(4)]
@@ -159,8 +159,8 @@ MISTAKES = [
     (("crank.toml", "--near", "q1=x"), '--near: "q1": got "x": x is not declared'),
     (("crank.toml", "--near", "q1"), "--near q1: got 'q1'; expected values as in q1=0.3,q2=pi"),
     (("crank.toml", "--mode", "C"), "--mode C: there is no such mode; expected one of A, B"),
-    (("crank.toml", "--pictures", "a.gif"), "--pictures a.gif: got .gif; expected a name that"),
-    (("crank.toml", "--pictures", "a"), "--pictures a: got no ending; expected a name that"),
+    (("crank.toml", "--picture", "a.gif"), "--picture a.gif: got .gif; expected a name that"),
+    (("crank.toml", "--picture", "a"), "--picture a: got no ending; expected a name that"),
     (("five-bar", "--write"), "--write: five-bar is built in; save it with `modeler robots"),
     (("none.toml", "--write"), "none.toml: there is no such file"),
 ]

@@ -227,7 +227,7 @@ def test_a_long_log_is_looked_at_in_blocks(log, place, chunked, tmp_path, monkey
     path = tmp_path / log
     write = pa.csv.write_csv if path.suffix == ".csv" else pa.parquet.write_table
     write(pa.table(columns), path)
-    words = ["log", str(path), "--pictures", str(tmp_path / "drawn")]
+    words = ["log", str(path), "--picture", str(tmp_path / "drawn")]
     found, out = told_of(words, tmp_path / "long", capsys)
     assert f"long log: all {ROWS} rows are read for ranges" in out
     monkeypatch.setattr("modeler.api.checks.LONG", 10**9)
@@ -244,7 +244,7 @@ def test_a_long_log_is_looked_at_in_blocks(log, place, chunked, tmp_path, monkey
 
 
 @pytest.mark.parametrize("words", [["diagnose", "{model}", "{log}"],
-                                   ["free-run", "{model}", "{log}"],
+                                   ["compare", "--free-run", "{model}", "{log}"],
                                    ["add", "{model}", "viscous@1", "{log}", "--out", "{model}2"],
                                    ["estimators", "two-link", "{log}"]])  # fmt: skip
 def test_a_command_that_needs_all_rows_refuses_too_many(words, place, capsys, monkeypatch):

@@ -139,7 +139,7 @@ def test_what_once_lasted_in_silence_is_a_step(capsys, tmp_path: Path) -> None:
     capsys.readouterr()
     for step, words in (
         ("estimating", ("fit", "two-link", log, "--out", model)),
-        ("drawing", ("home", "five-bar", "--pictures", page)),
+        ("drawing", ("home", "five-bar", "--report", page)),
     ):
         _, _, err = run(capsys, "-v", *words)
         for each in ("loading", step):

@@ -41,14 +41,13 @@ READING = {  # what each command reads; outputs come after it
     "diagnose": "diagnose m.json a.parquet --holdout other.parquet",
     "add": "add m.json spring a.parquet --holdout other.parquet@:3 --out new.json",
     "effects": "effects --robot arm.toml",
-    "estimators": "estimators arm.toml a.parquet --holdout other.parquet",
-    "robots": "robots --show arm.toml",
+    "estimators": "estimators",
+    "robots": "robots arm.toml",
     "reproduce": "reproduce houda",
     "demo": "demo --out new",
     "physical": "physical arm.toml",
     "show": "show arm.toml",
     "completion": "completion bash",
-    "free-run": "free-run m.json a.parquet@2:",
     "fleet": "fleet arm.toml a.parquet b.csv@0:4 --map names.toml",
 }
 
@@ -191,14 +190,14 @@ def test_a_dash_is_for_json(there, capsys) -> None:
         ("generate wrist --out folder --json folder/manifest.json", "manifest.json in it is what"),
         ("generate wrist --out folder --json alias", "Makefile in it is what --json writes"),
         ("demo --out folder --json folder/demo-arm/model.json", "demo-arm/model.json in it is"),
-        ("compare m.json folder/overview.csv --pictures folder", "overview.csv in it is a log"),
+        ("compare m.json folder/overview.csv --picture folder", "overview.csv in it is a log"),
     ],
 )
 def test_a_folder_keeps_its_names(there, capsys, words, message) -> None:
     Path("folder").mkdir()
     Path("folder/overview.csv").write_text("time,q1\n")
     Path("alias").symlink_to("folder/Makefile")
-    option = "--pictures" if "--pictures" in words else "--out"
+    option = "--picture" if "--picture" in words else "--out"
     err = answer(capsys, *words.split())
     assert f"{option} folder: " in err and message in err
     assert "expected a folder of its own" in err

@@ -64,7 +64,7 @@ def test_a_page_needs_nothing_else(here: Path, name: str) -> None:
 def test_a_picture_is_drawn(here: Path, name: str) -> None:
     kinds = ("pdf", "png", "svg") if name == "wrist" else ("png", "svg")
     for kind in kinds:
-        assert main(["show", name, "--png", f"{name}.{kind}"]) == 0
+        assert main(["show", name, "--picture", f"{name}.{kind}"]) == 0
     assert sorted(path.name for path in here.iterdir()) == [f"{name}.{k}" for k in kinds]
     pixels = imread(here / f"{name}.png")[:, :, :3]
     assert pixels.shape[1] == 1400  # 3.5 inches of 400 dots
@@ -135,7 +135,9 @@ def test_another_programs_file_is_shown_with_its_notes(here, capsys) -> None:
 
 def test_loops_that_do_not_close_are_shown_and_told(here, capsys) -> None:
     (here / "bad.toml").write_text(builtin_text("five-bar").replace("L0 = 0.20", "L0 = 5.0"))
-    assert main(["show", "bad.toml", "--out", "b.html", "--png", "b.svg", "--json", "b.json"]) == 0
+    assert (
+        main(["show", "bad.toml", "--out", "b.html", "--picture", "b.svg", "--json", "b.json"]) == 0
+    )
     out = capsys.readouterr().out
     assert 'loop "tip": 31 meets 32 (revolute): OPEN by ' in out
     assert "the loops do not close near [home]: drawn as it is stated" in out
@@ -147,11 +149,11 @@ def test_loops_that_do_not_close_are_shown_and_told(here, capsys) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ("wrist --png w.jpg", "w.jpg: got .jpg; expected a name that ends in .png, .svg, .pdf"),
-        ("wrist --png w", "w: got no ending; expected a name that ends in .png, .svg, .pdf"),
+        ("wrist --picture w.jpg", "w.jpg: got .jpg; expected a name that ends in .png, .svg, .pdf"),
+        ("wrist --picture w", "w: got no ending; expected a name that ends in .png, .svg, .pdf"),
         ("wrost", '"wrost" is neither a file nor a built-in robot'),
         ("wrist --json wrist.html", "--json wrist.html: "),
-        ("wrist --out w.html --png w.html", "--png w.html: --out writes this file too"),
+        ("wrist --out w.html --picture w.html", "--picture w.html: --out writes this file too"),
         ("wrist --out folder", "folder: "),
         ("wrist --out a/b", "a/b: cannot be written"),
     ],

@@ -57,7 +57,7 @@ def commands() -> list[str]:
 
 SHORT = [
     *(((word,), 0) for word in ("--help", "--version", "robots", "effects")),
-    *((words.split(), 0) for words in ("effects load_friction", "robots --show wrist")),
+    *((words.split(), 0) for words in ("effects load_friction", "robots wrist")),
     *(((name, "--help"), 0) for name in commands()),
     ((), 2), (("dance",), 2), (("fit",), 2), (("fit", "emps", "--method", "x"), 2),
     (("derive", "arm", "--no-such-option"), 2), (("demo", "--duration", "long"), 2),

@@ -37,7 +37,7 @@ sys.exit(main())
 @pytest.mark.parametrize(
     ("words", "buffering", "room"),
     [("--help", "", "3"), ("fit --help", "1", "0"), ("--version", "", "3"), ("robots", "", "3"),
-     ("robots", "1", "0"), ("robots --json -", "", "3"), ("robots --show wrist", "1", "0"),
+     ("robots", "1", "0"), ("robots --json -", "", "3"), ("robots wrist", "1", "0"),
      ("robots --json /dev/stdout", "", "3")],
 )  # fmt: skip
 def test_a_full_disk_under_stdout_is_one_line(
@@ -73,7 +73,7 @@ def test_what_is_only_told_at_the_end_is_told(monkeypatch, capsys) -> None:
 
 
 @pytest.mark.parametrize("closed", ["stdout", "stderr"])
-@pytest.mark.parametrize(("words", "status"), [("robots", 0), ("robots --show no-such-robot", 1)])
+@pytest.mark.parametrize(("words", "status"), [("robots", 0), ("robots no-such-robot", 1)])
 def test_closed_streams_are_no_error(closed: str, words: str, status: int) -> None:
     sign = {"stdout": ">&-", "stderr": "2>&-"}[closed]
     command = f'"{sys.executable}" -m modeler.cli {words} {sign}'
@@ -101,7 +101,7 @@ def test_letters_that_a_terminal_lacks_are_shown_as_codes(tmp_path: Path, settin
     (tmp_path / "bräs.toml").write_text(ARM, encoding="utf-8")
     for name, status in (("bräs.toml", 0), ("bräs.tom", 1)):
         done = subprocess.run(
-            [sys.executable, "-m", "modeler.cli", "robots", "--show", name], cwd=tmp_path,
+            [sys.executable, "-m", "modeler.cli", "robots", name], cwd=tmp_path,
             capture_output=True, env=os.environ | setting, timeout=60,
         )  # fmt: skip
         assert done.returncode == status and b"Traceback" not in done.stderr

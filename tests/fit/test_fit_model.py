@@ -208,9 +208,15 @@ def scaled(C, i, j, factor):
 DAMAGE = {
     "foreign": (lambda r: {"hello": 1}, "JSON, but not a model file"),
     "list": (lambda r: [1], "JSON, but not a model file"),
-    "format": (lambda r: damaged(r, "format", value=99), "model format 99, this version reads 3"),
-    "formatless": (lambda r: damaged(r, "format"), "no model format, this version reads 3"),
-    "before": (lambda r: damaged(r, "format", value=2), "reads 3; fit the model again"),
+    "format": (
+        lambda r: damaged(r, "format", value=99),
+        "model format 99, this version opens 3 to 4; upgrade modeler",
+    ),
+    "formatless": (
+        lambda r: damaged(r, "format"),
+        "no model format, this version opens 3 to 4; fit",
+    ),
+    "before": (lambda r: damaged(r, "format", value=2), "opens 3 to 4; fit the model again"),
     "manifest": (lambda r: damaged(r, "manifest"), "damaged, manifest is missing"),
     "sources": (lambda r: damaged(r, "sources", value=3), "sources is 3, expected an object"),
     "source": (lambda r: damaged(r, "sources", "arm.c", value=3), "'arm.c' is 3, expected text"),
@@ -266,6 +272,8 @@ DAMAGE = {
         "value is 'x', expected a number",
     ),
     "short": (lambda r: damaged(r, "fit", "parameters", 0), "values are not those of the"),
+    "mapping": (lambda r: damaged(r, "mapping"), "damaged, mapping is missing"),
+    "list as mapping": (lambda r: damaged(r, "mapping", value=["q1=a"]), "expected an object"),
 }
 
 
@@ -296,6 +304,24 @@ def test_wrong_model_files_say_where_and_what_to_do(tmp_path, model, case):
     if "checksums" in raw:
         raw["checksums"] = checksums(raw)
     assert re.search(words, refusal(path, raw))
+
+
+def test_a_file_of_the_format_before_is_opened(tmp_path, model):
+    """It has no mapping, and of its logs neither paths nor checksums."""
+    path, raw = saved(tmp_path, dataclasses.replace(model, mapping={"columns": {"q1": "a"}}))
+    assert load_model(path).mapping == {"columns": {"q1": "a"}}
+    raw["format"] = 3
+    del raw["mapping"]
+    raw["logs"] = [{k: v for k, v in log.items() if k not in ("path", "checksum")}
+                   for log in raw["logs"]]  # fmt: skip
+    raw["checksums"] = checksums({k: v for k, v in raw.items() if k != "checksums"})
+    path.write_text(json.dumps(raw))
+    again = load_model(path)
+    assert again.mapping == {} and [log.name for log in again.logs] == ["a.csv", "b.csv"]
+    assert {(log.path, log.checksum) for log in again.logs} == {("", "")}
+    np.testing.assert_array_equal(again.beta, model.beta)
+    save_model(path, again)
+    assert json.loads(path.read_text())["format"] == 4
 
 
 EDITED = {

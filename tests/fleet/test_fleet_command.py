@@ -51,7 +51,7 @@ def refusal(capsys: pytest.CaptureFixture[str], *words: str) -> str:
 
 def test_text_json_and_page(capsys, plant: Path, tmp_path: Path) -> None:
     page, file = tmp_path / "fleet.html", tmp_path / "fleet.json"
-    out = run(capsys, str(plant), "--page", str(page), "--json", str(file))
+    out = run(capsys, str(plant), "--report", str(page), "--json", str(file))
     assert out.startswith("two-link: 1 of 2 machines drift or are apart from the others, beyond d")
     told = r"machine r2, joint 2: Coulomb friction \(Fs2\) leaps up by \d\d(\.\d)? % at 2026-03-03"
     assert re.search(told, out)

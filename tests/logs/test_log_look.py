@@ -166,7 +166,7 @@ def test_topics_are_listed_without_choosing(case, capsys, tmp_path):
 
 def test_page_pictures_and_windows(capsys, tmp_path, table):
     path = parquet(tmp_path / "run.parquet", table)
-    argv = ["log", f"{path}@1:2", "--report", tmp_path / "page.html", "--pictures", tmp_path / "p"]
+    argv = ["log", f"{path}@1:2", "--report", tmp_path / "page.html", "--picture", tmp_path / "p"]
     assert main([*map(str, argv)]) == 0
     out = capsys.readouterr().out
     assert out.startswith("run.parquet: 1000 rows") and "written: " in out
@@ -180,7 +180,7 @@ def test_page_pictures_and_windows(capsys, tmp_path, table):
 def test_a_name_with_markup_stays_text(capsys, tmp_path, table):
     table["<img src=x>_1"] = table["tau_1"]
     path = parquet(tmp_path / "run.parquet", table)
-    assert main(["log", str(path), "--page", str(tmp_path / "page.html")]) == 0
+    assert main(["log", str(path), "--report", str(tmp_path / "page.html")]) == 0
     assert "<img src=x>" not in (tmp_path / "page.html").read_text()
 
 

@@ -115,7 +115,7 @@ def test_fit_compare_diagnose_and_free_run_go_through(further, tmp_path, capsys)
         return
     assert main(["diagnose", model, data, "--json", str(report)]) == 0
     assert json.loads(report.read_text())["verdict"] == "nothing significant"
-    assert main(["free-run", model, data]) == 0
+    assert main(["compare", model, data, "--free-run"]) == 0
 
 
 def test_all_samples_open_is_one_line(tmp_path, capsys):

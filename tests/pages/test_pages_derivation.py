@@ -76,7 +76,7 @@ def test_an_expression_is_set_as_it_is(expression: sympy.Expr) -> None:
 def test_the_relations_on_the_page_are_those_of_the_result(robot: str, tmp_path: Path) -> None:
     place = tmp_path / "page.html"
     told = tmp_path / "told.json"
-    assert main(["derive", robot, "--page", str(place), "--json", str(told)]) == 0
+    assert main(["derive", robot, "--report", str(place), "--json", str(told)]) == 0
     result, page = json.loads(told.read_text()), place.read_text(encoding="utf-8")
     rows = re.findall(r"<tr><td>((?:<math.*?</math>\s*)+)</td>", page, re.S)
     assert len(rows) == result["rank"]
@@ -92,6 +92,6 @@ def test_the_relations_on_the_page_are_those_of_the_result(robot: str, tmp_path:
 
 
 def test_a_page_that_cannot_be_written_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["derive", "wrist", "--page", "/proc/nowhere/p.html"]) == 1
+    assert main(["derive", "wrist", "--report", "/proc/nowhere/p.html"]) == 1
     err = capsys.readouterr().err
     assert err.startswith("modeler: ") and err.count("\n") == 1 and "cannot be written" in err

@@ -51,7 +51,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
     run("add", "a.json", "spring", "--joint", "3", "train.parquet", "--holdout", "other.parquet",
         "--out", "b.json", "--report", "improved.html")  # fmt: skip
     run("compare", "a.json", "b.json", "other.parquet", "--report", "c.html", "--json", "c2.json",
-        "--pictures", "pictures.d")  # fmt: skip
+        "--picture", "pictures.d")  # fmt: skip
     return Made(folder, *(load_model(folder / name) for name in ("a.json", "b.json")))
 
 

@@ -245,5 +245,5 @@ def test_the_opened_robot_has_no_relations_and_every_joint_a_motor():
 
 
 def test_the_tree_of_the_sr400_has_fifty_base_parameters(capsys):
-    assert main(["derive", "sr400", "--open"]) == 0
+    assert main(["derive", "sr400", "--cut-loops"]) == 0
     assert "80 standard parameters, 50 base parameters" in capsys.readouterr().out

@@ -554,7 +554,7 @@ def test_the_command_and_its_files(tmp_path, capsys):
     out, told, truth = (str(tmp_path / name) for name in ("log.csv", "told.json", "truth.json"))
     argv = ["simulate", "two-link", "--duration", "2", "--rate", "200", "--out", out]
     argv += ["--hide", "temperature_friction@2", "--hide", "spring@1:stiffness=3"]
-    assert main([*argv, "--process-noise", "0.01", "--truth", truth, "--json", told]) == 0
+    assert main([*argv, "--process-noise", "0.01", "--truth-out", truth, "--json", told]) == 0
     assert "hidden: spring on 1: stiffness = 3, rest" in capsys.readouterr().out
     hidden = json.loads((tmp_path / "truth.json").read_text())["hidden"]
     assert json.loads((tmp_path / "told.json").read_text())["hidden"] == hidden

@@ -1,0 +1,43 @@
+"""`--open`: the page that a command writes is shown in the browser."""
+
+import argparse
+import tempfile
+from pathlib import Path
+
+from modeler.cli.console import note
+from modeler.cli.places import DemoFolder, FilePlace, Output
+
+
+def place_page(args: argparse.Namespace) -> None:
+    """A page that shall be shown and has no place gets one in a temporary folder, which stays."""
+    args.page_is_temporary = False
+    if vars(args).get("open") and "report" in args and args.report is None:
+        folder = tempfile.mkdtemp(prefix="modeler-")
+        args.report = Output(Path(folder) / f"{args.command}.html")
+        args.page_is_temporary = True
+
+
+def forget_page(args: argparse.Namespace) -> None:
+    """There is no page after all."""
+    if args.page_is_temporary:
+        Path(args.report).parent.rmdir()
+        args.report, args.open = None, False
+
+
+def show_page(args: argparse.Namespace) -> None:
+    """Shows what `--open` asked for; one line where there is no browser, or no page."""
+    if not vars(args).get("open"):
+        return
+    import webbrowser  # only now: it looks at what is installed
+
+    page = _page(vars(args).get("report") or args.out)
+    if not page.is_file():
+        note("--open: no page was written, so none is shown")
+    elif not webbrowser.open(page.resolve().as_uri()):
+        note(f"--open: no browser was found; open {page} in one")
+
+
+def _page(place: str) -> Path:
+    if isinstance(place, DemoFolder):
+        return Path(place) / "index.html"
+    return place.file if isinstance(place, FilePlace) else Path(place)

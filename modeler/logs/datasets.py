@@ -1,0 +1,124 @@
+"""Parquet files of a LeRobot dataset: columns of lists, joints' names and rate in `meta/info.json`.
+
+Hugging Face, LeRobotDataset v2.1 and v3.0.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.compute as pc
+
+from modeler.core.errors import DataError
+from modeler.core.files import read_file
+from modeler.core.json import JsonError, parse_json
+
+INFO = "meta/info.json"
+_FOLDERS = 4  # data/chunk-000/ and what may stand between
+_WIDEST = 256  # entries of a list that are columns
+_CLOCK = ("timestamp", "index", "episode_index")
+
+
+@dataclass(frozen=True)
+class Dataset:
+    """What a dataset says of its files.
+
+    Attributes:
+        place: its `info.json`.
+        fps: Hz; None if it does not say.
+        names: of the entries of columns of lists.
+    """
+
+    place: Path
+    fps: float | None
+    names: Mapping[str, tuple[str, ...]]
+
+
+def dataset_of(path: Path) -> Dataset | None:
+    """The dataset that a file or a folder belongs to; None without any.
+
+    Raises:
+        DataError: its `info.json` is damaged.
+    """
+    for folder in [path, *path.absolute().parents][: _FOLDERS + 1]:
+        place = folder / INFO
+        if place.is_file():
+            break
+    else:
+        return None
+    try:
+        info = parse_json(read_file(place))
+    except (OSError, JsonError) as error:
+        raise DataError(f"{place}: cannot be read ({error}); copy the dataset again") from None
+    info = info if isinstance(info, dict) else {}
+    fps, features = info.get("fps"), info.get("features")
+    rate = float(fps) if isinstance(fps, int | float) and fps > 0 else None
+    found = features.items() if isinstance(features, dict) else ()
+    names = {n: tuple(_texts(f.get("names"))) for n, f in found if isinstance(f, dict)}
+    return Dataset(place, rate, names)
+
+
+def _texts(names: Any) -> list[str]:
+    """All texts of a list, or of the lists in a table: `{"motors": ["shoulder", ...]}`."""
+    if isinstance(names, dict):
+        return [n for inner in names.values() for n in _texts(inner)]
+    if isinstance(names, list):
+        return [n for inner in names for n in _texts(inner)]
+    return [names] if isinstance(names, str) else []
+
+
+def flattened(table: pa.Table, dataset: Dataset | None) -> pa.Table:
+    """Every entry of a column of lists as a column, `observation.state[shoulder_pan]`."""
+    names, columns = list[str](), list[pa.ChunkedArray]()
+    for name, column in zip(table.column_names, table.columns, strict=True):
+        count = _entries(column)
+        known = dataset.names.get(name, ()) if dataset is not None else ()
+        labels = known if len(known) == count else [str(k + 1) for k in range(count)]
+        names += [f"{name}[{label}]" for label in labels] or [name]
+        columns += [pc.list_element(column, k) for k in range(count)] or [column]
+    return pa.table(columns, names=names)
+
+
+def _entries(column: pa.ChunkedArray) -> int:
+    """How many numbers each row has; 0 if they are no numbers, or not equally many."""
+    kind, t = column.type, pa.types
+    lists = t.is_list(kind) or t.is_large_list(kind) or t.is_fixed_size_list(kind)
+    if not lists or not (t.is_integer(kind.value_type) or t.is_floating(kind.value_type)):
+        return 0
+    ends = pc.min_max(pc.list_value_length(column)).as_py()
+    return ends["max"] or 0 if ends["min"] == ends["max"] and (ends["max"] or 0) <= _WIDEST else 0
+
+
+def one_clock(
+    table: pa.Table, dataset: Dataset | None, first: int
+) -> tuple[pa.Table, tuple[str, ...]]:
+    """Episodes one after the other: the frame over fps as `timestamp`, the episode as `segment`.
+
+    Args:
+        table: of some rows.
+        dataset: that says the fps.
+        first: `index` of the first row of the file.
+
+    Returns:
+        The table, and what is told of it.
+    """
+    if dataset is None or dataset.fps is None or not {*_CLOCK} <= set(table.column_names):
+        return table, ()
+    frames = pc.cast(pc.subtract(table.column("index"), first), pa.float64())
+    at = table.column_names.index("timestamp")
+    table = table.set_column(at, "timestamp", pc.divide(frames, dataset.fps))
+    if "segment" not in table.column_names:
+        table = table.append_column("segment", table.column("episode_index"))
+    return table, (
+        f"time is that of the frames at {dataset.fps:g} Hz, as {dataset.place.name} says; every "
+        "episode is a segment",
+    )
+
+
+def needed_columns(names: list[str], stored: list[str]) -> list[str]:
+    """The columns of the file that hold these."""
+    whole = [n if n in stored else n.rpartition("[")[0] for n in names]
+    clock = [n for n in _CLOCK if n in stored] if {*names} & {"timestamp", "segment"} else []
+    return [n for n in dict.fromkeys([*whole, *clock]) if n in stored]

@@ -1,0 +1,370 @@
+"""How a text file writes its columns: told by its first lines, for whoever reads the others."""
+
+import codecs
+import csv
+import io
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import BinaryIO
+
+from modeler.core.errors import DataError
+from modeler.logs.clock_times import Origin, first_moment, is_beyond, is_clock
+from modeler.logs.mapping import find_unit
+
+TEXTS = (".csv", ".txt", ".dat", ".tsv", ".log", ".asc", ".lvm")
+"""How the names of text files end."""
+
+_SAMPLE = 2**16  # bytes by which a file is judged
+_LINE = 2**24  # bytes of the longest line that is looked at
+_JUDGED = 50  # rows by which the columns are told
+_BLANKS = " "
+_DELIMITERS = {
+    ",": "commas", ";": ";", "\t": "tabs", "|": "|", _BLANKS: "blanks",
+}  # fmt: skip
+_BOMS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+_EMPTY = {"", "null", "none", "na", "n/a", "#n/a", "nan", "-nan", "+nan"}
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?:inity)?")
+_COMMAS = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?|[+-]?\d+(?:[eE][+-]?\d+)?|[+-]?inf(?:inity)?")
+_COMMENT = re.compile(r"^\s*(?:#|%|//)+\s*")
+_RATE = re.compile(r"(?i)(?:sampl\w*|rate|freq\w*|abtast\w*|\bfs\b).*?(\d+(?:[.,]\d+)?)\s*(k?)hz\b")
+_STEP = re.compile(
+    r"(?i)(?:delta[_ ]?[xt]|(?:sampl\w*|cycle|abtast\w*|zyklus)[ _-]*(?:time|period|interval|zeit)"
+    r"|zykluszeit|\bdt|\bts)\s*(?:[\[(](\w+)[\])])?[\s:=;,\"]+(\d+(?:[.,]\d+)?(?:e[+-]?\d+)?)"
+    r"\s*([nuµm]?s\b|sec)?"
+)
+
+
+@dataclass(frozen=True)
+class Head:
+    """What stands above the rows of a table.
+
+    Attributes:
+        names: of the columns; `c1`, `c2` ... where it has none.
+        first: line of the first row, counted from 0.
+        units: that a line under the names states, by column.
+        rate: Hz, that a line before them states.
+        told: what was found, in words; nothing of names in the first line.
+    """
+
+    names: tuple[str, ...]
+    first: int
+    units: Mapping[str, str] = field(default_factory=dict)
+    rate: float | None = None
+    told: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """How a text file writes its columns.
+
+    Attributes:
+        head: what stands above the rows.
+        start: bytes before the rows.
+        delimiter: between columns; a blank means any run of blanks.
+        decimal: of numbers, a point or a comma.
+        encoding: of the text.
+        clocks: columns of times, and what they are counted from, the first row: day and second of
+            a text, nanoseconds since 1970.
+    """
+
+    head: Head
+    start: int
+    delimiter: str = ","
+    decimal: str = "."
+    encoding: str = "utf-8"
+    clocks: Mapping[str, Origin] = field(default_factory=dict)
+
+    @property
+    def told(self) -> tuple[str, ...]:
+        """What is unlike commas, points, and names in the first line: one sentence, or nothing."""
+        told = [
+            *([f"{_DELIMITERS[self.delimiter]} between columns"] * (self.delimiter != ",")),
+            *(["decimal commas"] * (self.decimal == ",")), *self.head.told,
+            *([f"in {self.encoding}"] * (not self.encoding.startswith("utf-8"))),
+            *([f"{', '.join(self.clocks)} counted from the first row"] * bool(self.clocks)),
+        ]  # fmt: skip
+        return (f"read with {', '.join(told)}",) if told else ()
+
+    def open(self, path: Path) -> BinaryIO:
+        """The file as bytes of UTF-8, or of an encoding that has the same digits."""
+        if self.encoding.startswith("utf-16"):
+            return io.BytesIO(path.read_bytes().decode(self.encoding, "replace").encode())
+        return path.open("rb")
+
+    def table(self, text: bytes) -> bytes:
+        """Whole lines with one mark between their columns."""
+        if self.delimiter != _BLANKS:
+            return text
+        text = b" " + text.replace(b"\t", b" ").replace(b"\r", b"")
+        while b"  " in text:
+            text = text.replace(b"  ", b" ")
+        return text.replace(b"\n ", b"\n").replace(b" \n", b"\n").strip(b" ")
+
+
+def dialect_of(path: Path) -> Dialect:
+    """What the first lines of a text file say of all others.
+
+    Raises:
+        DataError: it is no text, a quote is left open, or names and rows are of other numbers.
+        OSError: it cannot be read.
+    """
+    with path.open("rb") as file:
+        raw = file.read(_SAMPLE)
+        while raw.count(b"\n") + raw.count(b"\r") < 2 and len(raw) < _LINE:
+            if not (more := file.read(_SAMPLE)):
+                break
+            raw += more
+        whole = not file.read(1)
+    encoding = next((e for bom, e in _BOMS.items() if raw.startswith(bom)), "")
+    if not encoding and raw[:200].count(b"\0") >= len(raw[:200]) // 3:
+        encoding = "utf-16-le" if raw[1:2] == b"\0" else "utf-16-be"
+    if encoding.startswith("utf-16"):
+        raw = raw.decode(encoding, "replace").encode()
+    if b"\0" in raw:
+        line = raw[: raw.index(b"\0")].count(b"\n") + 1
+        raise DataError(
+            f"{path}: line {line} holds bytes that no text has; expected a text with columns of "
+            "numbers; it is damaged, or another kind of file: give it the ending of its format"
+        )
+    encoding = encoding or _letters_of(raw, whole)
+    lines, starts = _lines(raw, whole)
+    text = [line.decode("utf-8" if "utf" in encoding else "latin-1", "replace") for line in lines]
+    text = [line.removeprefix("\ufeff") for line in text]
+    if not lines:
+        raise DataError(
+            f"{path}: the first line does not end within {_LINE >> 20} MiB, or is empty; expected "
+            "the names of the columns; write the file again"
+        )
+    delimiter, decimal = _marks(text, path)
+    rows = [split(line, delimiter) for line in text]
+    head = head_of(rows, decimal, str(path), text, delimiter)
+    row = rows[head.first] if head.first < len(rows) else []
+    clocks: dict[str, Origin] = {}
+    for name, entry in zip(head.names, row, strict=False):
+        if is_clock(entry):
+            clocks[name] = first_moment(entry)
+        elif re.fullmatch(r"\d{16,18}|[1-8]\d{18}", entry) and is_beyond(int(entry)):
+            clocks[name] = int(entry)
+    start = starts[head.first] if head.first < len(starts) else starts[-1] + len(lines[-1])
+    return Dialect(head, start, delimiter, decimal, encoding, clocks)
+
+
+def _letters_of(raw: bytes, whole: bool) -> str:
+    try:
+        codecs.getincrementaldecoder("utf-8")().decode(raw, whole)
+    except UnicodeDecodeError:
+        return "latin-1"
+    return "utf-8"
+
+
+def _lines(raw: bytes, whole: bool) -> tuple[list[bytes], list[int]]:
+    """Lines that are not blank, and where each begins; without one that is cut off."""
+    lines, starts = list[bytes](), list[int]()
+    for match in re.finditer(rb"[^\r\n]+(\r\n|\n|\r)?", raw):
+        if match[0].strip() and (match[1] or whole):
+            lines.append(match[0].rstrip(b"\r\n"))
+            starts.append(match.start())
+    return lines, starts
+
+
+def split(line: str, delimiter: str) -> list[str]:
+    """The entries of a line, without blanks and quotes around them."""
+    if delimiter == _BLANKS:
+        return line.split()
+    entries = (
+        next(csv.reader([line], delimiter=delimiter)) if '"' in line else line.split(delimiter)
+    )
+    return [bare(entry) for entry in entries]
+
+
+def bare(name: str) -> str:
+    """A text without blanks and quotes around it: `"time", "q1"` leaves both."""
+    name = name.strip()
+    if len(name) > 1 and name[0] == name[-1] and name[0] in "\"'":
+        name = name[1:-1].strip()
+    return name
+
+
+def _is_number(entry: str, decimal: str) -> bool:
+    """Of a spreadsheet, whose decimal is "", with either."""
+    if not decimal:
+        return decimal_number(entry) is not None
+    return (_NUMBER if decimal == "." else _COMMAS).fullmatch(entry.lower()) is not None
+
+
+def decimal_number(entry: str) -> float | None:
+    """The number that an entry is, with a decimal point or comma; None if it is none."""
+    text = entry.lower()
+    if _NUMBER.fullmatch(text) is None and _COMMAS.fullmatch(text) is None:
+        return None
+    return float(text.replace(",", "."))
+
+
+def _is_value(entry: str, decimal: str) -> bool:
+    return _is_number(entry, decimal) or is_clock(entry)
+
+
+def _marks(lines: Sequence[str], path: Path) -> tuple[str, str]:
+    """What stands between columns, and before decimals: where most entries become numbers."""
+    last = lines[-_JUDGED:]
+
+    def score(marks: tuple[str, str]) -> tuple[float, ...]:
+        delimiter, decimal = marks
+        rows = [split(line, delimiter) for line in last]
+        width, count = Counter(map(len, rows)).most_common(1)[0]
+        even = [row for row in rows if len(row) == width]
+        values = sum(_is_value(e, decimal) for row in even for e in row)
+        return values / len(rows), values / (width * count)
+
+    kinds = [(d, m) for d in _DELIMITERS for m in ".," if d != "," or m == "."]
+    best = max(kinds, key=lambda marks: (*score(marks), -kinds.index(marks)))
+    if score(best)[0] == 0.0:
+        return ",", "."
+    delimiter, decimal = best
+    if delimiter != "," and decimal == "." and not re.search(r"\d\.\d", "\n".join(last)):
+        with path.open("rb") as file:  # whole numbers here: others may tell
+            file.seek(path.stat().st_size // 2)
+            later = file.read(_SAMPLE)
+        if re.search(rb"\d,\d", later):
+            return delimiter, ","
+    return delimiter, decimal
+
+
+def head_of(
+    rows: Sequence[Sequence[str]], decimal: str, where: str,
+    lines: Sequence[str] = (), delimiter: str = "",
+) -> Head:  # fmt: skip
+    """Where the rows of numbers begin, and what stands above them.
+
+    Args:
+        rows: entries of every line that is not blank, from the first on.
+        decimal: of the numbers; "" for either.
+        where: name of the file, for messages.
+        lines: the same as they are, of a text.
+        delimiter: between the entries of a text.
+
+    Raises:
+        DataError: a quote is left open, or names and rows are of other numbers.
+    """
+    last = rows[-_JUDGED:]
+    valued = [row for row in last if any(_is_value(e, decimal) for e in row)] or last
+    width = Counter(map(len, valued)).most_common(1)[0][0]
+    even = [row for row in valued if len(row) == width]
+    places = [
+        k for k in range(width) if 2 * sum(_is_value(r[k], decimal) for r in even) > len(even)
+    ]
+
+    def is_row(row: Sequence[str]) -> bool:
+        if len(row) != width:
+            return False
+        held = [row[k] for k in places]
+        fine = sum(_is_value(e, decimal) or e.lower() in _EMPTY for e in held)
+        begins = bool(held) and (_is_value(held[0], decimal) or held[0].lower() in _EMPTY)
+        return begins and 2 * fine > len(held) and any(_is_value(e, decimal) for e in held)
+
+    first = next((i for i, row in enumerate(rows) if is_row(row)), min(1, len(rows)))
+    if first and (lines[first - 1] if lines else "").count('"') % 2:
+        raise DataError(
+            f'{where}: the line above the rows has a quote (") that is not closed; expected the '
+            "names of the columns; close it, or delete it"
+        )
+    above = [_names_in(rows[i], lines[i] if lines else "", width) for i in range(first)]
+    units = _units_at(above)
+    at = _names_at(above, decimal, units)
+    unnamed = tuple(f"c{k + 1}" for k in range(width))
+    if at is None:
+        if first and lines:
+            _refuse_other_count(rows[first - 1], lines[first - 1], width, delimiter, decimal, where)
+        told = [f"{_counted(first)} before the rows"] if first else []
+        told.append(f"no names: columns are called c1 to c{width}" if width > 1 else "no name: c1")
+        if rows and rows[0] == [str(k) for k in range(width)] and first == 0 and len(rows) > 1:
+            first = 1  # the numbers of columns, as a table without names has them
+        return Head(unnamed, first, rate=_rate(lines or map("\t".join, rows), first),
+                    told=tuple(told))  # fmt: skip
+    names = tuple(n or u for n, u in zip(above[at] or (), unnamed, strict=True))
+    stated = {}
+    told = [f"{_counted(at)} before the names"] if at else []
+    if units is not None and units != at:
+        stated = {n: u for n, e in zip(names, above[units] or (), strict=True) if (u := _unit(e))}
+        told.append(f"units in line {units + 1}")
+    between = first - at - 1 - (units is not None and units > at)
+    told += [f"{_counted(between)} between names and rows"] * (between > 0)
+    return Head(names, first, stated, _rate(lines or map("\t".join, rows), first), tuple(told))
+
+
+def _counted(lines: int) -> str:
+    return f"{lines} line{'s' * (lines > 1)}"
+
+
+def _names_in(row: Sequence[str], line: str, width: int) -> list[str] | None:
+    """The entries of a line as one for each column; None if it has not so many."""
+    plain = _COMMENT.sub("", line)
+    ways = [list(row)]
+    if line:
+        ways += [[bare(e) for e in re.split(mark, plain.strip())]
+                 for mark in (r"\s*[,;\t|]\s*", r"\s{2,}", r"\s+")]  # fmt: skip
+    for entries in ways:
+        entries = [_COMMENT.sub("", e) if k == 0 else e for k, e in enumerate(entries)]
+        if len(entries) == width + 1 and entries[-1].lower() in ("", "comment"):
+            entries = entries[:-1]  # a mark at the end of the line, or what LabVIEW adds
+        if len(entries) == width - 1 and entries == ways[0] and line.endswith((",", ";", "\t")):
+            entries = [*entries, ""]
+        if len(entries) == width:
+            return entries
+    return None
+
+
+def _unit(entry: str) -> str:
+    text = re.sub(r"^[\[(]\s*|\s*[\])]$", "", entry)
+    return text if text and find_unit(text) is not None else ""
+
+
+def _units_at(above: Sequence[list[str] | None]) -> int | None:
+    """The last line in which most entries are units, and that is not the only one."""
+    for i in reversed(range(len(above))):
+        entries = [e for e in above[i] or () if e.strip("-[]() ")]
+        known = sum(bool(_unit(e)) for e in entries)
+        if entries and 2 * known > len(entries) and sum(row is not None for row in above) > 1:
+            return i
+    return None
+
+
+def _names_at(above: Sequence[list[str] | None], decimal: str, units: int | None) -> int | None:
+    """The line of the names: the last one whose entries differ; else the last of so many."""
+    words = [
+        i for i, row in enumerate(above)
+        if row is not None and i != units and len(row) > 0
+        and 2 * sum(bool(e) and not _is_value(e, decimal) for e in row) > len(row)
+    ]  # fmt: skip
+    unlike = [i for i in words if len({e for e in above[i] or () if e}) >= len(above[i] or ()) - 1]
+    return max(unlike or words, default=None)
+
+
+def _refuse_other_count(
+    row: Sequence[str], line: str, width: int, delimiter: str, decimal: str, where: str
+) -> None:
+    """Names directly above the rows, but not as many as there are columns."""
+    words = [e for e in row if e and not _is_value(e, decimal)]
+    prose = _COMMENT.match(line) or (delimiter == _BLANKS and re.search("[:=]", line))
+    if prose or len(row) < 2 or len(words) < len(row) or len(row) == width:
+        return
+    raise DataError(
+        f"{where}: row 1: got {width} entries for {len(row)} columns; expected one each; write "
+        "decimal points where numbers have decimal commas, or a name for every column"
+    )
+
+
+def _rate(lines: Sequence[str] | map, first: int) -> float | None:
+    """Samples in a second, as a line above the rows states it."""
+    for line, _ in zip(lines, range(first), strict=False):
+        if match := _RATE.search(line):
+            return float(match[1].replace(",", ".")) * (1e3 if match[2] else 1.0)
+        if match := _STEP.search(line):
+            unit = find_unit(match[1] or match[3] or "s")
+            step = float(match[2].replace(",", ".")) * (unit.factor if unit else 1.0)
+            if step > 0.0:
+                return 1.0 / step
+    return None
