@@ -76,7 +76,7 @@ def gallery_index(exhibits: Sequence[Exhibit]) -> str:
     return (
         "# Robots\n\nThe built-in robots, as `modeler robots` lists them. Any command takes their "
         "names; their files are beginnings of files of your own. Pictures are those of `modeler "
-        f"show --png`, sizes those of `modeler generate`.\n\n{table(head, rows)}"
+        f"show --picture`, sizes those of `modeler generate`.\n\n{table(head, rows)}"
     )
 
 

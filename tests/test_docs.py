@@ -14,7 +14,9 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli import main, parser
+from modeler.cli import main
+from modeler.cli.command_table import COMMANDS, FAMILIES
+from modeler.cli.old_words import OLD_COMMANDS
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE
@@ -341,12 +343,28 @@ def test_every_choice_of_the_processing_is_described():
         assert f"`{field.name}`" in text_of("docs/processing.md"), field.name
 
 
-def test_every_command_stands_in_the_readme():
-    usage = parser().format_help()
-    commands = re.findall(r"^    (\w+) ", usage, re.MULTILINE)
-    assert {"derive", "fit", "demo"} <= set(commands)
-    for command in commands:
-        assert f"`modeler {command}" in text_of("README.md"), command
+def test_commands_stand_in_the_readme_by_family():
+    """In the order of `modeler --help`; and on the page of commands."""
+    table = text_of("README.md").split("| command | does |")[1].split("\n\n")[0]
+    told: dict[str, list[str]] = {}
+    for title, names in re.findall(r"^\| (?:\*\*(\w+)\*\*|([^|]+)) \|", table, re.MULTILINE):
+        if title:
+            told[title] = []
+        elif "modeler" in names:
+            told[list(told)[-1]] += re.findall(r"modeler ([\w-]+)", names)
+    families = {title: [command.name for command in each] for title, each in FAMILIES.items()}
+    assert told == families
+    for title, names in families.items():
+        row = f"| {title} | {', '.join(f'`{name}`' for name in names)} |"
+        assert row in text_of("docs/commands.md"), row
+
+
+def test_old_names_stand_on_the_page_of_commands():
+    text = text_of("docs/commands.md")
+    for command in COMMANDS.values():
+        for old in command.old:
+            assert f"{old} " in text or f"{old}`" in text, f"{command.name} {old}"
+    assert all(f"`modeler {name} " in text for name in OLD_COMMANDS)
 
 
 def test_every_file_and_function_of_the_c_is_described():

@@ -14,6 +14,7 @@ from packaging.utils import canonicalize_name
 from packaging.version import Version
 
 import modeler
+from modeler.logs.columns import READERS
 from tests.repository import ROOT, kept_files
 
 _PIN = re.compile(r"([a-z0-9]+(?:-[a-z0-9]+)*)==([0-9]+(?:\.[0-9]+)*(?:\.post[0-9]+)?)(?: ; (.+))?")
@@ -48,7 +49,7 @@ def requirements(settings: dict) -> list[Requirement]:
 
 def test_metadata(settings: dict) -> None:
     project = settings["project"]
-    assert project["name"] == "modeler"
+    assert project["name"] == "modeler-robotics"
     assert project["requires-python"] == ">=3.11"
     assert project["license"] == "MIT"
     for file in [
@@ -59,6 +60,26 @@ def test_metadata(settings: dict) -> None:
         assert (ROOT / file).is_file(), file
     assert project["scripts"] == {"modeler": "modeler.cli:main"}
     assert (ROOT / "modeler" / "py.typed").is_file()
+
+
+def test_what_messages_tell_to_install_there_is(settings: dict) -> None:
+    """Every extra that is named in the program or in the documentation, and every reader."""
+    extras = set(settings["project"]["optional-dependencies"])
+    sources = [p.read_text(encoding="utf-8") for p in (ROOT / "modeler").rglob("*.py")]
+    pages = [p.read_text(encoding="utf-8") for p in (*ROOT.glob("*.md"), *ROOT.glob("docs/*"))]
+    named = {name for text in [*sources, *pages] for name in _EXTRA.findall(text)}
+    named |= {name for text in sources for name in re.findall(r"installing\(['\"](\w+)", text)}
+    assert {"gpu", "dask", "notebook"} <= named <= extras
+    readers = {
+        n for text in sources for n in re.findall(r'missing_package\([^)]*"([\w-]+)"\)', text)
+    }
+    assert readers == set(READERS) and set(READERS.values()) <= extras
+    for package, extra in READERS.items():
+        wanted = settings["project"]["optional-dependencies"][extra]
+        assert package in {canonicalize_name(Requirement(line).name) for line in wanted}
+
+
+_EXTRA = re.compile(r"modeler-robotics\[(\w+)\]")
 
 
 def test_the_version_stands_in_one_place(settings: dict) -> None:
@@ -121,7 +142,7 @@ _FORBIDDEN = {
     + r"-links|trusted"
     + r"-host",
     "another project, which the public index has by this name": r"install\s+(?:-\S+\s+)*['\"]?mod"
-    + r"eler\b|['\"]mod"
+    + r"eler\b(?!-robotics)|['\"]mod"
     + r"eler\[",
     "a path of one machine": r"(?<![\w./~}])/(?:work|tmp|root|home|opt)" + r"/\w",
 }

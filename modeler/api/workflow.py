@@ -248,7 +248,7 @@ def estimators() -> Table:
 def on_gpu(derivation: Derivation) -> GpuModel:
     """The base regressor of a robot without loops on the graphics processor of this machine.
 
-    It needs CuPy: `pip install '.[gpu]'`.
+    It needs CuPy: `pip install "modeler-robotics[gpu]"`.
 
     Raises:
         BuildError: no CuPy, no graphics processor, or the compiler refused.

@@ -14,15 +14,7 @@ from modeler.core.estimators import ABOUT
 from modeler.core.files import check_writable
 from modeler.core.json import entries, shown
 from modeler.effects import CATALOGUE, Acts, Effect, Form, effect_named
-from modeler.robot import (
-    Robot,
-    conversion_notes,
-    near,
-    read_robot,
-    robot_from_text,
-    with_effects,
-    with_home_text,
-)
+from modeler.robot import Robot, near, read_robot, robot_from_text, with_effects, with_home_text
 
 # The signature of an effect, drawn in characters: torque against what it depends on.
 
@@ -150,9 +142,9 @@ def robot_with_effects(args: argparse.Namespace) -> Robot:
 
 
 def read_robot_with_notes(name: str) -> Robot:
-    """The robot of that name or file; what a conversion decided or left out, on stderr."""
+    """The robot of that name or file; what reading it decided or left out, on stderr."""
     robot = read_robot(name)
-    for line in conversion_notes(name):
+    for line in robot.readings:
         note(f"{name}: {line}")
     return robot
 

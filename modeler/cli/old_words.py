@@ -100,9 +100,11 @@ def _derive(rest: list[str]) -> tuple[list[str], list[str]]:
     told: list[str] = []
     found: list[str] = []
     old_page = any("--page".startswith(w.split("=")[0]) and w[:4] == "--pa" for w in rest)
-    for word, after in zip(rest, [*rest[1:], ""], strict=True):
+    for i, word in enumerate(rest):
         name, equals, value = word.partition("=")
-        if name == "--report" and (value if equals else after).endswith((".md", ".markdown")):
+        if name == "--report" and (value or "".join(rest[i + 1 : i + 2])).endswith(
+            (".md", ".markdown")
+        ):
             told.append("the page of the coefficients is --coefficients-out FILE.md now")
             word = "--coefficients-out" + equals + value
         elif name == "--open" and old_page:

@@ -102,7 +102,7 @@ def _bases(model: SymbolicModel, base: BaseParameters) -> tuple[manifest.BaseSpe
     for coefficient in (term.coefficient for each in base.parameters for term in each.terms):
         if coefficient not in terms:
             number = precise_values(graph, [model.algebra.static(coefficient)], values)[0]
-            terms[coefficient] = coefficient_text(coefficient), float(number)
+            terms[coefficient] = coefficient_text(coefficient, model.robot.halves), float(number)
     found = []
     for parameter in base.parameters:
         column = model.columns[parameter.column]

@@ -44,8 +44,8 @@ class LoopError(ModelerError):
 
 
 def installing(part: str) -> str:
-    """What installs an optional part; by name, the public index has another project."""
-    return f"pip install '.[{part}]' in the checkout"
+    """What installs an optional part; what is imported as modeler is installed by another name."""
+    return f'pip install "modeler-robotics[{part}]"'
 
 
 _SHORT_OF_MEMORY = (

@@ -1,13 +1,14 @@
 """The little expression language of robot files and effect equations.
 
 `"q1 + pi/2"`, `"-b3"`, `"sqrt(a**2 + b**2)"`: numbers, names, `pi`, `+ - * / **`, parentheses and
-the functions below. An `Expression` is parsed and checked once, and then folded over any algebra:
-numbers, numpy arrays, sympy, or the expression graph.
+the functions below; `90 deg` is 90*pi/180. An `Expression` is parsed and checked once, and then
+folded over any algebra: numbers, numpy arrays, sympy, or the expression graph.
 """
 
 import ast
 import math
 import operator
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -21,6 +22,9 @@ _BINARY: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul,
     ast.Div: operator.truediv, ast.Pow: operator.pow,
 }  # fmt: skip
+
+_DEGREES = re.compile(r"(\b\d[\w.]*|\b[^\W\d]\w*(?=\s|°)|\))\s*(?:deg\b|°)")
+"""What is measured in degrees: a number, a name or a bracket before the unit."""
 
 MOST_LETTERS = 4000
 MOST_OPERATIONS = 300
@@ -45,6 +49,22 @@ class Expression:
     text: str
     names: frozenset[str]
     _tree: ast.expr = field(repr=False, compare=False)
+
+    @property
+    def uses_pi(self) -> bool:
+        """True if pi, or degrees, stand in it."""
+        return any(isinstance(n, ast.Name) and n.id == "pi" for n in ast.walk(self._tree))
+
+    @property
+    def decimals(self) -> frozenset[Fraction]:
+        """The numbers with a decimal point in it, exactly."""
+        nodes = (node for node in ast.walk(self._tree) if isinstance(node, ast.Constant))
+        return frozenset(_exact(n, self.text) for n in nodes if isinstance(n.value, float))
+
+    def rewritten(self, change: Callable[[ast.expr], ast.expr]) -> "Expression":
+        """The expression with a changed tree; itself if nothing was changed."""
+        tree = change(self._tree)
+        return self if ast.dump(tree) == ast.dump(self._tree) else parse(written(tree))
 
     @property
     def is_zero(self) -> bool:
@@ -129,7 +149,7 @@ def parse(value: str | int | float) -> Expression:
         ) from None
     _check_text(text)
     try:
-        tree = ast.parse(text, mode="eval").body
+        tree = ast.parse(_DEGREES.sub(r"\1*pi/180", text), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ExpressionError(
             f'got "{text}", which cannot be read; expected a number or an expression '
@@ -140,6 +160,31 @@ def parse(value: str | int | float) -> Expression:
     _check(tree, text, names)
     _check_exponents(tree, text)
     return Expression(text, frozenset(names), tree)
+
+
+def written(tree: ast.expr) -> str:
+    """The expression of a tree as text: `b**2 + pi/2`."""
+    return re.sub(r" (\*\*|\*|/) ", r"\1", ast.unparse(tree))
+
+
+def decimal_text(value: Fraction, halves: bool = False) -> str | None:
+    """`0.1564`, exactly; None for a whole number and what has no end as a decimal, such as 1/3.
+
+    Args:
+        value: the number.
+        halves: True to write 1/2, 3/4 and 5/8 as decimals too. They come from squared sines as
+            often as from lengths: True where the file itself writes such numbers with a point.
+    """
+    rest, places = value.denominator, 0
+    for prime in (2, 5):
+        count = 0
+        while rest % prime == 0:
+            rest, count = rest // prime, count + 1
+        places = max(places, count)
+    if rest != 1 or places == 0 or not (halves or value.denominator % 5 == 0):
+        return None
+    digits = str(abs(value.numerator) * 10**places // value.denominator).rjust(places + 1, "0")
+    return f"{'-' if value < 0 else ''}{digits[:-places]}.{digits[-places:]}"
 
 
 def _check_text(text: str) -> None:

@@ -133,7 +133,7 @@ def _exact(
         proved = ball_rank(model, relations.kept, sample, seed)
     else:
         proved = certificate(geometry, model.columns, K, relations, seed)
-    found = base_from_relations(model.columns, relations, K)
+    found = base_from_relations(model.columns, relations, K, model.robot.halves)
     kind = "exact at the given values" if statement else "exact"
     if isinstance(proved, SampledRank):
         kind = f"relations {kind}, rank sampled"

@@ -1,9 +1,10 @@
 """The table with exact entries: every cell a sympy expression, every right angle exact."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from math import comb, prod
 
 import sympy
@@ -11,7 +12,7 @@ import sympy
 from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
-from modeler.robot import Joint, Robot
+from modeler.robot import Joint, Robot, written_cell
 
 # Cosine and sine of constant angles, exactly, with as few different ones as possible.
 #
@@ -282,7 +283,7 @@ def exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
     numbers = robot.symbol_values()
     symbols = _symbols(robot, numbers, at_nominal)
     forms, constants = resolved_relations(robot, symbols)
-    cells = _Cells(symbols, numbers)
+    cells = _Cells(symbols, numbers, partial(written_cell, robot))
     rows = tuple(_moved(row, constants, cells) for row in _rows(robot, cells))
     try:
         gravity = tuple(folded(entry, symbols) for entry in robot.gravity)
@@ -338,7 +339,7 @@ def _symbols(robot: Robot, numbers: Mapping[str, float], at_nominal: bool) -> di
             found[name] = sympy.Integer(0)
         elif quarters and abs(numbers[name] - quarters * _QUARTER) < _RIGHT_ANGLE_TOLERANCE:
             found[name] = quarters * sympy.pi / 2
-        elif expression.names or "pi" in expression.text or at_nominal:
+        elif expression.names or expression.uses_pi or at_nominal:
             try:
                 found[name] = folded(expression, found)
             except DerivationError as error:
@@ -352,6 +353,7 @@ def _symbols(robot: Robot, numbers: Mapping[str, float], at_nominal: bool) -> di
 class _Cells:
     symbols: Mapping[str, sympy.Expr]
     numbers: Mapping[str, float]
+    where: Callable[[Joint, str], str]
 
     def length(self, joint: Joint, column: str) -> sympy.Expr:
         return self._folded(joint, column, self.symbols)
@@ -376,7 +378,7 @@ class _Cells:
         try:
             return folded(getattr(joint, column), symbols)
         except DerivationError as error:
-            raise DerivationError(f'row "{joint.name}", column {column}: {error}') from None
+            raise DerivationError(f"{self.where(joint, column)}: {error}") from None
 
     def snapped(self, value: sympy.Expr) -> sympy.Expr:
         """The angle, exact where its value is a right angle."""

@@ -274,7 +274,7 @@ def _link_relations(geometry: Geometry, K: ExactField, units: Units) -> list[dic
 
 
 def base_from_relations(
-    columns: Sequence[StandardColumn], relations: GroupingRelations, K: ExactField
+    columns: Sequence[StandardColumn], relations: GroupingRelations, K: ExactField, halves: bool
 ) -> tuple[tuple[BaseParameter, ...], tuple[str, ...]]:
     """Base parameters with their terms, and the parameters without effect.
 
@@ -290,14 +290,14 @@ def base_from_relations(
         for b, coefficient in row.items():
             if b != place:
                 terms[b].append(Term(K.expression(-coefficient), columns[place].name))
-    return named_parameters(columns, terms), tuple(unidentifiable)
+    return named_parameters(columns, terms, halves), tuple(unidentifiable)
 
 
 def named_parameters(
-    columns: Sequence[StandardColumn], terms: Mapping[int, Sequence[Term]]
+    columns: Sequence[StandardColumn], terms: Mapping[int, Sequence[Term]], halves: bool
 ) -> tuple[BaseParameter, ...]:
     """{column: terms} as base parameters; the names of those into which others group end in R."""
     return tuple(
-        BaseParameter(columns[b].name + ("R" if len(found) > 1 else ""), b, tuple(found))
+        BaseParameter(columns[b].name + ("R" if len(found) > 1 else ""), b, tuple(found), halves)
         for b, found in terms.items()
     )

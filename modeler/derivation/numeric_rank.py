@@ -220,7 +220,7 @@ def numeric_grouping(
         for b, factor in relations[column].items():
             terms[b].append(Term(factor, model.names[column]))
     return (
-        named_parameters(model.columns, terms),
+        named_parameters(model.columns, terms, model.robot.halves),
         tuple(model.names[i] for i in sorted(absent)),
         bound,
     )

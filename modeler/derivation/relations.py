@@ -1,13 +1,17 @@
 """All base parameters as people and programs read them: text, LaTeX, Markdown, JSON."""
 
 import textwrap
+from collections.abc import Mapping
 from dataclasses import asdict
+from fractions import Fraction
 from typing import Any
 
 import sympy
+from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
+from modeler.core.expression import decimal_text
 from modeler.core.formula import Formula, latex_name, name, number, operator, row
 from modeler.core.latex_display import DisplayedEquation, display
 from modeler.derivation.result import (
@@ -28,22 +32,69 @@ from modeler.derivation.result import (
 # around whatever binds less than its place in that product.
 
 
-_PRINTER = StrPrinter({"full_prec": False})  # decimal numbers without zeros behind them
+class _Text(StrPrinter):
+    """Decimal numbers with their digits, not as fractions."""
+
+    def __init__(self, halves: bool) -> None:
+        super().__init__({"full_prec": False})  # decimal numbers without zeros behind them
+        self.halves = halves
+
+    def _print_Rational(self, expr: sympy.Rational) -> str:
+        return decimal(expr, self.halves) or str(super()._print_Rational(expr))
+
+    def _print_Mul(self, expr: sympy.Mul) -> str:
+        number, rest = expr.as_coeff_Mul()
+        digits = decimal(number, self.halves)
+        if digits is None:
+            return str(super()._print_Mul(expr))
+        text = self.parenthesize(rest, PRECEDENCE["Mul"], strict=True)
+        return f"{digits}{text[1:]}" if text.startswith("1/") else f"{digits}*{text}"
 
 
-def coefficient_text(coefficient: sympy.Expr) -> str:
+class _Latex(LatexPrinter):
+    """The same in LaTeX."""
+
+    def __init__(self, halves: bool, letters: Mapping[sympy.Symbol, str]) -> None:
+        super().__init__({"symbol_names": letters})
+        self.halves = halves
+
+    def _print_Rational(self, expr: sympy.Rational) -> str:
+        return decimal(expr, self.halves) or str(super()._print_Rational(expr))
+
+    def _print_Mul(self, expr: sympy.Mul) -> str:
+        number, rest = expr.as_coeff_Mul()
+        digits = decimal(number, self.halves)
+        if digits is None:
+            return str(super()._print_Mul(expr))
+        top, bottom = sympy.fraction(rest)
+        text = self.parenthesize(top, PRECEDENCE["Mul"], strict=True)
+        times = r" \cdot " if text[0].isdigit() else " "
+        above = digits if top == 1 else f"{digits}{times}{text}"
+        return above if bottom == 1 else rf"\frac{{{above}}}{{{self._print(bottom)}}}"
+
+
+def decimal(value: sympy.Expr, halves: bool) -> str | None:
+    """The digits of a number that is written as a decimal; None of any other expression."""
+    if not value.is_Rational:
+        return None
+    return decimal_text(Fraction(int(value.p), int(value.q)), halves)
+
+
+def coefficient_text(coefficient: sympy.Expr, halves: bool = False) -> str:
     """`D8/D3`: a coefficient alone, as programs read it."""
-    return _PRINTER.doprint(coefficient)
+    return _Text(halves).doprint(coefficient)
 
 
 def relation_text(parameter: BaseParameter) -> str:
     """`ZZ2R = ZZ2 + YY3 + D4**2*M4`."""
-    return f"{parameter.name} = {_sum_text([_text_term(term) for term in parameter.terms])}"
+    terms = [_text_term(term, parameter.halves) for term in parameter.terms]
+    return f"{parameter.name} = {_sum_text(terms)}"
 
 
 def relation_latex(parameter: BaseParameter) -> str:
     r"""`\mathit{ZZ}_{2R} = \mathit{ZZ}_{2} + \mathit{YY}_{3} + D_{4}^{2} M_{4}`."""
-    return f"{latex_name(parameter.name)} = {_sum_text([_latex_term(t) for t in parameter.terms])}"
+    terms = [_latex_term(term, parameter.halves) for term in parameter.terms]
+    return f"{latex_name(parameter.name)} = {_sum_text(terms)}"
 
 
 def _sum_text(terms: list[str]) -> str:
@@ -53,29 +104,40 @@ def _sum_text(terms: list[str]) -> str:
     return text
 
 
-def _text_term(term: Term) -> str:
+def _text_term(term: Term, halves: bool) -> str:
     """Numerator, parameter, denominator; a quotient of numbers alone stands in front."""
     sign, size = split_sign(term.coefficient)
     if size == 1:
         return sign + term.parameter
-    top, bottom = sympy.fraction(size)
+    printer = _Text(halves)
+    top, bottom = _over(size, halves)
     if not bottom.free_symbols:
         top, bottom = size, sympy.Integer(1)
-    front = "" if top == 1 else f"{_PRINTER.parenthesize(top, PRECEDENCE['Mul'], strict=True)}*"
+    front = "" if top == 1 else f"{printer.parenthesize(top, PRECEDENCE['Mul'], strict=True)}*"
     # Right of a division even a product needs brackets: a/b*c is (a/b)*c.
-    below = _PRINTER.parenthesize(bottom, PRECEDENCE["Pow"], strict=True)
+    below = printer.parenthesize(bottom, PRECEDENCE["Pow"], strict=True)
     back = "" if bottom == 1 else f"/{below}"
     return f"{sign}{front}{term.parameter}{back}"
 
 
-def _latex_term(term: Term) -> str:
+def _latex_term(term: Term, halves: bool) -> str:
     sign, size = split_sign(term.coefficient)
     name = latex_name(term.parameter)
     if size == 1:
         return sign + name
     letters = {symbol: latex_name(symbol.name) for symbol in size.free_symbols}
-    text = sympy.latex(size, symbol_names=letters)
+    text = _Latex(halves, letters).doprint(size)
     return f"{sign}\\left({text}\\right) {name}" if size.is_Add else f"{sign}{text} {name}"
+
+
+def _over(value: sympy.Expr, halves: bool) -> tuple[sympy.Expr, sympy.Expr]:
+    """Numerator and denominator; a decimal factor stays in the numerator."""
+    number, rest = value.as_coeff_Mul()
+    if decimal(number, halves) is None:
+        top, bottom = sympy.fraction(value)
+        return top, bottom
+    top, bottom = sympy.fraction(rest)
+    return number * top, bottom
 
 
 def split_sign(coefficient: sympy.Expr) -> tuple[str, sympy.Expr]:
@@ -124,7 +186,10 @@ def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
                 "column_of": base.columns[parameter.column].name,
                 "unit": base.columns[parameter.column].unit,
                 "terms": [
-                    {"coefficient": coefficient_text(term.coefficient), "parameter": term.parameter}
+                    {
+                        "coefficient": coefficient_text(term.coefficient, parameter.halves),
+                        "parameter": term.parameter,
+                    }
                     for term in parameter.terms
                 ],
             }
@@ -221,30 +286,31 @@ def relation_formula(parameter: BaseParameter) -> tuple[Formula, ...]:
     for k, term in enumerate(parameter.terms):
         sign, size = split_sign(term.coefficient)
         head = (operator(sign or "+"),) if k or sign else ()
-        lines.append(row(*head, *_product(size, term)))
+        lines.append(row(*head, *_product(size, term, parameter.halves)))
     return tuple(lines)
 
 
-def _product(size: sympy.Expr, term: Term) -> tuple[Formula, ...]:
+def _product(size: sympy.Expr, term: Term, halves: bool) -> tuple[Formula, ...]:
     own = name(term.parameter)
-    top, bottom = sympy.fraction(size)
+    top, bottom = _over(size, halves)
     if bottom.free_symbols:
-        return (Formula("fraction", parts=(row(*_before(top), own), expression_formula(bottom))),)
-    return (*_before(size), own)
+        below = expression_formula(bottom, halves)
+        return (Formula("fraction", parts=(row(*_before(top, halves), own), below)),)
+    return (*_before(size, halves), own)
 
 
-def _before(size: sympy.Expr) -> tuple[Formula, ...]:
+def _before(size: sympy.Expr, halves: bool) -> tuple[Formula, ...]:
     """A factor as it stands before a letter; 1 is not written."""
-    return () if size == 1 else (_fenced_sum(size),)
+    return () if size == 1 else (_fenced_sum(size, halves),)
 
 
-def _fenced_sum(factor: sympy.Expr) -> Formula:
+def _fenced_sum(factor: sympy.Expr, halves: bool) -> Formula:
     """A factor of a product: a sum in brackets."""
-    inner = expression_formula(factor)
+    inner = expression_formula(factor, halves)
     return Formula("fenced", parts=(inner,)) if factor.is_Add else inner
 
 
-def expression_formula(expression: sympy.Expr) -> Formula:
+def expression_formula(expression: sympy.Expr, halves: bool = False) -> Formula:
     """Sums, products, quotients, powers, numbers, symbols and functions of one argument."""
     if expression.is_Symbol or expression is sympy.pi:
         return name(str(expression))
@@ -253,23 +319,28 @@ def expression_formula(expression: sympy.Expr) -> Formula:
         for k, term in enumerate(expression.as_ordered_terms()):
             sign, size = split_sign(term)
             parts += [operator(sign or "+")] if k or sign else []
-            parts.append(expression_formula(size))
+            parts.append(expression_formula(size, halves))
         return row(*parts)
-    top, bottom = sympy.fraction(expression)
-    if bottom != 1:
-        return Formula("fraction", parts=(expression_formula(top), expression_formula(bottom)))
+    digits = decimal(abs(expression), halves) if expression.is_Rational else None
+    top, bottom = _over(expression, halves)
+    if digits is None and bottom != 1:
+        return Formula(
+            "fraction", parts=(expression_formula(top, halves), expression_formula(bottom, halves))
+        )
     if expression.is_Number:
-        text = str(expression)
+        text = f"{'-' if expression.is_negative else ''}{digits}" if digits else str(expression)
         return row(operator("-"), number(text[1:])) if text.startswith("-") else number(text)
     if expression.is_Mul:
         sign, size = split_sign(expression)
         factors = size.as_ordered_factors() if size.is_Mul else [size]
-        return row(*([operator("-")] if sign else []), *map(_fenced_sum, factors))
+        return row(
+            *([operator("-")] if sign else []), *(_fenced_sum(factor, halves) for factor in factors)
+        )
     if expression.is_Pow:
         base, exponent = expression.args
-        below = expression_formula(base)
+        below = expression_formula(base, halves)
         if not (base.is_Symbol or (base.is_Number and not base.is_negative)):
             below = Formula("fenced", parts=(below,))
-        return Formula("sup", parts=(below, expression_formula(exponent)))
-    inner = tuple(expression_formula(argument) for argument in expression.args)
+        return Formula("sup", parts=(below, expression_formula(exponent, halves)))
+    inner = tuple(expression_formula(argument, halves) for argument in expression.args)
     return row(name(expression.func.__name__), Formula("fenced", parts=inner))

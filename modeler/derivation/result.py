@@ -22,12 +22,13 @@ class BaseParameter(Brief):
     """One base parameter: name = sum of terms; its regressor column is that of `column`.
 
     The first term is the parameter itself with coefficient 1. A parameter into which others group
-    ends in R.
+    ends in R. Where `halves`, 1/2 is printed as 0.5: so the robot file writes its numbers.
     """
 
     name: str
     column: int  # index among the standard columns
     terms: tuple[Term, ...]
+    halves: bool = False
 
 
 @dataclass(frozen=True)

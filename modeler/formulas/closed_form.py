@@ -101,7 +101,7 @@ def named_columns(base: BaseParameters) -> dict[int, str]:
 def effects_sheet(model: SymbolicModel, parameters: Mapping[int, str]) -> Sheet:
     """The results of `write_effects` alone, for the parameters of those columns."""
     model = fresh_model(model)
-    writer = SheetWriter(model.graph, written_symbols(model, parameters))
+    writer = SheetWriter(model.graph, written_symbols(model, parameters), model.robot.halves)
     write_effects(model, parameters, writer)
     return writer.finished()
 

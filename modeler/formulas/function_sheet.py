@@ -57,6 +57,7 @@ class Sheet:
         definitions: in order.
         trig: {node of a sine or cosine: its name}.
         angles: {label: reference of the angle}: s23 is the sine of the angle labelled 23.
+        halves: True to write 1/2 as 0.5: so the robot file writes its numbers.
     """
 
     graph: Graph
@@ -65,13 +66,14 @@ class Sheet:
     definitions: tuple[Definition, ...]
     trig: Mapping[int, str]
     angles: Mapping[str, int]
+    halves: bool
 
 
 class SheetWriter:
     """Collects proposals and results; `finished` decides which names stay."""
 
-    def __init__(self, graph: Graph, letters: Mapping[str, str]) -> None:
-        self.graph = graph
+    def __init__(self, graph: Graph, letters: Mapping[str, str], halves: bool = False) -> None:
+        self.graph, self.halves = graph, halves
         self.letters = dict(letters)
         self._taken = set(self.letters.values())
         self._own: set[str] = set()
@@ -119,7 +121,7 @@ class SheetWriter:
         new = {name: self._own_name() for name in given}  # in the order in which they are read
         lines = tuple(replace(line, name=new.get(line.name, line.name)) for line in lines)
         names = {node: (new.get(name, name), sign) for node, (name, sign) in names.items()}
-        return Sheet(self.graph, self.letters, names, lines, trig, angles)
+        return Sheet(self.graph, self.letters, names, lines, trig, angles, self.halves)
 
     def _replaced(self, lines: Sequence[Definition]) -> bool:
         """Another name for values that are read before the section of their name."""
@@ -300,7 +302,7 @@ class SheetPrinter:
     """Writes the values of one sheet in one style."""
 
     def __init__(self, sheet: Sheet, style: TextStyle = TEXT) -> None:
-        self.sheet, self.style = sheet, style
+        self.sheet, self.style = sheet, replace(style, halves=sheet.halves)
 
     def letter(self, name: str) -> str:
         """A name: q, qd, qdd with dots, an underscore as a comma of the index."""

@@ -306,7 +306,8 @@ def equation_of(
 ) -> Equation:
     """The equation of motion, the columns, or both on one sheet, where each name is one thing."""
     model = fresh_model(model)
-    writer = SheetWriter(model.graph, written_symbols(model, named_columns(base)))
+    letters = written_symbols(model, named_columns(base))
+    writer = SheetWriter(model.graph, letters, model.robot.halves)
     loops = write_loops(model, writer) if model.closure is not None else []
     words = []
     if motion:

@@ -81,7 +81,7 @@ def equation(closed: ClosedForm) -> str:
 
 
 def _terms(closed: ClosedForm, function: Function, style: TextStyle) -> list[tuple[str, str]]:
-    algebra = closed.algebra
+    algebra, style = closed.algebra, style.of(closed.robot)
     motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
     return [
         (form_text(form, closed.parameters, static, style), monomial_text(at, motion, style))
@@ -96,7 +96,7 @@ def latex_function(name: str) -> str:
 
 def table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list[tuple[str, ...]]:
     """(name, function, monomial, relation, base, physical) of every coefficient, in order."""
-    algebra, physical = table.closed.algebra, table.physical
+    algebra, physical, style = table.closed.algebra, table.physical, style.of(table.closed.robot)
     motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
     return [
         (
@@ -156,9 +156,9 @@ def _static(table: CoefficientTable) -> tuple[str, ...]:
 
 def forward_lines(table: CoefficientTable) -> list[str]:
     """`PJ3 = XX2R + XX3R - ZZ3`, one line per coefficient that is independent."""
-    names = table.base_names
+    names, style = table.base_names, TEXT.of(table.closed.robot)
     return [
-        f"{name} = {form_text(table.by_name[name].base, names, _static(table))}"
+        f"{name} = {form_text(table.by_name[name].base, names, _static(table), style)}"
         for name in table.map.rows
     ]
 
@@ -167,27 +167,28 @@ def determinant_text(table: CoefficientTable) -> str | None:
     """Determinant of the map; None if it is not square."""
     if table.map.determinant is None:
         return None
-    return polynomial_text(table.map.determinant, _static(table))
+    return polynomial_text(table.map.determinant, _static(table), TEXT.of(table.closed.robot))
 
 
 def backward_lines(table: CoefficientTable) -> list[str]:
     """`ZZ1R = PJ7 - PJ16`, one line per base parameter; none if the map has no inverse."""
     inverse = inverse_map(table.map, table.closed.algebra.static_ring) or {}
-    return [f"{name} = {_row_text(row, _static(table))}" for name, row in inverse.items()]
+    static, style = _static(table), TEXT.of(table.closed.robot)
+    return [f"{name} = {_row_text(row, static, style)}" for name, row in inverse.items()]
 
 
-def _row_text(row: Mapping[str, Any], static: tuple[str, ...]) -> str:
+def _row_text(row: Mapping[str, Any], static: tuple[str, ...], style: TextStyle) -> str:
     """A row of the inverse: each factor is a quotient of polynomials of the geometry."""
     terms: list[tuple[Fraction, str]] = []
     for name, factor in row.items():
         above, below = factor.numer, factor.denom
         if len(above) == 1 and below.is_ground:
             number = as_fraction(above.LC) / as_fraction(below.LC)
-            letters = polynomial_text(above.monic(), static)
+            letters = polynomial_text(above.monic(), static, style)
             terms.append((number, name if letters == "1" else f"{letters}*{name}"))
         else:
-            quotient = f"({polynomial_text(above, static)})"
+            quotient = f"({polynomial_text(above, static, style)})"
             if below != 1:
-                quotient += f"/({polynomial_text(below, static)})"
+                quotient += f"/({polynomial_text(below, static, style)})"
             terms.append((Fraction(1), f"{quotient}*{name}"))
-    return signed_sum(terms)
+    return signed_sum(terms, style)

@@ -2,13 +2,15 @@
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
+from modeler.core.expression import decimal_text
 from modeler.core.formula import latex_name
 from modeler.derivation import as_fraction
 from modeler.formulas.ring import Poly
+from modeler.robot import Robot
 
 
 @dataclass(frozen=True)
@@ -18,10 +20,12 @@ class TextStyle:
     Attributes:
         times: between factors.
         latex: True to write names and powers as LaTeX.
+        halves: True to write 1/2 as 0.5: so the robot file writes its numbers.
     """
 
     times: str
     latex: bool
+    halves: bool = False
 
     def name(self, name: str) -> str:
         """One letter."""
@@ -43,8 +47,18 @@ class TextStyle:
         """A sum as a factor."""
         return rf"\left({text}\right)" if self.latex else f"({text})"
 
+    def of(self, robot: Robot) -> "TextStyle":
+        """The same for numbers of that robot."""
+        return replace(self, halves=robot.halves)
+
+    def decimal(self, value: Fraction) -> str | None:
+        """The digits of a number that is written as a decimal."""
+        return decimal_text(value, self.halves)
+
     def fraction(self, value: Fraction) -> str:
         """A positive number."""
+        if digits := self.decimal(value):
+            return digits
         if self.latex and value.denominator != 1:
             return f"\\tfrac{{{value.numerator}}}{{{value.denominator}}}"
         return str(value)
@@ -138,7 +152,7 @@ def signed_sum(terms: Iterable[tuple[Fraction, str]], style: TextStyle = TEXT) -
             piece = style.fraction(size)
         elif size == 1:
             piece = text
-        elif size.denominator == 1 or style.latex:
+        elif size.denominator == 1 or style.latex or style.decimal(size):
             piece = f"{style.fraction(size)}{style.times}{text}"
         elif size.numerator == 1:
             piece = f"{text}/{size.denominator}"

@@ -10,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from modeler.core.errors import DataError, short_of_memory
+from modeler.core.errors import DataError, installing, short_of_memory
 from modeler.core.files import PACKED, UNPACKED
 
 
@@ -137,6 +137,11 @@ def unreadable(path: Path, what: str, error: Exception, advice: str) -> DataErro
     )
 
 
+READERS = {"h5py": "hdf5", "rosbags": "rosbags"}
+"""Packages that read a format, and the extra that installs them."""
+
+
 def missing_package(path: Path, what: str, package: str) -> DataError:
     """The error of a format whose reader is not installed."""
-    return DataError(f"{path}: {what} needs the package {package}; run: pip install {package}")
+    part = READERS.get(package, package)
+    return DataError(f"{path}: {what} needs the package {package}; run: {installing(part)}")

@@ -13,11 +13,8 @@ from modeler.report.blocks import Block, FormulaBlock, PageTable, Paragraph
 from modeler.report.figures import robot_figure
 from modeler.report.page import Origin, Page, Section
 from modeler.report.robot_page import table_head, table_rows
-from modeler.robot import JointKind, Robot
+from modeler.robot import JointKind, Robot, written_table
 from modeler.runtime import CompiledModel
-
-_COLUMNS = (("gamma", "rad"), ("b", "m"), ("alpha", "rad"), ("d", "m"), ("theta", "rad"),
-            ("r", "m"))  # fmt: skip
 
 
 def _robot_summary(robot: Robot) -> str:
@@ -44,17 +41,17 @@ def _robot_tables(robot: Robot) -> Tables:
 
 
 def _mdh(robot: Robot) -> Table:
-    used = [(name, unit) for name, unit in _COLUMNS
-            if any(not getattr(joint, name).is_zero for joint in robot.joints)]  # fmt: skip
+    table = written_table(robot)
+    given = [table.antecedent] if table.antecedent else []
     rows = [
-        (joint.name, joint.antecedent, int(joint.actuated), int(JointKind(joint.kind)),
-         *(getattr(joint, name).text for name, _ in used))
-        for joint in robot.joints
+        (joint.name, *([joint.antecedent] if given else []), int(joint.actuated),
+         int(JointKind(joint.kind)), *(cell.expression.text for cell in cells.values()))
+        for joint, cells in table.rows
     ]  # fmt: skip
+    units = [f"{letter} [{unit}]" for letter, unit in table.units.items()]
     return Table.of(
-        f"{robot.name}: {robot.title}",
-        ["j", "a", "mu", "sigma", *(f"{name} [{unit}]" for name, unit in used)], rows,
-        "Khalil-Kleinfinger notation; sigma 0 revolute, 1 prismatic, 2 fixed; mu 1 actuated",
+        f"{robot.name}: {robot.title}", ["j", *given, "mu", "sigma", *units], rows,
+        f"{table.step}; sigma 0 revolute, 1 prismatic, 2 fixed; mu 1 actuated",
     )  # fmt: skip
 
 
@@ -211,9 +208,10 @@ def _counts(derivation: Derivation) -> str:
 
 def _table(robot: Robot, tied: Sequence[str]) -> list[Block]:
     head = table_head(robot)[:-1]
-    rows = [(*row.cells, *(text for _, text in row.entries)) for row in table_rows(robot)]
+    rows = [(*row.cells, *(text for _, text, _ in row.entries)) for row in table_rows(robot)]
     note = (
-        "Lengths in m, angles in rad. \u03bc 1: actuated. \u03c3 0 revolute, 1 prismatic, 2 fixed."
+        f"{written_table(robot).step}. Lengths in m, angles in rad. \u03bc 1: actuated. "
+        "\u03c3 0 revolute, 1 prismatic, 2 fixed."
     )
     blocks: list[Block] = [PageTable(head, rows, note, dict.fromkeys(head, "number"))]
     return blocks + [Paragraph(line) for line in tied]

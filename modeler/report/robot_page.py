@@ -18,7 +18,7 @@ from modeler.report.robot_closing import CLOSED, Gap, Posture, gaps_of, home_pos
 from modeler.report.robot_labels import good_view
 from modeler.report.robot_scene import Point, Scene, scene_of
 from modeler.report.robot_skeleton import Skeleton, SkeletonRow, kind_word, poses, skeleton_of
-from modeler.robot import JointKind, Robot
+from modeler.robot import JointKind, Robot, written_table
 
 _DIGITS = 7  # of coordinates of drawn points: finer than any screen
 
@@ -106,7 +106,6 @@ def _point(point: Point) -> list[float]:
 # The table of a robot for people, and what stands beside it.
 
 
-_COLUMNS = ("gamma", "b", "alpha", "d", "theta", "r")
 _LETTERS = {"gamma": "γ", "alpha": "α", "theta": "θ"}
 
 
@@ -117,36 +116,40 @@ class TableRow:
     Attributes:
         number: index of the joint.
         kind: "fixed", "actuated" or "passive".
-        cells: joint, antecedent, mu, sigma.
-        entries: (column, text) of the columns that are used.
+        cells: joint, antecedent (if the table has it), mu, sigma.
+        entries: (column of Khalil's, text, number of the row of Khalil's) of the columns that are
+            used; the number is empty where there is no such row.
         platform: True for a row of the platform.
     """
 
     number: int
     kind: str
     cells: tuple[str, ...]
-    entries: tuple[tuple[str, str], ...]
+    entries: tuple[tuple[str, str, str], ...]
     platform: bool
 
 
 def table_head(robot: Robot) -> tuple[str, ...]:
     """The names of the columns; those that are zero everywhere are left out."""
-    return ("j", "a", "μ", "σ", *(_LETTERS.get(name, name) for name in _used(robot)), "q")
+    table = written_table(robot)
+    letters = (_LETTERS.get(letter, letter) for letter in table.units)
+    return ("j", *([table.antecedent] if table.antecedent else []), "μ", "σ", *letters, "q")
 
 
 def table_rows(robot: Robot) -> tuple[TableRow, ...]:
     """The rows in table order, the platform's last."""
-    used, rows = _used(robot), []
-    for i, joint in enumerate(robot.joints):
+    table, rows = written_table(robot), []
+    numbers = {joint.name: str(i) for i, joint in enumerate(robot.joints)}
+    for i, (joint, given) in enumerate(table.rows):
         kind = "fixed" if not joint.moves else "actuated" if joint.actuated else "passive"
-        cells = (joint.name, joint.antecedent, f"{joint.actuated:d}", f"{JointKind(joint.kind):d}")
-        columns = tuple((name, _typeset(getattr(joint, name).text)) for name in used)
+        antecedent = [joint.antecedent] if table.antecedent else []
+        cells = (joint.name, *antecedent, f"{joint.actuated:d}", f"{JointKind(joint.kind):d}")
+        columns = tuple(
+            (c.column, _typeset(c.expression.text), numbers[c.joint.name] if c.joint else "")
+            for c in given.values()
+        )
         rows.append(TableRow(i, kind, cells, columns, joint.name in robot.platform))
     return tuple(sorted(rows, key=lambda row: row.platform))
-
-
-def _used(robot: Robot) -> list[str]:
-    return [name for name in _COLUMNS if any(not getattr(j, name).is_zero for j in robot.joints)]
 
 
 def _typeset(cell: str) -> str:
@@ -291,6 +294,7 @@ def robot_html(skeleton: Skeleton, posture: Posture) -> str:
         head=table_head(robot),
         rows=table_rows(robot),
         relations=relations_text(robot),
+        step=written_table(robot).step,
         content=script_json(page_content(skeleton, posture)),
     )
 

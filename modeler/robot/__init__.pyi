@@ -1,4 +1,5 @@
 from .cells import linear_form as linear_form
+from .conventions import written_cell as written_cell, written_table as written_table
 from .edit import (
     home_lines as home_lines,
     with_coupling as with_coupling,
@@ -14,7 +15,7 @@ from .edit import (
 )
 from .loops import read_home as read_home
 from .motors import joint_directions as joint_directions
-from .par_convert import conversion_notes as conversion_notes, converted as converted
+from .par_convert import converted as converted
 from .read import read_robot as read_robot, robot_from_text as robot_from_text
 from .robot import (
     INERTIAL as INERTIAL,

@@ -11,6 +11,7 @@ from typing import Any
 from modeler.core import rounded
 from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, parse
 from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
+from modeler.robot.angles import exact_terms, pi_multiple
 
 # Expressions that are linear in the joint variables, taken apart.
 
@@ -123,7 +124,6 @@ MOST_NAME_LETTERS = 63
 
 _QUARTER = math.pi / 2
 _EXACT = 1e-9  # rad; nearer to a multiple of pi/2 than this is that multiple
-_ROUNDED = 5e-3  # rad; nearer than this, and written with few digits: 1.57, 3.14
 
 
 def form_at(
@@ -254,51 +254,38 @@ def check_name_length(name: str, place: Place) -> None:
         )
 
 
-def exact_angle(expression: Expression, variable: str | None, place: Place) -> Expression:
-    """The angle with a decimal multiple of pi/2 put as exactly that multiple.
+def exact_angle_at(
+    expression: Expression, variable: str | None, place: Place, rounded: dict[str, str]
+) -> Expression:
+    """The angle with decimals that are multiples of pi put as exactly these.
 
-    `1.5707963267948966` becomes `pi/2`; `q1 - 1.5707963267948966` becomes `q1 - pi/2`. Rounding
-    of the sine and cosine would otherwise hide relations between parameters. Symbols keep their
-    values.
+    `1.5707963267948966` becomes `pi/2`; so does `1.57`, which is told. Rounding of the sine and
+    cosine would otherwise hide relations between parameters. Symbols keep their values.
+
+    Args:
+        expression: of symbols and the variable.
+        variable: of the joint, if it may stand there.
+        place: of the expression.
+        rounded: grows by digits -> multiple, for what has to be told.
 
     Raises:
-        RobotError: a rounded multiple (1.57), or degrees.
+        RobotError: degrees.
     """
-    if expression.names - {variable}:
-        return expression
-    form = form_at(expression, {}, place)
-    turns = round(form.constant / _QUARTER)
-    error = abs(form.constant - turns * _QUARTER)
-    multiple = pi_multiple(Fraction(turns, 2))
-    if abs(form.constant) > 4 * _QUARTER + _EXACT:
-        raise place.error(
-            f"got {shown(expression.text)}: {form.constant:g} rad is more than a turn; angles are "
-            'in radians, write "pi/2" for 90 degrees'
-        )
-    if "pi" in re.findall(r"[A-Za-z_]\w*", expression.text):
-        return expression
-    if error <= _EXACT:
-        if not form.coefficients:
-            return parse(multiple)
-        head = f"{variable}" if form.coefficients[variable or ""] > 0 else f"-{variable}"
-        return parse(f"{head} + {multiple}".replace("+ -", "- ").removesuffix(" + 0"))
-    decimals = [len(digits) for digits in re.findall(r"\.(\d*)", expression.text)]
-    last_digit = 10.0 ** -max(decimals, default=0)
-    if turns != 0 and error <= min(_ROUNDED, last_digit):
-        raise place.error(
-            f"got {shown(expression.text)}, a rounded {multiple}; write {multiple} where the angle "
-            "is exact, or declare a measured angle among [symbols] and use its name"
-        )
-    return expression
-
-
-def pi_multiple(turns: Fraction) -> str:
-    """`turns` times pi as text: `pi/2`, `-pi`, `3*pi/4`, `0`."""
-    if turns == 0:
-        return "0"
-    head = "" if abs(turns.numerator) == 1 else f"{abs(turns.numerator)}*"
-    tail = "" if turns.denominator == 1 else f"/{turns.denominator}"
-    return f"{'-' if turns < 0 else ''}{head}pi{tail}"
+    if not expression.names - {variable}:
+        form = form_at(expression, {}, place)
+        if abs(form.constant) > 4 * _QUARTER + _EXACT:
+            raise place.error(
+                f"got {shown(expression.text)}: {form.constant:g} rad is more than a turn; angles "
+                'are in radians, write "90 deg" or "pi/2" for 90 degrees'
+            )
+        turns = round(form.constant / _QUARTER)
+        if not expression.uses_pi and abs(form.constant - turns * _QUARTER) <= _EXACT:
+            multiple = pi_multiple(Fraction(turns, 2))
+            if not form.coefficients:
+                return parse(multiple)
+            head = f"{variable}" if form.coefficients[variable or ""] > 0 else f"-{variable}"
+            return parse(f"{head} + {multiple}".replace("+ -", "- ").removesuffix(" + 0"))
+    return expression.rewritten(lambda tree: exact_terms(tree, rounded))
 
 
 # The `[symbols]` table and the gravity of a robot file.

@@ -11,7 +11,7 @@ from typing import Any
 from modeler.core.errors import RobotError
 from modeler.core.toml_cells import Place
 from modeler.effects import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Effect, effect_named
-from modeler.robot.cells import pi_multiple
+from modeler.robot.angles import pi_multiple
 from modeler.robot.effects import parameter_owners, read_own_effects
 from modeler.robot.loops import MARK, expanded, leg_names
 from modeler.robot.robot import INERTIAL

@@ -9,9 +9,11 @@ from typing import Any
 
 from modeler.core.expression import Expression
 from modeler.core.toml_cells import Place, listed, near, shown
+from modeler.robot.angles import exact_terms
 from modeler.robot.cells import joint_sum, name_of, number_at
-from modeler.robot.robot import LOOP_KINDS, Joint, Loop
-from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
+from modeler.robot.conventions import Row, RowPlace
+from modeler.robot.robot import LOOP_KINDS, Joint, JointKind, Loop
+from modeler.robot.table import HOME, ROW_NAME, Rows, row_kind
 
 MOST_LOOPS = 50
 """As many as legs."""
@@ -127,7 +129,7 @@ def read_home(
         if moving[variables[key]].angular and abs(angle) > 2 * math.pi + _ROUNDING:
             raise here.error(
                 f"got {angle:g} rad, which is more than a turn; angles are in radians: write "
-                f'"{angle:g}*pi/180" for degrees'
+                f'"{angle:g} deg" for degrees'
             )
         home[variables[key]] = angle
     return home
@@ -142,8 +144,9 @@ _RELATION_EXAMPLE = '[relations] q4 = "-q3"'
 def read_relations(
     place: Place,
     driven: Mapping[str, str],
-    rows: Sequence[tuple[Row, Place]],
+    rows: Rows,
     symbols: Mapping[str, float],
+    rounded: dict[str, str],
 ) -> dict[str, Expression]:
     """The relations of a file, by row; rows that follow others become passive in `rows`.
 
@@ -155,6 +158,7 @@ def read_relations(
         driven: relations of joints that follow motors, as it would have them.
         rows: of the table of joints and motors.
         symbols: values of the declared symbols.
+        rounded: grows by the decimal angles that are taken for multiples of pi.
 
     Raises:
         RobotError: unknown joints, a relation that is not linear, a circle, an actuated joint
@@ -175,7 +179,7 @@ def read_relations(
         column, own = HOME.get(kinds[row["j"]]), f"q{row['j']}"
         if column is None or not isinstance(row.get(column), str):
             continue
-        here = spot.at(f"column {column}", row[column])
+        here = spot.column(column, row[column])
         expression = here.expression()
         others = {n for n in expression.names if n.startswith("q") and n[1:] in kinds and n != own}
         if others and own not in expression.names:
@@ -199,12 +203,17 @@ def read_relations(
             raise here.error(f"{got}, a constant; a joint that does not move has sigma 2")
         row, spot = by_name[name]
         if row.get("mu", 0) == 1:
-            raise spot.at("column mu").error(
+            raise spot.column("mu").error(
                 f"got 1, and q{name} follows other joints ({here.spot}); write 0, or remove the "
                 "relation"
             )
         row["mu"] = 0
-    relations = {name: expression for name, (expression, _) in found.items()}
+    relations = {
+        name: expression.rewritten(lambda tree: exact_terms(tree, rounded))
+        if kinds[name] is JointKind.REVOLUTE
+        else expression
+        for name, (expression, _) in found.items()
+    }
     left = dict(relations)
     while left:
         names = {f"q{name}" for name in left}
@@ -343,7 +352,7 @@ _MOTIONS = {
 """Per motion, the rows: suffix of the name and sigma."""
 
 
-def read_platform(place: Place) -> tuple[list[tuple[Row, Place]], tuple[str, ...]]:
+def read_platform(place: Place) -> tuple[list[tuple[Row, RowPlace]], tuple[str, ...]]:
     """Rows that carry the platform, and their names; none without a platform.
 
     They stand before the table's, so that frames may be fixed on the platform. Each turns the axes
@@ -378,5 +387,5 @@ def read_platform(place: Place) -> tuple[list[tuple[Row, Place]], tuple[str, ...
             "j": own, "a": antecedent, "mu": 0, "sigma": sigma, "gamma": "pi/2", "alpha": "pi/2",
             ("r" if sigma else "theta"): f"q{own}",
         }  # fmt: skip
-        rows.append((row, place))
+        rows.append((row, RowPlace(place.file, place.spot, row=own)))
     return rows, tuple(names)

@@ -11,14 +11,14 @@ from fractions import Fraction
 
 from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import LARGEST_RATIO, check_name_length, joint_sum, name_of
+from modeler.robot.conventions import Row, RowPlace
 from modeler.robot.loops import MARK
 from modeler.robot.robot import INERTIAL, Joint, JointKind, Robot, SharedParameter
-from modeler.robot.table import HOME, ROW_NAME, Row, row_kind
+from modeler.robot.table import HOME, ROW_NAME, Rows, row_kind
 
 _EXAMPLE = '[motors] m1 = "q1", m2 = "q2 - 0.4*q1"'
 _SIMPLE = 10**6  # largest denominator of a ratio that is taken as a fraction, such as 1/3
 
-Rows = tuple[tuple[Row, Place], ...]
 Ratios = Mapping[str, Mapping[str, Fraction]]
 """{motor: {joint: coefficient}}, the rows of G."""
 
@@ -29,7 +29,7 @@ def motor_rows(place: Place, rows: Rows) -> Rows:
     Raises:
         RobotError: a name that is taken or no name, a motor that drives no joint of the table.
     """
-    taken = {row["j"]: row for row, _ in rows}
+    taken = {row["j"]: (row, spot) for row, spot in rows}
     found = []
     for name, here in place.items(_EXAMPLE):
         if not ROW_NAME.fullmatch(name) or name == "0":
@@ -51,13 +51,13 @@ def motor_rows(place: Place, rows: Rows) -> Rows:
                 f"got {shown(expression.text)}, without a joint variable; expected the position of "
                 f"the motor as a sum of {listed(f'q{row}' for row in taken)}"
             )
-        sliding = all(row_kind(row, here) is JointKind.PRISMATIC for row in joints)
+        sliding = all(row_kind(*joint) is JointKind.PRISMATIC for joint in joints)
         kind = JointKind.PRISMATIC if sliding else JointKind.REVOLUTE
         motor: Row = {
             "j": name, "a": "0", "mu": 1, "sigma": kind.value, HOME[kind]: f"q{name}",
         }  # fmt: skip
-        found.append((motor, here))
-        for joint in joints:
+        found.append((motor, RowPlace(here.file, here.spot, row=name)))
+        for joint, _ in joints:
             joint["mu"] = 0
     return tuple(found)
 

@@ -356,9 +356,3 @@ def check_known_format(path: Path) -> None:
             f"{path}: {name} is not read yet; expected a robot file (TOML) or a SYMORO file "
             "(.par); docs/converting.md tells how to write the table of a URDF by hand"
         )
-
-
-def conversion_notes(robot: str) -> tuple[str, ...]:
-    """What reading that file decided and left out; nothing for robot files and names."""
-    path = Path(robot)
-    return converted(path).notes if path.suffix.lower() == ".par" else ()

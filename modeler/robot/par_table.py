@@ -7,9 +7,10 @@ import re
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 
-from modeler.core.expression import FUNCTIONS, parse
+from modeler.core.expression import FUNCTIONS, parse, written
 from modeler.core.toml_cells import Place, listed
 from modeler.effects import CATALOGUE
+from modeler.robot.angles import exact_angle, exact_terms, told_angles
 from modeler.robot.cells import C_WORDS
 from modeler.robot.effects import parameter_owners
 from modeler.robot.par_text import (
@@ -21,12 +22,10 @@ from modeler.robot.par_text import (
     ParFormula,
     Statements,
     called,
-    exact_angle,
     formula,
     parsed,
     renamed,
     rewritten,
-    written,
 )
 
 # The frames of a `.par` file: how many there are, what carries them, where their joints are.
@@ -387,10 +386,7 @@ def table_cells(
         frame.cells[column] = cell
     _add_variables(made, symbols)
     if rounded:
-        symbols.notes.append(
-            "rounded angles are exact here: "
-            + listed(f"{digits} is {angle}" for digits, angle in rounded.items())
-        )
+        symbols.notes.append(told_angles(rounded))
     shared = [names for names in equal.values() if len(names) > 1]
     if shared:
         symbols.notes.append(
@@ -448,26 +444,13 @@ def _name_letters(
 
 def _exact_terms(cell: ParFormula, rounded: dict[str, str]) -> ParFormula:
     """The angle with its decimal terms put as the multiples of pi/12 that they mean."""
-    if cell.literal is not None:
-        angle = exact_angle(cell.literal)
-        if angle is None:
-            return cell
-        rounded[cell.literal] = angle
-        return ParFormula(parsed(angle), angle)
-
-    def exact(node: ast.expr) -> ast.expr:
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
-            return ast.BinOp(exact(node.left), node.op, exact(node.right))
-        if isinstance(node, ast.UnaryOp):
-            return ast.UnaryOp(node.op, exact(node.operand))
-        if isinstance(node, ast.Constant) and isinstance(node.value, float):
-            angle = exact_angle(repr(node.value))
-            if angle is not None:
-                rounded[repr(node.value)] = angle
-                return parsed(angle)
-        return node
-
-    return cell.replaced(exact(cell.tree))
+    if cell.literal is None:
+        return cell.replaced(exact_terms(cell.tree, rounded))
+    angle = exact_angle(cell.literal)  # all its digits, zeros at the end too
+    if angle is None:
+        return cell
+    rounded[cell.literal] = angle
+    return ParFormula(parsed(angle), angle)
 
 
 def _as_symbol(

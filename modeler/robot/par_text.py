@@ -8,12 +8,9 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from decimal import Decimal
-from fractions import Fraction
 
-from modeler.core.expression import FUNCTIONS, ExpressionError, parse
+from modeler.core.expression import FUNCTIONS, ExpressionError, parse, written
 from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.robot.cells import pi_multiple
 
 SCALARS = ("NF", "NL", "NJ", "Type", "is_mobile", "is_floating")
 FRAMES = ("Ant", "Sigma", "b", "d", "r", "gamma", "alpha", "Mu", "theta")
@@ -255,11 +252,6 @@ class ParFormula:
         return ParFormula(tree, written(tree))
 
 
-def written(tree: ast.expr) -> str:
-    """The formula as text: `b**2 + pi/2`."""
-    return re.sub(r" (\*\*|\*|/) ", r"\1", ast.unparse(tree))
-
-
 def formula(entry: str, place: Place) -> ParFormula:
     """The formula of an entry: `-Pi/2`, `Sqrt[b^2 + d6^2]`, `0.45`.
 
@@ -353,43 +345,3 @@ def _with_stand_ins(tree: ast.expr) -> ast.expr:
         return functools.reduce(lambda one, other: ast.BinOp(one, ast.Add(), other), node.args)
 
     return rewritten(tree, plain)
-
-
-# Angles printed as rounded decimals, and the multiples of pi/12 that they mean.
-
-
-FINE, COARSE = 3, 2
-"""Decimals that an angle must have to be taken for a multiple of pi/12, and of pi/2: with fewer,
-a measured angle is near one by chance too often."""
-
-
-def exact_angle(digits: str) -> str | None:
-    """The multiple of pi/12 that the printed number is a rounding of; None if it is of none.
-
-    `1.5708`, `1.571`, `1.57080` and the cut-off `3.1415` are: from the multiple to the number it
-    is half a unit of its last digit, or towards 0 a whole one. Zeros at the end are taken for
-    padding as long as enough decimals are left without them.
-
-    Args:
-        digits: a decimal number, rad.
-    """
-    number = abs(Decimal(digits))
-    twelfths = round(float(number) / (math.pi / 12))
-    if twelfths == 0 or twelfths > 24:
-        return None
-    least = COARSE if twelfths % 6 == 0 else FINE
-    decimals = _decimals(number.normalize())
-    if decimals < least:
-        decimals = _decimals(number)
-    if decimals < least:
-        return None
-    unit = 10.0 ** -min(decimals, 15)
-    if not -unit <= float(number) - twelfths * math.pi / 12 <= unit / 2:
-        return None
-    return pi_multiple(Fraction(-twelfths if digits.startswith("-") else twelfths, 12))
-
-
-def _decimals(number: Decimal) -> int:
-    exponent = number.as_tuple().exponent
-    assert isinstance(exponent, int)
-    return -exponent

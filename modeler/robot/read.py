@@ -16,7 +16,9 @@ from modeler.core.errors import RobotError
 from modeler.core.files import read_text
 from modeler.core.json import TomlError, parse_toml
 from modeler.core.toml_cells import Place, listed, near, shown
+from modeler.robot.angles import told_angles
 from modeler.robot.cells import check_name_length, read_gravity, read_symbols
+from modeler.robot.conventions import read_convention
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.loops import (
     expanded,
@@ -46,7 +48,7 @@ from modeler.robot.sections import (
     read_parameters,
     read_physical,
 )
-from modeler.robot.table import Row, table_joints, table_rows
+from modeler.robot.table import Rows, table_joints, table_rows
 
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
@@ -60,6 +62,7 @@ _NEEDED = {
     "[symbols], or [0, 0, 0] if there is none",
     "mdh": "add the table [mdh] with columns and rows",
 }
+_ROUNDED = "{}; a measured angle keeps its value as a symbol of [symbols]"
 _ROBOT_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
 
 
@@ -79,17 +82,19 @@ def read_robot(robot: str | Path) -> Robot:
         )
     path = Path(robot)
     if path.suffix.lower() == ".par":
-        return robot_from_text(converted(path).text, f"{path}, as a robot file")
+        found = converted(path)
+        read = robot_from_text(found.text, f"{path}, as a robot file")
+        return dataclasses.replace(read, readings=(*found.notes, *read.readings))
     try:
-        found = path.exists() and not path.is_dir()
-        text = read_text(path) if found else ""
+        is_file = path.exists() and not path.is_dir()
+        text = read_text(path) if is_file else ""
     except UnicodeDecodeError as error:
         raise RobotError(
             f"{path}: byte {error.start} is not UTF-8 text; save the file as UTF-8"
         ) from None
     except OSError as error:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-    if not found:
+    if not is_file:
         raise RobotError(_not_found(path))
     check_known_format(path)
     if text.lstrip().startswith("{"):  # as JSON does and a robot file never
@@ -118,12 +123,14 @@ def robot_from_text(text: str, where: str) -> Robot:
         return place.at(f"[{key}]", document.get(key, otherwise))
 
     platform_rows, platform = read_platform(section("platform"))
-    rows = table_rows(section("mdh"), platform_rows)
+    convention = read_convention(section("mdh"), document)
+    rows = table_rows(section("mdh"), platform_rows, convention)
     rows += motor_rows(section("motors", {}), rows)
     variables = _joint_columns(rows)
     symbols, values = read_symbols(section("symbols", {}), variables)
     motors, driven = read_motors(section("motors", {}), rows, values)
-    relations = read_relations(section("relations", {}), driven, rows, values)
+    rounded: dict[str, str] = {}
+    relations = read_relations(section("relations", {}), driven, rows, values, rounded)
     title = place.at("title", document.get("title", document["name"])).text('"my robot"')
     if len(title.splitlines()) > 1:
         raise place.at("title", title).mismatch("one line; put the rest into notes")
@@ -132,10 +139,12 @@ def robot_from_text(text: str, where: str) -> Robot:
         title=title,
         gravity=read_gravity(place.at("gravity", document["gravity"]), variables, values),
         symbols=symbols,
-        joints=table_joints(rows, values),
+        joints=table_joints(rows, values, rounded),
         relations=relations,
         motors={m: {j: float(c) for j, c in row.items()} for m, row in motors.items()},
         platform=platform,
+        convention=convention,
+        readings=(_ROUNDED.format(told_angles(rounded)),) if rounded else (),
         text=text,
     )
     if "notes" in document:
@@ -250,7 +259,7 @@ def _document(text: str, place: Place) -> dict[str, Any]:
     return document
 
 
-def _joint_columns(rows: tuple[tuple[Row, Place], ...]) -> dict[str, str]:
+def _joint_columns(rows: Rows) -> dict[str, str]:
     """Names of positions, speeds and accelerations of all rows -> row.
 
     Raises:

@@ -212,6 +212,8 @@ class Robot(Presented):
         shared: parameters that similar legs have in common.
         reference: standard parameters at which effects that depend on the load are linearised.
         notes: source of the table and remarks, for people.
+        convention: in whose letters the table was given; `joints` are rows of Khalil's.
+        readings: what reading the file decided or left out, for people.
         text: the TOML text it was read from.
     """
 
@@ -242,6 +244,8 @@ class Robot(Presented):
     shared: tuple[SharedParameter, ...] = ()
     reference: Mapping[str, float] = field(default_factory=dict)
     notes: str = ""
+    convention: str = "khalil"
+    readings: tuple[str, ...] = ()
     text: str = ""
 
     def opened(self) -> "Robot":
@@ -266,6 +270,16 @@ class Robot(Presented):
         The free rows of a tree; the actuated ones among them once loops tie the others to them.
         """
         return tuple(joint for joint in self.free if joint.actuated or not self.loops)
+
+    @property
+    def halves(self) -> bool:
+        """True if lengths and angles of the file hold decimals such as 0.5, 0.75 or 1.125."""
+        cells = [
+            getattr(j, c) for j in self.joints for c in ("gamma", "b", "alpha", "d", "theta", "r")
+        ]
+        given = (e for e in self.symbols.values() if e.names or e.uses_pi)
+        parts = (x.denominator for e in (*cells, *self.gravity, *given) for x in e.decimals)
+        return any(n > 1 and n & (n - 1) == 0 for n in parts)
 
     @property
     def kept_first(self) -> tuple[str, ...]:

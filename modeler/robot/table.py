@@ -11,31 +11,40 @@ from modeler.robot.cells import (
     check_declared,
     check_name_length,
     check_size,
-    exact_angle,
+    exact_angle_at,
     form_at,
     length_at,
     name_of,
 )
+from modeler.robot.conventions import (
+    ANGLES,
+    CONVENTIONS,
+    GEOMETRY,
+    Row,
+    RowPlace,
+    check_whose,
+    is_length,
+    khalil_columns,
+    shifted,
+    table_example,
+    whose_line,
+)
 from modeler.robot.robot import Joint, JointKind
 
-COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
-_GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
-_ANGLES = ("gamma", "alpha", "theta")
-_EXAMPLE = 'columns = ["j", "alpha", "d", "theta", "r"], rows = [["1", 0, 0, "q1", 0]]'
+Rows = tuple[tuple[Row, RowPlace], ...]
+
 MOST_ROWS = 150
 """Rows of a table. Deriving and the C grow with their square: docs/theory.md has the seconds."""
 ROW_NAME = re.compile(r"[A-Za-z0-9]+")
-
-Row = dict[str, Any]
 
 HOME = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}
 """Column of the joint variable."""
 
 
 def table_rows(
-    place: Place, platform: Sequence[tuple[Row, Place]] = ()
-) -> tuple[tuple[Row, Place], ...]:
-    """The rows of `[mdh]` as {column: cell}, each with its place; names and antecedents filled in.
+    place: Place, platform: Sequence[tuple[Row, RowPlace]] = (), convention: str = "khalil"
+) -> Rows:
+    """The rows of `[mdh]` as {Khalil's column: cell}, each with its place.
 
     `j` becomes text; a missing `a` becomes the name of the row above, "0" for the first. The rows
     of the platform stand before the others.
@@ -43,12 +52,14 @@ def table_rows(
     Raises:
         RobotError: columns, row lengths, row names or antecedents are wrong.
     """
-    table = place.checked_table(
-        ("columns", "rows"), f"[mdh] {_EXAMPLE}", "expected columns and rows only",
-        missing=f"write {_EXAMPLE}",
+    example = table_example(convention)
+    stated = {"convention": convention, **place.table(f"[mdh] {example}")}
+    table = place.holding(stated).checked_table(
+        ("columns", "rows", "convention"), "", "expected columns, rows and convention only",
+        missing=f"write {example}",
     )  # fmt: skip
-    columns = _columns(place.at("columns", table["columns"]))
-    listed_rows = place.at("rows", table["rows"]).entries(_EXAMPLE)
+    columns = khalil_columns(place.at("columns", table["columns"]), convention)
+    listed_rows = place.at("rows", table["rows"]).entries(example)
     count = len(listed_rows) + len(platform)
     if count > MOST_ROWS:  # before any work that nobody could wait for
         raise place.at("rows").error(
@@ -57,13 +68,14 @@ def table_rows(
         )
     if not listed_rows:
         raise place.at("rows").error(
-            f"the table is empty; write one row per joint, as in {_EXAMPLE}"
+            f"the table is empty; write one row per joint, as in {example}"
         )
-    rows: list[tuple[Row, Place]] = list(platform)
+    letters = CONVENTIONS[convention]
+    rows: list[tuple[Row, RowPlace]] = list(platform)
     for number, cells in enumerate(listed_rows, start=1):
-        row = _row(number, cells, columns, place)
+        row = _row(number, cells, columns, letters, place)
         name = _row_name(place.at(f"row {number}, column j", row["j"]))
-        here = place.at(f'row "{name}"')
+        here = RowPlace(place.file, place.at(f'row "{name}"').spot, None, name, letters)
         names = [earlier["j"] for earlier, _ in rows]
         if name in names:
             first = names.index(name) + 1 - len(platform)
@@ -72,21 +84,26 @@ def table_rows(
                 f"the name {shown(name)} stands {where} {number}; give each row its own name"
             )
         row["j"] = name
-        above = names[-1] if len(names) > len(platform) else "0"
-        row["a"] = name_of(row.get("a", above))
         rows.append((row, here))
-    _check_antecedents(rows)
+    given = [row for row, _ in rows[len(platform) :]]
+    check_whose(columns, given, place.holding(stated), "convention" in place.value)
+    for row, above in zip(given, ["0", *(row["j"] for row in given)], strict=False):
+        row["a"] = name_of(row.get("a", above))
+    if convention == "classical":
+        rows = shifted(rows)
+    _check_antecedents(rows, columns)
     return tuple(rows)
 
 
 def table_joints(
-    rows: tuple[tuple[Row, Place], ...], symbols: Mapping[str, float]
+    rows: Rows, symbols: Mapping[str, float], rounded: dict[str, str]
 ) -> tuple[Joint, ...]:
     """The joints of checked rows (`table_rows`).
 
     Args:
         rows: cells by column, with their places.
         symbols: values of the declared symbols.
+        rounded: grows by the decimal angles that are taken for multiples of pi.
 
     Raises:
         RobotError: a cell is wrong; says row, column, got, expected.
@@ -97,25 +114,12 @@ def table_joints(
             "no row of the table moves; expected at least one joint with sigma 0 (revolute) "
             "or 1 (prismatic)"
         )
-    return tuple(_joint(row, place, kinds, symbols) for row, place in rows)
+    return tuple(_joint(row, place, kinds, symbols, rounded) for row, place in rows)
 
 
-def _columns(place: Place) -> list[str]:
-    columns = place.entries('["j", "alpha", "d", "theta", "r"]')
-    for number, column in enumerate(columns, start=1):
-        if column not in COLUMNS:
-            raise place.error(
-                f"entry {number} is {shown(column)}{near(column, COLUMNS)}; expected names among "
-                f"{listed(COLUMNS)}"
-            )
-        if column in columns[: number - 1]:
-            raise place.error(f"{shown(column)} stands twice; remove one and its cells")
-    if "j" not in columns:
-        raise place.error(f'column "j" (row names) is missing, got {shown(columns)}; add it')
-    return columns
-
-
-def _row(number: int, cells: Any, columns: list[str], place: Place) -> Row:
+def _row(
+    number: int, cells: Any, columns: list[str], letters: Mapping[str, str], place: Place
+) -> Row:
     # The name is told if it can be read: it is what the user looks for.
     named = isinstance(cells, list) and cells and columns[0] == "j"
     name = f" ({shown(cells[0])})" if named else ""
@@ -124,8 +128,8 @@ def _row(number: int, cells: Any, columns: list[str], place: Place) -> Row:
     if len(cells) != len(columns):
         raise here.error(
             f"got {len(cells)} cells, expected {len(columns)}, one for each of "
-            f"{listed(columns)}; {'add' if len(cells) < len(columns) else 'remove'} "
-            f"{abs(len(columns) - len(cells))}"
+            f"{listed(letters[column] for column in columns)}; "
+            f"{'add' if len(cells) < len(columns) else 'remove'} {abs(len(columns) - len(cells))}"
         )
     return dict(zip(columns, cells, strict=True))
 
@@ -143,16 +147,16 @@ def _row_name(place: Place) -> str:
     return name
 
 
-def _check_antecedents(rows: list[tuple[Row, Place]]) -> None:
+def _check_antecedents(rows: list[tuple[Row, RowPlace]], columns: list[str]) -> None:
     antecedents = {row["j"]: row["a"] for row, _ in rows}
     seen = ["0"]
     for row, place in rows:
         name, antecedent = row["j"], row["a"]
-        here = place.at("column a", antecedent)
+        here = place.column("a", antecedent)
         if not isinstance(antecedent, str) or antecedent not in {"0", *antecedents}:
             raise here.mismatch(
                 f'"0" (the base) or the name of an earlier row ({listed(seen[1:])})'
-                f"{near(antecedent, antecedents)}"
+                f"{near(antecedent, antecedents)}{_whose_hint(antecedent, rows, columns)}"
             )
         if antecedent not in seen:
             told = f"is a later row; move row {shown(antecedent)} above row {shown(name)}"
@@ -161,6 +165,13 @@ def _check_antecedents(rows: list[tuple[Row, Place]]) -> None:
                 told += 'end at "0"'
             raise here.error(f"got {shown(antecedent)}, which {told}")
         seen.append(name)
+
+
+def _whose_hint(antecedent: Any, rows: list[tuple[Row, RowPlace]], columns: list[str]) -> str:
+    """What to say of a length where Khalil's table has the antecedent."""
+    if "r" in columns or rows[-1][1].letter("a") != "a" or not is_length(antecedent):
+        return ""
+    return f"; a is a length in the tables of others: {whose_line(columns, [r for r, _ in rows])}"
 
 
 def _cycle(name: str, antecedents: Mapping[str, str]) -> list[str]:
@@ -173,7 +184,7 @@ def _cycle(name: str, antecedents: Mapping[str, str]) -> list[str]:
     return []
 
 
-def row_kind(row: Row, place: Place) -> JointKind:
+def row_kind(row: Row, place: RowPlace) -> JointKind:
     """Sigma of a row.
 
     Raises:
@@ -181,59 +192,63 @@ def row_kind(row: Row, place: Place) -> JointKind:
     """
     cell = row.get("sigma", 0)
     if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1, 2):
-        raise place.at("column sigma", cell).mismatch("0 (revolute), 1 (prismatic) or 2 (fixed)")
+        raise place.column("sigma", cell).mismatch("0 (revolute), 1 (prismatic) or 2 (fixed)")
     return JointKind(cell)
 
 
-def _actuated(row: Row, kind: JointKind, place: Place) -> bool:
+def _actuated(row: Row, kind: JointKind, place: RowPlace) -> bool:
     if "mu" not in row:
         return kind is not JointKind.FIXED
     cell = row["mu"]
     if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1):
-        raise place.at("column mu", cell).mismatch("1 (actuated) or 0 (passive)")
+        raise place.column("mu", cell).mismatch("1 (actuated) or 0 (passive)")
     if cell == 1 and kind is JointKind.FIXED:
-        raise place.at("column mu").error(
+        raise place.column("mu").error(
             "got 1 on a fixed row (sigma 2), which has no motor; write 0, or correct sigma"
         )
     return cell == 1
 
 
 def _joint(
-    row: Row, place: Place, kinds: Mapping[str, JointKind], symbols: Mapping[str, float]
+    row: Row,
+    place: RowPlace,
+    kinds: Mapping[str, JointKind],
+    symbols: Mapping[str, float],
+    rounded: dict[str, str],
 ) -> Joint:
     kind = kinds[row["j"]]
     # The place of the variable last: a variable in the wrong column is told there, not as missing.
-    order = sorted(_GEOMETRY, key=lambda column: column == HOME.get(kind))
-    cells = {
-        column: _cell(row, column, place.at(f"column {column}", row.get(column, 0)), kinds, symbols)
-        for column in order
-    }
+    order = sorted(GEOMETRY, key=lambda column: column == HOME.get(kind))
+    cells = {c: _cell(row.get(c, 0), c, place, kinds, symbols, rounded) for c in order}
     return Joint(row["j"], row["a"], _actuated(row, kind, place), kind, **cells)
 
 
 def _cell(
-    row: Row,
+    cell: Any,
     column: str,
-    place: Place,
+    where: RowPlace,
     kinds: Mapping[str, JointKind],
     symbols: Mapping[str, float],
+    rounded: dict[str, str],
 ) -> Expression:
+    row = where.owner(column).row  # whose cell it is in the file
+    place = where.column(column, cell)
     expression = place.expression()
     got = f"got {shown(expression.text)}"
-    own, home = f"q{row['j']}", HOME.get(kinds[row["j"]])
+    own, home = f"q{row}", HOME.get(kinds[row])
     for name in sorted(expression.names):  # joint variables stand in the place of their own only
         if name == own and home is None:
             raise place.error(f"{got}, but the row is fixed (sigma 2); remove {name} or set sigma")
         if name == own and column != home:
             raise place.error(
                 f"{got}, but {name} of a {'revolute' if home == 'theta' else 'prismatic'} joint "
-                f"belongs into column {home}; move it there, or correct sigma"
+                f"belongs into column {where.letter(home or '')}; move it there, or correct sigma"
             )
         if name != own and name.startswith("q") and name[1:] in kinds:
             raise place.error(
                 f"{got}, which uses the variable {name} of another row; expected {own} and "
                 "constants, or, where the joint follows others, a sum of their variables in "
-                f"column {home or 'theta or r'} without {own}"
+                f"column {where.letter(home) if home else 'theta or r'} without {own}"
             )
     check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
     if column == home:
@@ -250,13 +265,13 @@ def _cell(
                 f"{got}: {own} has the coefficient {factor:g}; expected 1 or -1, as in "
                 f'{shown(example)} or "-{own}" (a gear ratio belongs into the drive gain)'
             )
-        if column not in _ANGLES:  # a prismatic joint's offset is a length
+        if column not in ANGLES:  # a prismatic joint's offset is a length
             check_size(expression, (form.constant,), LARGEST_LENGTH, place)
-    elif column in _ANGLES:
+    elif column in ANGLES:
         form_at(expression, symbols, place)
     else:
         length_at(expression, symbols, place)
-    if column in _ANGLES:
-        return exact_angle(expression, own if column == home else None, place)
+    if column in ANGLES:
+        return exact_angle_at(expression, own if column == home else None, place, rounded)
     # -0.0 and the like: one zero, so that everyone may drop it.
     return parse(0) if expression.is_zero else expression

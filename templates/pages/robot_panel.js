@@ -100,8 +100,8 @@ function show(stopped = null) {
     const row = robot.rows[+line.dataset.row];
     for (const cell of line.querySelectorAll("[data-cell]")) {
       cell.dataset.text ??= cell.textContent;
-      const name = cell.dataset.cell;
-      cell.textContent = page.numbers ? minusSign(rounded(now(row, name), 5)) : cell.dataset.text;
+      const name = cell.dataset.cell, of = robot.rows[cell.dataset.of];  // none: 0, as is written
+      cell.textContent = page.numbers && of ? minusSign(rounded(now(of, name), 5)) : cell.dataset.text;
     }
     line.lastElementChild.textContent = row.kind === "fixed" ? "" : minusSign(rounded(variable(row, page.u), 5));
   }

@@ -33,7 +33,15 @@ LONGEST = 1200
 AS_IT_IS = "as it is"
 """Value of a variable that a row leaves as the tests have it."""
 
-OUTPUTS = ("--out", "--json", "--report", "--picture", "--coefficients-out", "--robot-out", "--truth-out")
+OUTPUTS = (
+    "--out",
+    "--json",
+    "--report",
+    "--picture",
+    "--coefficients-out",
+    "--robot-out",
+    "--truth-out",
+)
 
 REMEDY = re.compile(
     r"\b(expected|write|use|choose|give|leave|check|add|remove|declare|did you mean|delete|record"

@@ -104,7 +104,10 @@ def test_the_script_is_printed(capsys, shell: str) -> None:
 def test_another_shell_is_wrong_usage(capsys) -> None:
     with pytest.raises(SystemExit) as stop:
         main(["completion", "tcsh"])
-    assert stop.value.code == 2 and "invalid choice: 'tcsh'" in capsys.readouterr().err
+    assert (
+        stop.value.code == 2
+        and "got tcsh; expected one of bash, zsh, fish" in capsys.readouterr().err
+    )
 
 
 def shell_of(name: str) -> str:

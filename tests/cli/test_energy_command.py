@@ -21,7 +21,7 @@ def run(capsys, *argv):
         ([], 90, 0, 0),
         pytest.param(["--effects", "viscous,coulomb"], 106, 16, 0, marks=pytest.mark.slow),
         (["--effects", "viscous,coulomb,asymmetric_viscous,offset"], 122, 24, 8),
-        (["--open"], 96, 0, 0),
+        (["--cut-loops"], 96, 0, 0),
     ],
 )
 def test_the_counts_of_evra(capsys, tmp_path, options, rank, friction, offset):
@@ -39,7 +39,7 @@ def test_the_counts_of_evra(capsys, tmp_path, options, rank, friction, offset):
 def test_a_tree_has_no_loops_to_cut(capsys):
     status, out, err = run(capsys, "derive", "scara", "--cut-loops")
     assert (status, out) == (1, "")
-    assert err == "modeler: --open: scara has no loops to cut; leave --open out\n"
+    assert err == "modeler: --cut-loops: scara has no loops to cut; leave --cut-loops out\n"
 
 
 @pytest.fixture(scope="module")

@@ -20,7 +20,14 @@ def slide(tmp_path_factory) -> Path:
 
 
 def test_text_json_and_pictures(capsys, slide: Path) -> None:
-    words = ["compare", "--free-run", str(slide / "m.json"), str(slide / "a.parquet"), "--window", "0.5"]
+    words = [
+        "compare",
+        "--free-run",
+        str(slide / "m.json"),
+        str(slide / "a.parquet"),
+        "--window",
+        "0.5",
+    ]
     capsys.readouterr()
     assert main([*words, "--json", str(slide / "f.json"), "--picture", str(slide / "p")]) == 0
     out, err = capsys.readouterr()
@@ -49,7 +56,13 @@ def test_text_json_and_pictures(capsys, slide: Path) -> None:
     ],
 )
 def test_bad_input_is_one_line(capsys, slide: Path, words: str, told: str) -> None:
-    argv = ["compare", "--free-run", str(slide / "m.json"), str(slide / "a.parquet"), *words.split()]
+    argv = [
+        "compare",
+        "--free-run",
+        str(slide / "m.json"),
+        str(slide / "a.parquet"),
+        *words.split(),
+    ]
     assert main(argv) == 1
     out, err = capsys.readouterr()
     assert out == "" and err.startswith(f"modeler: {told}") and err.count("\n") == 1

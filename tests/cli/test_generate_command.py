@@ -76,20 +76,12 @@ def test_a_model_where_a_robot_is_expected_and_the_other_way(place, capsys, tmp_
 
 
 def test_the_page_of_a_fit_names_a_file_with_a_blank(place, capsys, tmp_path):
-    """And may be asked for as `derive` has it: --page."""
     model, page = tmp_path / "my arm.json", tmp_path / "p.html"
-    words = ("fit", "two-link", place.parent / "log.parquet", "--out", model, "--page", page)
+    words = ("fit", "two-link", place.parent / "log.parquet", "--out", model, "--report", page)
     assert run(capsys, *words)[0] == 0
     commands = re.findall(r"modeler (?:compare|diagnose) [^<]*", html.unescape(page.read_text()))
     assert len(commands) >= 2
     assert {shlex.split(command)[2] for command in commands} == {str(model)}
-
-
-@pytest.mark.parametrize("command", ["fit", "compare", "diagnose", "add", "estimators"])
-def test_every_page_may_be_called_page(command, capsys):
-    with pytest.raises(SystemExit):
-        main([command, "--help"])
-    assert re.search(r"--report[ A-Z.a-z]*, --page", capsys.readouterr().out)
 
 
 def test_the_c_predicts_what_the_model_does(place, fitted, capsys, tmp_path):

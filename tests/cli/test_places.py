@@ -41,14 +41,13 @@ READING = {  # what each command reads; outputs come after it
     "diagnose": "diagnose m.json a.parquet --holdout other.parquet",
     "add": "add m.json spring a.parquet --holdout other.parquet@:3 --out new.json",
     "effects": "effects --robot arm.toml",
-    "estimators": "estimators arm.toml a.parquet --holdout other.parquet",
+    "estimators": "estimators",
     "robots": "robots arm.toml",
     "reproduce": "reproduce houda",
     "demo": "demo --out new",
     "physical": "physical arm.toml",
     "show": "show arm.toml",
     "completion": "completion bash",
-    "free-run": "free-run m.json a.parquet@2:",
     "fleet": "fleet arm.toml a.parquet b.csv@0:4 --map names.toml",
 }
 

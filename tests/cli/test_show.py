@@ -135,7 +135,9 @@ def test_another_programs_file_is_shown_with_its_notes(here, capsys) -> None:
 
 def test_loops_that_do_not_close_are_shown_and_told(here, capsys) -> None:
     (here / "bad.toml").write_text(builtin_text("five-bar").replace("L0 = 0.20", "L0 = 5.0"))
-    assert main(["show", "bad.toml", "--out", "b.html", "--picture", "b.svg", "--json", "b.json"]) == 0
+    assert (
+        main(["show", "bad.toml", "--out", "b.html", "--picture", "b.svg", "--json", "b.json"]) == 0
+    )
     out = capsys.readouterr().out
     assert 'loop "tip": 31 meets 32 (revolute): OPEN by ' in out
     assert "the loops do not close near [home]: drawn as it is stated" in out

@@ -125,7 +125,8 @@ def on_device(array: np.ndarray) -> np.ndarray:
 def test_without_cupy_or_a_processor_one_line(monkeypatch, tmp_path):
     robot = derive(load("wrist"))
     monkeypatch.setitem(sys.modules, "cupy", None)
-    with pytest.raises(BuildError, match=r"CuPy is not installed; pip install '\.\[gpu\]' in the"):
+    told = r'CuPy is not installed; pip install "modeler-robotics\[gpu\]"'
+    with pytest.raises(BuildError, match=told):
         on_gpu(robot)
     monkeypatch.setitem(sys.modules, "cupy", cupy(tmp_path, devices=0))
     with pytest.raises(BuildError, match=r"CuPy finds none; use compile_model, which needs none$"):

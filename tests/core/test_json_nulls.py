@@ -61,7 +61,17 @@ COMMANDS = {
     "effects": (),
     "robots": (),
     "estimators": (),
-    "simulate": (ROBOT, "--duration", "2", "--rate", "100", "--out", "s.csv", "--truth-out", "t.json"),
+    "simulate": (
+        ROBOT,
+        "--duration",
+        "2",
+        "--rate",
+        "100",
+        "--out",
+        "s.csv",
+        "--truth-out",
+        "t.json",
+    ),
     "fleet": (ROBOT, "a.csv", "b.csv"),
     "diagnose": ("m.json", "a.csv", "--holdout", "silent.csv", "--report", "d.html"),
 }

@@ -244,10 +244,10 @@ def folder(tmp_path_factory):
 
 def test_the_command_compares_on_the_same_data(folder, capsys):
     page, raw = folder / "page.html", folder / "all.json"
-    argv = ["estimators", "two-link", str(folder / "a.parquet")]
+    argv = ["fit", "two-link", str(folder / "a.parquet")]
     argv += ["--holdout", str(folder / "held.parquet"), "--report", str(page), "--json", str(raw)]
     methods = ["weighted", "iv", "didim"]
-    argv += ["--methods", ",".join(methods)]
+    argv += ["--method", ",".join(methods)]
     assert main(argv) == 0
     out = capsys.readouterr().out
     said = json.loads(raw.read_text())
@@ -266,7 +266,7 @@ def test_the_command_shows_a_refusal_in_its_row(folder, capsys, tmp_path):
     for row in zip(log.time, *log.q.T, *log.tau.T, strict=True):
         lines.append(",".join(map(repr, map(float, row))))
     (tmp_path / "bare.csv").write_text("\n".join(lines) + "\n")
-    argv = ["estimators", "two-link", str(tmp_path / "bare.csv"), "--methods", "weighted,iv"]
+    argv = ["fit", "two-link", str(tmp_path / "bare.csv"), "--method", "weighted,iv"]
     assert main(argv) == 0
     out = capsys.readouterr().out
     assert any(line.split()[:2] == ["iv", "refused"] for line in out.splitlines())
@@ -274,7 +274,7 @@ def test_the_command_shows_a_refusal_in_its_row(folder, capsys, tmp_path):
 
 
 def test_a_method_named_twice_is_told_once(capsys):
-    assert main(["estimators", "--methods", "weighted,ridge,weighted"]) == 0
+    assert main(["estimators", "weighted,ridge,weighted"]) == 0
     out = capsys.readouterr().out
     assert out.count("weighted least squares\n") == 1 and out.startswith("weighted")
 
@@ -299,10 +299,11 @@ def test_the_list_says_law_source_and_when_not(capsys):
 @pytest.mark.parametrize(
     ("argv", "line"),
     [
-        (["estimators", "two-link"], "got robot two-link and no log; expected logs to fit"),
-        (["estimators", "--methods", "magic"], "--methods: got magic; expected some of weighted"),
-        (["estimators", "--methods", "ridg"], 'got ridg (did you mean "ridge"?)'),
-        (["estimators", "--methods", ","], "--methods: got nothing"),
+        (["estimators", "magic"], "estimators: got magic; expected one of weighted"),
+        (["estimators", "--methods", "ridg"], "got ridg (did you mean ridge?)"),
+        (["fit", "emps", "a.csv", "--method", "all", "--out", "m"], "--out: got it with --method"),
+        (["fit", "emps", "a.csv", "--method", "iv,ridge", "--model", "energy"], "--model: got it"),
+        (["fit", "emps", "a.csv", "--out", "m", "--holdout", "b.csv"], "--holdout: got it with"),
     ],
 )
 def test_bad_input_is_one_line(argv, line, capsys):

@@ -26,7 +26,7 @@ from modeler.runtime.model import CompiledModel
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs
 from tests.jobs.work import added, ends_always, refused, third
 
-WHY = "NOT CHECKED: no Dask; pip install '.[dask]'"
+WHY = 'NOT CHECKED: no Dask; pip install "modeler-robotics[dask]"'
 ROWS = 256  # of a chunk
 
 

@@ -93,5 +93,5 @@ def test_without_dask_one_line_says_how_to_get_it(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(DataError) as error, open_workers("local"):
         pass
-    told = "--dask local: Dask is not installed; pip install '.[dask]' in the checkout, or leave"
+    told = '--dask local: Dask is not installed; pip install "modeler-robotics[dask]", or leave'
     assert str(error.value) == f"{told} --dask out"

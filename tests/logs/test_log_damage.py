@@ -127,7 +127,7 @@ def test_a_missing_package_is_one_line(tmp_path, monkeypatch, name, package):
         monkeypatch.delitem(sys.modules, module)
     monkeypatch.setitem(sys.modules, package, None)
     (tmp_path / name).write_bytes(b"something")
-    words = f"needs the package {package}; run: pip install {package}$"
+    words = rf'needs the package {package}; run: pip install "modeler-robotics\[\w+\]"$'
     with pytest.raises(DataError, match=words):
         LogTable(tmp_path / name)
 

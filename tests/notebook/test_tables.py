@@ -66,5 +66,5 @@ def test_a_frame_has_names_numbers_and_units() -> None:
 
 def test_without_pandas_one_line_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pandas", None)
-    with pytest.raises(DataError, match=r"pip install '\.\[notebook\]' in the checkout"):
+    with pytest.raises(DataError, match=r'pip install "modeler-robotics\[notebook\]"'):
         TABLE.to_frame()

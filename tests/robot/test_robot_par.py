@@ -11,8 +11,8 @@ import pytest
 from modeler.codegen.workflow import derive
 from modeler.core.errors import RobotError
 from modeler.derivation.relations import as_json
+from modeler.robot.angles import exact_angle
 from modeler.robot.par_convert import par_to_toml
-from modeler.robot.par_text import exact_angle
 from modeler.robot.read import read_robot, robot_from_text
 from tests.elementary_motions import frames
 from tests.modules import module

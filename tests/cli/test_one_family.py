@@ -1,0 +1,269 @@
+"""One rule for the arguments of all commands; what they were called before; pages that open."""
+
+import argparse
+import re
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from modeler.cli import main, parser, places
+from modeler.cli.command_table import COMMANDS, FAMILIES, Methods
+from modeler.cli.commands import commands_of, parsed
+from modeler.cli.completion import candidates
+from modeler.cli.old_words import OLD_COMMANDS
+from modeler.cli.options import arguments_of
+
+PARSERS = commands_of(parser())
+
+
+def options() -> Iterator[tuple[str, argparse.Action]]:
+    """Every option of every command, with the name of the command."""
+    for command, own in PARSERS.items():
+        yield from ((command, action) for action in own._actions if action.option_strings)
+
+
+def is_a(action: argparse.Action, *kinds: type) -> bool:
+    return isinstance(action.type, type) and issubclass(action.type, kinds)
+
+
+# The rule, over the table.
+
+
+def test_what_is_written_is_named_alike() -> None:
+    """--out, --report, --picture, --json; what is written besides ends in -out."""
+    for command, action in options():
+        name = action.option_strings[-1]
+        written = is_a(action, places.Output, places.OutputFolder)
+        known = name in ("--out", "--report", "--picture", "--json") or name.endswith("-out")
+        assert written == known, f"{command} {name}"
+        if name == "--report":
+            assert action.metavar == "PAGE.html" and not is_a(action, places.OutputFolder)
+        if name == "--json":
+            assert action.type is places.JsonFile
+
+
+def test_every_page_can_be_opened() -> None:
+    for command, own in PARSERS.items():
+        names = {name for action in own._actions for name in action.option_strings}
+        assert ("--open" in names) == ("--report" in names or command in ("show", "demo")), command
+        assert "--json" in names, command
+
+
+def test_robot_or_model_first_logs_last() -> None:
+    for command, own in PARSERS.items():
+        kinds = [action.type for action in arguments_of(own)]
+        first = [i for i, kind in enumerate(kinds)
+                 if kind in (places.RobotFile, places.ModelFile, places.RobotOrModel)]  # fmt: skip
+        logs = [i for i, k in enumerate(kinds) if k in (places.LogFile, places.model_or_log)]
+        assert first in ([], [0]) and logs in ([], [len(kinds) - 1]), command
+
+
+def test_what_is_read_is_named_alike() -> None:
+    wanted = {"--robot": places.RobotFile, "--map": places.MapWord, "--holdout": places.LogFile,
+              "--payload-log": places.LogFile, "--from": places.MotionFile,
+              "--motion": places.MotionOrKind, "--list": places.ListFile}  # fmt: skip
+    for command, action in options():
+        if is_a(action, places.Input):
+            assert action.type is wanted.get(action.option_strings[-1]), command
+
+
+def test_a_name_means_one_thing_wherever_it_stands() -> None:
+    """Of options of one name, the same kind of value; what differs is listed here."""
+    differing = {
+        "--controller", "--from", "--near", "--window", "--method", "--out", "--report", "--force",
+        "--picture", "--open", "--write", "--format",
+    }  # fmt: skip
+    kinds: dict[str, set[object]] = {}
+    for _, action in options():
+        kinds.setdefault(action.option_strings[-1], set()).add((action.type, action.nargs))
+    assert {name for name, found in kinds.items() if len(found) > 1} <= differing
+
+
+def test_each_command_has_a_family_and_an_example_that_can_be_typed() -> None:
+    assert list(FAMILIES) == ["describe", "measure", "identify", "understand", "use", "about"]
+    assert list(PARSERS) == list(COMMANDS)
+    for name, own in PARSERS.items():
+        lines = re.findall(r"modeler ([^;>]+)", (own.epilog or "").replace(')"', ""))
+        assert lines and any(line.startswith(f"{name} ") for line in lines), name
+        for line in lines:
+            assert parsed(shlex.split(line.strip()))[0].read_as == [], line
+
+
+def test_the_help_lists_commands_by_family() -> None:
+    text = parser().format_help()
+    places_of = [text.index(f"\n{family}:\n") for family in FAMILIES]
+    assert places_of == sorted(places_of)
+    for family, below in zip(FAMILIES, [*list(FAMILIES)[1:], "options"], strict=True):
+        part = text.split(f"\n{family}:\n")[1].split(f"\n{below}:\n")[0]
+        assert re.findall(r"^  (\S+)", part, re.M) == [c.name for c in FAMILIES[family]]
+    assert not any(old in text for old in OLD_COMMANDS)
+
+
+# What was typed until now.
+
+
+def read(line: str) -> dict[str, object]:
+    found = vars(parsed(shlex.split(line))[0])
+    return {k: v for k, v in found.items() if k not in ("read_as", "load", "lacks")}
+
+
+_SAME = """\
+show wrist --png w.png
+= show wrist --picture w.png
+derive wrist --page p.html
+= derive wrist --report p.html
+derive wrist --report c.md --page p.html
+= derive wrist --coefficients-out c.md --report p.html
+derive wrist --report=c.md
+= derive wrist --coefficients-out c.md
+derive evra --open --page p.html
+= derive evra --cut-loops --report p.html
+add m.json spring a.csv --out n.json --robot r.toml
+= add m.json spring a.csv --out n.json --robot-out r.toml
+home evra --pictures m.svg
+= home evra --picture m.svg
+log a.csv --robot wrist --page=p.html --pictures d
+= log a.csv --robot wrist --report p.html --picture d
+compare m.json a.csv --page p.html --pictures d
+= compare m.json a.csv --report p.html --picture d
+simulate wrist --out a.csv --truth t.json
+= simulate wrist --out a.csv --truth-out t.json
+robots --show wrist
+= robots wrist
+robots --show=wrist --json j
+= robots wrist --json j
+-q free-run m.json a.csv --window 2 --pictures d
+= -q compare m.json a.csv --free-run --window 2 --picture d
+estimators emps a.csv b.csv --holdout c.csv
+= fit emps a.csv b.csv --holdout c.csv --method all
+estimators --holdout c.csv --methods iv,ridge -- emps a.csv
+= fit emps a.csv --holdout c.csv --method iv,ridge
+estimators --methods iv,ridge
+= estimators iv,ridge
+fleet emps a.csv --page p.html
+= fleet emps a.csv --report p.html
+fit emps a.csv --out m --pag p.html
+= fit emps a.csv --out m --report p.html
+"""
+SAME = [tuple(pair.split("\n= ")) for pair in re.findall(r"^.+\n= .+$", _SAME, re.M)]
+
+
+@pytest.mark.parametrize(("old", "new"), SAME)
+def test_old_spellings_mean_what_they_meant(old: str, new: str) -> None:
+    assert read(old) == read(new)
+    assert parsed(shlex.split(new))[0].read_as == []
+    quiet = old.startswith("estimators --methods")  # the list has nothing to tell
+    assert bool(parsed(shlex.split(old))[0].read_as) != quiet
+
+
+def test_every_old_option_is_tried_here() -> None:
+    tried = {word.partition("=")[0] for old, _ in SAME for word in old.split()}
+    for command in COMMANDS.values():
+        assert set(command.old) - {"--report"} <= tried, command.name
+    assert all(any(command in old for old, _ in SAME) for command in OLD_COMMANDS)
+
+
+def test_open_alone_cut_loops_and_still_does(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["derive", "sr400", "--open", "--no-terms"]) == 0
+    out, err = capsys.readouterr()
+    assert "its loops cut open" in out and "written" not in out
+    assert err.startswith("modeler: --open is read as --cut-loops") and err.count("\n") == 1
+
+
+def test_old_words_complete_where_nothing_else_does() -> None:
+    top = parser()
+    assert candidates(["free"], top) == ["free-run"]
+    assert candidates(["show", "wrist", "--pn"], top) == ["--png"]
+    assert candidates(["log", "--pic"], top) == ["--picture"]
+    assert "--page" not in candidates(["derive", "wrist", "--"], top)
+    assert candidates(["free-run", "m.json", "--wi"], top) == ["--window"]
+    assert candidates(["estimators", "emps", "a.csv", "--hold"], top) == ["--holdout"]
+
+
+# Words that are none.
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("derve wrist", "unknown command derve (did you mean derive?)"),
+        ("simulated wrist", "unknown command simulated (did you mean simulate?)"),
+        ("fit emps a.csv --otu m", "unknown option --otu (did you mean --out?)"),
+        ("derive wrist --formt latex", "unknown option --formt (did you mean --format?)"),
+        ("derive wrist --format latx", "argument --format: got latx (did you mean latex?)"),
+        ("fit emps a.csv --out m --method weigted", "got weigted (did you mean weighted?)"),
+        ("fit emps a.csv --method weighted,tls", "got tls; expected one of weighted, "),
+        ("--verbos derive wrist", None),
+        ("--versoin", "unknown option --versoin (did you mean --version?)"),
+        ("derive wrist --xyzzy", "unknown option --xyzzy; write it as"),
+        ("derive wrist panda", "got panda as well; expected no more arguments"),
+    ],
+)  # fmt: skip
+def test_what_is_misspelt_is_one_line(capsys, line: str, told: str | None) -> None:
+    if told is None:
+        assert parsed(line.split())[0].robot == "wrist"
+        return
+    with pytest.raises(SystemExit) as stop:
+        main(line.split())
+    err = capsys.readouterr().err
+    assert stop.value.code == 2 and told in err and err.count("\n") == 1
+
+
+def test_methods_are_one_or_several() -> None:
+    assert Methods("all").several and Methods("iv,ridge").several and not Methods("tls").several
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("compare m.json a.csv --window 2", "--window: is of --free-run; add that"),
+        ("compare m.json n.json a.csv --free-run", "--free-run: got n.json too; expected one"),
+        ("compare m.json a.csv --free-run --report p.html", "got it with --free-run, which draws"),
+    ],
+)
+def test_free_run_has_its_own_options(capsys, line: str, told: str) -> None:
+    assert main(line.split()) == 1
+    err = capsys.readouterr().err
+    assert told in err and err.count("\n") == 1
+
+
+# Pages that open.
+
+
+@pytest.fixture
+def opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A browser that notes what it is to show, and the folder of temporary files."""
+    program = tmp_path / "browser"
+    program.write_text(f'#!/bin/sh\necho "$1" >> "{tmp_path}/opened"\n')
+    program.chmod(0o755)
+    monkeypatch.setenv("BROWSER", str(program))
+    monkeypatch.setattr("webbrowser._tryorder", None)  # it looks once a process
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path / "opened"
+
+
+@pytest.mark.parametrize(
+    ("line", "page"),
+    [
+        ("derive two-link --open", "modeler-*/derive.html"),
+        ("derive sr400 --open --report d.html --no-terms", "d.html"),
+        ("home five-bar --open --report h.html", "h.html"),
+        ("show two-link --open", "two-link.html"),
+        ("show two-link --open --picture t.svg", "two-link.html"),
+    ],
+)
+def test_open_shows_the_page_that_was_written(opened: Path, line: str, page: str) -> None:
+    assert main([*line.split(), "--json", "-"]) == 0
+    (written,) = opened.parent.glob(page)
+    assert opened.read_text() == written.resolve().as_uri() + "\n"
+    assert "<html" in written.read_text()[:500]
+
+
+def test_without_a_browser_open_is_one_line(capsys, tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("webbrowser.open", lambda place: False)
+    assert main(["show", "two-link", "--out", str(tmp_path / "t.html"), "--open"]) == 0
+    err = capsys.readouterr().err
+    assert err == f"modeler: --open: no browser was found; open {tmp_path / 't.html'} in one\n"
