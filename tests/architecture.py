@@ -46,7 +46,7 @@ PACKAGES: dict[str, set[str]] = {
     "formulas": {"numpy", "sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
     "runtime": {"numpy", "cffi", "cupy"},
-    "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags"},
+    "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags", "python_calamine"},
     "observation": {"numpy", "scipy"},
     "estimation": {"numpy", "scipy", "clarabel", "cvxpy"},
     "diagnosis": {"numpy", "scipy", "threadpoolctl"},
@@ -72,6 +72,7 @@ ONLY_IN = {
     "pandas": ("core/table.py",),
     "h5py": ("logs/arrays.py",),
     "rosbags": ("logs/bags.py",),
+    "python_calamine": ("logs/sheets.py",),
     "distributed": ("core/jobs.py",),
     "matplotlib": ("report/", "excitation/result.py"),
 }
