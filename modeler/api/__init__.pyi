@@ -51,6 +51,7 @@ from .workflow import (
     estimators as estimators,
     generate as generate,
     load as load,
+    new_robot as new_robot,
     observe as observe,
     on_gpu as on_gpu,
     open_model as open_model,
