@@ -79,8 +79,8 @@ ONLY_IN = {
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
-MOST_MODULES = 322  # held.py, prior.py; old names, pages that open; tables, logs, Python
-MOST_CODE_LINES = 54_150  # what is known before; tables, logs, one line of Python, one family
+MOST_MODULES = 326  # what torques answer to; what is known before; tables, logs, Python, one family
+MOST_CODE_LINES = 55_012  # what is known before; tables of every book, logs as they come, Python, one family
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from modeler.core.errors import RobotError
+from modeler.core.errors import DataError, RobotError
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import regressor_values
 from modeler.robot.read import read_robot, robot_from_text
@@ -473,3 +473,15 @@ def test_a_rounded_angle_of_a_relation_is_exact_too():
     robot = read(mdh)
     assert robot.relations["2"].text == "pi/2 - q1"
     assert "1.5708 is pi/2" in robot.readings[0]
+
+
+def test_degrees_of_effects_and_of_words_on_the_command_line():
+    from modeler.cli.motion import _assigned
+
+    robot = read('columns = ["j", "theta"]\nrows = [["1", "q1"]]',
+                 '[effects]\nspring = [{joint = "1", q0 = "30 deg", h = 0}]')  # fmt: skip
+    assert robot.effects[0].shaped[0].shapes["q0"] == pytest.approx(math.pi / 6)
+    name, values = _assigned("--limit", "1=-90 deg,pi/2,2,8", ["1"], (4, 5), "LOWER,...")
+    assert (name, values) == ("1", [-math.pi / 2, math.pi / 2, 2.0, 8.0])
+    with pytest.raises(DataError, match="numbers in SI units"):
+        _assigned("--limit", "1=-90 degrees,q1,2,8", ["1"], (4, 5), "LOWER,...")
