@@ -49,7 +49,7 @@ def run_compare(args: argparse.Namespace) -> Json:
     draw_page(args.report, lambda: pages.comparison_page(comparison, lines, origin))
     draw_pictures(args.picture, lambda: pages.all_pictures(comparison))
     say_lines([following], "next: ")
-    return comparison.as_dict() | {"doubts": doubts}
+    return comparison.to_json() | {"doubts": doubts}
 
 
 def judged(
@@ -122,7 +122,7 @@ def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
     )
     draw_page(args.report, lambda: pages.contest_page(found, lines, not trained))
     draw_pictures(args.picture, lambda: pages.contest_pictures(found))
-    return validation.compare(found.predictions[0]).as_dict() | {
+    return validation.compare(found.predictions[0]).to_json() | {
         "models": found.as_dicts(),
         "doubts": [],
     }
