@@ -46,7 +46,7 @@ PACKAGES: dict[str, set[str]] = {
     "formulas": {"numpy", "sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
     "runtime": {"numpy", "cffi", "cupy"},
-    "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags"},
+    "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags", "python_calamine"},
     "observation": {"numpy", "scipy"},
     "estimation": {"numpy", "scipy", "clarabel", "cvxpy"},
     "diagnosis": {"numpy", "scipy", "threadpoolctl"},
@@ -72,6 +72,7 @@ ONLY_IN = {
     "pandas": ("core/table.py",),
     "h5py": ("logs/arrays.py",),
     "rosbags": ("logs/bags.py",),
+    "python_calamine": ("logs/sheets.py",),
     "distributed": ("core/jobs.py",),
     "sklearn": ("api/regressor.py",),
     "matplotlib": ("report/", "excitation/result.py"),
@@ -79,8 +80,8 @@ ONLY_IN = {
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
-MOST_MODULES = 327  # log files of every kind; api/model.py, identifying.py, regressor.py; frames.py
-MOST_CODE_LINES = 54_850  # the noise of the motion; what is known before; one line of Python
+MOST_MODULES = 330  # what torques answer to; what is known before; tables, logs, Python, one family
+MOST_CODE_LINES = 55_300  # what is known before; tables of every book, logs as they come, Python
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.

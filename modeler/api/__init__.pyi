@@ -58,6 +58,7 @@ from .workflow import (
     effects as effects,
     estimators as estimators,
     generate as generate,
+    new_robot as new_robot,
     observe as observe,
     on_gpu as on_gpu,
     own_effect as own_effect,

@@ -130,10 +130,7 @@ def _present(names: LogMap, there: set[str], joints: Sequence[Any]) -> tuple[Any
 
 
 def _shown(entry: Any) -> str:
-    if not isinstance(entry, dict) or "column" not in entry:
-        return str(entry)
-    column, unit = entry["column"], entry.get("unit", "")
-    return f"{column} [{unit}]" if unit and not column.endswith("]") else str(column)
+    return str(entry["column"] if isinstance(entry, dict) and "column" in entry else entry)
 
 
 def _read(text: str) -> LogMap:
