@@ -46,7 +46,7 @@ PACKAGES: dict[str, set[str]] = {
     "formulas": {"numpy", "sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
     "runtime": {"numpy", "cffi", "cupy"},
-    "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags"},
+    "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags", "python_calamine"},
     "observation": {"numpy", "scipy"},
     "estimation": {"numpy", "scipy", "clarabel", "cvxpy"},
     "diagnosis": {"numpy", "scipy", "threadpoolctl"},
@@ -56,7 +56,7 @@ PACKAGES: dict[str, set[str]] = {
     "simulation": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
     "papers": {"numpy", "sympy"},
     "report": {"numpy", "scipy", "matplotlib", "jinja2"},
-    "api": {"numpy"},
+    "api": {"numpy", "sklearn"},
     "cli": {"numpy", "rich"},
 }
 
@@ -72,14 +72,16 @@ ONLY_IN = {
     "pandas": ("core/table.py",),
     "h5py": ("logs/arrays.py",),
     "rosbags": ("logs/bags.py",),
+    "python_calamine": ("logs/sheets.py",),
     "distributed": ("core/jobs.py",),
+    "sklearn": ("api/regressor.py",),
     "matplotlib": ("report/", "excitation/result.py"),
 }
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
-MOST_MODULES = 316  # observe.py, noise.py: what torques answer to; held.py; prior.py; new.py
-MOST_CODE_LINES = 53_800  # the noise of the motion; what is known before; tables of every book
+MOST_MODULES = 330  # what torques answer to; what is known before; tables, logs, Python, one family
+MOST_CODE_LINES = 55_300  # what is known before; tables of every book, logs as they come, Python
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.
@@ -147,7 +149,8 @@ def _imports(relative: str, text: str) -> Iterator[tuple[int, str]]:
         if top == "":
             yield line, "relative import; write it absolute"
         elif not stage:
-            yield line, f"imports {name}; the package itself imports nothing"
+            if name != "modeler.api":  # in a function, when a name is asked for
+                yield line, f"imports {name}; the package itself imports nothing but modeler.api"
         elif top == "modeler":
             other = rest.split(".")[0]
             if other not in {stage, "__version__"} | STAGES[stage] | ROUND.get(relative, set()):

@@ -465,7 +465,7 @@ _EXCITE = Command(
     "apart. With --choose: the best of motions that there are.",
     "modeler excite panda --duration 10 --out motion.csv --picture motion.png",
     (
-        value("robot", "ROBOT", places.RobotOrModel, _ROBOT_OR_MODEL),
+        value("robot", "ROBOT|MODEL", places.RobotOrModel, _ROBOT_OR_MODEL),
         _CHANGED,
         value("--out", "MOTION", places.NewLog,
               "motion to write, .csv or .parquet: time, q, qd and qdd of every joint"),

@@ -319,7 +319,7 @@ def _names_in(row: Sequence[str], line: str, width: int) -> list[str] | None:
 
 def _unit(entry: str) -> str:
     text = re.sub(r"^[\[(]\s*|\s*[\])]$", "", entry)
-    return text if text and find_unit(text) is not None else ""
+    return text if re.search(r"[^\W\d]|[°%]", text) and find_unit(text) is not None else ""
 
 
 def _units_at(above: Sequence[list[str] | None]) -> int | None:

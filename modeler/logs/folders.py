@@ -151,6 +151,5 @@ def _sentences(parts: Sequence[_Part], kind: str) -> tuple[str, ...]:
     for part in parts:
         for note in getattr(part.found, kind):
             by.setdefault(note, []).append(part.path.name)
-    return tuple(
-        f"{n[0]}{f' and {len(n) - 1} more' * (len(n) > 1)}: {note}" for note, n in by.items()
-    )
+    more = {note: f" and {len(names) - 1} more" * (len(names) > 1) for note, names in by.items()}
+    return tuple(f"{names[0]}{more[note]}: {note}" for note, names in by.items())

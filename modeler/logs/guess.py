@@ -19,7 +19,7 @@ _WORDS: Mapping[str, str] = {
     "tau": "tau torque torques drehmoment kraft trq effort moment moments load force f",
     "qdd": "qdd ddq acc accel acceleration accelerations",
     "qd": "qd dq qdot geschwindigkeit drehzahl vel velocity velocities speed speeds omega",
-    "q": "q winkel pos position positions angle angles theta enc encoder x",
+    "q": "q winkel pos position positions angle angles theta enc encoder x state",
 }
 _KINDS: Mapping[Powers, str] = {
     TIME: "time", ANGLE: "q", LENGTH: "q", (0, 0, -1, 1, 0, 0): "qd", (1, 0, -1, 0, 0, 0): "qd",
@@ -159,7 +159,7 @@ def _role(template: str) -> str:
         for own, names in _WORDS.items():
             if word in names.split():
                 return ("qc" if own == "q" else "") if asked and own != "time" else own
-    return "qc" if words and words[-1] == "qc" else ""
+    return "qc" if words and words[-1] in ("qc", "action") else ""
 
 
 def role_of(name: str) -> str:

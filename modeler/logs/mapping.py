@@ -281,8 +281,9 @@ class MappedColumn:
     def table(self) -> str | dict[str, Any]:
         """The entry as [log] has it."""
         column = self.columns[0]
-        if self.unit is None and (self.sign, self.scale, self.offset) == (1.0, 1.0, 0.0):
-            return column
+        if (self.sign, self.scale, self.offset) == (1.0, 1.0, 0.0):
+            plain_name = self.unit is None or len(self.columns) > 1  # its name ends in its unit
+            return column if plain_name else f"{column} [{self.unit.text}]"  # type: ignore[union-attr]
         said = {"unit": self.unit and self.unit.text, "sign": int(self.sign), "scale": self.scale,
                 "offset": self.offset}  # fmt: skip
         plain = {"unit": None, "sign": 1, "scale": 1.0, "offset": 0.0}

@@ -57,7 +57,7 @@ def test_units_that_a_file_states_are_used_and_told(case, tmp_path):
     mapping = under("arm/", MAPPING) | {"q<j>": "arm/pos[{n}]"}
     (log,) = read_logs(case.compiled, [path], mapping)
     assert log.q[:, 0] == pytest.approx(case.table["q1"], rel=1e-14)
-    assert "by the units that the file states: q1 in deg, q3 in deg" in log.notes
+    assert "by the units that the file states: q1 in deg, q3 in deg" in log.told
 
 
 def test_other_topics_hold_their_last_message(case, tmp_path):
