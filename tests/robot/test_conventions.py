@@ -367,6 +367,12 @@ def test_khalil_where_it_is_said_has_any_order():
     assert read(f'columns = {named}"q2"]]').joints[1].antecedent == "1"
 
 
+def test_greek_letters_of_a_book_are_columns():
+    rows = '[["1", 0, "pi/2", "q1"], ["2", 2, 0.4, 0]]'
+    robot = read(f'columns = ["j", "σ", "α", "θ"]\nrows = {rows}')
+    assert robot.joints == read(f'columns = ["j", "sigma", "alpha", "theta"]\nrows = {rows}').joints
+
+
 def test_branches_of_craig_name_their_parents():
     robot = read(
         'convention = "craig"\ncolumns = ["j", "parent", "a", "theta"]\n'
