@@ -20,6 +20,7 @@ from modeler.logs import (
     map_from_words,
     windows_of,
 )
+from modeler.observation import FINGER, LONG, WINDOW, WINDOWS
 from modeler.runtime import CompiledModel
 
 Mapped = Mapping[str, Any] | Sequence[str] | LogMap
@@ -174,10 +175,10 @@ def _heard(compiled: CompiledModel, place: str | Path, names: LogMap) -> Heard:
     try:
         path, span = file_and_span(place)
         blocks = blocks_of(Path(path)) if span is None else None
-        if blocks is not None and blocks.rows > observation.LONG:
+        if blocks is not None and blocks.rows > LONG:
             source = observation.source_of(Path(path), compiled.spec, names)
             assert source is not None  # it has blocks
-            log = source.window(0.0, observation.LONG)
+            log = source.window(0.0, LONG)
         else:
             log = read_mapped(place, compiled.spec, names)
         rows = observation.observe(compiled, [log])
@@ -195,9 +196,7 @@ def read_mapped(place: str | Path, spec: Any, names: LogMap) -> observation.Log:
     if span is None:
         return observation.read_log(path, spec, names)
     source = observation.source_of(Path(path), spec, names)
-    if source is not None and source.rows > (
-        observation.LONG if source.exact else 2 * observation.LONG
-    ):
+    if source is not None and source.rows > (LONG if source.exact else 2 * LONG):
         part = observation.read_part(source, spec, *span)
     else:
         part = observation.window(observation.read_log(path, spec, names), *span)
@@ -243,11 +242,9 @@ def look_at(
     names = given_map(mapping) if compiled is None else log_map(compiled, mapping)
     joints = () if compiled is None else compiled.spec.joints
     blocks, span = blocks_of(Path(path)), span or (None, None)
-    if blocks is None or blocks.rows <= observation.LONG:
+    if blocks is None or blocks.rows <= LONG:
         table = LogTable(Path(path), names, joints, any_topic=True)
         return inspect_log(table, names, joints, span)
-    seen = windows_of(blocks, observation.WINDOWS, observation.WINDOW)
-    every = (
-        LogTable(Path(path), names, joints, part=own) for own in blocks.blocks(observation.FINGER)
-    )
+    seen = windows_of(blocks, WINDOWS, WINDOW)
+    every = (LogTable(Path(path), names, joints, part=own) for own in blocks.blocks(FINGER))
     return inspect_log(LogTable(Path(path), names, joints, part=seen), names, joints, span, every)
