@@ -3,7 +3,8 @@
 import argparse
 
 from docsite.markdown import block, cell, code, table
-from modeler.cli.commands import parser
+from modeler.cli.command_table import FAMILIES
+from modeler.cli.commands import commands_of, parser
 
 
 def command_pages() -> dict[str, str]:
@@ -15,7 +16,7 @@ def command_pages() -> dict[str, str]:
 
 def commands() -> dict[str, argparse.ArgumentParser]:
     """{name: parser} in the order of `modeler --help`."""
-    return dict(_subparsers(parser()))
+    return commands_of(parser())
 
 
 def _subparsers(found: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
@@ -33,12 +34,14 @@ def _summaries() -> dict[str, str]:
 
 def _index(parsers: dict[str, argparse.ArgumentParser]) -> str:
     told = _summaries()
-    rows = [
-        (f"[`modeler {name}`]({name}.md)", cell(told.get(name, "")), code(_example(found)))
-        for name, found in parsers.items()
-    ]
-    head = ("command", "does", "example")
-    return f"# Commands\n\n{cell(parser().description or '')}\n\n{table(head, rows)}"
+    parts = [f"# Commands\n\n{cell(parser().description or '')}\n"]
+    for family, members in FAMILIES.items():
+        rows = [
+            (f"[`modeler {name}`]({name}.md)", cell(told[name]), code(_example(parsers[name])))
+            for name in (command.name for command in members)
+        ]
+        parts += [f"## {family.capitalize()}\n", table(("command", "does", "example"), rows)]
+    return "\n".join(parts)
 
 
 def _page(name: str, found: argparse.ArgumentParser) -> str:

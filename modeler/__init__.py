@@ -1,6 +1,11 @@
 """A code-generating symbolic modeler for robot dynamics.
 
-Data flows one way::
+    import modeler as md
+
+    model = md.identify("arm.toml", ["mon.csv", "tue.parquet"])
+    model["Fs2"], model.error("wed.csv")
+
+All of it is `modeler.api`, whose names are here too. Data flows one way::
 
     effects -> robot -> derivation -> codegen => C + manifest
             => runtime -> observation -> estimation -> validation -> diagnosis -> robot ...
@@ -10,7 +15,32 @@ A robot names effects of the catalogue; `formulas` stands beside codegen and wri
 `simulation` has physics of its own; `logs` reads what people have, `numerics` has the linear
 algebra of all; `fleet`, `excitation` and `papers` build on them; `report` shows results, `api` and
 `cli` put the steps in a row. docs/architecture.md shows the house.
-This module imports nothing, so that the numeric stages never load the symbolic ones.
+This module imports nothing before a name of the API is asked for, so that the numeric stages never
+load the symbolic ones.
 """
 
 __version__ = "0.1.0"
+
+_ROOMS = (
+    "api", "cli", "codegen", "core", "derivation", "diagnosis", "effects", "estimation",
+    "excitation", "fleet", "formulas", "logs", "numerics", "observation", "papers", "report",
+    "robot", "runtime", "simulation", "validation",
+)  # fmt: skip
+
+
+def __getattr__(name: str) -> object:
+    """A name of `modeler.api`; rooms are imported by their own names."""
+    if name in _ROOMS or name.startswith("_"):
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from modeler import api
+
+    try:
+        return getattr(api, name)
+    except AttributeError:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}") from None
+
+
+def __dir__() -> list[str]:
+    from modeler import api
+
+    return sorted({*globals(), *dir(api)} - {"_ROOMS"})

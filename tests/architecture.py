@@ -56,7 +56,7 @@ PACKAGES: dict[str, set[str]] = {
     "simulation": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
     "papers": {"numpy", "sympy"},
     "report": {"numpy", "scipy", "matplotlib", "jinja2"},
-    "api": {"numpy"},
+    "api": {"numpy", "sklearn"},
     "cli": {"numpy", "rich"},
 }
 
@@ -74,13 +74,14 @@ ONLY_IN = {
     "rosbags": ("logs/bags.py",),
     "python_calamine": ("logs/sheets.py",),
     "distributed": ("core/jobs.py",),
+    "sklearn": ("api/regressor.py",),
     "matplotlib": ("report/", "excitation/result.py"),
 }
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
-MOST_MODULES = 312  # observe.py, noise.py: what torques answer to; held.py: what stands; prior.py
-MOST_CODE_LINES = 53_238  # the noise of the motion; what is known before; one line of Python
+MOST_MODULES = 330  # what torques answer to; what is known before; tables, logs, Python, one family
+MOST_CODE_LINES = 55_300  # what is known before; tables of every book, logs as they come, Python
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.
@@ -148,7 +149,8 @@ def _imports(relative: str, text: str) -> Iterator[tuple[int, str]]:
         if top == "":
             yield line, "relative import; write it absolute"
         elif not stage:
-            yield line, f"imports {name}; the package itself imports nothing"
+            if name != "modeler.api":  # in a function, when a name is asked for
+                yield line, f"imports {name}; the package itself imports nothing but modeler.api"
         elif top == "modeler":
             other = rest.split(".")[0]
             if other not in {stage, "__version__"} | STAGES[stage] | ROUND.get(relative, set()):

@@ -4,10 +4,12 @@ import difflib
 import os
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis.internal.conjecture import providers
 
+from modeler.core.json import nulled
 from tests.further_robots import FurtherRobots
 
 # Hypothesis mixes the constants of whatever modules happen to be imported into its examples, and
@@ -67,6 +69,28 @@ def compiled_models_beside_pytest(request: pytest.FixtureRequest) -> Iterator[No
     yield
     if before is None:
         del os.environ["MODELER_CACHE"]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def results_are_as_the_schemas_say() -> Iterator[None]:
+    """Whatever a command returns in any test is held against its schema in docs/schema."""
+    from modeler.cli import console
+
+    run_command = console.run_command
+
+    def checked(args: Any, run: Callable[[Any], Any]) -> None:
+        def held(args: Any) -> Any:
+            content = run(args)
+            from tests.json_schemas import check_schema  # only where a command runs
+
+            check_schema(args.command, console.with_schema(args.command, nulled(content)))
+            return content
+
+        run_command(args, held)
+
+    console.run_command = checked
+    yield
+    console.run_command = run_command
 
 
 @pytest.fixture

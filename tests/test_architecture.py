@@ -93,11 +93,8 @@ def test_what_is_imported_is_what_is_declared() -> None:
 
 def _names(lines: list[str]) -> set[str]:
     names = {re.split("[<>=!~; ]", line)[0] for line in lines}
-    kept = {"python-calamine"}  # which is imported by its whole name
-    bare = {
-        name.removeprefix("python-").removesuffix("-cuda12x") for name in names - kept
-    } | kept & names
-    return {name.replace("-", "_") for name in bare}
+    bare = {name.replace("python-flint", "flint").removesuffix("-cuda12x") for name in names}
+    return {name.replace("-", "_").replace("scikit_learn", "sklearn") for name in bare}
 
 
 # file, its text, what the checker must say of it

@@ -22,8 +22,8 @@ from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE
 from modeler.effects.effect import Acts
 from modeler.observation.settings import Processing
+from modeler.robot.conventions import COLUMNS
 from modeler.robot.read import _KEYS, robot_from_text
-from modeler.robot.table import COLUMNS
 from modeler.simulation.hidden import HIDDEN
 
 ROOT = Path(__file__).resolve().parents[1]

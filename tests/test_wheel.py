@@ -43,6 +43,7 @@ def test_the_wheel_holds_the_package_its_data_and_nothing_else(built: tuple[Path
         "modeler/_csrc/include/modeler_runtime.h",
         "modeler/effects/catalogue.toml",
         "modeler/robot/library/wrist.toml",
+        "modeler/robot/templates/parallelogram.toml",
         "modeler/_templates/plotly/plotly-basic.min.js",
         "modeler/_templates/plotly/LICENSE",
         "modeler/_templates/pages/page.css",

@@ -7,6 +7,7 @@ from .fitting import (
     side_by_side as side_by_side,
 )
 from .fleets import fleet as fleet
+from .identifying import identify as identify
 from .improve import add as add, auto as auto, diagnose as diagnose, undo as undo
 from .log_maps import (
     Mapped as Mapped,
@@ -14,6 +15,13 @@ from .log_maps import (
     log_map as log_map,
     look_at as look_at,
     settled as settled,
+)
+from .model import (
+    Model as Model,
+    Parameter as Parameter,
+    load as load,
+    open_model as open_model,
+    open_robot as open_robot,
 )
 from .motion import (
     excite as excite,
@@ -50,10 +58,9 @@ from .workflow import (
     effects as effects,
     estimators as estimators,
     generate as generate,
-    load as load,
+    new_robot as new_robot,
     observe as observe,
     on_gpu as on_gpu,
-    open_model as open_model,
     own_effect as own_effect,
     read_currents as read_currents,
     read_logs as read_logs,

@@ -28,6 +28,8 @@ _KINDS = {
     "HomeModes": "assembly modes (home gives them)",
     "Log": "a log",
     "SimulatedLog": "a simulated log",
+    "Frame": "a frame",
+    "Model": "a model",
     "str": "a text",
     "Path": "a path",
     "float": "a number",
@@ -62,7 +64,8 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
         hints = _hints(function)
         for name, value in given.arguments.items():
             if signature.parameters[name].kind is not inspect.Parameter.VAR_KEYWORD:
-                given.arguments[name] = fitting(function.__name__, name, hints[name], value)
+                hint = hints.get(name, Any)  # `self` has none
+                given.arguments[name] = fitting(function.__name__, name, hint, value)
         return function(*given.args, **given.kwargs)
 
     return checked_call
@@ -92,6 +95,8 @@ def fitting(where: str, name: str, hint: Any, value: Any) -> Any:
 
 
 def _taken(hint: Any, value: Any) -> Any:
+    if isinstance(hint, TypeVar):
+        hint = hint.__bound__
     origin, of = get_origin(hint), get_args(hint)
     if hint is Any:
         return value
@@ -128,7 +133,8 @@ def _one_of(hints: Sequence[Any], value: Any) -> Any:
 
 
 def _listed(hint: Any, value: Any) -> Any:
-    if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
+    one = isinstance(value, str | bytes | Mapping) or hasattr(value, "__arrow_c_stream__")
+    if one or not isinstance(value, Iterable):
         return [_taken(hint, value)]
     kept = value if isinstance(value, Sequence) else list(value)
     for each in kept:
@@ -158,6 +164,8 @@ def _got(value: Any) -> str:
 
 def _told(hint: Any) -> str:
     """What is expected, in words."""
+    if isinstance(hint, TypeVar):
+        hint = hint.__bound__
     origin, of = get_origin(hint), get_args(hint)
     if origin in (Union, types.UnionType):
         return " or ".join(_told(each) for each in of)

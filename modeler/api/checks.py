@@ -6,8 +6,7 @@ from string import ascii_uppercase
 import modeler.api.workflow as workflow
 from modeler import validation
 from modeler.api.log_maps import Mapped
-from modeler.api.long_logs import are_long, sources_of, too_long
-from modeler.api.workflow import AnyLog
+from modeler.api.workflow import AnyLog, are_long, sources_of, too_long
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.observation import Log, Observation, WholeLogNeeded, check_apart

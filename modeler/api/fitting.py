@@ -10,6 +10,7 @@ import modeler.api.workflow as workflow
 from modeler import estimation
 from modeler.api.arguments import Steps, fitting, silent
 from modeler.api.log_maps import Mapped
+from modeler.api.model import Model
 from modeler.api.workflow import AnyLog
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
@@ -172,7 +173,7 @@ def fit(
     window: float | None = None,
     payloads: Sequence[estimation.Payload] = (),
     essential_below: float | None = None,
-) -> estimation.IdentifiedModel:
+) -> Model:
     """The base parameters from an observation, with all that a model file holds.
 
     Args:
@@ -213,7 +214,7 @@ def fitted(
     compiled: CompiledModel,
     observation: Observation,
     working: Steps = silent,
-) -> tuple[estimation.IdentifiedModel, FitOutcome]:
+) -> tuple[Model, FitOutcome]:
     """The same, and the way that was taken."""
     with working("estimating"):
         way = estimated(asked, derivation.robot, compiled, observation)
@@ -224,9 +225,9 @@ def fitted(
 
 def identified(
     derivation: Derivation, emitted: Emitted, observation: Observation, result: estimation.FitResult
-) -> estimation.IdentifiedModel:
+) -> Model:
     """A fit with all that a model file holds."""
-    return estimation.IdentifiedModel(
+    return Model(
         robot_text=derivation.robot.text,
         spec=emitted.spec,
         sources=emitted.code,
@@ -266,7 +267,7 @@ class Load:
 
 def fit_gains(
     derivation: Derivation, logs: Sequence[AnyLog], load: Load, processing: Processing | None = None
-) -> estimation.IdentifiedModel:
+) -> Model:
     """The model whose robot file has the drive gains that the logs tell (see docs/drive-gains.md).
 
     Args:
@@ -291,7 +292,7 @@ def found_with_gains(
     check: Callable[[Sequence[Log], Sequence[Log]], None] | None = None,
     working: Steps = silent,
     mapping: Mapped = (),
-) -> tuple[estimation.IdentifiedModel, Observation]:
+) -> tuple[Model, Observation]:
     """The same, and the observation that the model was fitted to.
 
     The gains are found first. Then the logs are read once more with them, as whoever uses the model

@@ -1,11 +1,12 @@
 """Effects into a model: one by its name, all that a diagnosis names; the last one out again."""
 
+import dataclasses
 from collections.abc import Callable, Sequence
 
 from modeler import diagnosis
 from modeler.api.arguments import Steps, silent
 from modeler.api.log_maps import Mapped
-from modeler.api.workflow import AnyLog, read_logs, recompile
+from modeler.api.workflow import AnyLog, M, read_logs, recompile
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.observation import check_apart
@@ -27,13 +28,13 @@ def diagnose(
 
 
 def add(
-    model: IdentifiedModel,
+    model: M,
     effect: str,
     logs: Sequence[AnyLog],
     holdout: Sequence[AnyLog] = (),
     joint: str | None = None,
     mapping: Mapped = (),
-) -> IdentifiedModel:
+) -> M:
     """The model with one effect more, fitted to the logs; `table("waterfall")` says what it gained.
 
     Args:
@@ -49,32 +50,38 @@ def add(
             cannot be added.
     """
     compiled, given = logs_of(model, logs, holdout, mapping)
-    return diagnosis.add_effect(model, compiled, effect, joint, given)
+    return like(model, diagnosis.add_effect(model, compiled, effect, joint, given))
 
 
 def auto(
-    model: IdentifiedModel,
+    model: M,
     logs: Sequence[AnyLog],
     holdout: Sequence[AnyLog] = (),
     progress: Callable[[float], None] | None = None,
     mapping: Mapped = (),
-) -> IdentifiedModel:
+) -> M:
     """The model with all that a diagnosis on these logs names and that lowers the error.
 
     Raises:
         DataError: nothing that can be added is missing.
     """
     compiled, given = logs_of(model, logs, holdout, mapping)
-    return auto_added(model, compiled, given, progress)[0]
+    return like(model, auto_added(model, compiled, given, progress)[0])
 
 
-def undo(model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()) -> IdentifiedModel:
+def undo(model: M, logs: Sequence[AnyLog], mapping: Mapped = ()) -> M:
     """The model without the effect that was added last, fitted again to the logs.
 
     Raises:
         DataError: none was added.
     """
-    return diagnosis.undone(model, logs_of(model, logs, (), mapping)[1])
+    return like(model, diagnosis.undone(model, logs_of(model, logs, (), mapping)[1]))
+
+
+def like(model: M, made: IdentifiedModel) -> M:
+    """What was made of a model, as an object of its class."""
+    found = {f.name: getattr(made, f.name) for f in dataclasses.fields(IdentifiedModel)}
+    return dataclasses.replace(model, **{**found, "mapping": model.mapping})
 
 
 def auto_added(

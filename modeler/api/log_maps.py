@@ -11,6 +11,7 @@ from modeler import observation
 from modeler.core.errors import DataError, ModelerError, file_and_window
 from modeler.estimation import identify, log_findings, with_verdict
 from modeler.logs import (
+    InMemory,
     LogInspection,
     LogMap,
     LogTable,
@@ -22,6 +23,7 @@ from modeler.logs import (
 )
 from modeler.observation import FINGER, LONG, WINDOW, WINDOWS
 from modeler.runtime import CompiledModel
+from modeler.simulation import SimulatedLog
 
 Mapped = Mapping[str, Any] | Sequence[str] | LogMap
 """Whose column is which: a table as [log] of a robot file, or texts as `--map` takes them."""
@@ -58,7 +60,7 @@ def log_maps(compiled: CompiledModel, logs: Sequence[Any], mapping: Mapped = ())
     known: dict[tuple[str, ...], LogMap] = {}  # of columns, a guess: once for logs that are alike
     found = []
     for log in logs:
-        if not isinstance(log, str | Path):
+        if isinstance(log, observation.Log | SimulatedLog):
             found.append(dataclasses.replace(names, auto=False))
             continue
         seen = look_at(log, compiled, LogMap(topic=names.topic, files=names.files))
@@ -91,7 +93,7 @@ def settled(
 
 
 def _guessed(
-    compiled: CompiledModel, place: str | Path, names: LogMap, seen: LogInspection
+    compiled: CompiledModel, place: str | Path | InMemory, names: LogMap, seen: LogInspection
 ) -> LogMap:
     """The guess, for what is not named yet, by the rule of `believed`."""
     joints = compiled.spec.joints
@@ -170,11 +172,11 @@ def suggested_map(text: str, mapping: LogMap) -> LogMap:
     return mapping.overriding(_read(text))
 
 
-def _heard(compiled: CompiledModel, place: str | Path, names: LogMap) -> Heard:
+def _heard(compiled: CompiledModel, place: str | Path | InMemory, names: LogMap) -> Heard:
     """A weighted fit, of a long log of its beginning."""
     try:
-        path, span = file_and_span(place)
-        blocks = blocks_of(Path(path)) if span is None else None
+        path, span = file_and_span(place) if isinstance(place, str | Path) else ("", None)
+        blocks = blocks_of(Path(path)) if path and span is None else None
         if blocks is not None and blocks.rows > LONG:
             source = observation.source_of(Path(path), compiled.spec, names)
             assert source is not None  # it has blocks
@@ -190,8 +192,12 @@ def _heard(compiled: CompiledModel, place: str | Path, names: LogMap) -> Heard:
     return Heard(judged.relative_error, (), usable, rows.report)
 
 
-def read_mapped(place: str | Path, spec: Any, names: LogMap) -> observation.Log:
-    """A log, or a piece of it, with the columns of a map."""
+def read_mapped(
+    place: str | Path | InMemory, spec: Any, names: LogMap, where: str = "log"
+) -> observation.Log:
+    """A log, or a piece of it, with the columns of a map; `where` is a frame in messages."""
+    if not isinstance(place, str | Path):
+        return observation.log_in_memory(place, spec, names, where)
     path, span = file_and_span(place)
     if span is None:
         return observation.read_log(path, spec, names)
@@ -226,21 +232,24 @@ def file_and_span(place: str | Path) -> tuple[str | Path, tuple[float | None, fl
 
 
 def look_at(
-    place: str | Path, compiled: CompiledModel | None = None, mapping: Mapped = ()
+    place: str | Path | InMemory, compiled: CompiledModel | None = None, mapping: Mapped = ()
 ) -> LogInspection:
     """Channels, clock, gaps and doubts of a log.
 
     Args:
-        place: of any format of `modeler.logs`; with `@start:end` a piece of it.
+        place: of any format of `modeler.logs`; with `@start:end` a piece of it; a frame, a dict.
         compiled: the robot that it may be of; None: the columns speak for themselves.
         mapping: whose column is which, as of `read_logs`; what it leaves open is guessed.
 
     Raises:
         DataError: the file cannot be read, or has no rows in that piece.
     """
-    path, span = file_and_span(str(place))
     names = given_map(mapping) if compiled is None else log_map(compiled, mapping)
     joints = () if compiled is None else compiled.spec.joints
+    if not isinstance(place, str | Path):
+        held = observation.table_in_memory(place, joints, names, "log")
+        return inspect_log(held, names, joints, (None, None))
+    path, span = file_and_span(str(place))
     blocks, span = blocks_of(Path(path)), span or (None, None)
     if blocks is None or blocks.rows <= LONG:
         table = LogTable(Path(path), names, joints, any_topic=True)

@@ -1,4 +1,4 @@
-"""Long logs: whether some are, and their fit, which never has all rows in memory."""
+"""The fit of long logs, which never has all rows in memory."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -8,73 +8,20 @@ from typing import TypeGuard
 
 from modeler import observation
 from modeler.api.fitting import FitOutcome, identified, judged
-from modeler.api.log_maps import Mapped, file_and_span, log_maps
-from modeler.api.workflow import AnyLog, read_logs
+from modeler.api.model import Model
+from modeler.api.workflow import (
+    are_long as are_long,
+    check_fits_memory as check_fits_memory,
+    sources_of as sources_of,
+    too_long as too_long,
+)
 from modeler.codegen import Derivation
 from modeler.core.errors import DataError, Method
 from modeler.core.jobs import Workers
 from modeler.core.manifest import Emitted
-from modeler.estimation import FitResult, IdentifiedModel, long_logs as chunked
-from modeler.logs import LogMap, blocks_of
+from modeler.estimation import FitResult, long_logs as chunked
+from modeler.logs import LogMap
 from modeler.runtime import CompiledModel, compiled_once
-
-
-def rows_of(places: Sequence[AnyLog]) -> int:
-    """Rows of logs, as far as their files tell without being read; of CSV files about.
-
-    Raises:
-        DataError: a file is damaged.
-    """
-    rows = 0
-    for place in places:
-        if isinstance(place, observation.Log):
-            rows += place.rows
-        elif isinstance(place, str | Path):
-            path, span = file_and_span(place)
-            blocks = blocks_of(Path(path)) if span is None else None
-            rows += 0 if blocks is None else blocks.rows
-    return rows
-
-
-def are_long(places: Sequence[AnyLog]) -> bool:
-    """True of logs whose fit reads them in chunks."""
-    return rows_of(places) > observation.LONG
-
-
-def too_long(places: Sequence[AnyLog]) -> bool:
-    """True of logs that are not read at once, whatever for."""
-    return rows_of(places) > observation.MOST_WHOLE
-
-
-def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
-    """Refuse logs that are too long to be read at once.
-
-    Raises:
-        DataError: they have more rows than that.
-    """
-    if too_long(places):
-        raise DataError(
-            f"fit: {what} keeps all rows in memory; got {rows_of(places)} rows, expected "
-            f"at most {observation.MOST_WHOLE}; give a part of the log, FILE@START:END, or take "
-            f"--method {' or '.join(chunked.OF_TRIANGLES)}, which read logs of any length"
-        )
-
-
-def sources_of(
-    compiled: CompiledModel, places: Sequence[AnyLog], mapping: Mapped = ()
-) -> list[observation.Source]:
-    """The rows of logs, in blocks where their format allows it.
-
-    Raises:
-        DataError: a log cannot be read.
-    """
-    found: list[observation.Source] = []
-    for place, names in zip(places, log_maps(compiled, places, mapping), strict=True):
-        source = None
-        if isinstance(place, str | Path) and file_and_span(place)[1] is None:
-            source = observation.source_of(Path(place), compiled.spec, names)
-        found.append(source or observation.MemorySource(read_logs(compiled, [place], names)[0]))
-    return found
 
 
 def fit_long(
@@ -86,7 +33,7 @@ def fit_long(
     processing: observation.Processing | None = None,
     progress: Callable[[float], None] = lambda share: None,
     reducer: chunked.Reducer | None = None,
-) -> tuple[IdentifiedModel, chunked.Streamed]:
+) -> tuple[Model, chunked.Streamed]:
     """The fitted model of logs of any length, in flat memory; see `estimation.long_logs.stream`.
 
     Args:

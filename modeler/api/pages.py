@@ -1,11 +1,12 @@
 """Pages: one self-contained HTML file of whatever has one."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from modeler import report
 from modeler.core.errors import DataError
+from modeler.core.files import write_atomically
+from modeler.core.result import presented
 from modeler.diagnosis import Diagnosis
 from modeler.estimation import IdentifiedModel, SideBySide
 from modeler.fleet import Fleet
@@ -33,26 +34,14 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
         DataError: no page shows it.
         ModelerError: the place cannot be written.
     """
-    if isinstance(thing, Robot):
-        report.show(thing, path)
+    found = presented(type(thing))
+    if found is not None and found.document is not None:
+        sheet = found.document(thing, notes)
+        if isinstance(sheet, report.Page):
+            return report.write_page(Path(path), sheet)
+        write_atomically(Path(path), sheet)
         return Path(path)
-    for kind, page_of in _PAGES.items():
-        if isinstance(thing, kind):
-            return report.write_page(Path(path), page_of(thing, notes))
     raise DataError(
         f"write_report: got {type(thing).__name__}; expected a robot, a model, a comparison, a "
         "diagnosis, models side by side, estimators side by side or a fleet"
     )
-
-
-_PAGES: Mapping[type, Callable[[Any, Sequence[str]], report.Page]] = {
-    LogInspection: lambda look, notes: report.log_page(look, look.doubts, notes),
-    SideBySide: lambda s, notes: report.estimators_page(s.robot, s.tried, [*s.data, *notes]),
-    IdentifiedModel: lambda m, notes: (report.additions_page if m.history else report.fit_page)(
-        m, notes
-    ),
-    Comparison: report.comparison_page,
-    Contest: report.contest_page,
-    Diagnosis: report.diagnosis_page,
-    Fleet: report.fleet_page,
-}

@@ -1,13 +1,15 @@
 """The chain: from a robot to its C, from logs to a model."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, TypeVar
 
 from modeler import observation
-from modeler.api.log_maps import Mapped, log_maps, read_mapped
+from modeler.api.arguments import fitting
+from modeler.api.log_maps import Mapped, file_and_span, log_maps, read_mapped
 from modeler.codegen import (
     Derivation as Derivation,
     derive as derive,
@@ -15,20 +17,89 @@ from modeler.codegen import (
     load as load,
 )
 from modeler.core.builtin import builtin_names
-from modeler.core.errors import ManifestError, Precision
+from modeler.core.errors import DataError, ManifestError, Precision
 from modeler.core.estimators import ABOUT
-from modeler.core.files import write_atomically
+from modeler.core.files import Kind, destination, write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.table import Table
 from modeler.effects import CATALOGUE
-from modeler.estimation import IdentifiedModel, check_currents, in_drive_units, model_file
-from modeler.logs import LogMap
-from modeler.robot import Robot, read_robot, robot_from_text, with_own_effect
+from modeler.estimation import (
+    OF_TRIANGLES,
+    IdentifiedModel,
+    check_currents,
+    in_drive_units,
+    model_file,
+)
+from modeler.logs import Frame, LogMap, blocks_of
+from modeler.robot import (
+    Robot,
+    read_robot,
+    robot_from_text,
+    robot_name,
+    template_robot,
+    with_own_effect,
+)
 from modeler.runtime import CompiledModel, GpuModel, load as load_compiled, load_gpu
 from modeler.simulation import SimulatedLog, write_log
 
-AnyLog = str | Path | observation.Log | SimulatedLog
-"""A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated."""
+AnyLog = str | Path | observation.Log | SimulatedLog | Mapping[str, Any] | Frame
+"""A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated.
+
+Or columns in memory: a frame of pandas or Polars, a dict of arrays.
+"""
+
+Logs = AnyLog | Sequence[AnyLog]
+"""Logs; one alone stands for a list of it."""
+
+
+def listed(logs: Logs) -> Sequence[AnyLog]:
+    """One log alone as a list of it."""
+    found: Sequence[AnyLog] = fitting("logs", "logs", Sequence[AnyLog], logs)
+    return found
+
+
+M = TypeVar("M", bound=IdentifiedModel)
+
+
+def new_robot(
+    path: str | Path,
+    template: str = "serial",
+    joints: str = "RRR",
+    convention: str = "khalil",
+    force: bool = False,
+) -> Robot:
+    """Writes a commented robot file to start from, which derives as it is.
+
+    Args:
+        path: of the file, ending in .toml; the robot is called as it is.
+        template: `serial`, `parallelogram` or `parallel`.
+        joints: of a serial robot, from the base: R revolute, P prismatic.
+        convention: whose table a serial robot gets: `khalil`, `craig` or `classical`.
+        force: write over a file that is there.
+
+    Raises:
+        RobotError: an unknown template or convention, or other letters for joints.
+        DataError: another ending, or a file that is there.
+    """
+    place = Path(path)
+    check_new_robot(place, force)
+    text = template_robot(robot_name(place.stem), template, joints, convention)
+    robot = robot_from_text(text, str(place))
+    write_atomically(place, text)
+    return robot
+
+
+def check_new_robot(place: Path, force: bool) -> None:
+    """Refuses what `new_robot` would: another ending, or a file that is there."""
+    if place.suffix.lower() != ".toml":
+        raise DataError(
+            f"{place}: got {place.suffix or 'no ending'}; expected a name such as arm.toml"
+        )
+    if destination(place).kind is Kind.FILE and not force:
+        raise DataError(
+            f"{place}: there is such a file; choose another name, or write over it with --force "
+            "(force=True)"
+        )
 
 
 def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:
@@ -98,7 +169,7 @@ def read_logs(
             takes the guess of `look_at` for what is left open.
     """
     maps = log_maps(compiled, logs, mapping)
-    return [_log(log, compiled.spec, names) for log, names in zip(logs, maps, strict=True)]
+    return [_log(*each, compiled.spec) for each in enumerate(zip(logs, maps, strict=True))]
 
 
 def read_currents(
@@ -110,21 +181,83 @@ def read_currents(
         DataError: a log gives a torque instead.
     """
     spec, maps = in_drive_units(compiled.spec), log_maps(compiled, logs, mapping)
-    read = [_log(log, spec, names) for log, names in zip(logs, maps, strict=True)]
+    read = [_log(*each, spec) for each in enumerate(zip(logs, maps, strict=True))]
     check_currents(read, spec.joints)
     return read
 
 
-def _log(log: AnyLog, spec: ModuleSpec, names: LogMap) -> observation.Log:
+def _log(number: int, named: tuple[AnyLog, LogMap], spec: ModuleSpec) -> observation.Log:
+    log, names = named
     if isinstance(log, observation.Log):
         return log
     if not isinstance(log, SimulatedLog):
-        return read_mapped(log, spec, names)
+        return read_mapped(log, spec, names, f"logs[{number}]")
     with TemporaryDirectory() as folder:  # read as whoever gets the file will read it
         place = Path(folder) / f"{log.robot}-seed{log.settings.seed}.parquet"
         write_log(place, log)
         read = observation.read_log(place, spec)
     return dataclasses.replace(read, path="")
+
+
+# Long logs: whether some are, and their rows in blocks.
+
+
+def rows_of(places: Sequence[AnyLog]) -> int:
+    """Rows of logs, as far as their files tell without being read; of CSV files about.
+
+    Raises:
+        DataError: a file is damaged.
+    """
+    rows = 0
+    for place in places:
+        if isinstance(place, observation.Log):
+            rows += place.rows
+        elif isinstance(place, str | Path):
+            path, span = file_and_span(place)
+            blocks = blocks_of(Path(path)) if span is None else None
+            rows += 0 if blocks is None else blocks.rows
+    return rows
+
+
+def are_long(places: Sequence[AnyLog]) -> bool:
+    """True of logs whose fit reads them in chunks."""
+    return rows_of(places) > observation.LONG
+
+
+def too_long(places: Sequence[AnyLog]) -> bool:
+    """True of logs that are not read at once, whatever for."""
+    return rows_of(places) > observation.MOST_WHOLE
+
+
+def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
+    """Refuse logs that are too long to be read at once.
+
+    Raises:
+        DataError: they have more rows than that.
+    """
+    if too_long(places):
+        raise DataError(
+            f"fit: {what} keeps all rows in memory; got {rows_of(places)} rows, expected "
+            f"at most {observation.MOST_WHOLE}; give a part of the log, FILE@START:END, or take "
+            f"--method {' or '.join(OF_TRIANGLES)}, which read logs of any length"
+        )
+
+
+def sources_of(
+    compiled: CompiledModel, places: Sequence[AnyLog], mapping: Mapped = ()
+) -> list[observation.Source]:
+    """The rows of logs, in blocks where their format allows it.
+
+    Raises:
+        DataError: a log cannot be read.
+    """
+    found: list[observation.Source] = []
+    for place, names in zip(places, log_maps(compiled, places, mapping), strict=True):
+        source = None
+        if isinstance(place, str | Path) and file_and_span(place)[1] is None:
+            source = observation.source_of(Path(place), compiled.spec, names)
+        found.append(source or observation.MemorySource(read_logs(compiled, [place], names)[0]))
+    return found
 
 
 def observe(
@@ -154,9 +287,7 @@ def recompile(model: IdentifiedModel) -> CompiledModel:
 
 def _emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
     """What the robot text of a model gives, if that is what its values belong to."""
-    robot = robot_from_text(model.robot_text, f"robot {model.spec.robot} in the model file")
-    derivation = derive(robot)
-    emitted = generate_robot(derivation)
+    derivation, emitted = derived(model.robot_text, f"robot {model.spec.robot} in the model file")
     if emitted.spec.signature() != model.spec.signature():
         what = "manifest" if _uncoded(emitted.spec) != _uncoded(model.spec) else "C"
         raise ManifestError(
@@ -167,17 +298,25 @@ def _emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivati
     return derivation, emitted
 
 
+@lru_cache(maxsize=4)
+def derived(text: str, where: str) -> tuple[Derivation, Emitted]:
+    """Of a robot file's text; the last ones are kept, for who asks again."""
+    derivation = derive(robot_from_text(text, where))
+    return derivation, generate_robot(derivation)
+
+
 def _uncoded(spec: ModuleSpec) -> ModuleSpec:
     return dataclasses.replace(spec, code="")
 
 
-def reduced(model: IdentifiedModel) -> IdentifiedModel:
+def reduced(model: M) -> M:
     """The model with its essential parameters only, estimated anew; all others are 0.
 
     Raises:
         DataError: the model was saved by a version that kept none.
     """
-    return model_file.with_essential_only(model, f"model of {model.spec.robot}")
+    found = model_file.with_essential_only(model, f"model of {model.spec.robot}")
+    return dataclasses.replace(model, fit=found.fit)
 
 
 def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
@@ -191,16 +330,6 @@ def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
     else:
         model_file.save_model(path, thing)
     return Path(path)
-
-
-def open_model(path: str | Path) -> IdentifiedModel:
-    """Read a model file. Robot files are read by `load`.
-
-    Raises:
-        ManifestError: missing, not a model file, of another format, damaged, or changed since it
-            was saved.
-    """
-    return model_file.load_model(path)
 
 
 # What is built in: robots, effects, estimators; each as a table.

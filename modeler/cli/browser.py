@@ -1,7 +1,6 @@
 """`--open`: the page that a command writes is shown in the browser."""
 
 import argparse
-import tempfile
 from pathlib import Path
 
 from modeler.cli.console import note
@@ -12,6 +11,8 @@ def place_page(args: argparse.Namespace) -> None:
     """A page that shall be shown and has no place gets one in a temporary folder, which stays."""
     args.page_is_temporary = False
     if vars(args).get("open") and "report" in args and args.report is None:
+        import tempfile  # these are loaded where they are wanted
+
         folder = tempfile.mkdtemp(prefix="modeler-")
         args.report = Output(Path(folder) / f"{args.command}.html")
         args.page_is_temporary = True
@@ -28,7 +29,7 @@ def show_page(args: argparse.Namespace) -> None:
     """Shows what `--open` asked for; one line where there is no browser, or no page."""
     if not vars(args).get("open"):
         return
-    import webbrowser  # only now: it looks at what is installed
+    import webbrowser
 
     page = _page(vars(args).get("report") or args.out)
     if not page.is_file():

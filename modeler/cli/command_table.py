@@ -22,7 +22,7 @@ from modeler.cli.options import (
     value,
 )
 from modeler.core import errors
-from modeler.core.builtin import EFFECTS, MOTIONS, SIMULATED, paper_names
+from modeler.core.builtin import CONVENTIONS, EFFECTS, MOTIONS, SIMULATED, TEMPLATES, paper_names
 from modeler.core.estimators import ABOUT, APART
 
 NOMINAL = ""
@@ -218,8 +218,25 @@ _PHYSICAL = Command(
     ),
 )  # fmt: skip
 
+_NEW = Command(
+    "new", "new:run_new",
+    "a robot file to start from",
+    "Writes a commented robot file that derives as it is: on a terminal after a few questions, "
+    "else the template asked for (by default a serial robot of three joints).",
+    "modeler new arm.toml --joints RRPRRR --convention craig",
+    (
+        value("file", "ROBOT.toml", places.NewRobot, "robot file to write"),
+        choice("--template", TEMPLATES, "kind of robot"),
+        value("--joints", "LETTERS", places.Word,
+              "of a serial robot from the base, R revolute, P prismatic: RRPRRR"),
+        choice("--convention", CONVENTIONS, "whose table, of a serial robot"),
+        flag("--force", "write over a file that is there"),
+    ),
+    "write what was begun for machines",
+)  # fmt: skip
+
 _CONVERT = Command(
-    "convert", "show:run_convert",
+    "convert", "new:run_convert",
     "another program's robot file as ours",
     "Writes the robot of a SYMORO file (.par) as a robot file, and says what was decided and what "
     "has no place there. Every command reads a .par as well; converted, it can be edited.",
@@ -448,7 +465,7 @@ _EXCITE = Command(
     "apart. With --choose: the best of motions that there are.",
     "modeler excite panda --duration 10 --out motion.csv --picture motion.png",
     (
-        value("robot", "ROBOT", places.RobotOrModel, _ROBOT_OR_MODEL),
+        value("robot", "ROBOT|MODEL", places.RobotOrModel, _ROBOT_OR_MODEL),
         _CHANGED,
         value("--out", "MOTION", places.NewLog,
               "motion to write, .csv or .parquet: time, q, qd and qdd of every joint"),
@@ -625,7 +642,7 @@ _COMPLETION = Command(
 )  # fmt: skip
 
 FAMILIES: dict[str, tuple[Command, ...]] = {
-    "describe": (_CONVERT, _SHOW, _HOME, _DERIVE),
+    "describe": (_NEW, _CONVERT, _SHOW, _HOME, _DERIVE),
     "measure": (_EXCITE, _SIMULATE, _LOG),
     "identify": (_FIT, _COMPARE),
     "understand": (_DIAGNOSE, _ADD, _PHYSICAL, _FLEET),

@@ -49,7 +49,7 @@ def run_compare(args: argparse.Namespace) -> Json:
     draw_page(args.report, lambda: pages.comparison_page(comparison, lines, origin))
     draw_pictures(args.picture, lambda: pages.all_pictures(comparison))
     say_lines([following], "next: ")
-    return comparison.as_dict() | {"doubts": doubts}
+    return comparison.to_json() | {"doubts": doubts}
 
 
 def judged(
@@ -122,7 +122,7 @@ def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
     )
     draw_page(args.report, lambda: pages.contest_page(found, lines, not trained))
     draw_pictures(args.picture, lambda: pages.contest_pictures(found))
-    return validation.compare(found.predictions[0]).as_dict() | {
+    return validation.compare(found.predictions[0]).to_json() | {
         "models": found.as_dicts(),
         "doubts": [],
     }
@@ -164,6 +164,7 @@ def _run_free(args: argparse.Namespace) -> Json:
     with progress("simulating") as bar:
         found = validation.free_run(model, logs, compiled, asked, bar)
     say_lines([*found.summary().splitlines(), *model.warning])
+    draw_page(args.report, lambda: pages.free_run_page(found, Origin(args.model, found.logs)))
     draw_pictures(args.picture, lambda: validation.free_run_pictures(found))
     return found.to_json()
 
@@ -184,10 +185,6 @@ def _check_free_run(args: argparse.Namespace, others: Sequence[str]) -> None:
             raise DataError(f"--{name}: is of --free-run; add that, or leave --{name} out")
     elif others:
         raise DataError(f"--free-run: got {others[0]} too; expected one model, and logs")
-    elif args.report is not None:
-        raise DataError(
-            "--report, --open: got it with --free-run, which draws pictures; expected --picture DIR"
-        )
 
 
 def _gains(text: str | None) -> validation.Gains | None:

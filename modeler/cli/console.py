@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, Any
 from modeler import __version__
 from modeler.core.errors import ModelerError
 from modeler.core.files import Kind, destination, write_atomically
-from modeler.core.json import nulled
 
 if TYPE_CHECKING:
     from modeler.core.figure import Picture
@@ -252,13 +251,27 @@ def run_command(args: argparse.Namespace, run: Callable[[argparse.Namespace], Js
     with contextlib.redirect_stdout(io.StringIO()) if alone else contextlib.nullcontext():
         content = run(args)
     if args.json is not None:
-        text = json.dumps(nulled(content), indent=1, allow_nan=False) + "\n"
+        from modeler.core.json import nulled  # it reads TOML too, which help need not
+
+        told = with_schema(args.command, nulled(content))
+        text = json.dumps(told, indent=1, allow_nan=False) + "\n"
         if alone:
             write_stdout(text)
         else:
             write_atomically(Path(args.json), text)
     if hasattr(args, "after"):
         args.after(args)
+
+
+SCHEMA = 1
+"""Version of what `--json` writes; entries may come, a name that changes makes another version."""
+
+
+def with_schema(command: str, content: Json) -> Json:
+    """An object says which schema of docs/schema describes it."""
+    if not isinstance(content, dict):
+        return content
+    return {"schema": f"urn:modeler:schema:{command}:{SCHEMA}", **content}
 
 
 def _is_stdout(place: str) -> bool:

@@ -39,7 +39,7 @@ def run_fleet(args: argparse.Namespace) -> Json:
         found = fleet_of(emitted.spec, given)
     say_lines(fleet_lines(found))
     draw_page(args.report, lambda: fleet_page(found))
-    return found.as_dict()
+    return found.to_json()
 
 
 def _named(args: argparse.Namespace) -> tuple[Named, ...]:

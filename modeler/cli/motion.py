@@ -11,6 +11,7 @@ from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.lists import robot_of
 from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
+from modeler.core.expression import parse
 from modeler.core.files import write_atomically
 from modeler.core.json import entries
 from modeler.core.table import percent
@@ -162,8 +163,8 @@ def _assigned(
 ) -> tuple[str, list[float]]:
     name, equals, cells = text.partition("=")
     try:
-        values = [float(cell) for cell in cells.split(",")]
-    except ValueError:
+        values = [_number(cell) for cell in cells.split(",")]
+    except (ValueError, ArithmeticError):
         values = []
     if not equals or len(values) not in counts:
         raise DataError(f"{option} {text}: expected {names[0]}={form}, numbers in SI units")
@@ -175,6 +176,17 @@ def _assigned(
     if any(math.isnan(value) for value in values):
         raise DataError(f"{option} {text}: got nan; expected numbers")
     return name, values
+
+
+def _number(cell: str) -> float:
+    """A number, or an angle as `90 deg` or `pi/2`."""
+    try:
+        return float(cell)
+    except ValueError:
+        expression = parse(cell)
+        if expression.names:
+            raise
+        return expression.number()
 
 
 def _choose(args: argparse.Namespace, subject: motions.Subject) -> Json:

@@ -362,8 +362,10 @@ def usage_of(parser: argparse.ArgumentParser) -> str:
     ]
     parts = [
         *(_values(action) for action in arguments_of(parser)),
-        *(_option(action) for action in options if action.required),
-        *(f"[{_option(action)}]" for action in options if not action.required),
+        *(
+            _option(action) if action.required else f"[{_option(action)}]"
+            for action in sorted(options, key=lambda a: (not a.required, a.dest != "out"))
+        ),
     ]
     return _wrapped(parser.prog, parts).replace("%", "%%")
 

@@ -145,6 +145,10 @@ class Output(FilePlace):
     """A file that is written; it is no log."""
 
 
+class NewRobot(Output):
+    """A robot file that is written: what its command is about."""
+
+
 class NewLog(Output):
     """A log that is written."""
 
@@ -233,7 +237,7 @@ def _typed_arguments(args: argparse.Namespace) -> Iterator[tuple[str, object]]:
     """Every argument, with its name as it is typed."""
     for name, value in vars(args).items():
         for each in value if isinstance(value, list) else [value]:
-            yield "--" + name.replace("_", "-"), each
+            yield "new" if isinstance(each, NewRobot) else "--" + name.replace("_", "-"), each
 
 
 def _existing_input(path: Path) -> files.Destination | None:

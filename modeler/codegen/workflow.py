@@ -3,6 +3,7 @@
 import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from modeler.core.errors import Precision
 from modeler.core.formula import Formulas
@@ -16,6 +17,7 @@ from modeler.derivation import (
     as_text,
     base_parameters,
     derive_model,
+    relations,
 )
 from modeler.robot import Robot, read_robot
 
@@ -33,6 +35,10 @@ class Derivation(Presented):
         """The base parameters as sums of standard ones; a notebook typesets them."""
         title = f"base parameters of {self.robot.name}"
         return Formulas(title, as_text(self.base), as_latex(self.base), as_markdown(self.base))
+
+    def to_json(self) -> dict[str, Any]:
+        """What scripts read: base parameters, their sums, the proof."""
+        return relations.as_json(self.robot.name, self.base)
 
     def closed_form(self, nonzero: bool = False) -> Formulas:
         """J(q), S(q), g(q) and e of tau = J qdd + S [qd qd] + g + e, e all effects but rotors.

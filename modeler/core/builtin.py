@@ -6,6 +6,12 @@ from types import MappingProxyType
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 
+TEMPLATES = ("serial", "parallelogram", "parallel")
+"""Kinds of robots to start from."""
+
+CONVENTIONS = ("khalil", "craig", "classical")
+"""Whose table that of a robot file may be."""
+
 NOT_READ = MappingProxyType(
     {".urdf": "URDF", ".xacro": "xacro", ".sdf": "SDF", ".mjcf": "MJCF", ".xml": "XML"}
 )
@@ -55,6 +61,11 @@ def builtin_text(name: str) -> str:
 def builtin_file(name: str) -> Path:
     """Where the text of a built-in robot stands."""
     return _PACKAGE / "robot" / "library" / f"{name}.toml"
+
+
+def template_text(name: str) -> str:
+    """The text of a robot file to start from, with what is to be put in marked by $."""
+    return (_PACKAGE / "robot" / "templates" / f"{name}.toml").read_text(encoding="utf-8")
 
 
 def paper_names() -> tuple[str, ...]:

@@ -1,16 +1,21 @@
-"""What every result says of itself: a line, a summary, tables, frames, figures, HTML.
+"""What every result says of itself: a line, a summary, tables, frames, figures, pages, files.
 
 A result states what it holds; how it is shown stands in one room, `modeler.report.notebook`, which
 is told by `modeler.api`, and says it by a `Presentation` for each class when one is first shown.
 """
 
 import html
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+import io
+import json
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError
+from modeler.core.files import write_atomically
+from modeler.core.json import nulled
 from modeler.core.table import Table
 
 Tables = Mapping[str, Callable[[], Table]]
@@ -30,6 +35,9 @@ class Presentation:
         tables: of an object.
         figures: of an object.
         page: names of the tables that a notebook shows; None: the first alone.
+        document: of an object, with lines for its foot: what `str` makes an HTML page of; None:
+            the page shows what a notebook shows.
+        files: endings of files of its own, ".toml", and what writes one; "" is any other.
     """
 
     noun: str
@@ -37,6 +45,8 @@ class Presentation:
     tables: Callable[[Any], Tables] = lambda thing: {}
     figures: Callable[[Any], Figures] = lambda thing: {}
     page: tuple[str, ...] | None = None
+    document: Callable[[Any, Sequence[str]], Any] | None = None
+    files: Mapping[str, Callable[[Path, Any], Any]] = field(default_factory=dict)
 
 
 _PRESENTATIONS: dict[type, Presentation] = {}
@@ -98,6 +108,51 @@ class Presented(Brief):
         """
         return _asked(self, "plot", name, _of(self).figures(self))
 
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data: what `--json` writes of it, or else its tables."""
+        if hasattr(self, "to_json"):
+            return dict(nulled(self.to_json()))
+        tables = {name: table().to_dict() for name, table in _of(self).tables(self).items()}
+        return dict(nulled(tables))
+
+    def to_html(self) -> str:
+        """A page of HTML that needs no other file."""
+        shown = _of(self)
+        if shown.document is not None:
+            return str(shown.document(self, ()))
+        title, *lines = map(html.escape, shown.summary(self).splitlines())
+        body = self._repr_html_() or "\n".join([f"<h1>{title}</h1>", "<pre>", *lines, "</pre>"])
+        return (
+            f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
+            f"</head>\n<body>\n{body}\n</body></html>\n"
+        )
+
+    def save(self, path: str | Path) -> Path:
+        """Write it to a file, in the way that its ending says.
+
+        Args:
+            path: .json for plain data, .html for its page, .csv .md .tex for its main table,
+                .png .svg .pdf for its main figure, .txt for its summary; or the ending of files of
+                its own: .json of a model is the model, .toml of a robot its file, .parquet of a
+                simulated log the log.
+
+        Raises:
+            DataError: another ending; or it has no table, or no figure.
+            ModelerError: the place cannot be written.
+        """
+        path, own = Path(path), _of(self).files
+        ending = path.suffix.lower()
+        if ending in own or ("" in own and ending not in _WRITTEN):
+            own.get(ending, own.get("", write_atomically))(path, self)
+        elif ending in _WRITTEN:
+            write_atomically(path, _WRITTEN[ending](self))
+        else:
+            raise DataError(
+                f'{path}: got the ending "{ending}"; {_of(self).noun} is saved as one of '
+                f"{' '.join(sorted({*own, *_WRITTEN}))}"
+            )
+        return path
+
     def _repr_html_(self) -> str | None:
         found = presented(type(self))
         tables = {} if found is None else found.tables(self)
@@ -107,6 +162,26 @@ class Presented(Brief):
         names = [next(iter(tables))] if found.page is None else found.page
         drawn = [tables[name]().to_html() for name in names if name in tables]
         return "\n".join([f"<p><b>{html.escape(first)}</b></p>", *drawn])
+
+
+def _drawn(thing: Presented, kind: str) -> bytes:
+    drawn = io.BytesIO()
+    thing.plot().savefig(drawn, format=kind, bbox_inches="tight")
+    return drawn.getvalue()
+
+
+_WRITTEN: Mapping[str, Callable[[Presented], str | bytes]] = {
+    ".json": lambda thing: json.dumps(thing.to_dict(), indent=1) + "\n",
+    ".html": lambda thing: thing.to_html(),
+    ".csv": lambda thing: thing.table().csv(),
+    ".md": lambda thing: thing.table().markdown() + "\n",
+    ".tex": lambda thing: thing.table().latex() + "\n",
+    ".txt": lambda thing: thing.summary() + "\n",
+    ".png": lambda thing: _drawn(thing, "png"),
+    ".svg": lambda thing: _drawn(thing, "svg"),
+    ".pdf": lambda thing: _drawn(thing, "pdf"),
+}
+"""What is written of any result, by the ending of the file."""
 
 
 def _of(thing: Presented) -> Presentation:

@@ -4,7 +4,9 @@ Every table that a result gives is one of these. Whatever a user wrote (a title,
 here and nowhere else.
 """
 
+import csv
 import html
+import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -114,6 +116,21 @@ class Table(Brief):
         lines = [rf"\begin{{tabular}}{{{kinds}}}", r"\hline", head, r"\hline", *body, r"\hline"]
         return "\n".join([*lines, r"\end{tabular}"])
 
+    def csv(self) -> str:
+        """Comma-separated, the names with their units; texts that need it are quoted."""
+        written = io.StringIO()
+        rows = csv.writer(written, lineterminator="\n")
+        rows.writerow(_headed(*column) for column in self.columns)
+        rows.writerows([None if cell is None else _bare(cell) for cell in row] for row in self.rows)
+        return written.getvalue()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data: title, units, and the cells of every column by its name."""
+        names = [name for name, _ in self.columns]
+        cells = zip(*([_bare(cell) for cell in row] for row in self.rows), strict=True)
+        columns = dict(zip(names, map(list, cells), strict=True)) if self.rows else {}
+        return {"title": self.title, "units": dict(self.columns), "columns": columns}
+
     def to_frame(self) -> Any:
         """A pandas DataFrame: columns by name without units, `frame.attrs["units"]` has them.
 
@@ -127,7 +144,7 @@ class Table(Brief):
                 f"to_frame: pandas is not installed; {installing('notebook')}"
             ) from None
         names = [name for name, _ in self.columns]
-        rows = [[c.text if isinstance(c, MathCell) else c for c in row] for row in self.rows]
+        rows = [[_bare(cell) for cell in row] for row in self.rows]
         frame = pandas.DataFrame(rows, columns=names)
         frame.attrs["title"], frame.attrs["units"] = self.title, dict(self.columns)
         return frame
@@ -164,6 +181,10 @@ def _headed(name: str, unit: str) -> str:
     return f"{name} [{unit}]" if unit else name
 
 
+def _bare(cell: Cell) -> str | float | None:
+    return cell.text if isinstance(cell, MathCell) else cell
+
+
 def _plain(cell: Cell) -> str:
     if isinstance(cell, MathCell):
         return cell.text
@@ -177,6 +198,33 @@ def _plain(cell: Cell) -> str:
 def _formula(cell: Cell) -> str:
     """A cell as text, a formula between dollars."""
     return f"${cell.latex}$" if isinstance(cell, MathCell) else _plain(cell)
+
+
+def labelled(values: Any, index: Any, columns: Sequence[str] | None = None) -> Any:
+    """Numbers by name: a Series or DataFrame of pandas where that is installed, else bare ones.
+
+    Args:
+        values: (n,), or (n, m) with columns.
+        index: (n,) names; or, by the name of each level, (n,) values.
+        columns: (m,) names.
+
+    Returns:
+        Without pandas: {name: value} of a vector, {column: (n,) array} of a matrix, with the levels
+        of the index before.
+    """
+    levels = index if isinstance(index, Mapping) else {}
+    try:
+        import pandas
+    except ImportError:
+        if columns is None:
+            return dict(zip(index, values, strict=True))
+        return {**levels, **{name: values[:, k] for k, name in enumerate(columns)}}
+    if levels:
+        index = pandas.MultiIndex.from_arrays(list(levels.values()), names=list(levels))
+        index = index if len(levels) > 1 else index.get_level_values(0)
+    if columns is None:
+        return pandas.Series(values, index=index)
+    return pandas.DataFrame(values, index=index, columns=list(columns))
 
 
 # Relative errors of joints whose efforts have different units: N m and N are never one number.

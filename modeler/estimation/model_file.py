@@ -174,6 +174,11 @@ class IdentifiedModel(Presented):
         """A line if its fit was found not usable."""
         return [] if self.fit.verdict is None else self.fit.verdict.warning()
 
+    def to_json(self) -> dict[str, Any]:
+        """What scripts read: the fit, what was added to it, and its logs."""
+        steps = {"waterfall": [step.to_json() for step in self.history]} if self.history else {}
+        return self.fit.to_json() | steps | {"logs": [vars(log) for log in self.logs]}
+
     def compile(self) -> CompiledModel:
         """The compiled robot.
 

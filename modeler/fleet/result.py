@@ -156,7 +156,7 @@ class Fleet(Presented):
             return "drift"
         return "odd machine" if self.findings else "nothing drifts"
 
-    def as_dict(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, Any]:
         """The result for scripts; numbers that mean nothing are null."""
         return nulled({
             "robot": self.robot,

@@ -27,6 +27,7 @@ from modeler.derivation import (
     Relations,
     SparseVector,
     as_fraction,
+    coefficient_text,
     linear_relations,
     places_of,
     row_echelon,
@@ -183,7 +184,7 @@ class TrigRing:
         names = list(self._found.names)
         self.moving = len(names)
         atoms = _atoms(geometry)
-        static = [str(atom) for atom in atoms]
+        static = [coefficient_text(atom, geometry.robot.halves) for atom in atoms]
         for name in static:
             if name in names:
                 raise DerivationError(

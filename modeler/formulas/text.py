@@ -73,7 +73,10 @@ def latex_symbol(name: str) -> str:
     function = re.fullmatch(r"(cos|sin|sqrt)\((.*)\)", name)
     if function:
         return f"\\{function[1]}{{({latex_symbol(function[2])})}}"
-    return r"\pi" if name == "pi" else latex_name(name)
+    angle = re.fullmatch(r"(\d[\d.]*)?\*?(pi)?(/\d+)?", name)
+    if angle:
+        return (angle[1] or "") + (r"\pi" if angle[2] else "") + (angle[3] or "")
+    return latex_name(name)
 
 
 def monomial_text(exponents: Sequence[int], names: Sequence[str], style: TextStyle = TEXT) -> str:

@@ -5,6 +5,12 @@ from .blocks import (
     windows_of as windows_of,
 )
 from .columns import Columns as Columns
+from .frames import (
+    Frame as Frame,
+    InMemory as InMemory,
+    columns_given as columns_given,
+    split_joints as split_joints,
+)
 from .guess import template_of as template_of
 from .inspect import (
     Clock as Clock,

@@ -137,7 +137,7 @@ def unreadable(path: Path, what: str, error: Exception, advice: str) -> DataErro
     )
 
 
-READERS = {"h5py": "hdf5", "rosbags": "rosbags"}
+READERS = {"h5py": "hdf5", "rosbags": "rosbags", "python-calamine": "excel"}
 """Packages that read a format, and the extra that installs them."""
 
 

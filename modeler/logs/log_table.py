@@ -46,11 +46,12 @@ class LogTable:
         any_topic: bool = False,
         part: Columns | None = None,
         before: int = 0,
+        whole: bool = False,
     ) -> None:
-        """Reads a file, or takes consecutive rows of it: a part, and how many stand before it."""
+        """Reads a file, or takes rows of it: a part, how many stand before it, if it is whole."""
         self.path = path
         mapping = mapping or LogMap()
-        self.whole, self.before = part is None, before
+        self.whole, self.before = whole or part is None, before
         self.found = part or read_columns(path, Wanted(mapping.topic, any_topic, mapping.files))
         self.rows: int = self.found.rows
         self._joints = joints
@@ -172,6 +173,13 @@ class LogTable:
         """SI values of a column in the unit that it is known to be in."""
         unit = self._units[name]
         return values if unit is None else values / unit.factor - unit.zero
+
+    def as_logged(self, name: str, values: np.ndarray) -> np.ndarray:
+        """The same as the file has it: with its sign, scale and offset too."""
+        entry, values = self._entries.get(name), self.in_unit(name, values)
+        if entry is None or name not in self._taken:
+            return values
+        return (values - entry.offset) / (entry.sign * entry.scale)
 
     def source(self, name: str) -> str:
         """The same, ours first: `tau2`, or `tau2 from moment_b`."""

@@ -58,13 +58,17 @@ from .prepare import (
     nearest_closed as nearest_closed,
     noise_of_positions as noise_of_positions,
     prepare as prepare,
+    without_open as without_open,
 )
 from .read import (
     FileSource as FileSource,
     MemorySource as MemorySource,
     Source as Source,
+    log_in_memory as log_in_memory,
+    log_of as log_of,
     read_log as read_log,
     source_of as source_of,
+    table_in_memory as table_in_memory,
 )
 from .reduce import (
     blocks as blocks,

@@ -10,7 +10,16 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec, ModuleSpec
-from modeler.logs import Blocks, Columns, LogMap, LogTable, ParquetBlocks, blocks_of
+from modeler.logs import (
+    Blocks,
+    Columns,
+    InMemory,
+    LogMap,
+    LogTable,
+    ParquetBlocks,
+    blocks_of,
+    columns_given,
+)
 from modeler.observation.log import MOST_WHOLE, Log, fingerprint
 
 _SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms
@@ -41,16 +50,56 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
             "memory; give a part of it, FILE@START:END; `modeler log`, `compare` of one model, and "
             "`fit` by weighted or ordinary least squares read logs of any length"
         )
-    log = log_of(LogTable(path, mapping, spec.joints), spec)
+    return whole_log(LogTable(path, mapping, spec.joints), spec)
+
+
+def log_in_memory(
+    given: InMemory, spec: ModuleSpec, mapping: LogMap | None = None, where: str = "log"
+) -> Log:
+    """The same of a frame or a dict of arrays; it is named after what it holds.
+
+    Args:
+        given: it.
+        spec: the robot's manifest.
+        mapping: names and units of its columns.
+        where: what messages call it.
+
+    Raises:
+        DataError: as `read_log`.
+    """
+    log = whole_log(table_in_memory(given, spec.joints, mapping, where), spec)
+    return dataclasses.replace(log, name=f"frame {log.content[:6]}", path="")
+
+
+def table_in_memory(
+    given: InMemory, joints: Sequence[JointSpec], mapping: LogMap | None, where: str
+) -> LogTable:
+    """Its columns under our names."""
+    columns = columns_given(given, where, joints)
+    return LogTable(Path(where), mapping, joints, part=columns, whole=True)
+
+
+def whole_log(table: LogTable, spec: ModuleSpec) -> Log:
+    """All rows of a log, with what only they can tell.
+
+    Raises:
+        DataError: as `read_log`.
+    """
+    log = log_of(table, spec)
     ranges = Ranges.of(log)
     notes = (*log.notes, *ranges.doubts(log.step, spec))
-    ranges.check(path, spec)
+    ranges.check(table.path, spec)
     content = fingerprint(log.time, log.q, log.tau)
     return dataclasses.replace(log, notes=notes, content=content)
 
 
-def log_of(table: LogTable, spec: ModuleSpec) -> Log:
+def log_of(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
     """The rows of a table as a log, each looked at by itself.
+
+    Args:
+        table: its columns.
+        spec: the robot's manifest.
+        measured: False of motion whose torques are not asked for: all are missing.
 
     Raises:
         DataError: as `read_log` does, but for what only a whole log can tell.
@@ -66,7 +115,8 @@ def log_of(table: LogTable, spec: ModuleSpec) -> Log:
                 "closed loops before; add the column"
             )
         positions.append(table.measured(f"q{joint.name}"))
-    torques = [_torque(table, joint, spec) for joint in spec.joints]
+    none = np.full(table.rows, np.nan), "not read"
+    torques = [_torque(table, joint, spec) if measured else none for joint in spec.joints]
     return Log(
         name=table.path.name,
         joints=tuple(joint.name for joint in spec.joints),

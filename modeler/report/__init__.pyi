@@ -41,3 +41,4 @@ from .robot_page import (
     show as show,
 )
 from .robot_skeleton import size_of as size_of, skeleton_of as skeleton_of
+from .values import relation as relation

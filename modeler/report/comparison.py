@@ -1,4 +1,4 @@
-"""Comparisons: the page of one model, of several, and the pictures of both."""
+"""Comparisons: the page of one model, of several, of a free run, and the pictures."""
 
 import math
 import statistics
@@ -7,8 +7,36 @@ from collections.abc import Sequence
 from modeler import validation
 from modeler.core.figure import Picture
 from modeler.core.table import percent
-from modeler.report.blocks import Figure, Items, JudgedLine, PageCell, PageTable, Paragraph, Verdict
+from modeler.report.blocks import (
+    Code,
+    Figure,
+    Items,
+    JudgedLine,
+    PageCell,
+    PageTable,
+    Paragraph,
+    Verdict,
+)
 from modeler.report.page import Origin, Page, Section
+
+# The page of a free run.
+
+
+def free_run_page(found: validation.FreeRun, origin: Origin) -> Page:
+    """The table of a free run, what is said of it, measured and simulated positions by joint."""
+    fits = [joint.fit for joint in found.joints if joint.fit is not None]
+    worst = f"{min(fits):.3g} %" if fits and min(fits) > 0.0 else "nothing"
+    return Page(
+        title=f"{found.robot}: free run in windows of {found.window:g} s",
+        headline=(worst, "of the position is simulated right, on the joint that is worst"),
+        sections=[
+            Section("Positions", [Code(found.summary())]),
+            *(Section(p.title, [Figure(p, False)]) for p in validation.free_run_pictures(found)),
+        ],
+        origin=origin,
+        command="compare",
+    )
+
 
 # The page of several models side by side.
 

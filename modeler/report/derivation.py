@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from modeler.codegen import Derivation
+from modeler.core.files import write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import MathCell, Table
@@ -12,7 +13,7 @@ from modeler.derivation import HomeModes, relations, written
 from modeler.report.blocks import Block, FormulaBlock, PageTable, Paragraph
 from modeler.report.figures import robot_figure
 from modeler.report.page import Origin, Page, Section
-from modeler.report.robot_page import table_head, table_rows
+from modeler.report.robot_page import robot_text, table_head, table_rows
 from modeler.robot import JointKind, Robot, written_table
 from modeler.runtime import CompiledModel
 
@@ -153,7 +154,9 @@ def _modes_tables(found: HomeModes) -> Tables:
 
 
 PRESENTATIONS = {
-    Robot: Presentation("a robot", _robot_summary, _robot_tables, _robot_figures),
+    Robot: Presentation("a robot", _robot_summary, _robot_tables, _robot_figures,
+                        document=lambda robot, notes: robot_text(robot),
+                        files={".toml": lambda path, robot: write_atomically(path, robot.text)}),
     Derivation: Presentation("a derivation", _derivation_summary, _derivation_tables,
                              lambda d: _robot_figures(d.robot)),
     Emitted: Presentation("an emitted module", _emitted_summary, _emitted_tables),

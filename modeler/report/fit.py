@@ -5,14 +5,15 @@ from functools import partial
 
 import numpy as np
 
+from modeler import estimation
 from modeler.core.estimators import titled
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Table, percent
 from modeler.estimation import Addition, FitResult, IdentifiedModel, ParameterEstimate, SideBySide
 from modeler.report.blocks import Items, JudgedLine, PageTable, Verdict
-from modeler.report.estimators import remarks_of, table_of, values_of
+from modeler.report.estimators import estimators_page, remarks_of, table_of, values_of
 from modeler.report.figures import parameters_figure, picture_figure
-from modeler.report.history import step_name, waterfall_picture
+from modeler.report.history import additions_page, step_name, waterfall_picture
 from modeler.report.noise import noise_blocks, noise_picture
 from modeler.report.page import Origin, Page, Section, after_fit
 from modeler.report.values import joints_table, values_table
@@ -129,9 +130,14 @@ PRESENTATIONS = {
     FitResult: Presentation("a fit", _fit_summary, fit_tables, _fit_figures,
                             ("parameters", "errors")),
     IdentifiedModel: Presentation("a model", _model_summary, _model_tables, _model_figures,
-                                  ("parameters", "errors", "waterfall")),
+                                  ("parameters", "errors", "waterfall"),
+                                  lambda m, notes: (additions_page if m.history else fit_page)(
+                                      m, notes),
+                                  dict.fromkeys(("", ".json"), estimation.save_model)),
     Addition: Presentation("an addition", _step_line),
-    SideBySide: Presentation("a comparison of estimators", _trials_summary, _trials_tables),
+    SideBySide: Presentation("a comparison of estimators", _trials_summary, _trials_tables,
+                             document=lambda s, notes: estimators_page(
+                                 s.robot, s.tried, [*s.data, *notes])),
 }  # fmt: skip
 
 

@@ -214,5 +214,11 @@ def _figures(found: Fleet) -> Figures:
 
 
 PRESENTATIONS = {
-    Fleet: Presentation("a fleet", lambda f: "\n".join(result.fleet_lines(f)), _tables, _figures)
+    Fleet: Presentation(
+        "a fleet",
+        lambda f: "\n".join(result.fleet_lines(f)),
+        _tables,
+        _figures,
+        document=fleet_page,
+    )
 }

@@ -10,6 +10,8 @@ from modeler.core.figure import Picture
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Cell, Table
 from modeler.diagnosis import Diagnosis, Finding, Step, blind_spots, lines
+from modeler.report.comparison import comparison_page, contest_page
+from modeler.report.diagnosis import diagnosis_page
 from modeler.report.effect_evidence import evidence_of
 from modeler.report.evidence import evidence_picture
 from modeler.report.figures import errors_picture, picture_figures
@@ -181,9 +183,10 @@ def _free_run_figures(found: validation.FreeRun) -> Figures:
 PRESENTATIONS = {
     validation.FreeRun: Presentation("a free run", validation.FreeRun.summary, _free_run_tables,
                                      _free_run_figures),
-    validation.Contest: Presentation("a contest of models", _contest_summary, _contest_tables),
+    validation.Contest: Presentation("a contest of models", _contest_summary, _contest_tables,
+                                     document=contest_page),
     validation.Comparison: Presentation("a comparison", _comparison_summary, _comparison_tables,
-                                        _comparison_figures),
+                                        _comparison_figures, document=comparison_page),
     Diagnosis: Presentation("a diagnosis", lambda d: "\n".join(lines(d)), _diagnosis_tables,
-                            _diagnosis_figures, ("effects", "joints")),
+                            _diagnosis_figures, ("effects", "joints"), diagnosis_page),
 }  # fmt: skip

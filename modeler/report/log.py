@@ -17,7 +17,7 @@ from modeler.report.blocks import Code, Figure, Items, PageTable, Paragraph
 from modeler.report.figures import curves, log_figure, picture_figure
 from modeler.report.noise import noise_blocks, noise_picture
 from modeler.report.page import Origin, Page, Section
-from modeler.simulation import SimulatedLog
+from modeler.simulation import SimulatedLog, write_log
 
 _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remarks")
 _LIMIT = 600  # points of one curve
@@ -275,10 +275,11 @@ def _limits(motion: Exciting) -> Table:
 
 PRESENTATIONS = {
     LogInspection: Presentation("a look at a log", _inspection_summary, _inspection_tables,
-                                _inspection_figures),
+                                _inspection_figures,
+                                document=lambda look, notes: log_page(look, look.doubts, notes)),
     Log: Presentation("a log", _log_summary, _log_tables, _log_figures),
     SimulatedLog: Presentation("a simulated log", _simulated_summary, _simulated_tables,
-                               _log_figures),
+                               _log_figures, files=dict.fromkeys((".parquet", ".csv"), write_log)),
     Observation: Presentation("an observation", _observation_summary,
                               lambda o: _report_tables(o.report)),
     DataReport: Presentation("a report", lambda r: "\n".join(r.lines()), _report_tables),

@@ -244,6 +244,10 @@ class Page:
     provenance: Sequence[str] = ()
     command: str = ""
 
+    def __str__(self) -> str:
+        """The HTML."""
+        return page_text(self)
+
 
 def page_text(sheet: Page) -> str:
     """The page as text; its security policy forbids any network access."""

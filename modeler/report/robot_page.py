@@ -358,6 +358,12 @@ def show(
     return found
 
 
+def robot_text(robot: Robot) -> str:
+    """The page of a robot."""
+    found = _shown(robot)
+    return robot_html(found.skeleton, found.posture)
+
+
 def _kind(picture: Path) -> str:
     kind = picture.suffix.lower()
     if kind not in PICTURE_KINDS:

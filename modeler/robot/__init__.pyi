@@ -32,3 +32,4 @@ from .robot import (
     listed as listed,
     near as near,
 )
+from .start import robot_name as robot_name, template_robot as template_robot

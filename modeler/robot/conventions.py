@@ -150,7 +150,7 @@ def check_whose(columns: Sequence[str], rows: Sequence[Row], place: Place, state
     if convention != "khalil":
         if len(rows) > 1 and [row.get("d") for row in rows] == above:
             raise place.at("column a").error(
-                f"got {shown(above)}, the names of the rows above; a is a length in this "
+                f"got {listed(above)}, the names of the rows above; a is a length in this "
                 'convention: write convention = "khalil", where a is the antecedent'
             )
         return
@@ -184,19 +184,15 @@ def whose_line(columns: Sequence[str], rows: Sequence[Row]) -> str:
     if zero and zero[0] != zero[-1]:  # Craig's first axis is z0; often the last frame is the end
         classical = zero[-1]
     lines = [
-        'convention = "craig" in [mdh] if alpha and a stand before the joint',
-        'convention = "classical" if they stand behind it (Denavit-Hartenberg)',
+        'convention = "craig" in [mdh] (alpha and a stand before the joint)',
+        'convention = "classical" in [mdh] (behind it: Denavit and Hartenberg)',
     ]
     first, second = reversed(lines) if classical else lines
-    return f'write {first}, {second}; convention = "khalil" if a names antecedents'
+    return f'write {first} or {second}, and "khalil" where a names antecedents'
 
 
 def shifted(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:
-    """Classical rows as Khalil's, and a fixed frame at the end of the last link, if it is another.
-
-    Raises:
-        RobotError: more rows than one carry joints that nothing tells in which order.
-    """
+    """Classical rows as Khalil's; a fixed frame ends the last link where it has a or alpha."""
     found: list[tuple[Row, RowPlace]] = []
     carried: Row = {}
     before: RowPlace | None = None
@@ -209,14 +205,15 @@ def shifted(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:
         names = [row["j"] for row, _ in rows]
         name = next(n for n in (*_ENDS, *(f"end{k}" for k in range(len(rows)))) if n not in names)
         end = {"j": name, "a": names[-1], "mu": 0, "sigma": 2, **carried}
-        found.append((end, RowPlace(before.file, f'row "{name}"', None, name, {}, before)))
+        spot = before.spot.replace(f'"{names[-1]}"', f'"{name}"')
+        found.append((end, RowPlace(before.file, spot, None, name, before.letters, before)))
     return found
 
 
 # The table of a robot in the letters in which it was given.
 
 
-_STEPS = {
+STEPS = {
     "khalil": "T(a \u2192 j) = Rz(\u03b3) Tz(b) Rx(\u03b1) Tx(d) Rz(\u03b8) Tz(r)",
     "craig": "T(parent \u2192 j) = Rz(\u03b3) Tz(b) Rx(\u03b1) Tx(a) Rz(\u03b8) Tz(d) (Craig)",
     "classical": "row j is Rz(\u03b8) Tz(d) Tx(a) Rx(\u03b1) (Denavit and Hartenberg); frame j, of "
@@ -279,4 +276,4 @@ def written_table(robot: Robot) -> WrittenTable:
         if column in GEOMETRY and any(not cells[letter].expression.is_zero for _, cells in rows)
     }
     used = [(joint, {letter: cells[letter] for letter in units}) for joint, cells in rows]
-    return WrittenTable(letters.get("a", ""), units, used, _STEPS[robot.convention])
+    return WrittenTable(letters.get("a", ""), units, used, STEPS[robot.convention])

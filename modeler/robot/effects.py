@@ -17,6 +17,7 @@ from modeler.effects import (
     effect_named,
     read_definition,
 )
+from modeler.robot.cells import number_at
 from modeler.robot.robot import INERTIAL, EffectInstance, EffectUse, Joint
 from modeler.robot.sections import Coupling, joint_at
 
@@ -196,7 +197,9 @@ def _shaped(
         number = _form_of(effect, given, place)
         form = effect.forms[number]
         shapes = {s.name: s.grid[0] for s in form.shapes if len(s.grid) == 1}
-        shapes |= {k: place.at(k, v).number("0.1") for k, v in given.items()}
+        for key, worth in given.items():
+            at = place.at(key, worth)  # "30 deg" of an angle
+            shapes[key] = number_at(at, {}) if isinstance(worth, str) else at.number("0.1")
         here = place.at(f"joint {shown(name)}")
         for shape in form.shapes:  # lengths, times, powers below zero; ripples without waves
             worth, waves = shapes[shape.name], shape.scale == "waves"

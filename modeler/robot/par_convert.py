@@ -1,7 +1,6 @@
 """A `.par` file as the text of a robot file, with what had to be decided or left out."""
 
 import re
-import unicodedata
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
@@ -21,6 +20,7 @@ from modeler.robot.par_table import (
     variables,
 )
 from modeler.robot.par_text import BASE, FORCES, INERTIA, JOINTS, ParFormula, Statements, scan
+from modeler.robot.start import robot_name
 
 # What a `.par` file says of the links: which parameters they have, values, friction, rotors.
 
@@ -223,7 +223,7 @@ def par_to_toml(data: bytes, where: str) -> Converted:
         notes.append(
             f"Type is {kind}, but NJ - NL says that {found.loops} joints are cut, which counts"
         )
-    name = _name(statements, where)
+    name = robot_name(statements.name, PurePath(where).stem)
     title = "".join(c for c in statements.name if c.isprintable() and c not in '"\\').strip()
     parts = [
         f'name = "{name}"',
@@ -236,16 +236,6 @@ def par_to_toml(data: bytes, where: str) -> Converted:
     while not parts[-1]:
         parts.pop()
     return Converted("\n".join(parts) + "\n", tuple(notes))
-
-
-def _name(statements: Statements, where: str) -> str:
-    """The name with the letters that names may have."""
-    for wanted in (statements.name, PurePath(where).stem):
-        plain = unicodedata.normalize("NFKD", wanted).encode("ascii", "ignore").decode()
-        name = re.sub(r"[^A-Za-z0-9_-]+", "-", plain).strip("-_")
-        if name:
-            return name
-    return "robot"
 
 
 def _notes(where: str, notes: list[str]) -> str:

@@ -35,6 +35,7 @@ Rows = tuple[tuple[Row, RowPlace], ...]
 
 MOST_ROWS = 150
 """Rows of a table. Deriving and the C grow with their square: docs/theory.md has the seconds."""
+_ALONG_Z = '; a table where d is along z needs convention = "craig" or "classical" in [mdh]'
 ROW_NAME = re.compile(r"[A-Za-z0-9]+")
 
 HOME = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}
@@ -243,6 +244,7 @@ def _cell(
             raise place.error(
                 f"{got}, but {name} of a {'revolute' if home == 'theta' else 'prismatic'} joint "
                 f"belongs into column {where.letter(home or '')}; move it there, or correct sigma"
+                + (_ALONG_Z if where.letter(column) == "d" and home == "r" else "")
             )
         if name != own and name.startswith("q") and name[1:] in kinds:
             raise place.error(

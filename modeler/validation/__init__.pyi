@@ -30,7 +30,7 @@ from .pictures import (
     overview_picture as overview_picture,
     residual_picture as residual_picture,
 )
-from .predict import compare_long as compare_long, predict as predict
+from .predict import at_every_row as at_every_row, compare_long as compare_long, predict as predict
 from .prediction import (
     DEVIATIONS as DEVIATIONS,
     JointInfo as JointInfo,

@@ -1,6 +1,5 @@
 """Measured against predicted: numbers of each joint, regions, logs, scale; table and JSON."""
 
-import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -304,8 +303,8 @@ class Comparison(Presented):
     repeated: tuple[Repetition, ...]  # empty: no motion was made twice
     by_unit: Mapping[str, float]  # relative error over the joints of one unit; NaN: no torque
 
-    def as_dict(self) -> dict[str, Any]:
-        """The comparison as plain numbers and text; undefined numbers are None."""
+    def to_json(self) -> dict[str, Any]:
+        """What scripts read: plain numbers and text; undefined numbers are None."""
         return nulled({
             "robot": self.prediction.robot,
             "logs": self.prediction.logs,
@@ -320,10 +319,6 @@ class Comparison(Presented):
             ],
             "repeated": [{"method": item.kind, "periods": item.periods} for item in self.repeated],
         })  # fmt: skip
-
-    def to_json(self) -> str:
-        """JSON for scripts; fields may be added, never renamed."""
-        return json.dumps(self.as_dict(), indent=1, allow_nan=False) + "\n"
 
     def summary(self) -> str:
         """Plain text: one line per joint, units in the table; what the shares mean; each log."""

@@ -79,6 +79,10 @@ class Contest(Presented):
         """Joints that the model predicts best, beyond doubt."""
         return [item.joint.name for item in self.joints if item.best == model]
 
+    def to_json(self) -> dict[str, Any]:
+        """What scripts read: every model by its name."""
+        return {"robot": self.predictions[0].robot, "models": self.as_dicts()}
+
     def as_dicts(self) -> list[dict[str, Any]]:
         """The `models` of `compare --json`: errors of each, and where it is the best."""
         return [

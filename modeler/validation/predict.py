@@ -25,12 +25,14 @@ from modeler.observation import (
     blocks,
     masks_of,
     observe,
+    prepare,
     rows_of_chunk,
     shafts,
     signals_of,
     stacked,
     streamed_report,
     travel_since_reversal,
+    without_open,
 )
 from modeler.runtime import CompiledModel
 from modeler.validation.comparison import Comparison, compare
@@ -58,6 +60,34 @@ def predict(
     observation = observe(compiled, logs, model.processing)
     full = full_rate(observation, compiled, model.beta)
     return dataclasses.replace(of_rows(model, observation, compiled), full=full), observation
+
+
+def at_every_row(
+    model: IdentifiedModel, log: Log, compiled: CompiledModel
+) -> tuple[np.ndarray, np.ndarray]:
+    """What the model says of every row of a log, behind the filter of the positions alone.
+
+    The positions are taken as they are: at rest without torques, rows that repeat are no damage.
+
+    Args:
+        model: fitted.
+        log: whose torques are not read.
+        compiled: its robot.
+
+    Returns:
+        (rows, joints) torque, N m or N, NaN in gaps; (rows,) True where that filter had started up.
+    """
+    processing = dataclasses.replace(model.processing, keep_damaged=True)
+    prepared = prepare(compiled.spec, [log], processing)
+    segments, _ = without_open(compiled, [log], prepared.segments)
+    torque, sure = np.full(log.q.shape, np.nan), np.zeros(log.rows, dtype=bool)
+    at = log.time + model.processing.delay  # the torque of a row belongs to the motion there
+    for s in segments:
+        tau = compiled.inverse_dynamics(s.q, s.qd, s.qdd, model.beta, signals_of(compiled.spec, s))
+        rows = np.flatnonzero((at >= s.time[0] - 0.5 * s.step) & (at <= s.time[-1] + 0.5 * s.step))
+        torque[rows] = np.column_stack([np.interp(at[rows], s.time, own) for own in tau.T])
+        sure[rows] = np.interp(at[rows], s.time, s.whole) > 1.0 - 1e-9
+    return torque, sure
 
 
 def of_rows(

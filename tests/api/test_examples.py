@@ -22,7 +22,7 @@ MODULES = sorted(
 
 def examples(module: str) -> list[doctest.DocTest]:
     found = doctest.DocTestFinder().find(
-        importlib.import_module(module), extraglobs={"load": api.load}
+        importlib.import_module(module), extraglobs={n: getattr(api, n) for n in api.__all__}
     )
     return [example for example in found if example.examples]
 

@@ -1,4 +1,4 @@
-"""`modeler free-run` as a user types it."""
+"""`modeler compare --free-run` as a user types it."""
 
 import json
 from pathlib import Path
@@ -20,19 +20,15 @@ def slide(tmp_path_factory) -> Path:
 
 
 def test_text_json_and_pictures(capsys, slide: Path) -> None:
-    words = [
-        "compare",
-        "--free-run",
-        str(slide / "m.json"),
-        str(slide / "a.parquet"),
-        "--window",
-        "0.5",
-    ]
+    words = ["compare", str(slide / "m.json"), str(slide / "a.parquet"), "--free-run"]
+    words += ["--window", "0.5", "--report", str(slide / "f.html")]
     capsys.readouterr()
     assert main([*words, "--json", str(slide / "f.json"), "--picture", str(slide / "p")]) == 0
     out, err = capsys.readouterr()
     assert err == "" and out.startswith("emps: free run under the logged torques on a.parquet: 7")
     assert "integrated twice" in out and "written: 3 files in" in out
+    page = (slide / "f.html").read_text()
+    assert "emps: free run in windows of 0.5 s" in page and "Joint 1: measured and free" in page
     found = json.loads((slide / "f.json").read_text())
     joint = found["joints"]["1"]
     assert joint["fit"] > 99.0 > joint["constant_speed"] and joint["unit"] == "m"
@@ -56,13 +52,8 @@ def test_text_json_and_pictures(capsys, slide: Path) -> None:
     ],
 )
 def test_bad_input_is_one_line(capsys, slide: Path, words: str, told: str) -> None:
-    argv = [
-        "compare",
-        "--free-run",
-        str(slide / "m.json"),
-        str(slide / "a.parquet"),
-        *words.split(),
-    ]
+    argv = ["compare", "--free-run", str(slide / "m.json"), str(slide / "a.parquet")]
+    argv += words.split()
     assert main(argv) == 1
     out, err = capsys.readouterr()
     assert out == "" and err.startswith(f"modeler: {told}") and err.count("\n") == 1

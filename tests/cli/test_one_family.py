@@ -220,7 +220,6 @@ def test_methods_are_one_or_several() -> None:
     [
         ("compare m.json a.csv --window 2", "--window: is of --free-run; add that"),
         ("compare m.json n.json a.csv --free-run", "--free-run: got n.json too; expected one"),
-        ("compare m.json a.csv --free-run --report p.html", "got it with --free-run, which draws"),
     ],
 )
 def test_free_run_has_its_own_options(capsys, line: str, told: str) -> None:

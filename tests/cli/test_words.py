@@ -108,7 +108,7 @@ def test_a_doubtful_line_runs_and_is_told(capsys, tmp_path) -> None:
     ("words", "missing"),
     [("diagnose m.json --holdout b", "LOG"), ("add m.json --out x --holdout b", "EFFECT, LOG"),
      ("diagnose --holdout b", "MODEL, LOG"), ("physical --cad", "ROBOT|MODEL"),
-     ("excite --from a", "ROBOT"), ("fit emps --payload-log a --out m", "LOG")],
+     ("excite --from a", "ROBOT|MODEL"), ("fit emps --payload-log a --out m", "LOG")],
 )  # fmt: skip
 def test_what_is_missing_is_still_missed(capsys, words: str, missing: str) -> None:
     with pytest.raises(SystemExit) as stop:

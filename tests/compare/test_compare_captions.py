@@ -112,4 +112,4 @@ def test_the_band_is_two_deviations_of_the_prediction(
     rows = made.used[:, 0]
     rms = float(np.sqrt(np.mean(made.sigma[rows, 0] ** 2)))
     assert item.predicted_sigma == pytest.approx(rms)
-    assert compared.as_dict()["joints"]["1"]["predicted_sigma"] == pytest.approx(rms)
+    assert compared.to_json()["joints"]["1"]["predicted_sigma"] == pytest.approx(rms)

@@ -1,7 +1,6 @@
 """Travel since reversal, temperature, orders, coupled motors, errors per log: known ones."""
 
 import dataclasses
-import json
 
 import numpy as np
 import pytest
@@ -102,7 +101,7 @@ def test_no_temperature_where_a_log_lacks_it() -> None:
     found = compare(dataclasses.replace(p, temperature=part))
     share = found.joints[1].structure
     assert share is not None and np.isnan(share.share("temperature"))
-    assert "temperature" not in json.loads(found.to_json())["joints"]["1"]["structure"]["shares"]
+    assert "temperature" not in found.to_json()["joints"]["1"]["structure"]["shares"]
     assert "temperature [" not in page_text(comparison_page(found))
 
 
@@ -124,7 +123,7 @@ def test_a_known_order_is_found(unit: str, per: str, shown: float) -> None:
     p = at_full_rate(prediction(rows=1500), 1, 47.0, 0.6)
     p = dataclasses.replace(p, joints=tuple(JointInfo(n, unit, "N m") for n in "123"))
     found = compare(p)
-    line = json.loads(found.to_json())["joints"]["2"]["orders"][0]
+    line = found.to_json()["joints"]["2"]["orders"][0]
     assert line["waves"] == pytest.approx(shown, rel=0.02)
     assert line["amplitude"] == pytest.approx(0.6, rel=0.25)  # the sine dwells at its ends
     # 0.6^2 / 2 over that and the noise
@@ -177,7 +176,7 @@ def test_errors_of_each_log() -> None:
     p = prediction(rows=1500)
     p = dataclasses.replace(p, logs=("a_log_with_a_name_much_longer_than_most.parquet", "b"))
     found = compare(p)
-    told = json.loads(found.to_json())["by_log"]
+    told = found.to_json()["by_log"]
     e = p.measured - p.predicted
     for run, log in enumerate(told):
         rows = p.run == run

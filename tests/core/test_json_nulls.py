@@ -10,9 +10,12 @@ import pytest
 
 from modeler.api import load
 from modeler.cli import main
+from modeler.cli.command_table import COMMANDS as TABLE
 from modeler.cli.console import run_command
 from modeler.core.json import nulled, parse_json
 from modeler.simulation import SimulationSettings, simulate, write_log
+from tests.json_schemas import check_schema
+from tests.robot.par_files import par_text
 
 ROBOT = "two-link"
 
@@ -28,8 +31,10 @@ def test_what_is_not_finite_is_null_and_all_else_as_it_was():
 
 def test_whatever_a_command_returns_is_json(tmp_path):
     place = tmp_path / "x.json"
-    run_command(argparse.Namespace(json=str(place)), lambda args: {"x": math.nan, "y": [np.inf]})
-    assert json.loads(place.read_text()) == {"x": None, "y": [None]}
+    args = argparse.Namespace(json=str(place), command="robots")
+    run_command(args, lambda args: {"x": math.nan, "y": [np.inf]})
+    schema = "urn:modeler:schema:robots:1"
+    assert json.loads(place.read_text()) == {"schema": schema, "x": None, "y": [None]}
 
 
 @pytest.fixture(scope="module")
@@ -47,6 +52,8 @@ def folder(tmp_path_factory):
     (found / "silent.csv").write_text("\n".join([head, *(",".join(row) for row in silent), ""]))
     assert main(["fit", ROBOT, str(found / "a.csv"), "--out", str(found / "m.json")]) == 0
     shutil.copy(found / "m.json", found / "same.json")
+    par = par_text({"Ant": "0,1", "d": "0,L", "Theta": "t1,t2", "G": "-9.81,0,0"}, "arm")
+    (found / "old.par").write_text(par)
     return found
 
 
@@ -72,17 +79,60 @@ COMMANDS = {
         "--truth-out",
         "t.json",
     ),
+    "show": ("five-bar", "--out", "p.html"),
+    "convert": ("old.par", "--out", "new.toml"),
+    "generate": ("m.json", "--out", "c"),
+    "add": (
+        "m.json",
+        "asymmetric_viscous",
+        "--joint",
+        "1",
+        "a.csv",
+        "--holdout",
+        "b.csv",
+        "--out",
+        "n.json",
+    ),
+    "excite": (
+        ROBOT,
+        "--limit",
+        "1=-2,2,3,9",
+        "--limit",
+        "2=-2,2,3,9",
+        "--out",
+        "e.csv",
+        "--starts",
+        "1",
+        "--harmonics",
+        "3",
+    ),
+    "excite choose": (ROBOT, "--choose", "1", "--from", "a.csv", "b.csv"),
+    "reproduce": ("hanssen-2000", "--section", "print"),
+    "completion": ("bash",),
+    "compare free": ("m.json", "b.csv@0:2", "--free-run", "--controller", "20,0.25"),
+    "fit several": (ROBOT, "a.csv", "--method", "weighted,ridge", "--holdout", "b.csv"),
+    "robots one": ("wrist",),
+    "physical sets": (ROBOT, "--sets"),
+    "derive forms": (ROBOT, "--closed-form", "--regressor"),
+    "demo": ("--duration", "6"),
     "fleet": (ROBOT, "a.csv", "b.csv"),
     "diagnose": ("m.json", "a.csv", "--holdout", "silent.csv", "--report", "d.html"),
 }
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_is_tried_here():
+    assert {name.split()[0] for name in COMMANDS} == set(TABLE)
+
+
+@pytest.mark.parametrize(
+    "command", [pytest.param(c, marks=[pytest.mark.slow] * (c == "demo")) for c in COMMANDS]
+)
 def test_json_of_a_command_holds_no_number_that_is_none(command, folder, monkeypatch, capsys):
     monkeypatch.chdir(folder)
     status = main([command.split()[0], *COMMANDS[command], "--json", "out.json"])
     assert status == 0, capsys.readouterr().err
     raw = parse_json((folder / "out.json").read_bytes())  # refuses NaN and Infinity
+    check_schema(command.split()[0], raw)
     out = capsys.readouterr().out
     assert "nan" not in out.replace("nance", "").lower().split()
     if command == "log":

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.logs.programs import KINDS
-from tests.logs.writers import Run, parquet
+from tests.logs.writers import parquet
 
 
 @pytest.mark.parametrize("name", KINDS)

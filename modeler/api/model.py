@@ -1,0 +1,406 @@
+"""A model as one object: its parameters, what it predicts, what it lacks, what it is made into."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from statistics import NormalDist
+from typing import Any
+
+import numpy as np
+
+from modeler import report, validation
+from modeler.api import checks, improve
+from modeler.api.arguments import checked
+from modeler.api.log_maps import Mapped
+from modeler.api.predicting import predicted_torque
+from modeler.api.workflow import AnyLog, Logs, generate, listed, observe, recompile
+from modeler.core.errors import DataError, Precision
+from modeler.core.files import read_file
+from modeler.core.manifest import Emitted
+from modeler.core.table import labelled
+from modeler.diagnosis import Diagnosis
+from modeler.estimation import IdentifiedModel, ParameterEstimate, model_file
+from modeler.observation import Log, Observation
+from modeler.robot import Robot, near, read_robot
+
+_SURE = NormalDist().inv_cdf(0.975)  # of a 95 % interval
+
+
+@dataclass(frozen=True, repr=False)
+class Parameter(ParameterEstimate):
+    """One parameter of a model; `float` of it is the value.
+
+    Attributes:
+        relation: what it is the sum of, `ZZ1R = ZZ1 + L1**2*M2`; "" of what stands for itself.
+    """
+
+    relation: str = ""
+
+    def conf_int(self, level: float = 0.95) -> tuple[float, float]:
+        """Between which values it lies, with that probability, if errors are normal.
+
+        Args:
+            level: 0.95 for 95 %.
+
+        Raises:
+            DataError: no such level.
+        """
+        wide = _deviations(level)
+        if self.sigma is None:
+            return float("nan"), float("nan")
+        if self.interval is not None:  # of an effect whose shapes were fitted too
+            low, high = ((side - self.value) * wide / _SURE for side in self.interval)
+            return self.value + low, self.value + high
+        return self.value - wide * self.sigma, self.value + wide * self.sigma
+
+    def __float__(self) -> float:
+        return self.value
+
+    def __repr__(self) -> str:
+        if self.sigma is None:
+            return f"{self.name}: set aside, these logs do not tell it"
+        relation = f"  ({self.relation})" if self.relation else ""
+        return f"{self.name} = {self.value:.6g} +- {self.sigma:.2g} {self.unit}{relation}"
+
+
+def _deviations(level: float) -> float:
+    """Half the width of an interval, in standard deviations."""
+    if not 0.5 <= level < 1.0:
+        raise DataError(
+            f"conf_int: got {level:g}; expected the level of the interval, as 0.95 for 95 %"
+        )
+    return NormalDist().inv_cdf(0.5 + 0.5 * level)
+
+
+@dataclass(frozen=True, eq=False)
+class Model(IdentifiedModel):
+    """A model with all that can be asked of it.
+
+    >>> model = identify("two-link", simulate(load("two-link"), duration=6.0, seed=1))
+    >>> model["ZZ1R"].relation
+    'ZZ1R = ZZ1 + L1**2*M2'
+    >>> bool(model.error(simulate(load("two-link"), duration=6.0, seed=2)) < 0.01)
+    True
+
+    What is a Series or a DataFrame below is one where pandas is installed; else a dict.
+
+    Attributes:
+        given: logs that it was fitted on, of those that came from no file.
+        held_out: logs that were kept from the fit: paths, or what was read of frames.
+        folder: in which it was made, or of the file that it was opened from: paths of its logs
+            may be relative to it.
+    """
+
+    given: tuple[Log, ...] = ()
+    held_out: tuple[AnyLog, ...] = ()
+    folder: str = ""
+
+    @classmethod
+    def of(cls, model: IdentifiedModel, **more: Any) -> "Model":
+        """The same model as one of this class."""
+        own = {f.name: getattr(model, f.name) for f in dataclasses.fields(IdentifiedModel)}
+        return cls(**own, **more)
+
+    def __repr__(self) -> str:
+        return f"Model({self.summary().splitlines()[0].removeprefix('model of ')})"
+
+    # Its parameters, one by one and together.
+
+    def __getitem__(self, name: str) -> Parameter:
+        """One parameter: value, sigma, unit, `conf_int(0.95)`, `relation`.
+
+        Raises:
+            DataError: it is no parameter of the model; says which one holds it.
+        """
+        found = self._parameters.get(name)
+        if found is None:
+            raise DataError(f'model["{name}"]: {self._absent(str(name))}')
+        return found
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._parameters
+
+    __iter__ = None  # no list of anything: `params` lists the parameters
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self._parameters)
+
+    @cached_property
+    def _parameters(self) -> dict[str, Parameter]:
+        sums = {base.name: report.relation(base) or base.column_of for base in self.spec.base}
+        found = {}
+        for one in (*self.fit.gains, *self.fit.parameters, *self.fit.loads):
+            terms = sums.get(one.name, one.name)
+            relation = "" if terms == one.name else f"{one.name} = {terms}"
+            found[one.name] = Parameter(**vars(one), relation=relation)
+        for own in self.fit.directions:
+            plain = own.name, own.unit, own.value, own.sigma, True, "estimated"
+            found.setdefault(own.name, Parameter(*plain, relation=own.relation))
+        return found
+
+    def _absent(self, name: str) -> str:
+        """Why there is no parameter of that name."""
+        holds = [b.name for b in self.spec.base if any(t.parameter == name for t in b.terms)]
+        if holds:
+            one = self._parameters[holds[0]]
+            verb = "holds" if len(holds) == 2 else "hold"
+            others = f" ({', '.join(holds[1:])} {verb} it too)" if holds[1:] else ""
+            return (
+                f"the torques tell no value of {name} alone; {one.relation} holds it{others}: ask "
+                f'for model["{one.name}"]'
+            )
+        if name in self.spec.unidentifiable:
+            return f"{name} has no effect on any torque of {self.spec.robot}, so no log tells it"
+        known = list(self._parameters)
+        return f"no such parameter{near(name, known)}; expected one of {', '.join(known)}"
+
+    @property
+    def _names(self) -> list[str]:
+        return [parameter.name for parameter in self.fit.parameters]
+
+    @property
+    def _sigmas(self) -> np.ndarray:
+        return np.array([np.nan if p.sigma is None else p.sigma for p in self.fit.parameters])
+
+    @property
+    def params(self) -> Any:
+        """Values of the base parameters by name, SI units: a Series."""
+        return labelled(self.beta, self._names)
+
+    @property
+    def bse(self) -> Any:
+        """Their standard deviations; NaN of those that were set aside."""
+        return labelled(self._sigmas, self._names)
+
+    def conf_int(self, level: float = 0.95) -> Any:
+        """Their intervals: a DataFrame with the columns `lower` and `upper`.
+
+        Args:
+            level: 0.95 for 95 %; it is 1 - alpha of statsmodels.
+
+        Raises:
+            DataError: no such level.
+        """
+        sides = np.array([self._parameters[name].conf_int(level) for name in self._names])
+        return labelled(sides, self._names, ["lower", "upper"])
+
+    def cov_params(self) -> Any:
+        """Covariance of the base parameters: a DataFrame."""
+        return labelled(self.covariance, self._names, self._names)
+
+    # Its logs, and others: what it predicts, how well.
+
+    @property
+    def nobs(self) -> int:
+        """Rows of the fit."""
+        return self.fit.rows
+
+    @property
+    def fittedvalues(self) -> Any:
+        """Predicted torque on the rows of the fit: a DataFrame, a column a joint.
+
+        NaN where a row does not count. It needs the logs of the fit, found unchanged.
+        """
+        rows = self._rows
+        return self._on_rows(rows.predicted(self.beta))
+
+    @property
+    def resid(self) -> Any:
+        """Measured minus predicted torque there."""
+        rows = self._rows
+        return self._on_rows(rows.torque - rows.predicted(self.beta))
+
+    def _on_rows(self, values: np.ndarray) -> Any:
+        rows = self._rows
+        logs = np.array(rows.logs)[rows.run]
+        names = [f"tau{joint.name}" for joint in rows.joints]
+        values = np.where(rows.used, values, np.nan)
+        return labelled(values, {"log": logs, "time": rows.time}, names)
+
+    @cached_property
+    def _rows(self) -> Observation:
+        if self.fit.loads:
+            raise DataError("resid: some logs carried a load, which is no part of the model")
+        return observe(recompile(self), self.its_logs(None, "resid"), self.processing)
+
+    @checked
+    def predict(self, log: AnyLog, mapping: Mapped = ()) -> Any:
+        """Torque at every row of a log, in the log's own names and units; its torques are not read.
+
+        Args:
+            log: positions over time, and velocities and accelerations if there are any.
+            mapping: as of `read_logs`.
+
+        Returns:
+            A frame of the same library for a frame, a dict for a dict (with an array `tau` if that
+            is how it came), a DataFrame of pandas for a file. NaN at the ends, where the filter of
+            the positions starts up, and in gaps.
+
+        Raises:
+            DataError: the log cannot be read, or lacks a position.
+        """
+        return predicted_torque(self, recompile(self), log, mapping)
+
+    @checked
+    def compare(self, logs: Logs | None = None, mapping: Mapped = ()) -> validation.Comparison:
+        """Measured against predicted torque; None: on the logs that were held out."""
+        return checks.compare(self, self._others(logs, "compare"), mapping)
+
+    @checked
+    def error(self, logs: Logs | None = None, mapping: Mapped = ()) -> float:
+        """Relative error of the torque, ||measured - predicted|| / ||measured||.
+
+        After the same filters on both sides, all joints together; `compare` has it by joint.
+
+        Args:
+            logs: of motion that was not fitted; None: those that were held out.
+            mapping: as of `read_logs`.
+        """
+        given = self._others(logs, "error")
+        return checks.compare(self, given, mapping).relative_error
+
+    @checked
+    def missing(
+        self,
+        held_out: Logs | None = None,
+        logs: Logs | None = None,
+        without: Sequence[str] = (),
+        mapping: Mapped = (),
+    ) -> Diagnosis:
+        """Which physical effects the model lacks, ranked, with their status.
+
+        Args:
+            held_out: logs of other motion, on which errors are told; None: those of `identify`.
+            logs: of the fit; None: they are found again, if they have not changed.
+            without: effects that are not looked for, as "backlash" or "spring@2".
+            mapping: as of `read_logs`.
+        """
+        held = self.held_out if held_out is None else listed(held_out)
+        own = self.its_logs(logs, "missing")
+        return improve.diagnose(self, own, held, without, mapping=mapping)
+
+    @checked
+    def add(
+        self,
+        effect: str,
+        joint: str | int | None = None,
+        logs: Logs | None = None,
+        held_out: Logs | None = None,
+        mapping: Mapped = (),
+    ) -> "Model":
+        """A new model with one effect more; `table("waterfall")` says what it gained.
+
+        Args:
+            effect: id, as `effects()` lists them; "auto": all that a diagnosis names.
+            joint: None: where it explains most.
+            logs: of the fit; None: they are found again, if they have not changed.
+            held_out: logs of other motion to judge on; None: those of `identify`.
+            mapping: as of `read_logs`.
+        """
+        held = self.held_out if held_out is None else tuple(listed(held_out))
+        own = self.its_logs(logs, "add")
+        if effect == "auto":
+            better = improve.auto(self, own, held, mapping=mapping)
+        else:
+            place = None if joint is None else str(joint)
+            better = improve.add(self, effect, own, held, place, mapping)
+        given = tuple(log for log in own if isinstance(log, Log))
+        return dataclasses.replace(better, given=given or self.given, held_out=held)
+
+    def its_logs(self, logs: Logs | None, what: str) -> Sequence[AnyLog]:
+        """Logs as they were given, or those of the fit.
+
+        Args:
+            logs: None for those of the fit.
+            what: begins the message.
+
+        Raises:
+            DataError: a log of the fit is not where it was, or has changed, or was no file.
+        """
+        if logs is not None:
+            return listed(logs)
+        return [self._found(log, what) for log in self.logs]
+
+    def _found(self, log: model_file.LogProvenance, what: str) -> AnyLog:
+        for own in self.given:
+            if own.content == log.content and own.name == log.name:
+                return own
+        ask = (
+            "`compare(logs)` takes the logs of the fit"
+            if what == "resid"
+            else (f"give the logs of the fit: {what}(..., logs=[...])")
+        )
+        if not log.path:
+            raise DataError(f"{what}: {log.name} was no file, and is not kept with a model; {ask}")
+        places = [Path(log.path), Path(self.folder, log.path)]
+        sums = [model_file.checksum_of(str(place)) for place in places]
+        for place, found in zip(places, sums, strict=True):
+            if found and found == log.checksum:
+                return str(place)
+        why = "has changed since it was fitted" if any(sums) else "is not there any more"
+        raise DataError(f"{what}: {log.path} {why}; {ask}")
+
+    def _others(self, logs: Logs | None, what: str) -> Sequence[AnyLog]:
+        if logs is None and not self.held_out:
+            raise DataError(f"{what}: no logs were held out; give some: {what}(logs)")
+        return self.held_out if logs is None else listed(logs)
+
+    # What it is made into.
+
+    @checked
+    def to_c(
+        self,
+        folder: str | Path,
+        force: bool = False,
+        precision: Precision = "double",
+        cuda: bool = False,
+    ) -> Emitted:
+        """Its C, with its values, written to a folder; as `generate`."""
+        return generate(self, folder, force, precision, cuda)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without what can be computed again."""
+        return {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+
+
+# Opening files: robots and models, by what is in them.
+
+
+def open_model(path: str | Path) -> Model:
+    """Read a model file. Robot files are read by `open_robot`, either by `load`.
+
+    Raises:
+        ManifestError: missing, not a model file, of another format, damaged, or changed since it
+            was saved.
+    """
+    return Model.of(model_file.load_model(path), folder=str(Path(path).parent))
+
+
+def open_robot(robot: str | Path) -> Robot:
+    """The robot of a file (ours, or .par), or the built-in robot of that name.
+
+    >>> open_robot("emps").joints[0].name
+    '1'
+    """
+    return read_robot(robot)
+
+
+def load(place: str | Path) -> Any:
+    """The robot, or the model, that a file holds, whatever it is called; or a built-in robot.
+
+    >>> load("two-link").table().column("theta")
+    ['q1', 'q2', '0']
+
+    Type checkers take what comes for anything: `open_robot` and `open_model` say which it is.
+
+    Raises:
+        RobotError: no such file or name, or a mistake in a robot file.
+        ManifestError: a model file that cannot be read.
+    """
+    try:
+        holds_json = Path(place).is_file() and read_file(Path(place)).lstrip()[:1] == b"{"
+    except OSError:
+        holds_json = False  # the robot's reader says why
+    return open_model(place) if holds_json else open_robot(place)

@@ -1,0 +1,85 @@
+"""`modeler new ROBOT.toml`, and `modeler convert FILE --out ROBOT.toml`: robot files that begin."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from modeler.api.workflow import check_new_robot, new_robot
+from modeler.cli.console import Json, print_error, say, say_lines, show_next
+from modeler.core.builtin import CONVENTIONS, TEMPLATES
+from modeler.core.errors import ModelerError, RobotError
+from modeler.core.files import Kind, destination, write_atomically
+from modeler.robot import converted, robot_from_text, template_robot
+
+_URDF = (
+    "a SYMORO file needs no new one: `modeler convert`; URDF is to follow: docs/converting.md has "
+    "its joints as rows"
+)
+
+
+def run_new(args: argparse.Namespace) -> Json:
+    """Writes a robot file to start from, by questions on a terminal."""
+    out = Path(args.file)
+    check_new_robot(out, args.force)
+    words = ("template", "joints", "convention")
+    given = {key: value for key, value in vars(args).items() if key in words and value}
+    if not given and sys.stdin is not None and sys.stdin.isatty():
+        given = _answers()
+    robot = new_robot(out, force=args.force, **given)
+    loops = ", loops that close" if robot.loops else ""
+    say(f"{robot.title}: {len(robot.moving)} joints{loops}, written to {out}; write your lengths")
+    show_next([f"modeler derive {out}"])
+    return {"robot": robot.name, "out": str(out), "joints": [j.name for j in robot.moving]}
+
+
+def _answers() -> dict[str, str]:
+    """What the user says of the robot; Enter takes what stands in brackets."""
+    print_error(_URDF)
+    found = {"template": _asked(f"kind: {', '.join(TEMPLATES)}", TEMPLATES[0], "template")}
+    if found["template"] == TEMPLATES[0]:
+        found["joints"] = _asked("joints from the base, R or P each", "RRRRRR", "joints")
+        told = f"whose table have you: {', '.join(CONVENTIONS)}"
+        found["convention"] = _asked(told, "khalil", "convention")
+    return found
+
+
+def _asked(question: str, usual: str, key: str) -> str:
+    """An answer that a template can be made with; asked again until it is one."""
+    while True:
+        sys.stderr.write(f"{question} [{usual}]: ")
+        sys.stderr.flush()
+        line = sys.stdin.readline()
+        answer = line.strip() or usual
+        try:
+            template_robot("arm", **{key: answer})
+        except RobotError as error:
+            print_error(str(error))
+            if not line:  # the end of what is typed
+                raise
+        else:
+            return answer
+
+
+def run_convert(args: argparse.Namespace) -> Json:
+    """Writes the robot file, when it has been read as one; prints the notes."""
+    found = converted(Path(args.file))
+    out = Path(args.out)
+    robot = robot_from_text(found.text, f"{args.file}, as a robot file")
+    there = destination(out).kind is Kind.FILE
+    if not args.force and there and out.read_bytes() != found.text.encode():
+        raise ModelerError(
+            f"--out {out}: there is such a file with another content; choose another name, or "
+            "write over it with --force"
+        )
+    write_atomically(out, found.text)
+    loops = f", {len(robot.loops)} loops" if robot.loops else ""
+    say(f"{robot.name}: {len(robot.moving)} joints{loops}, written to {out}")
+    say_lines(found.notes, "* ")
+    return {
+        "robot": robot.name,
+        "file": str(args.file),
+        "out": str(out),
+        "joints": [joint.name for joint in robot.moving],
+        "loops": [loop.name for loop in robot.loops],
+        "notes": list(found.notes),
+    }

@@ -1,0 +1,90 @@
+"""Logs that are in memory: frames of pandas, Polars and all that speaks Arrow, dicts of arrays."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+import pyarrow as pa
+
+from modeler.core.errors import DataError
+from modeler.core.manifest import JointSpec
+from modeler.logs.arrays import Held, columns_of
+from modeler.logs.blocks import arrow_columns
+from modeler.logs.columns import Columns, Wanted
+
+_PER_JOINT = ("q", "qd", "qdd", "qc", "tau", "current")
+
+
+@runtime_checkable
+class Frame(Protocol):
+    """A table that hands out its columns as Arrow does (the Arrow PyCapsule interface).
+
+    Frames of pandas (2.2 and later) and of Polars, tables of Arrow and of DuckDB are such.
+    """
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """A capsule with a stream of its rows."""
+
+
+InMemory = Frame | Mapping[str, Any]
+"""A frame, or arrays by name: one column each, or (rows, joints) for `q`, `tau` and the like."""
+
+
+def columns_given(given: InMemory, where: str, joints: Sequence[JointSpec] = ()) -> Columns:
+    """The columns of a frame, or of a dict of arrays.
+
+    >>> columns_given({"time": range(20), "q": np.zeros((20, 2))}, "run").rows
+    20
+
+    Args:
+        given: it; an index that is not just counted is a column too.
+        where: what messages call it.
+        joints: of the robot: an array (rows, joints) of our name has a column for each, one
+            (rows, actuated joints) for each of those.
+
+    Raises:
+        DataError: no frame, or nothing that could be a log.
+    """
+    if isinstance(given, Mapping):
+        return columns_of(Path(where), "dict", list(_held(given, where, joints)), Wanted())
+    try:
+        return arrow_columns(pa.table(given))
+    except (pa.ArrowException, TypeError, ValueError) as error:
+        told = " ".join(str(error).split())[:200]
+        raise DataError(
+            f"{where}: this frame has columns that Arrow does not know ({told}); expected numbers "
+            "in every column; drop or convert the others"
+        ) from None
+
+
+def _held(given: Mapping[str, Any], where: str, joints: Sequence[JointSpec]) -> Iterator[Held]:
+    for name, values in given.items():
+        array = np.asarray(values)
+        if array.dtype.kind == "b":
+            array = array.astype(float)
+        if array.dtype.kind == "O" or not array.ndim:
+            raise DataError(
+                f"{where}: got {type(values).__name__} as {name}; expected an array of numbers, "
+                "one for each row"
+            )
+        own = split_joints(str(name), array.shape, joints)
+        if own:
+            yield from (Held(each, array[:, k]) for k, each in enumerate(own))
+        else:
+            yield Held(str(name), array)
+
+
+def split_joints(name: str, shape: tuple[int, ...], joints: Sequence[JointSpec]) -> list[str]:
+    """The columns that an array of our name stands for; none of another one.
+
+    Args:
+        name: "q", "tau" ...
+        shape: of it.
+        joints: of the robot.
+    """
+    if name not in _PER_JOINT or len(shape) != 2:
+        return []
+    every = (joints, [joint for joint in joints if joint.actuated])
+    own = next((some for some in every if len(some) == shape[1]), ())
+    return [f"{name}{joint.name}" for joint in own]

@@ -1,0 +1,104 @@
+"""Robot files to start from: templates that derive as they are."""
+
+import re
+import string
+import unicodedata
+
+from modeler.core.builtin import TEMPLATES, template_text
+from modeler.core.errors import RobotError
+from modeler.robot.conventions import CONVENTIONS, GEOMETRY, STEPS
+
+MOST_JOINTS = 20
+SERIAL = "serial"
+_TITLES = {
+    SERIAL: "a serial robot",
+    "parallelogram": "an arm with a parallelogram",
+    "parallel": "a planar parallel robot of three legs",
+}
+_WORDS = str.maketrans({"\u03b1": "alpha", "\u03b3": "gamma", "\u03b8": "theta", "\u2192": "->"})
+_ALPHA = ("0", "-pi/2", "0", "pi/2", "-pi/2", "pi/2")  # shoulder, elbow, wrist
+
+
+def robot_name(*wanted: str) -> str:
+    """The first of these with the letters that names may have; `robot` if none has any."""
+    for each in wanted:
+        plain = unicodedata.normalize("NFKD", each).encode("ascii", "ignore").decode()
+        name = re.sub(r"[^A-Za-z0-9_-]+", "-", plain).strip("-_")
+        if name:
+            return name
+    return "robot"
+
+
+def template_robot(
+    name: str, template: str = SERIAL, joints: str = "RRR", convention: str = "khalil"
+) -> str:
+    """The text of a robot file that derives as it is, with comments on what to change.
+
+    Args:
+        name: of the robot.
+        template: one of `TEMPLATES`.
+        joints: of a serial robot, from the base: R revolute, P prismatic.
+        convention: in whose letters the table of a serial robot is.
+
+    Raises:
+        RobotError: an unknown template or convention, or other letters for joints.
+    """
+    if template not in TEMPLATES:
+        raise RobotError(f"template: got {template}; expected one of {', '.join(TEMPLATES)}")
+    if convention not in CONVENTIONS:
+        raise RobotError(f"convention: got {convention}; expected one of {', '.join(CONVENTIONS)}")
+    kinds = joints.upper()
+    if not re.fullmatch(rf"[RP]{{1,{MOST_JOINTS}}}", kinds):
+        raise RobotError(
+            f"joints: got {joints!r}; expected R (revolute) or P (prismatic) for each joint from "
+            f"the base, {MOST_JOINTS} at most, such as RRPRRR"
+        )
+    if template != SERIAL and (kinds != "RRR" or convention != "khalil"):
+        raise RobotError(
+            f"joints, convention: got {joints}, {convention} with the template {template}, which "
+            "has its own; leave them out, or take the template serial"
+        )
+    values = {"name": name, "title": f"{name}, {_TITLES[template]}"}
+    return string.Template(template_text(template)).substitute(values | _serial(kinds, convention))
+
+
+def _serial(kinds: str, convention: str) -> dict[str, str]:
+    """What stands in the template of a serial robot."""
+    rows, lengths = [], dict[str, str]()
+    for j, kind in enumerate(kinds, start=1):
+        row = dict.fromkeys(GEOMETRY, "0") | {"alpha": _ALPHA[(j - 1) % len(_ALPHA)]}
+        row |= {"j": f"{j}", "sigma": "1" if kind == "P" else "0"}
+        if j > 1 and row["alpha"] == "0":
+            row["d"], lengths[f"D{j}"] = f"D{j}", f"{0.25 + 0.03 * j:.2f}"
+        if kind == "R" and j % 3 == 1:
+            row["r"], lengths[f"R{j}"] = f"R{j}", f"{0.2 + 0.03 * j:.2f}"
+        row["r" if kind == "P" else "theta"] = f"q{j}"
+        rows.append(row)
+    if convention == "classical":  # alpha and d stand in the row before
+        for row, after in zip(rows, [*rows[1:], {"alpha": "0", "d": "0"}], strict=True):
+            row |= {"alpha": after["alpha"], "d": after["d"]}
+    letters = CONVENTIONS[convention]
+    columns = [c for c in letters if c in ("j", "sigma", "alpha", "d", "theta", "r")]
+    cells = [[f'"{letters[c]}"' for c in columns]]
+    cells += [
+        [row[c] if c != "j" and row[c] in "01" else f'"{row[c]}"' for c in columns] for row in rows
+    ]
+    widths = [max(map(len, column)) + 2 for column in zip(*cells, strict=True)]
+    head, *lines = [
+        "".join(f"{cell},".ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip(" ,")
+        for row in cells
+    ]
+    stated = f'convention = "{convention}"\n' if convention != "khalil" else ""
+    body = "".join(f"          [{line}],\n" for line in lines)
+    symbols = [f"{name} = {worth}".ljust(38) + "# m" for name, worth in lengths.items()]
+    ranges = {"R": ('["-90 deg", "90 deg", 2, 8]', "rad, rad/s, rad/s^2"),
+              "P": ("[-0.3, 0.3, 0.5, 3]", "m, m/s, m/s^2")}  # fmt: skip
+    limits = [
+        f"{j} = {ranges[kind][0]}".ljust(38) + f"# {ranges[kind][1]}"
+        for j, kind in enumerate(kinds, 1)
+    ]
+    return {
+        "symbols": "\n".join(symbols), "limits": "\n".join(limits),
+        "table": f"{stated}columns = [{head}]\nrows = [\n{body}]",
+        "step": STEPS[convention].translate(_WORDS).replace("; ", "\n# "),
+    }  # fmt: skip

@@ -1,0 +1,244 @@
+"""`md.identify` and the model as one object, against scipy, statistics and the stages behind it."""
+
+import dataclasses
+import pickle
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy import stats
+
+import modeler as md
+from modeler.cli import main
+from modeler.core.errors import DataError, ManifestError, ModelerError, RobotError
+
+HIDDEN = "load_friction@2"
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Three runs of the demo arm, whose second joint rubs with the load."""
+    folder = tmp_path_factory.mktemp("runs")
+    for seed, name in enumerate(("mon.parquet", "tue.csv", "wed.parquet"), start=31):
+        robot = md.open_robot("demo-arm")
+        md.simulate(robot, folder / name, hide=[HIDDEN], duration=6.0, seed=seed)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def logs(place: Path) -> list[str]:
+    return [str(place / "mon.parquet"), str(place / "tue.csv")]
+
+
+@pytest.fixture(scope="module")
+def model(place: Path, logs: list[str]) -> md.Model:
+    return md.identify("demo-arm", logs, place / "wed.parquet")
+
+
+def test_it_is_the_fit_of_the_command(model: md.Model, logs: list[str], tmp_path: Path) -> None:
+    assert main(["fit", "demo-arm", *logs, "--out", str(tmp_path / "m.json")]) == 0
+    told = md.open_model(tmp_path / "m.json")
+    np.testing.assert_allclose(told.beta, model.beta, rtol=1e-12)
+    assert told.logs == model.logs and told.fit.verdict == model.fit.verdict
+
+
+def test_a_parameter_has_value_sigma_unit_interval_and_sum(model: md.Model) -> None:
+    k = [p.name for p in model.fit.parameters].index("ZZ1R")
+    found = model["ZZ1R"]
+    assert (found.value, found.unit) == (model.beta[k], "kg m2")
+    assert found.sigma == pytest.approx(model.covariance[k, k] ** 0.5)
+    for level in (0.5, 0.95, 0.999):
+        expected = stats.norm.interval(level, found.value, found.sigma)
+        assert found.conf_int(level) == pytest.approx(expected, rel=1e-9)
+        np.testing.assert_allclose(model.conf_int(level).loc["ZZ1R"], expected)
+    assert float(found) == found.value and "+-" in repr(found) and "kg m2" in repr(found)
+    # what it is the sum of is the relation of the derivation
+    text = md.derive(md.open_robot("demo-arm")).relations.text
+    assert found.relation in re.sub(r" +", " ", text)
+    assert model["Fv3"].relation == "" and "Fv3" in model and "ZZ2" not in model
+
+
+def test_a_lopsided_interval_stays_lopsided(model: md.Model) -> None:
+    one = dataclasses.replace(model["Fv1"], value=2.0, sigma=1.0, interval=(1.0, 6.0))
+    assert one.conf_int() == pytest.approx((1.0, 6.0))
+    low, high = one.conf_int(0.5)
+    assert (2.0 - low) * 4.0 == pytest.approx(high - 2.0)
+    aside = dataclasses.replace(one, sigma=None, status="set aside")
+    assert np.isnan(aside.conf_int()).all() and "set aside" in repr(aside)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("ZZ2", r"tell no value of ZZ2 alone; ZZ2R = ZZ2 \+ .* holds it: ask for .*ZZ2R"),
+        ("M3", r"ZZ1R = .* holds it \(XX2R, ZZ2R, MX2R hold it too\)"),
+        ("XX1", "XX1 has no effect on any torque of demo-arm, so no log tells it"),
+        ("Fs22", r'no such parameter \(did you mean "Fs2'),
+    ],
+)
+def test_who_asks_for_what_is_not_told_alone_learns_what_holds_it(
+    model: md.Model, name: str, said: str
+) -> None:
+    with pytest.raises(DataError, match=said) as told:
+        model[name]
+    assert str(told.value).startswith(f'model["{name}"]: ') and "\n" not in str(told.value)
+
+
+def test_the_habits_of_statsmodels(model: md.Model) -> None:
+    names = [p.name for p in model.fit.parameters]
+    assert list(model.params.index) == list(model.bse.index) == names
+    np.testing.assert_array_equal(model.params, model.beta)
+    np.testing.assert_allclose(model.bse, np.sqrt(np.diag(model.cov_params())))
+    assert model.cov_params().loc["Fv1", "Fs1"] == model.covariance[1, 2]
+    assert list(model.conf_int().columns) == ["lower", "upper"]
+    assert model.nobs == np.isfinite(model.resid).to_numpy().sum() == model.fit.rows
+    assert "relative error" in model.summary()
+    with pytest.raises(DataError, match=r"conf_int: got 0.05; expected the level .* 0.95 for 95 %"):
+        model.conf_int(0.05)
+    with pytest.raises(TypeError):
+        list(model)  # type: ignore[call-overload]
+
+
+def test_residuals_are_those_of_the_fit(model: md.Model) -> None:
+    left, fitted = model.resid, model.fittedvalues
+    assert list(left.columns) == ["tau1", "tau2", "tau3"]
+    assert list(left.index.levels[0]) == ["mon.parquet", "tue.csv"]
+    for joint in model.fit.joints:
+        own = left[f"tau{joint.name}"].dropna()
+        assert np.sqrt(np.mean(own**2)) == pytest.approx(joint.rms, rel=1e-9)
+        measured = own + fitted[f"tau{joint.name}"].dropna()
+        error = np.linalg.norm(own) / np.linalg.norm(measured)
+        assert error == pytest.approx(joint.relative_error, rel=1e-9)
+
+
+def test_without_pandas_it_is_dicts(model: md.Model, monkeypatch: pytest.MonkeyPatch) -> None:
+    expected = model.resid["tau2"].to_numpy()
+    monkeypatch.setitem(__import__("sys").modules, "pandas", None)
+    assert model.params["Fs2"] == model["Fs2"].value
+    assert model.cov_params()["Fs2"].shape == model.beta.shape
+    assert {*model.resid} == {"log", "time", "tau1", "tau2", "tau3"}
+    np.testing.assert_array_equal(model.resid["tau2"], expected)
+
+
+def test_errors_and_what_is_missing(model: md.Model, place: Path, logs: list[str]) -> None:
+    held = str(place / "wed.parquet")
+    assert model.error() == model.error(held) == md.compare(model, [held]).relative_error
+    assert model.compare(held).to_dict() == md.compare(model, [held]).to_dict()
+    found = model.missing()
+    assert found.to_dict() == md.diagnose(model, logs, [held]).to_dict()
+    assert (found.effects[0].effect, found.effects[0].joint) == ("load_friction", "2")
+    better = model.add("load_friction", joint=2)
+    assert isinstance(better, md.Model) and better.held_out == model.held_out
+    assert better.error() < 0.5 * model.error()
+    assert better.history[-1].held_out == ("wed.parquet",)
+    auto = model.add("auto", held_out=held)
+    assert [s.effect for s in auto.history] == [s.effect for s in better.history]
+    assert md.undo(better, logs).beta == pytest.approx(model.beta)
+    assert isinstance(md.reduced(better), md.Model)
+
+
+def test_it_is_saved_opened_and_finds_its_logs_beside_it(
+    place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Paths are relative to the folder of work, and to that of the model file."""
+    for name in ("mon.parquet", "wed.parquet"):
+        (tmp_path / name).write_bytes((place / name).read_bytes())
+    monkeypatch.chdir(tmp_path)
+    made = md.identify("demo-arm", "mon.parquet@0:5", "wed.parquet")
+    assert made.logs[0].path == "mon.parquet@0:5"
+    made.save("arm.json")
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    again = md.load("../arm.json")
+    assert isinstance(again, md.Model) and repr(again) == repr(made)
+    assert again.resid.equals(made.resid)
+    with pytest.raises(DataError, match=r"error: no logs were held out; give some: error\(logs\)"):
+        again.error()
+    log = tmp_path / "mon.parquet"
+    log.write_bytes((place / "wed.parquet").read_bytes())
+    changed = "missing: mon.parquet@0:5 has changed since it was fitted; give the logs of the fit"
+    with pytest.raises(DataError, match=re.escape(changed)):
+        md.load("../arm.json").missing()
+    log.unlink()
+    with pytest.raises(DataError, match=r"add: mon.parquet@0:5 is not there any more; .*logs=\["):
+        again.add("spring")
+    moved = again.add("spring", 1, logs=str(place / "mon.parquet"))
+    assert moved.logs[0].path == str(place / "mon.parquet")
+
+
+def test_load_opens_by_what_is_in_the_file(model: md.Model, tmp_path: Path) -> None:
+    for name in ("arm.model", "arm", "arm.toml"):
+        assert md.load(md.save(model, tmp_path / name)).params.equals(model.params)
+    robot = md.load("two-link")
+    (tmp_path / "robot.json").write_text(robot.text)
+    for place in (md.load(robot.save(tmp_path / "r.toml")), md.load(tmp_path / "robot.json")):
+        assert place.text == robot.text
+    (tmp_path / "x").write_text('{"kind": "other"}')
+    with pytest.raises(ManifestError, match="JSON, but not a model file"):
+        md.load(tmp_path / "x")
+    for nothing in (tmp_path / "none", tmp_path):
+        with pytest.raises(RobotError, match=re.escape(str(nothing))):
+            md.load(nothing)
+
+
+def test_the_c_has_its_values_and_no_paths(model: md.Model, tmp_path: Path) -> None:
+    emitted = model.to_c(tmp_path / "c")
+    texts = [p.read_text() for p in (tmp_path / "c").rglob("*") if p.is_file()]
+    assert emitted.code == md.generate(model).code
+    assert any(f"{model['Fv1'].value:.6g}"[:6] in text for text in texts)
+    assert not any("mon.parquet" in text for text in texts)
+
+
+def test_it_remembers_frames_while_it_lives(logs: list[str]) -> None:
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.read_parquet(logs[0])
+    made = md.identify("demo-arm", frame)
+    assert made.logs[0].path == "" and made.logs[0].name.startswith("frame ")
+    assert made.resid.equals(pickle.loads(pickle.dumps(made)).resid)
+    better = made.add("load_friction", 2)
+    assert better.resid.shape == made.resid.shape
+    gone = dataclasses.replace(made, given=())
+    with pytest.raises(
+        DataError, match=r"resid: frame \w+ was no file, .* `compare\(logs\)` takes"
+    ):
+        _ = gone.resid
+    np.testing.assert_allclose(gone.missing(logs=frame).joints["2"].systematic,
+                               made.missing().joints["2"].systematic)  # fmt: skip
+
+
+def test_effects_method_and_options_of_the_robot_file(logs: list[str], tmp_path: Path) -> None:
+    bare = md.identify("demo-arm", logs, effects="viscous,coulomb")
+    assert not {"Off1", "Ia3"} & {*bare.params.index}
+    same = md.identify("demo-arm", logs, effects={"viscous": "all", "coulomb": ["1", "2"]})
+    assert "Fs3" not in same and "Fv3" in same
+    with pytest.raises(RobotError, match=r'effects: got viscus \(did you mean "viscous'):
+        md.identify("demo-arm", logs, effects=["viscus"])
+    stated = tmp_path / "arm.toml"
+    stated.write_text(md.open_robot("demo-arm").text + '\n[fit]\nmethod = "robust"\n')
+    assert md.identify(stated, logs[0]).fit.method == "robust"
+    assert md.identify(stated, logs[0], method="ordinary").fit.method == "ordinary"
+    with pytest.raises(DataError, match=r"method tls finds .* give load=Load\(logs, mass\)"):
+        md.identify("demo-arm", logs, method="tls")
+
+
+REFUSED: dict[str, tuple[Any, str]] = {
+    "logs": (lambda m: md.identify("demo-arm", 3), "identify: got 3 as logs; expected"),
+    "robot": (lambda m: md.identify(3, "x.csv"), "identify: got 3 as robot; expected a robot"),
+    "held out": (
+        lambda m: md.identify("demo-arm", m[0], m[0]), "--holdout mon.parquet: shares rows"),
+    "predict": (lambda m: m[1].predict(3.0), "predict: got 3.0 as log; expected a text or a path"),
+    "joint": (lambda m: m[1].add("spring", 9), "no joint 9|joint 9"),
+    "effect": (lambda m: m[1].add("sprin"), "sprin"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_wrong_arguments_are_refused_in_one_line(
+    model: md.Model, logs: list[str], case: str
+) -> None:
+    act, said = REFUSED[case]
+    with pytest.raises(ModelerError, match=said) as told:
+        act((logs[0], model))
+    assert "\n" not in str(told.value)
