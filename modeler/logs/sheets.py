@@ -44,7 +44,7 @@ def read_sheets(path: Path, wanted: Wanted) -> Columns:
             "each; save the values of the formulas, or as CSV"
         )
     rows = sheets[name]
-    head = head_of(rows, "", f"{path}, sheet {name}")
+    head = head_of(["\t".join(row) for row in rows], rows, "\t", "", f"{path}, sheet {name}")
     first, columns = rows[head.first], zip(*filter(any, rows[head.first :]), strict=True)
     clocks = {n: first_moment(c) for n, c in zip(head.names, first, strict=True) if is_clock(c)}
     arrays = [_array(c, n in clocks) for n, c in zip(head.names, columns, strict=True)]

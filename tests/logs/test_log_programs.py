@@ -225,6 +225,27 @@ def test_a_value_beside_arrays_tells_the_rate(ending, name, value, tmp_path):
     assert stated.numbers("time")[1] == pytest.approx(0.01)
 
 
+HEADS = [
+    ("time,Position,,Torque,\n,J1,J2,J1,J2\n", ",", "",
+     ["time", "Position[J1]", "Position[J2]", "Torque[J1]", "Torque[J2]"]),
+    ("sep=;\nt;a;b;c;d\n", ";", "", ["t", "a", "b", "c", "d"]),
+    ("t;a;b;c;d\n", ";", ";", ["t", "a", "b", "c", "d", "c6"]),
+    ("t a   b c   d e   f g   h i\n", "  ", "", ["t a", "b c", "d e", "f g", "h i"]),
+    ("0,1,2,3,4\n", ",", "", ["c1", "c2", "c3", "c4", "c5"]),
+    ("", ",", "", ["c1", "c2", "c3", "c4", "c5"]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("head", "delimiter", "end", "names"), HEADS)
+def test_heads_of_other_programs(head, delimiter, end, names, tmp_path):
+    values = np.arange(100.0).reshape(20, 5) / 8.0
+    body = text_of(values, delimiter).replace("\n", f"{end}\n")
+    found = read_columns(written(tmp_path / "a.csv", head + body), Wanted())
+    assert [name for name, _ in found.columns] == names
+    read = np.column_stack([column.numbers() for _, column in found.columns[:5]])
+    assert (read == values).all()
+
+
 # Habits of text files, drawn: what was written is what is read.
 
 
