@@ -19,7 +19,7 @@ from modeler.codegen import (
 from modeler.core.builtin import builtin_names
 from modeler.core.errors import DataError, ManifestError, Precision
 from modeler.core.estimators import ABOUT
-from modeler.core.files import Kind, destination, write_atomically
+from modeler.core.files import write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
 from modeler.core.table import Table
 from modeler.effects import CATALOGUE
@@ -33,10 +33,9 @@ from modeler.estimation import (
 from modeler.logs import Frame, LogMap, blocks_of
 from modeler.robot import (
     Robot,
+    new_robot as new_robot,
     read_robot,
     robot_from_text,
-    robot_name,
-    template_robot,
     with_own_effect,
 )
 from modeler.runtime import CompiledModel, GpuModel, load as load_compiled, load_gpu
@@ -59,47 +58,6 @@ def listed(logs: Logs) -> Sequence[AnyLog]:
 
 
 M = TypeVar("M", bound=IdentifiedModel)
-
-
-def new_robot(
-    path: str | Path,
-    template: str = "serial",
-    joints: str = "RRR",
-    convention: str = "khalil",
-    force: bool = False,
-) -> Robot:
-    """Writes a commented robot file to start from, which derives as it is.
-
-    Args:
-        path: of the file, ending in .toml; the robot is called as it is.
-        template: `serial`, `parallelogram` or `parallel`.
-        joints: of a serial robot, from the base: R revolute, P prismatic.
-        convention: whose table a serial robot gets: `khalil`, `craig` or `classical`.
-        force: write over a file that is there.
-
-    Raises:
-        RobotError: an unknown template or convention, or other letters for joints.
-        DataError: another ending, or a file that is there.
-    """
-    place = Path(path)
-    check_new_robot(place, force)
-    text = template_robot(robot_name(place.stem), template, joints, convention)
-    robot = robot_from_text(text, str(place))
-    write_atomically(place, text)
-    return robot
-
-
-def check_new_robot(place: Path, force: bool) -> None:
-    """Refuses what `new_robot` would: another ending, or a file that is there."""
-    if place.suffix.lower() != ".toml":
-        raise DataError(
-            f"{place}: got {place.suffix or 'no ending'}; expected a name such as arm.toml"
-        )
-    if destination(place).kind is Kind.FILE and not force:
-        raise DataError(
-            f"{place}: there is such a file; choose another name, or write over it with --force "
-            "(force=True)"
-        )
 
 
 def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:

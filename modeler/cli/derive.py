@@ -221,10 +221,13 @@ def _cut_as_before(args: argparse.Namespace, robot: Robot) -> bool:
 def _tied_lines(model: SymbolicModel) -> list[str]:
     """How the joints of a robot with relations or loops move each other."""
     robot = model.robot
+    lines = []
+    if robot.convention == "classical":
+        lines.append("parameters of link j: in the frame behind Rz(theta) Tz(d) of its row")
     if not robot.relations and not robot.loops:
-        return []
+        return lines
     names = ", ".join(f"q{joint.name}" for joint in robot.coordinates)
-    lines = [f"coordinates: {names}"]
+    lines.append(f"coordinates: {names}")
     if robot.relations:
         tied = "; ".join(f"q{name} = {tie.text}" for name, tie in robot.relations.items())
         lines += textwrap.wrap(

@@ -4,12 +4,11 @@ import argparse
 import sys
 from pathlib import Path
 
-from modeler.api.workflow import check_new_robot, new_robot
 from modeler.cli.console import Json, print_error, say, say_lines, show_next
 from modeler.core.builtin import CONVENTIONS, TEMPLATES
 from modeler.core.errors import ModelerError, RobotError
 from modeler.core.files import Kind, destination, write_atomically
-from modeler.robot import converted, robot_from_text, template_robot
+from modeler.robot import check_new_robot, converted, new_robot, robot_from_text, template_robot
 
 _URDF = (
     "a SYMORO file needs no new one: `modeler convert`; URDF is to follow: docs/converting.md has "
@@ -29,7 +28,12 @@ def run_new(args: argparse.Namespace) -> Json:
     loops = ", loops that close" if robot.loops else ""
     say(f"{robot.title}: {len(robot.moving)} joints{loops}, written to {out}; write your lengths")
     show_next([f"modeler derive {out}"])
-    return {"robot": robot.name, "out": str(out), "joints": [j.name for j in robot.moving]}
+    return {
+        "robot": robot.name,
+        "out": str(out),
+        "joints": [joint.name for joint in robot.moving],
+        "loops": [loop.name for loop in robot.loops],
+    }
 
 
 def _answers() -> dict[str, str]:
@@ -48,16 +52,12 @@ def _asked(question: str, usual: str, key: str) -> str:
     while True:
         sys.stderr.write(f"{question} [{usual}]: ")
         sys.stderr.flush()
-        line = sys.stdin.readline()
-        answer = line.strip() or usual
+        answer = sys.stdin.readline().strip() or usual
         try:
             template_robot("arm", **{key: answer})
+            return answer
         except RobotError as error:
             print_error(str(error))
-            if not line:  # the end of what is typed
-                raise
-        else:
-            return answer
 
 
 def run_convert(args: argparse.Namespace) -> Json:

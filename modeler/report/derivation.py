@@ -29,6 +29,7 @@ def _robot_summary(robot: Robot) -> str:
     if robot.symbols:
         told = [f"{name} = {value}" for name, value in robot.symbol_values().items()]
         lines.append(f"symbols: {', '.join(told)}")
+    lines += robot.readings
     return "\n".join(lines)
 
 

@@ -32,4 +32,8 @@ from .robot import (
     listed as listed,
     near as near,
 )
-from .start import robot_name as robot_name, template_robot as template_robot
+from .start import (
+    check_new_robot as check_new_robot,
+    new_robot as new_robot,
+    template_robot as template_robot,
+)

@@ -3,6 +3,7 @@
 import keyword
 import math
 import re
+import unicodedata
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -239,6 +240,16 @@ def name_of(value: Any) -> Any:
     if isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 10**6:
         return str(value)
     return value
+
+
+def robot_name(*wanted: str) -> str:
+    """The first of these with the letters that names may have; `robot` if none has any."""
+    for each in wanted:
+        plain = unicodedata.normalize("NFKD", each).encode("ascii", "ignore").decode()
+        name = re.sub(r"[^A-Za-z0-9_-]+", "-", plain).strip("-_")
+        if name:
+            return name
+    return "robot"
 
 
 def check_name_length(name: str, place: Place) -> None:

@@ -43,6 +43,9 @@ _ONE_ROW = {
     "craig": '["j", "alpha", "a", "d", "theta"], rows = [["1", 0, 0, 0, "q1"]]',
     "classical": '["j", "theta", "d", "a", "alpha"], rows = [["1", "q1", 0, 0, 0]]',
 }
+_GREEK = {
+    "\u03b1": "alpha", "\u03b3": "gamma", "\u03b8": "theta", "\u03c3": "sigma", "\u03bc": "mu",
+}  # fmt: skip
 _SERIAL = (
     "a classical table is of a serial robot, for its a and alpha place the one axis that follows; "
     'write the table in the notation of Khalil or Craig, convention = "khalil" or "craig"'
@@ -109,7 +112,8 @@ def khalil_columns(place: Place, convention: str) -> list[str]:
     Raises:
         RobotError: columns that such a table has not, or twice, or no names of rows.
     """
-    columns = place.entries(_ONE_ROW[convention].split(", rows")[0])
+    given = place.entries(_ONE_ROW[convention].split(", rows")[0])
+    columns = [_GREEK.get(c, c) if isinstance(c, str) else c for c in given]
     ours = {letter: column for column, letter in CONVENTIONS[convention].items()}
     for number, column in enumerate(columns, start=1):
         if column not in list(ours):

@@ -9,6 +9,7 @@ import fnmatch
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
+from modeler.core.expression import decimal_text
 from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import LARGEST_RATIO, check_name_length, joint_sum, name_of
 from modeler.robot.conventions import Row, RowPlace
@@ -174,9 +175,9 @@ def _inverse(matrix: Sequence[Sequence[Fraction]]) -> list[list[Fraction]] | Non
 
 
 def _sum(terms: Mapping[str, Fraction]) -> str:
-    """`2/5*qm1 + qm2`."""
+    """`0.4*qm1 + qm2`."""
     text = " + ".join(
-        name if c == 1 else f"-{name}" if c == -1 else f"{c}*{name}"
+        name if c == 1 else f"-{name}" if c == -1 else f"{decimal_text(c) or c}*{name}"
         for name, c in terms.items()
         if c
     )

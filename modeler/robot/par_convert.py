@@ -8,6 +8,7 @@ from modeler.core.builtin import NOT_READ
 from modeler.core.errors import RobotError
 from modeler.core.files import read_file
 from modeler.core.toml_cells import listed
+from modeler.robot.cells import robot_name
 from modeler.robot.par_table import (
     GEOMETRY,
     Counts,
@@ -20,7 +21,6 @@ from modeler.robot.par_table import (
     variables,
 )
 from modeler.robot.par_text import BASE, FORCES, INERTIA, JOINTS, ParFormula, Statements, scan
-from modeler.robot.start import robot_name
 
 # What a `.par` file says of the links: which parameters they have, values, friction, rotors.
 

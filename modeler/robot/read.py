@@ -219,8 +219,9 @@ def _not_found(path: Path) -> str:
         return f"{path}: is a folder; expected a robot file or a built-in robot ({listed(names)})"
     if path.suffix or len(path.parts) > 1:
         return (
-            f"{path}: there is no such file{near(path.stem, names)}; expected a robot file or a "
-            f"built-in robot ({listed(names)})"
+            f"{path}: there is no such file{near(path.stem, names)}; expected a robot file "
+            f"(`modeler new {path.with_suffix('.toml')}` begins one) or a built-in robot "
+            f"({listed(names)})"
         )
     return (
         f"{shown(str(path))} is neither a file nor a built-in robot{near(str(path), names)}; "

@@ -2,11 +2,15 @@
 
 import re
 import string
-import unicodedata
+from pathlib import Path
 
 from modeler.core.builtin import TEMPLATES, template_text
-from modeler.core.errors import RobotError
+from modeler.core.errors import DataError, RobotError
+from modeler.core.files import Kind, destination, write_atomically
+from modeler.robot.cells import robot_name
 from modeler.robot.conventions import CONVENTIONS, GEOMETRY, STEPS
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import Robot
 
 MOST_JOINTS = 20
 SERIAL = "serial"
@@ -19,14 +23,45 @@ _WORDS = str.maketrans({"\u03b1": "alpha", "\u03b3": "gamma", "\u03b8": "theta",
 _ALPHA = ("0", "-pi/2", "0", "pi/2", "-pi/2", "pi/2")  # shoulder, elbow, wrist
 
 
-def robot_name(*wanted: str) -> str:
-    """The first of these with the letters that names may have; `robot` if none has any."""
-    for each in wanted:
-        plain = unicodedata.normalize("NFKD", each).encode("ascii", "ignore").decode()
-        name = re.sub(r"[^A-Za-z0-9_-]+", "-", plain).strip("-_")
-        if name:
-            return name
-    return "robot"
+def new_robot(
+    path: str | Path,
+    template: str = "serial",
+    joints: str = "RRR",
+    convention: str = "khalil",
+    force: bool = False,
+) -> Robot:
+    """Writes a commented robot file to start from, which derives as it is.
+
+    Args:
+        path: of the file, ending in .toml; the robot is called as it is.
+        template: `serial`, `parallelogram` or `parallel`.
+        joints: of a serial robot, from the base: R revolute, P prismatic.
+        convention: whose table a serial robot gets: `khalil`, `craig` or `classical`.
+        force: write over a file that is there.
+
+    Raises:
+        RobotError: an unknown template or convention, or other letters for joints.
+        DataError: another ending, or a file that is there.
+    """
+    place = Path(path)
+    check_new_robot(place, force)
+    text = template_robot(robot_name(place.stem), template, joints, convention)
+    robot = robot_from_text(text, str(place))
+    write_atomically(place, text)
+    return robot
+
+
+def check_new_robot(place: Path, force: bool) -> None:
+    """Refuse what `new_robot` would: another ending, or a file that is there."""
+    if place.suffix.lower() != ".toml":
+        raise DataError(
+            f"{place}: got {place.suffix or 'no ending'}; expected a name such as arm.toml"
+        )
+    if destination(place).kind is Kind.FILE and not force:
+        raise DataError(
+            f"{place}: there is such a file; choose another name, or write over it with --force "
+            "(force=True)"
+        )
 
 
 def template_robot(

@@ -250,7 +250,8 @@ def _cell(
             raise place.error(
                 f"{got}, which uses the variable {name} of another row; expected {own} and "
                 "constants, or, where the joint follows others, a sum of their variables in "
-                f"column {where.letter(home) if home else 'theta or r'} without {own}"
+                f"column {' or '.join(map(where.letter, [home] if home else HOME.values()))} "
+                f"without {own}"
             )
     check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
     if column == home:

@@ -33,6 +33,7 @@ READING = {  # what each command reads; outputs come after it
     "home": "home arm.toml",
     "generate": "generate arm.toml --out new_c",
     "convert": "convert arm.par --out new.toml",
+    "new": "new new.toml",
     "simulate": "simulate arm.toml --out new.csv",
     "excite": "excite arm.toml --choose 1 --from a.parquet b.csv",
     "log": "log a.parquet --robot arm.toml --map names.toml",
@@ -237,8 +238,10 @@ def test_nothing_is_written_into_another_programs_robot_file(
         if there_is_one:
             place.write_text("theirs")
         words = READING[command].split()
-        option = action.option_strings[0]
-        if option in words:
+        option = action.option_strings[0] if action.option_strings else command
+        if option == command:
+            words = [command, str(place)]
+        elif option in words:
             words[words.index(option) + 1] = str(place)
         else:
             words += [option, str(place)]

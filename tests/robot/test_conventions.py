@@ -149,7 +149,7 @@ def test_classical_tables_move_and_weigh_as_their_book_says(part):
 def test_tables_of_khalil_come_back_from_craig_and_classical(part):
     """Written in the other notations by the test, 200 robots are the same joint by joint."""
     rng = np.random.default_rng([2002, part])
-    for _ in range(50):
+    for k in range(50):
         table = random_table(rng, int(rng.integers(1, 6)))
         rows = [[f"{j}", s, al, a, th, d] for j, (s, th, d, a, al) in enumerate(table, 1)]
         khalil = robot_from_text(file("khalil", ["j", "sigma", "alpha", "d", "theta", "r"], rows),
@@ -180,6 +180,10 @@ def test_tables_of_khalil_come_back_from_craig_and_classical(part):
                             r=number(row[5], here))  # fmt: skip
             antecedent = np.eye(4) if j == 1 else theirs[f"{j - 1}"]
             np.testing.assert_allclose(theirs[f"{j}"], antecedent @ pose, atol=1e-12)
+        if k % 5 == 0:  # torques, gravity and energy of both, column by column
+            states = tuple(rng.normal(size=(3, 4, len(table))))
+            found = [regressor_values(derive_model(r), states) for r in (classical, khalil)]
+            np.testing.assert_allclose(*found, atol=1e-12 * np.abs(found[1]).max())
 
 
 # PUMA 560 from four books.
@@ -361,6 +365,12 @@ def test_khalil_where_it_is_said_has_any_order():
     assert read('convention = "khalil"\n' + mdh).joints[0].d.text == "0.1"
     named = '["j", "alpha", "a", "d", "theta"]\nrows = [["1", 0, "0", 0, "q1"], ["2", 0, "1", 0, '
     assert read(f'columns = {named}"q2"]]').joints[1].antecedent == "1"
+
+
+def test_greek_letters_of_a_book_are_columns():
+    rows = '[["1", 0, "pi/2", "q1"], ["2", 2, 0.4, 0]]'
+    robot = read(f'columns = ["j", "σ", "α", "θ"]\nrows = {rows}')
+    assert robot.joints == read(f'columns = ["j", "sigma", "alpha", "theta"]\nrows = {rows}').joints
 
 
 def test_branches_of_craig_name_their_parents():

@@ -1,0 +1,132 @@
+"""Numbers of a robot file are printed as they were written, and stay exact."""
+
+import re
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import sympy
+
+from modeler import formulas
+from modeler.codegen.workflow import derive
+from modeler.core.expression import decimal_text
+from modeler.derivation.relations import as_json, as_latex, as_text
+from modeler.robot.read import robot_from_text
+
+BIG = re.compile(r"\d{3,}/\d{3,}|frac\{\d{3,}\}")
+
+
+def arm(lengths, symbols=""):
+    """Four joints, twists of 90, 60 and 0 degrees, these lengths in their cells."""
+    a, b, c, d = lengths
+    return robot_from_text(
+        f"""name = "arm"
+gravity = [0, 0, -9.81]
+[symbols]
+{symbols}
+[mdh]
+columns = ["j", "alpha", "d", "theta", "r"]
+rows = [["1", 0, 0, "q1", 0], ["2", "-pi/2", {a}, "q2", 0], ["3", "pi/3", {b}, "q3", {c}],
+        ["4", 0, {d}, "q4", 0]]
+""",
+        "arm.toml",
+    )
+
+
+def coefficients(robot):
+    told = as_json("arm", derive(robot).base)
+    return {
+        (base["name"], term["parameter"]): term["coefficient"]
+        for base in told["base"]
+        for term in base["terms"]
+    }
+
+
+def test_numbers_are_those_of_the_letters_exactly():
+    """The same robot with letters, derived by itself: its coefficients at the written values."""
+    rng = np.random.default_rng(4318)
+    for _ in range(4):
+        written = [
+            f"{x:.{n}f}" for x, n in zip(rng.uniform(0.05, 0.9, 4), (4, 3, 2, 5), strict=True)
+        ]
+        numbers = coefficients(arm(written))
+        values = {
+            name: sympy.Rational(x)
+            for name, x in zip(("A1", "A2", "A3", "A4"), written, strict=True)
+        }
+        symbols = "\n".join(
+            f"{name} = {x}" for name, x in zip(("A1", "A2", "A3", "A4"), written, strict=True)
+        )
+        letters = coefficients(arm(['"A1"', '"A2"', '"A3"', '"A4"'], symbols))
+        assert numbers.keys() == letters.keys()
+        for key, text in numbers.items():
+            exact = sympy.sympify(letters[key]).subs(values)
+            assert sympy.simplify(sympy.sympify(text, rational=True) - exact) == 0
+            assert not BIG.search(text), text
+
+
+def test_relations_show_what_was_written():
+    base = derive(arm([0.1564, 0.4318, 0, 0.33])).base
+    text, latex = as_text(base), as_latex(base)
+    assert "0.4318*M3" in text and "0.18645124*M3" in text and "0.02446096*M2" in text
+    assert "0.4318 M_{3}" in latex and "0.18645124 M_{3}" in latex
+    assert not BIG.search(text) and not BIG.search(latex)
+    assert re.search(r"[^.\d]3/4\*", text)  # of cos(60 deg), which nobody wrote
+
+
+def test_halves_are_decimals_where_the_file_writes_them_so():
+    halves, others = (as_text(derive(arm([x, "0.4", 0, 0.3])).base) for x in ("0.5", "0.6"))
+    assert "0.75*YY3" in halves and "3/4" not in halves
+    assert "3/4*YY3" in others and "0.75" not in others
+    assert "0.36*M2" in others
+
+
+def test_closed_forms_show_what_was_written():
+    robot = robot_from_text(
+        'name = "flat"\ngravity = [0, -9.81, 0]\n[mdh]\ncolumns = ["j", "alpha", "d", "theta"]\n'
+        'rows = [["1", 0, 0, "q1"], ["2", 0.35, 0.4318, "q2"]]',
+        "flat.toml",
+    )
+    derivation = derive(robot)
+    closed = formulas.closed_form(derivation.model, derivation.base)
+    sheet = formulas.equation_of(derivation.model, derivation.base, motion=True, columns=True).sheet
+    table = formulas.coefficients.coefficient_table(derivation.model, derivation.base)
+    for text in (
+        formulas.render.closed_form_text(closed),
+        formulas.render.closed_form_latex(closed),
+        formulas.function_sheet.sheet_markdown(sheet),
+        "\n".join(
+            " ".join(line[3:]) for line in formulas.render.table_lines(table) if "PS" in line[0]
+        ),
+    ):
+        assert not BIG.search(text)
+        assert "0.4318" in text and "7/20" not in text
+    assert "9.81" in formulas.render.closed_form_text(closed)
+    assert r"\cos{(0.35)}" in formulas.render.closed_form_latex(closed)
+
+
+@pytest.mark.parametrize(
+    ("value", "halves", "text"),
+    [
+        ("0.1564", False, "0.1564"), ("-0.05", False, "-0.05"), ("12.5", False, None),
+        ("12.5", True, "12.5"), ("1/3", True, None), ("1/6", True, None), ("3", True, None),
+        ("1/1024", False, None), ("1/1024", True, "0.0009765625"), ("1e-9", False, "0.000000001"),
+        ("7/20", False, "0.35"), ("0", True, None),
+    ],
+)  # fmt: skip
+def test_decimals_are_exact_or_none(value, halves, text):
+    found = decimal_text(Fraction(value), halves)
+    assert found == text
+    assert found is None or Fraction(found) == Fraction(value)
+
+
+def test_every_decimal_comes_back():
+    rng = np.random.default_rng(25)
+    for _ in range(500):
+        value = Fraction(
+            int(rng.integers(-(10**9), 10**9)),
+            2 ** int(rng.integers(0, 9)) * 5 ** int(rng.integers(0, 9)),
+        )
+        text = decimal_text(value, True)
+        assert (text is None) == (value.denominator == 1)
+        assert text is None or Fraction(text) == value
