@@ -21,6 +21,7 @@ from modeler.logs import (
     map_from_words,
     windows_of,
 )
+from modeler.observation import FINGER, LONG, WINDOW, WINDOWS
 from modeler.runtime import CompiledModel
 from modeler.simulation import SimulatedLog
 
@@ -176,10 +177,10 @@ def _heard(compiled: CompiledModel, place: str | Path | InMemory, names: LogMap)
     try:
         path, span = file_and_span(place) if isinstance(place, str | Path) else ("", None)
         blocks = blocks_of(Path(path)) if path and span is None else None
-        if blocks is not None and blocks.rows > observation.LONG:
+        if blocks is not None and blocks.rows > LONG:
             source = observation.source_of(Path(path), compiled.spec, names)
             assert source is not None  # it has blocks
-            log = source.window(0.0, observation.LONG)
+            log = source.window(0.0, LONG)
         else:
             log = read_mapped(place, compiled.spec, names)
         rows = observation.observe(compiled, [log])
@@ -201,9 +202,7 @@ def read_mapped(
     if span is None:
         return observation.read_log(path, spec, names)
     source = observation.source_of(Path(path), spec, names)
-    if source is not None and source.rows > (
-        observation.LONG if source.exact else 2 * observation.LONG
-    ):
+    if source is not None and source.rows > (LONG if source.exact else 2 * LONG):
         part = observation.read_part(source, spec, *span)
     else:
         part = observation.window(observation.read_log(path, spec, names), *span)
@@ -252,11 +251,9 @@ def look_at(
         return inspect_log(held, names, joints, (None, None))
     path, span = file_and_span(str(place))
     blocks, span = blocks_of(Path(path)), span or (None, None)
-    if blocks is None or blocks.rows <= observation.LONG:
+    if blocks is None or blocks.rows <= LONG:
         table = LogTable(Path(path), names, joints, any_topic=True)
         return inspect_log(table, names, joints, span)
-    seen = windows_of(blocks, observation.WINDOWS, observation.WINDOW)
-    every = (
-        LogTable(Path(path), names, joints, part=own) for own in blocks.blocks(observation.FINGER)
-    )
+    seen = windows_of(blocks, WINDOWS, WINDOW)
+    every = (LogTable(Path(path), names, joints, part=own) for own in blocks.blocks(FINGER))
     return inspect_log(LogTable(Path(path), names, joints, part=seen), names, joints, span, every)

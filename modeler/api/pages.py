@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler import report
-from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.result import presented
 from modeler.diagnosis import Diagnosis
@@ -31,17 +30,12 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
         notes: lines for the foot of the page: where the logs come from.
 
     Raises:
-        DataError: no page shows it.
         ModelerError: the place cannot be written.
     """
     found = presented(type(thing))
-    if found is not None and found.document is not None:
-        sheet = found.document(thing, notes)
-        if isinstance(sheet, report.Page):
-            return report.write_page(Path(path), sheet)
-        write_atomically(Path(path), sheet)
-        return Path(path)
-    raise DataError(
-        f"write_report: got {type(thing).__name__}; expected a robot, a model, a comparison, a "
-        "diagnosis, models side by side, estimators side by side or a fleet"
-    )
+    assert found is not None and found.document is not None  # of all that is `Reported`
+    sheet = found.document(thing, notes)
+    if isinstance(sheet, report.Page):
+        return report.write_page(Path(path), sheet)
+    write_atomically(Path(path), sheet)
+    return Path(path)

@@ -23,6 +23,7 @@ from modeler.api.workflow import Logs, compile_model, derived, listed, read_logs
 from modeler.codegen import Derivation
 from modeler.core.errors import DataError
 from modeler.core.manifest import Emitted
+from modeler.logs import LEAST_ROWS
 from modeler.robot import Robot
 from modeler.runtime import CompiledModel
 
@@ -141,6 +142,9 @@ def _logs(
         if tau.shape[1] != count:
             raise DataError(f"y has {tau.shape[1]} columns; expected the torque of {count} joints")
         time = X[rows, 1]
-        if (np.diff(time) <= 0.0).any():
-            raise DataError(f"X: the time of log {number:g} does not increase; keep rows in order")
+        if len(rows) < LEAST_ROWS or (np.diff(time) <= 0.0).any():
+            raise DataError(
+                f"X: got {len(rows)} rows of log {number:g}; expected at least {LEAST_ROWS}, their "
+                "time increasing; keep the rows of a log together, and in order"
+            )
         yield rows, observation.Log(f"log {number:g}", joints, time, parts[0], tau, *parts[1:])

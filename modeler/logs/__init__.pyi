@@ -1,3 +1,4 @@
+from .arrays import LEAST_ROWS as LEAST_ROWS
 from .blocks import (
     Blocks as Blocks,
     ParquetBlocks as ParquetBlocks,

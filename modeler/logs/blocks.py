@@ -56,6 +56,11 @@ class _Arrow:
     origin: Origin = None
 
     @property
+    def is_time(self) -> bool:
+        """True of dates and times of day, which nothing but `time` may be."""
+        return self.origin is not None and not pa.types.is_integer(self.column.type)
+
+    @property
     def numeric(self) -> bool:
         t = pa.types
         numbers = (t.is_integer, t.is_floating, t.is_decimal, t.is_null)

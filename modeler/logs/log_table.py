@@ -18,6 +18,12 @@ _SHOWN = 40  # names of columns that a message lists
 _FEW = 6
 
 
+def _motion_of(joints: Sequence[JointSpec]) -> set[str]:
+    """Our names of what is measured of joints."""
+    return {f"{kind}{joint.name}" for kind in ("q", "qd", "qdd", "qc", "tau", "current")
+            for joint in joints}  # fmt: skip
+
+
 class LogTable:
     """The columns of one log by our names; numbers are converted when they are asked for.
 
@@ -196,8 +202,14 @@ class LogTable:
             raise DataError(f"{self.path}: {self._absent(name)}")
         if name == "time" and self._rate:
             return np.arange(self.before, self.before + self.rows) / self._rate
+        column = self._columns[self._taken.get(name, name)]
+        if getattr(column, "is_time", False) and name in _motion_of(self._joints):
+            raise DataError(
+                f"{self.path}: column {self.called(name)} holds dates or times of day; expected "
+                f"numbers; say which column it is: --map {name}=COLUMN"
+            )
         try:
-            values = self._columns[self._taken.get(name, name)].numbers()
+            values = column.numbers()
         except NotNumbers as why:
             raise DataError(f"{self.path}: column {self.called(name)}{why}") from None
         values[~np.isfinite(values)] = np.nan

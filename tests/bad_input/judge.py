@@ -230,7 +230,7 @@ def _names_a_place(words: tuple[str, ...], line: str) -> bool:
     names = {_shown(Path(word.partition("@")[0]).name)[:40] for word in words[1:]} | set(words)
     names |= {".:", 'got ""'} if {".", ""} & set(words) else set()
     names |= {name.removesuffix(".toml") for name in names}
-    names |= {"compiler", "MODELER_CACHE", "stdout", "argument", "COMMAND", "required: "}
+    names |= {"compiler", "MODELER_CACHE", "stdout", "argument", "unknown command", "required: "}
     options = [word for word in words if word.startswith("--")]
     names |= {option.strip("-").replace("-", "_") for option in options}
     names |= {name.partition("=")[0] for name in names}

@@ -49,15 +49,15 @@ def place(tmp_path_factory):
 def chunked(monkeypatch):
     """Logs of some thousand rows are long."""
     for where in ("modeler.observation.log.LONG",
-                  "modeler.api.checks.LONG"):  # fmt: skip
+                  "modeler.api.log_maps.LONG"):  # fmt: skip
         monkeypatch.setattr(where, 4000)
     monkeypatch.setattr(observation, "LONG", 4000)
     survey = sys.modules["modeler.observation.survey"]
     monkeypatch.setattr(survey, "LONG", 4000)
     monkeypatch.setattr(survey, "FINGER", 1024)
-    for where in ("observation.log", "api.checks"):
+    for where in ("observation.log", "api.log_maps"):
         monkeypatch.setattr(f"modeler.{where}.FINGER", 1024)
-    monkeypatch.setattr("modeler.api.checks.WINDOW", 900)
+    monkeypatch.setattr("modeler.api.log_maps.WINDOW", 900)
     monkeypatch.setattr(compare_long, "__defaults__", (lambda share: None, 1024))
     defaults = (None, lambda share: None, 1024, None)
     monkeypatch.setattr(stream, "__defaults__", defaults)
@@ -230,7 +230,7 @@ def test_a_long_log_is_looked_at_in_blocks(log, place, chunked, tmp_path, monkey
     words = ["log", str(path), "--picture", str(tmp_path / "drawn")]
     found, out = told_of(words, tmp_path / "long", capsys)
     assert f"long log: all {ROWS} rows are read for ranges" in out
-    monkeypatch.setattr("modeler.api.checks.LONG", 10**9)
+    monkeypatch.setattr("modeler.api.log_maps.LONG", 10**9)
     whole, _ = told_of(words, tmp_path / "whole", capsys)
     assert found["clock"]["gaps"] == 2 and found["clock"]["at"] == whole["clock"]["at"] == 5.115
     del found["notes"], whole["notes"]

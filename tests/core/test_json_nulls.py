@@ -80,6 +80,7 @@ COMMANDS = {
         "t.json",
     ),
     "show": ("five-bar", "--out", "p.html"),
+    "new": ("begun.toml", "--joints", "RPR"),
     "convert": ("old.par", "--out", "new.toml"),
     "generate": ("m.json", "--out", "c"),
     "add": (

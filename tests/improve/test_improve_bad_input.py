@@ -45,7 +45,7 @@ def test_what_cannot_be_added_is_refused_in_one_line(
 ) -> None:
     words, message = REFUSED[mistake]
     effect, *joint = words.split()
-    outputs = ("--out", tmp_path / "m2.json", "--robot", tmp_path / "r.toml")
+    outputs = ("--out", tmp_path / "m2.json", "--robot-out", tmp_path / "r.toml")
     words_ = ("add", arm / "m.json", effect, *joint, arm / "train.parquet", *outputs)
     status, out, err = run(*words_)
     assert (status, out) == (1, "")
@@ -80,7 +80,7 @@ def test_robots_with_loops_say_what_they_cannot_have(
     [
         ("--out", "m.json", "--out m.json: this is the model that is read; expected a name of"),
         ("--out", "train.parquet", "--out train.parquet: this is a log; expected a name of its"),
-        ("--robot", "other.parquet", "--robot other.parquet: this is a log"),
+        ("--robot-out", "other.parquet", "--robot-out other.parquet: this is a log"),
         ("--report", "m2.json", "--report m2.json: --out writes this file too"),
         ("--report", "/proc/nowhere/a.html", "/proc/nowhere/a.html: cannot be written"),
     ],

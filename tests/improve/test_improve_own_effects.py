@@ -148,7 +148,7 @@ def test_commands(own: Case, tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert main(["diagnose", *words, "--without", "eddy_brak"]) == 1
     assert re.search(r'no such effect \(did you mean "eddy_brake"\?\)', capsys.readouterr().err)
 
-    words = [logs[0], "--holdout", logs[1], "--robot", place["r.toml"], "--out"]
+    words = [logs[0], "--holdout", logs[1], "--robot-out", place["r.toml"], "--out"]
     assert main(["add", place["m"], "eddy_brake", "--joint", "2", *words, place["m2"]]) == 0
     assert "+ eddy_brake @2" in capsys.readouterr().out
     assert "eddy_brake = [{joint" in Path(place["r.toml"]).read_text(encoding="utf-8")

@@ -26,7 +26,7 @@ def test_viscous_and_coulomb_one_after_the_other(loops: Path, run: Run, tmp_path
     one, two, robot = tmp_path / "1.json", tmp_path / "2.json", tmp_path / "r.toml"
     status, _, err = run("add", loops / "m.json", "viscous", "--joint", "21", *logs, "--out", one)
     assert (status, err) == (0, "")
-    line = ("add", one, "coulomb", "--joint", "21", *logs, "--out", two, "--robot", robot)
+    line = ("add", one, "coulomb", "--joint", "21", *logs, "--out", two, "--robot-out", robot)
     status, out, _ = run(*line)
     assert status == 0 and "coulomb, joint 21: the error falls: joint 11" in out
     text = robot.read_text(encoding="utf-8")

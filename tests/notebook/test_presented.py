@@ -1,16 +1,20 @@
 """What every object of a session says of itself: short reprs, summaries, tables, figures, HTML."""
 
+import csv
 import dataclasses
 import io
+import json
+import re
 from collections.abc import Callable
 from html.parser import HTMLParser
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import modeler.core.result as presented_module
 import modeler.report.notebook as notebook
-from modeler.api import derive, load
+from modeler.api import derive, load, read_logs, write_report
 from modeler.core.errors import DataError
 from modeler.core.result import Presented, presented
 from modeler.robot.read import robot_from_text
@@ -64,6 +68,52 @@ def test_every_figure_is_drawn(name: str) -> None:
         figure = thing.plot()
         png = figure._repr_png_()
         assert figure.axes and png.startswith(b"\x89PNG") and len(png) > 5000
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_result_is_plain_data_a_page_and_files(name: str, tmp_path: Path) -> None:
+    thing = session()[name]
+    data = thing.to_dict()
+    assert data and json.loads(json.dumps(data, allow_nan=False)) == data
+    page = thing.to_html()
+    assert page.lower().startswith("<!doctype html>") and "<title>" in page
+    assert not re.search(r"(?:src|href)=\"?https?:", page)  # it needs no other file
+    first = thing.summary().splitlines()[0]
+    assert thing.save(tmp_path / "a.txt").read_text().splitlines()[0] == first
+    assert thing.save(str(tmp_path / "a.html")) == tmp_path / "a.html"
+    shown = presented(type(thing))
+    if ".json" not in shown.files:
+        assert json.loads(thing.save(tmp_path / "a.json").read_text()) == data
+    if shown.tables(thing) and ".csv" not in shown.files:
+        table = thing.table()
+        written = list(csv.reader(io.StringIO(thing.save(tmp_path / "a.csv").read_text())))
+        assert len(written) == len(table) + 1 and len(written[0]) == len(table.columns)
+        assert thing.save(tmp_path / "a.md").read_text() == f"{table.markdown()}\n"
+        assert thing.save(tmp_path / "a.tex").read_text() == f"{table.latex()}\n"
+    if not shown.tables(thing):
+        with pytest.raises(DataError, match="has none"):
+            thing.save(tmp_path / "a.csv")
+    if "" not in shown.files:
+        with pytest.raises(DataError, match=r"a.xyz: got the ending .*; .* is saved as one of .*"):
+            thing.save(tmp_path / "a.xyz")
+
+
+def test_endings_of_their_own_and_figures(tmp_path: Path) -> None:
+    made = session()
+    assert load(made["robot"].save(tmp_path / "arm.toml")).text == made["robot"].text
+    saved = made["model"].save(tmp_path / "arm.model")
+    assert load(saved).params.equals(made["model"].params)
+    assert load(made["model"].save(tmp_path / "arm.json")).logs == made["model"].logs
+    run = made["simulated"].save(tmp_path / "run.parquet")
+    assert read_logs(made["compiled"], [run])[0].content == made["log"].content
+    for ending, start in ((".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")):
+        assert made["model"].save(tmp_path / f"m{ending}").read_bytes().startswith(start)
+    assert made["better"].to_dict()["waterfall"][1]["effect"] == HIDDEN.split("@")[0]
+    assert made["better"].to_dict()["parameters"] == made["better"].fit.to_json()["parameters"]
+    assert made["derivation"].to_dict()["rank"] == made["derivation"].base.rank
+    assert write_report(made["robot"], tmp_path / "p.html").read_text() == made["robot"].to_html()
+    with pytest.raises(DataError, match="write_report: got a log as thing; expected a robot"):
+        write_report(made["log"], tmp_path / "p.html")
 
 
 def test_a_figure_is_saved_as_any() -> None:

@@ -1,0 +1,212 @@
+"""Frames, dicts and paths alike: the same numbers in, and out in the names and units of the log."""
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pytest
+
+import modeler as md
+from modeler.api.workflow import listed
+from modeler.core.errors import DataError
+
+pandas = pytest.importorskip("pandas")
+polars = pytest.importorskip("polars")
+
+ODD = {"time": "t_ms", "q1": "a", "q2": "b", "tau1": "moment_a", "tau2": "moment_b"}
+MAPPING = {
+    "time": "t_ms [ms]", "q1": {"column": "a", "unit": "deg", "sign": -1}, "q2": "b",
+    "tau1": {"column": "moment_a", "unit": "mN m", "sign": -1, "offset": 250.0},
+    "tau2": {"column": "moment_b", "scale": 0.5},
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    place = tmp_path_factory.mktemp("run") / "run.parquet"
+    md.simulate(md.open_robot("two-link"), place, duration=5.0, seed=41)
+    return place
+
+
+@pytest.fixture(scope="module")
+def frame(run: Path) -> Any:
+    return pandas.read_parquet(run)[["time", "q1", "q2", "tau1", "tau2"]]
+
+
+@pytest.fixture(scope="module")
+def model(run: Path) -> md.Model:
+    return md.identify("two-link", run)
+
+
+def odd(frame: Any) -> Any:
+    """The same log in names and units of its own."""
+    made = frame.rename(columns=ODD)
+    made["t_ms"] *= 1e3
+    made["a"] *= -180.0 / np.pi
+    made["moment_a"] = -1e3 * made["moment_a"] - -1.0 * -250.0 * -1.0
+    made["moment_b"] *= 2.0
+    return made
+
+
+def arrays(frame: Any) -> dict[str, np.ndarray]:
+    columns = {name: frame[name].to_numpy() for name in frame}
+    return {
+        "time": columns["time"],
+        "q": np.column_stack([columns["q1"], columns["q2"]]),
+        "tau": np.column_stack([columns["tau1"], columns["tau2"]]),
+    }
+
+
+KINDS: dict[str, Callable[[Any], Any]] = {
+    "pandas": lambda f: f,
+    "pandas by time": lambda f: f.set_index("time"),
+    "polars": polars.from_pandas,
+    "Arrow": pa.table,
+    "dict of columns": lambda f: {name: f[name].to_numpy() for name in f},
+    "dict of lists": lambda f: {name: list(f[name]) for name in f},
+    "dict of series": dict,
+    "dict of arrays": arrays,
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_is_the_same_log(kind: str, run: Path, frame: Any) -> None:
+    compiled = md.compile_model(md.generate(md.derive(md.open_robot("two-link"))))
+    (file,), (log,) = (md.read_logs(compiled, listed(g)) for g in (run, KINDS[kind](frame)))
+    np.testing.assert_array_equal(log.time, file.time)
+    np.testing.assert_array_equal(log.q, file.q)
+    np.testing.assert_array_equal(log.tau, file.tau)
+    assert log.content == file.content and log.name == f"frame {file.content[:6]}"
+    assert log.path == ""
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_is_predicted_in_its_own_kind(
+    kind: str, model: md.Model, run: Path, frame: Any
+) -> None:
+    expected = model.predict(run)
+    given = KINDS[kind](frame)
+    found = model.predict(given)
+    assert type(found) is (dict if isinstance(given, dict) else type(given))
+    if kind.startswith("pandas"):
+        assert found.index.equals(given.index)
+    if kind == "dict of arrays":
+        np.testing.assert_array_equal(found["tau"], expected)
+        assert {*found} == {"tau"}
+    else:
+        for name in ("tau1", "tau2"):
+            np.testing.assert_array_equal(np.asarray(found[name]), expected[name])
+
+
+def test_the_prediction_is_the_models_torque_of_the_motion(model: md.Model, frame: Any) -> None:
+    """Of a smooth motion given with its derivatives: by the equation of the arm, row for row."""
+    time = np.linspace(0.0, 4.0, 2001)
+    amplitude, pulse = np.array([0.6, 0.9]), np.array([3.1, 4.7])
+    angle = pulse * time[:, None]
+    q, qd, qdd = (amplitude * pulse**k * f for k, f in enumerate(
+        (np.sin(angle), np.cos(angle), -np.sin(angle))))  # fmt: skip
+    found = model.predict({"time": time, "q": q, "qd": qd, "qdd": qdd})
+    expected = md.recompile(model).inverse_dynamics(q, qd, qdd, model.beta)
+    sure = np.isfinite(found["tau"])
+    assert sure.mean() > 0.95
+    bound = 2e-3 * np.abs(expected).max(axis=0)
+    still = np.abs(qd) > 0.2  # beside reversals the sign of the speed may differ by a sample
+    assert (np.abs(found["tau"] - expected) < bound)[sure & still].all()
+
+
+def test_positions_alone_are_enough_and_torques_are_not_read(model: md.Model, frame: Any) -> None:
+    expected = model.predict(frame)
+    alone = model.predict(frame.drop(columns=["tau1", "tau2"]))
+    wrong = model.predict(frame.assign(tau1=np.nan, tau2=7.0))
+    for found in (alone, wrong):
+        assert list(found.columns) == ["tau1", "tau2"] and found.equals(expected)
+    late = model.predict(frame.assign(tau2=np.roll(frame["tau2"], 5)))
+    assert late.equals(expected)
+
+
+def test_names_and_units_are_kept_out_again(frame: Any, model: md.Model, tmp_path: Path) -> None:
+    given = odd(frame)
+    made = md.identify("two-link", given, mapping=MAPPING)
+    np.testing.assert_allclose(made.beta, model.beta, rtol=1e-6)
+    expected = odd(pandas.concat([frame[["time", "q1", "q2"]], model.predict(frame)], axis=1))
+    found = made.predict(given)  # by the mapping that it keeps
+    assert list(found.columns) == ["moment_a", "moment_b"]
+    np.testing.assert_allclose(found, expected[["moment_a", "moment_b"]], rtol=1e-5, atol=1e-2)
+    again = md.load(made.save(tmp_path / "odd.json"))
+    assert again.predict(given).equals(found) and again.error(given) == made.error(given)
+    given.to_csv(tmp_path / "odd.csv", index=False)
+    read = again.predict(tmp_path / "odd.csv")
+    assert read.index.name == "time" and list(read.columns) == ["moment_a", "moment_b"]
+    np.testing.assert_allclose(read, found, rtol=1e-6)
+
+
+def test_the_guess_is_made_of_frames_too(frame: Any, model: md.Model) -> None:
+    names = {"time": "t", "q1": "joint1_pos", "q2": "joint2_pos", "tau1": "joint1_torque",
+             "tau2": "joint2_torque"}  # fmt: skip
+    made = md.identify("two-link", frame.rename(columns=names), mapping="auto")
+    np.testing.assert_allclose(made.beta, model.beta, rtol=1e-9)
+    assert made.mapping["q<j>"] == "joint{j}_pos"
+
+
+def test_currents_come_out_as_currents(tmp_path: Path) -> None:
+    text = md.open_robot("two-link").text + "\n[drive_gains]\n1 = 12.5\n2 = -4.0\n"
+    (tmp_path / "arm.toml").write_text(text)
+    robot = md.open_robot(tmp_path / "arm.toml")
+    md.simulate(robot, tmp_path / "run.parquet", duration=4.0, seed=4)
+    given = pandas.read_parquet(tmp_path / "run.parquet")
+    if "current1" not in given:
+        given = given.rename(columns={"tau1": "current1", "tau2": "current2"})
+        given["current1"] /= 12.5
+        given["current2"] /= -4.0
+    made = md.identify(robot, given)
+    found = made.predict(given)
+    assert list(found.columns) == ["current1", "current2"]
+    left = (given[found.columns] - found).std() / given[found.columns].std()
+    assert (left < 0.1).all()
+
+
+def test_a_piece_of_a_file(model: md.Model, run: Path) -> None:
+    whole, part = model.predict(run), model.predict(f"{run}@1:2")
+    assert part.index[0] == 1.0 and len(part) == 1000
+    middle = part.dropna().index[200:-200]
+    np.testing.assert_allclose(part.loc[middle], whole.loc[middle], rtol=1e-4, atol=1e-3)
+
+
+WRONG: dict[str, tuple[Callable[[Any], Any], str]] = {
+    "a number": (lambda f: {**arrays(f), "q": 3}, "got int as q; expected an array of numbers"),
+    "objects": (lambda f: {**arrays(f), "q": [{}, {}]}, "got list as q; expected an array of num"),
+    "no position": (lambda f: f.drop(columns="q2"), "logs.0.: no column q2"),
+    "no torque": (lambda f: f.drop(columns="tau2"), "logs.0.: no column tau2 or current2"),
+    "series": (lambda f: f["q1"], r"logs.0.: this frame has columns that Arrow does not know"),
+    "mixed": (lambda f: f.assign(q1=["x", 1.0] * (len(f) // 2)), "columns that Arrow does not kno"),
+    "text": (lambda f: f.assign(q1="x"), 'column q1, row 1: got "x"; expected a number'),
+    "short": (lambda f: f.head(4), "logs.0.: 4 rows; expected at least 10"),
+    "no log": (lambda f: 3, "identify: got 3 as logs; expected"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_what_is_no_log_is_refused_in_one_line(case: str, frame: Any) -> None:
+    make, said = WRONG[case]
+    with pytest.raises(DataError, match=said) as told:
+        md.identify("two-link", make(frame))
+    assert "\n" not in str(told.value)
+
+
+def test_pandas_is_not_loaded_where_none_is_given(run: Path) -> None:
+    """Arrow loads it by itself where it makes tables; a dict and a file need none."""
+    program = (
+        "import sys, modeler as md, numpy as np\n"
+        "run = md.simulate(md.open_robot('two-link'), duration=3.0, seed=5)\n"
+        "given = {'time': run.time, 'q': run.q, 'tau': run.tau}\n"
+        f"model = md.identify('two-link', [given, {str(run)!r}])\n"
+        "print(model.predict(given)['tau'].shape, 'pandas' in sys.modules)"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
+    assert ran.stdout == "(3000, 2) False\n", ran.stderr

@@ -1,0 +1,125 @@
+"""The robot as a regressor of scikit-learn: its tools, and its checks of estimators."""
+
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+
+import modeler as md
+from modeler.core.errors import DataError
+
+pytest.importorskip("sklearn")
+
+from sklearn.base import clone, is_regressor
+from sklearn.exceptions import NotFittedError
+from sklearn.model_selection import (
+    GridSearchCV,
+    GroupKFold,
+    LeaveOneGroupOut,
+    cross_val_predict,
+    cross_val_score,
+)
+from sklearn.utils import estimator_checks
+
+from modeler.api.regressor import TorqueRegressor, log_rows
+
+
+@pytest.fixture(scope="module")
+def runs() -> list[Any]:
+    robot = md.open_robot("two-link")
+    return [md.simulate(robot, duration=4.0, seed=seed) for seed in (51, 52, 53)]
+
+
+@pytest.fixture(scope="module")
+def rows(runs: list[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    return log_rows("two-link", runs)
+
+
+def test_rows_are_those_of_the_logs(runs: list[Any], rows: Any) -> None:
+    X, y, groups = rows
+    assert X.shape == (12000, 4) and y.shape == (12000, 2)
+    for k, run in enumerate(runs):
+        np.testing.assert_array_equal(X[groups == k, 1], run.time)
+        np.testing.assert_array_equal(X[groups == k, 2:], run.q)
+        np.testing.assert_array_equal(y[groups == k], run.tau)
+    missing = {"time": runs[0].time, "q": runs[0].q.copy(), "tau": runs[0].tau}
+    missing["q"][100:103, 1] = np.nan
+    assert len(log_rows("two-link", missing)[0]) == 3997
+
+
+def test_with_speeds_and_accelerations_where_every_log_has_them(runs: list[Any]) -> None:
+    truth = [r.truth for r in runs[:2]]
+    logs = [{"time": r.time, "q": r.q, "qd": t.qd, "qdd": t.qdd, "tau": r.tau}
+            for r, t in zip(runs, truth, strict=False)]  # fmt: skip
+    assert log_rows("two-link", logs)[0].shape[1] == 8
+    del logs[1]["qdd"]
+    X, y, _ = log_rows("two-link", logs)
+    assert X.shape[1] == 6
+    assert TorqueRegressor("two-link").fit(X, y).score(X, y) > 0.98
+
+
+def test_a_fit_is_that_of_identify(runs: list[Any], rows: Any) -> None:
+    X, y, groups = rows
+    some = groups < 2
+    fitted = TorqueRegressor("two-link", "robust").fit(X[some], y[some])
+    model = md.identify("two-link", [{"time": r.time, "q": r.q, "tau": r.tau} for r in runs[:2]],
+                        method="robust")  # fmt: skip
+    np.testing.assert_allclose(fitted.model_.beta, model.beta, rtol=1e-9)
+    held = {"time": runs[2].time, "q": runs[2].q}
+    expected, found = model.predict(held)["tau"], fitted.predict(X[~some])
+    sure = np.isfinite(expected)
+    np.testing.assert_allclose(found[sure], expected[sure], rtol=1e-9)
+    assert np.isfinite(found).all()
+
+
+def test_one_group_a_log(rows: Any) -> None:
+    X, y, groups = rows
+    robot = TorqueRegressor("two-link")
+    assert is_regressor(robot) and clone(robot).get_params() == robot.get_params()
+    scores = cross_val_score(robot, X, y, groups=groups, cv=LeaveOneGroupOut())
+    assert scores.shape == (3,) and (scores > 0.95).all()
+    out = cross_val_predict(robot, X, y, groups=groups, cv=GroupKFold(3))
+    left = y[groups == 1] - out[groups == 1]
+    r2 = 1.0 - (left**2).sum(axis=0) / ((y[groups == 1] - y[groups == 1].mean(axis=0)) ** 2).sum(
+        axis=0)  # fmt: skip
+    assert scores[1] == pytest.approx(r2.mean())
+    grid = {"method": ["weighted", "ordinary"]}
+    found = GridSearchCV(robot, grid, cv=GroupKFold(3)).fit(X, y, groups=groups)
+    assert found.best_estimator_.model_.fit.method in grid["method"]
+    again = pickle.loads(pickle.dumps(found.best_estimator_))
+    np.testing.assert_array_equal(again.predict(X), found.predict(X))
+
+
+CHECKS = (
+    "estimator_cloneable", "estimator_repr", "no_attributes_set_in_init",
+    "get_params_invariance", "set_params", "parameters_default_constructible",
+    "do_not_raise_errors_in_init_or_set_params", "mixin_order", "estimators_unfitted",
+    "estimator_tags_renamed", "valid_tag_types", "complex_data", "fit1d", "requires_y_none",
+    "estimator_sparse_matrix", "estimator_sparse_array", "estimators_empty_data_messages",
+    "supervised_y_no_nan",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CHECKS)
+def test_checks_of_estimators_that_need_no_data_of_a_robot(name: str) -> None:
+    """The others fit random rows of any width, which are the motion of no robot."""
+    getattr(estimator_checks, f"check_{name}")("TorqueRegressor", TorqueRegressor("two-link"))
+
+
+def test_what_cannot_be_is_refused_in_one_line(rows: Any) -> None:
+    X, y, _ = rows
+    robot = TorqueRegressor("two-link")
+    with pytest.raises(NotFittedError):
+        robot.predict(X)
+    for given, said in (
+        ((X[:, :3], y), "X has 3 columns; expected number of the log, time, .* of 2 joints"),
+        ((X, y[:, 0]), "y has 1 columns; expected the torque of 2 joints"),
+        ((X[::-1], y), "X: got 4000 rows of log 0; expected at least 10, their time increasing"),
+    ):
+        with pytest.raises(DataError, match=said):
+            robot.fit(*given)
+    robot.fit(X, y)
+    X = np.concatenate([X[:2000], [[7.0, 0.0, 0.1, 0.1], [7.0, 0.1, 0.1, 0.1]]])
+    with pytest.raises(DataError, match="got 2 rows of log 7; expected at least 10"):
+        robot.predict(X)
