@@ -27,9 +27,12 @@ _DELIMITERS = {
 _BOMS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 _EMPTY = {"", "null", "none", "na", "n/a", "#n/a", "nan", "-nan", "+nan"}
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?:inity)?")
-_COMMAS = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?|[+-]?\d+(?:[eE][+-]?\d+)?|[+-]?inf(?:inity)?")
+_COMMAS = re.compile(r"[+-]?(?:\d*,\d+|\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?:inity)?")
+_PROSE = re.compile(r"[^,;\t|]*\w:(?:\s|$)")  # as in "Operator: me"
 _COMMENT = re.compile(r"^\s*(?:#|%|//)+\s*")
-_RATE = re.compile(r"(?i)(?:sampl\w*|rate|freq\w*|abtast\w*|\bfs\b).*?(\d+(?:[.,]\d+)?)\s*(k?)hz\b")
+_RATE = re.compile(
+    r"(?i)(?:sampl\w*|rate|freq\w*|abtast\w*|\bfs\b).*?(\d+(?:[.,]\d+)?)[\s;]*(k?)hz\b"
+)
 _STEP = re.compile(
     r"(?i)(?:delta[_ ]?[xt]|(?:sampl\w*|cycle|abtast\w*|zyklus)[ _-]*(?:time|period|interval|zeit)"
     r"|zykluszeit|\bdt|\bts)\s*(?:[\[(](\w+)[\])])?[\s:=;,\"]+(\d+(?:[.,]\d+)?(?:e[+-]?\d+)?)"
@@ -133,7 +136,7 @@ def dialect_of(path: Path) -> Dialect:
     lines, starts = _lines(raw, whole)
     text = [line.decode("utf-8" if "utf" in encoding else "latin-1", "replace") for line in lines]
     text = [line.removeprefix("\ufeff") for line in text]
-    if not lines:
+    if not any(line.strip() for line in lines):
         raise DataError(
             f"{path}: the first line does not end within {_LINE >> 20} MiB, or is empty; expected "
             "the names of the columns; write the file again"
@@ -161,13 +164,9 @@ def _letters_of(raw: bytes, whole: bool) -> str:
 
 
 def _lines(raw: bytes, whole: bool) -> tuple[list[bytes], list[int]]:
-    """Lines that are not blank, and where each begins; without one that is cut off."""
-    lines, starts = list[bytes](), list[int]()
-    for match in re.finditer(rb"[^\r\n]+(\r\n|\n|\r)?", raw):
-        if match[0].strip() and (match[1] or whole):
-            lines.append(match[0].rstrip(b"\r\n"))
-            starts.append(match.start())
-    return lines, starts
+    """Lines, and where each begins; without one that is cut off."""
+    found = [m for m in re.finditer(rb"([^\r\n]*)(\r\n|\n|\r|$)", raw) if m[2] or (whole and m[1])]
+    return [match[1] for match in found], [match.start() for match in found]
 
 
 def split(line: str, delimiter: str) -> list[str]:
@@ -209,7 +208,7 @@ def _is_value(entry: str, decimal: str) -> bool:
 
 def _marks(lines: Sequence[str], path: Path) -> tuple[str, str]:
     """What stands between columns, and before decimals: where most entries become numbers."""
-    last = lines[-_JUDGED:]
+    last = [line for line in lines if line.strip()][-_JUDGED:]
 
     def score(marks: tuple[str, str]) -> tuple[float, ...]:
         delimiter, decimal = marks
@@ -240,7 +239,7 @@ def head_of(
     """Where the rows of numbers begin, and what stands above them.
 
     Args:
-        rows: entries of every line that is not blank, from the first on.
+        rows: entries of every line, from the first on.
         decimal: of the numbers; "" for either.
         where: name of the file, for messages.
         lines: the same as they are, of a text.
@@ -249,7 +248,7 @@ def head_of(
     Raises:
         DataError: a quote is left open, or names and rows are of other numbers.
     """
-    last = rows[-_JUDGED:]
+    last = [row for row in rows if any(row)][-_JUDGED:]
     valued = [row for row in last if any(_is_value(e, decimal) for e in row)] or last
     width = Counter(map(len, valued)).most_common(1)[0][0]
     even = [row for row in valued if len(row) == width]
@@ -276,8 +275,8 @@ def head_of(
     at = _names_at(above, decimal, units)
     unnamed = tuple(f"c{k + 1}" for k in range(width))
     if at is None:
-        if first and lines:
-            _refuse_other_count(rows[first - 1], lines[first - 1], width, delimiter, decimal, where)
+        for i in [i for i in range(first) if any(rows[i])][-1:] if lines else ():
+            _refuse_other_count(rows[i], lines[i], width, delimiter, decimal, where)
         told = [f"{_counted(first)} before the rows"] if first else []
         told.append(f"no names: columns are called c1 to c{width}" if width > 1 else "no name: c1")
         if rows and rows[0] == [str(k) for k in range(width)] and first == 0 and len(rows) > 1:
@@ -302,6 +301,8 @@ def _counted(lines: int) -> str:
 def _names_in(row: Sequence[str], line: str, width: int) -> list[str] | None:
     """The entries of a line as one for each column; None if it has not so many."""
     plain = _COMMENT.sub("", line)
+    if _PROSE.match(plain):
+        return None
     ways = [list(row)]
     if line:
         ways += [[bare(e) for e in re.split(mark, plain.strip())]
@@ -348,7 +349,7 @@ def _refuse_other_count(
 ) -> None:
     """Names directly above the rows, but not as many as there are columns."""
     words = [e for e in row if e and not _is_value(e, decimal)]
-    prose = _COMMENT.match(line) or (delimiter == _BLANKS and re.search("[:=]", line))
+    prose = _COMMENT.match(line) or _PROSE.match(line) or (delimiter == _BLANKS and "=" in line)
     if prose or len(row) < 2 or len(words) < len(row) or len(row) == width:
         return
     raise DataError(
