@@ -47,6 +47,7 @@ from .api import (
     load as load,
     log_map as log_map,
     look_at as look_at,
+    new_robot as new_robot,
     observe as observe,
     on_gpu as on_gpu,
     open_model as open_model,

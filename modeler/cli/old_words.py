@@ -42,7 +42,7 @@ def renewed(words: Sequence[str], parsers: Mapping[str, argparse.ArgumentParser]
         rest = [option, *rest]
     elif name == "estimators":
         name, rest, told = _estimators(rest, parsers)
-    if name not in COMMANDS or "--words" in rest[1:2]:  # of the scripts of completion: as it is
+    if name not in COMMANDS:
         return Renewed([*words[: at + 1], *rest], told)
     if name == "derive":
         rest, told = _derive(rest)

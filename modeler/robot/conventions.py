@@ -163,13 +163,14 @@ def check_whose(columns: Sequence[str], rows: Sequence[Row], place: Place, state
         return
     foreign = order.index("theta") < order.index("d") < order.index("alpha")
     if "a" in order:
-        foreign = foreign or order.index("alpha") < order.index("a")
         cells = [row["a"] for row in rows]
+        zeros = all(cell == 0 for cell in cells)  # not "0", the base
+        foreign = foreign or zeros or order.index("alpha") < order.index("a")
         named = all(isinstance(cell, str) and not is_length(cell) for cell in cells)
         foreign &= list(map(str, cells)) != above and not (named and set(cells) != {"0"})
     if foreign:
         raise place.at("columns").error(
-            f"got {listed(order)}, the order of another notation, in which "
+            f"got {listed(order)}, which reads like another notation, in which "
             f"{'a is a length' if 'a' in order else 'd is along z'}; {whose_line(columns, rows)}"
         )
 
@@ -192,7 +193,8 @@ def whose_line(columns: Sequence[str], rows: Sequence[Row]) -> str:
         'convention = "classical" in [mdh] (behind it: Denavit and Hartenberg)',
     ]
     first, second = reversed(lines) if classical else lines
-    return f'write {first} or {second}, and "khalil" where a names antecedents'
+    khalil = "a names antecedents" if "a" in columns else "d is along x"
+    return f'write {first} or {second}, and "khalil" where {khalil}'
 
 
 def shifted(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:

@@ -304,6 +304,10 @@ def read(mdh, more="", head=""):
          ['row "2", column a: got "A2"', 'write convention = "craig"']),
         ('columns = ["j","parent","theta"]\nrows = [["1","0","q1"]]',
          ['"parent"', 'Write convention = "craig"']),
+        # a wrist, whose lengths are 0: not three joints on the base
+        ('columns = ["j","a","alpha","d","theta"]\n'
+         'rows = [["1",0,0,0,"q1"], ["2",0,"pi/2",0,"q2"]]',
+         ["reads like another notation", 'write convention = "craig"']),
         # a classical one
         ('columns = ["j","theta","d","a","alpha"]\n'
          'rows = [["1","q1",0,0,"pi/2"], ["2","q2",0,"A2",0]]',
