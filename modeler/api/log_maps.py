@@ -73,9 +73,11 @@ def log_maps(compiled: CompiledModel, logs: Sequence[Any], mapping: Mapped = ())
             names = dataclasses.replace(names, topic=clock.name)
         key = (seen.suggested, seen.plain, *(c.name for c in seen.channels))
         if key not in known:
-            own = _guessed(compiled, log, names, seen)
+            own, joints = _guessed(compiled, log, names, seen), compiled.spec.joints
+            alike = (m for m in known.values() if m.table(joints) == own.table(joints))
             more = " (of this log; the model keeps that of the first)" * bool(known)
-            known[key] = dataclasses.replace(own, told=tuple(line + more for line in own.told))
+            told = tuple(line + more for line in own.told)
+            known[key] = next(alike, None) or dataclasses.replace(own, told=told)
         found.append(known[key])
     return found
 

@@ -45,6 +45,7 @@ _ONE_ROW = {
 }
 _GREEK = {
     "\u03b1": "alpha", "\u03b3": "gamma", "\u03b8": "theta", "\u03c3": "sigma", "\u03bc": "mu",
+    "\u00b5": "mu",
 }  # fmt: skip
 _SERIAL = (
     "a classical table is of a serial robot, for its a and alpha place the one axis that follows; "
@@ -163,13 +164,14 @@ def check_whose(columns: Sequence[str], rows: Sequence[Row], place: Place, state
         return
     foreign = order.index("theta") < order.index("d") < order.index("alpha")
     if "a" in order:
-        foreign = foreign or order.index("alpha") < order.index("a")
         cells = [row["a"] for row in rows]
+        zeros = all(cell == 0 for cell in cells)  # not "0", the base
+        foreign = foreign or zeros or order.index("alpha") < order.index("a")
         named = all(isinstance(cell, str) and not is_length(cell) for cell in cells)
         foreign &= list(map(str, cells)) != above and not (named and set(cells) != {"0"})
     if foreign:
         raise place.at("columns").error(
-            f"got {listed(order)}, the order of another notation, in which "
+            f"got {listed(order)}, which reads like another notation, in which "
             f"{'a is a length' if 'a' in order else 'd is along z'}; {whose_line(columns, rows)}"
         )
 
@@ -192,7 +194,8 @@ def whose_line(columns: Sequence[str], rows: Sequence[Row]) -> str:
         'convention = "classical" in [mdh] (behind it: Denavit and Hartenberg)',
     ]
     first, second = reversed(lines) if classical else lines
-    return f'write {first} or {second}, and "khalil" where a names antecedents'
+    khalil = "a names antecedents" if "a" in columns else "d is along x"
+    return f'write {first} or {second}, and "khalil" where {khalil}'
 
 
 def shifted(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:
