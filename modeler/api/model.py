@@ -248,8 +248,6 @@ class Model(IdentifiedModel):
 
     @cached_property
     def _rows(self) -> Observation:
-        if self.fit.loads:
-            raise DataError("resid: some logs carried a load, which is no part of the model")
         return observe(recompile(self), self.its_logs(None, "resid"), self.processing)
 
     @checked
@@ -365,17 +363,16 @@ class Model(IdentifiedModel):
         """
         if logs is not None:
             return listed(logs)
+        if self.fit.loads:
+            why = "some logs of the fit carried a load, which is no part of the model"
+            raise DataError(f"{what}: {why}; {_ask(what)} without it")
         return [self._found(log, what) for log in self.logs]
 
     def _found(self, log: model_file.LogProvenance, what: str) -> AnyLog:
         for own in self.given:
             if own.content == log.content and own.name == log.name:
                 return own
-        ask = (
-            "`compare(logs)` takes the logs of the fit"
-            if what == "resid"
-            else (f"give the logs of the fit: {what}(..., logs=[...])")
-        )
+        ask = _ask(what)
         if not log.path:
             raise DataError(f"{what}: {log.name} was no file, and is not kept with a model; {ask}")
         places = [Path(log.path), Path(self.folder, log.path)]
@@ -405,6 +402,12 @@ class Model(IdentifiedModel):
     def __getstate__(self) -> dict[str, Any]:
         """Without what can be computed again."""
         return {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+
+
+def _ask(what: str) -> str:
+    if what == "resid":
+        return "`compare(logs)` takes the logs of the fit"
+    return f"give the logs of the fit: {what}(..., logs=[...])"
 
 
 # Opening files: robots and models, by what is in them.

@@ -223,6 +223,19 @@ def test_effects_method_and_options_of_the_robot_file(logs: list[str], tmp_path:
         md.identify("demo-arm", logs, method="tls")
 
 
+def test_logs_with_a_load_are_not_taken_for_bare_ones() -> None:
+    robot = md.open_robot("two-link")
+    bare = md.simulate(robot, duration=4.0, seed=61)
+    loaded = md.simulate(robot, duration=4.0, seed=62, hide=["payload"])
+    made = md.identify(robot, bare, load=md.Load(loaded, mass=None))
+    true = {effect.effect: effect.values for effect in loaded.truth.hidden}["payload"]
+    assert made["M2_load"].value == pytest.approx(true["mass"], rel=0.05)
+    for act in (made.missing, lambda: made.add("spring"), lambda: made.resid):
+        with pytest.raises(DataError, match="some logs of the fit carried a load, which is no p"):
+            act()
+    assert not made.missing(logs=bare).effects
+
+
 REFUSED: dict[str, tuple[Any, str]] = {
     "logs": (lambda m: md.identify("demo-arm", 3), "identify: got 3 as logs; expected"),
     "robot": (lambda m: md.identify(3, "x.csv"), "identify: got 3 as robot; expected a robot"),
