@@ -316,7 +316,7 @@ def _read(path: Path) -> dict[str, Any]:
         newer = isinstance(got, int) and got > FORMAT
         raise ManifestError(
             f"{path}: {told}, this version opens {_OPENED[0]} to {FORMAT}; "
-            f"{'upgrade modeler to open it' if newer else 'fit the model again'}"
+            f"{'install a newer modeler' if newer else 'fit the model again'}"
         )
     return raw
 

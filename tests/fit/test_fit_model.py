@@ -210,7 +210,7 @@ DAMAGE = {
     "list": (lambda r: [1], "JSON, but not a model file"),
     "format": (
         lambda r: damaged(r, "format", value=99),
-        "model format 99, this version opens 3 to 4; upgrade modeler",
+        "model format 99, this version opens 3 to 4; install a newer modeler",
     ),
     "formatless": (
         lambda r: damaged(r, "format"),
