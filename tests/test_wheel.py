@@ -120,3 +120,37 @@ def test_the_wheel_works_from_another_folder(installed: Path, tmp_path: Path) ->
     run("modeler", "generate", "two-link", "--out", "arm")
     assert run("python", "-c", _USE, "arm") == "used\n"
     assert re.fullmatch(r"modeler \d+\.\d+\.\d+\S*\n", run("modeler", "--version"))
+
+
+_STORY = """
+import sys
+import modeler as md
+assert md.__file__.startswith(sys.prefix), md.__file__
+for seed, name in enumerate(("mon.csv", "tue.parquet", "wed.parquet"), start=1):
+    md.simulate(md.load("demo-arm"), name, hide=["load_friction@2"], duration=6.0, seed=seed)
+model = md.identify("demo-arm", ["mon.csv", "tue.parquet"])
+low, high = model["Fv2"].conf_int(0.95)
+assert low < model["Fv2"].value < high and model["Fv2"].unit == "N m s/rad"
+run = md.simulate(md.load("demo-arm"), duration=2.0, seed=4)
+torque = model.predict({"time": run.time, "q": run.q})["tau"]
+assert torque.shape == run.tau.shape
+found = model.missing("wed.parquet")
+assert (found.effects[0].effect, found.effects[0].joint) == ("load_friction", "2")
+better = model.add("load_friction", joint=2, held_out="wed.parquet")
+assert better.error() < 0.5 * model.error("wed.parquet")
+better.to_c("out")
+again = md.load(better.save("arm.json"))
+assert again.error("wed.parquet") == better.error() and again.resid is not None
+print("told")
+"""
+
+
+def test_the_story_of_one_object_from_the_wheel(installed: Path, tmp_path: Path) -> None:
+    environment = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
+    environment["MODELER_CACHE"] = str(tmp_path / "cache")
+    ran = subprocess.run(
+        [str(installed / "python"), "-c", _STORY],
+        cwd=tmp_path, env=environment, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (ran.returncode, ran.stdout) == (0, "told\n"), ran.stderr
+    assert (tmp_path / "out" / "manifest.json").is_file()

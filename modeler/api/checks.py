@@ -16,7 +16,11 @@ from modeler.runtime import CompiledModel
 def compare(
     model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()
 ) -> validation.Comparison:
-    """Measured against predicted torque on logs, after the processing of the fit."""
+    """Measured against predicted torque on logs, after the processing of the fit.
+
+    >>> [joint.joint.name for joint in compare(model, ["tue.parquet"]).joints]
+    ['1', '2']
+    """
     return compared(model, logs, workflow.recompile(model), mapping)[0]
 
 
@@ -60,6 +64,9 @@ def contest(
     mapping: Mapped = (),
 ) -> validation.Contest:
     """Models side by side: the error of each by joint, and which is better beyond doubt.
+
+    >>> contest({"all": model, "few": reduced(model)}, ["tue.parquet"]).names
+    ('all', 'few')
 
     Args:
         models: by the name that they are to have; of a list they are called A, B, C ...
@@ -115,6 +122,10 @@ def free_run(
     mapping: Mapped = (),
 ) -> validation.FreeRun:
     """Positions of the fitted robot under the logged torques, beside the logged ones.
+
+    >>> found = free_run(model, ["tue.parquet@0:0.5"], FreeRunSettings(window=0.2))
+    >>> [joint.name for joint in found.joints]
+    ['1', '2']
 
     Args:
         model: fitted.

@@ -176,6 +176,9 @@ def fit(
 ) -> Model:
     """The base parameters from an observation, with all that a model file holds.
 
+    >>> fit(derivation, emitted, observe(compiled, ["mon.parquet"]), "robust").fit.method
+    'robust'
+
     Args:
         derivation: of the robot.
         emitted: its C.
@@ -226,7 +229,12 @@ def fitted(
 def identified(
     derivation: Derivation, emitted: Emitted, observation: Observation, result: estimation.FitResult
 ) -> Model:
-    """A fit with all that a model file holds."""
+    """A fit with all that a model file holds.
+
+    >>> seen = observe(compiled, ["mon.parquet"])
+    >>> identified(derivation, emitted, seen, model.fit)["ZZ1R"].unit
+    'kg m2'
+    """
     return Model(
         robot_text=derivation.robot.text,
         spec=emitted.spec,
@@ -242,6 +250,9 @@ def identified(
 @dataclasses.dataclass(frozen=True)
 class Load:
     """A load of known mass that some logs carry.
+
+    >>> Load("tue.parquet", mass=1.5).logs
+    ['tue.parquet']
 
     Attributes:
         logs: the loaded logs.
@@ -350,6 +361,10 @@ def side_by_side(
     progress: Callable[[float], None] | None = None,
 ) -> estimation.SideBySide:
     """Every estimator on the same logs: values, errors, seconds, and what each says of itself.
+
+    >>> found = side_by_side(compiled, ["mon.parquet"], methods=["weighted", "ridge"])
+    >>> [own.method for own in found.tried]
+    ['weighted', 'ridge']
 
     Args:
         robot: as loaded, or compiled.

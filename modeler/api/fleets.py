@@ -42,6 +42,9 @@ def fleet(
 ) -> Fleet:
     """What drifts where: friction, offsets and gains of many machines of one kind over their days.
 
+    >>> fleet(robot, {"one": {"mon": "mon.parquet", "tue": "tue.parquet"}}).machines
+    {'one': ('mon', 'tue')}
+
         fleet(load("arm.toml"), {"r1": {"monday": "a.csv", "tuesday": "b.csv"}})
 
     All machines share their inertial parameters; see docs/fleet.md.

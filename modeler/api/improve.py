@@ -22,7 +22,12 @@ def diagnose(
     progress: Callable[[float], None] | None = None,
     mapping: Mapped = (),
 ) -> diagnosis.Diagnosis:
-    """Which physical effect the model lacks on logs; errors from the held-out logs if given."""
+    """Which physical effect the model lacks on logs; errors from the held-out logs if given.
+
+    >>> found = diagnose(model, ["mon.parquet"], ["tue.parquet"])
+    >>> found.effects[0].effect, found.effects[0].joint
+    ('spring', '1')
+    """
     compiled, given = logs_of(model, logs, holdout, mapping)
     return missing(model, compiled, given, without, progress)
 
@@ -36,6 +41,10 @@ def add(
     mapping: Mapped = (),
 ) -> M:
     """The model with one effect more, fitted to the logs; `table("waterfall")` says what it gained.
+
+    >>> better = add(model, "spring", ["mon.parquet"], ["tue.parquet"], joint="1")
+    >>> better.table("waterfall").column("effect")
+    ['as fitted', 'spring']
 
     Args:
         model: as it is.
@@ -62,6 +71,10 @@ def auto(
 ) -> M:
     """The model with all that a diagnosis on these logs names and that lowers the error.
 
+    >>> better = auto(model, ["mon.parquet"], ["tue.parquet"])
+    >>> [step.effect for step in better.history[1:]]
+    ['spring']
+
     Raises:
         DataError: nothing that can be added is missing.
     """
@@ -71,6 +84,10 @@ def auto(
 
 def undo(model: M, logs: Sequence[AnyLog], mapping: Mapped = ()) -> M:
     """The model without the effect that was added last, fitted again to the logs.
+
+    >>> better = add(model, "spring", ["mon.parquet"], joint="1")
+    >>> [step.effect for step in undo(better, ["mon.parquet"]).history[1:]]
+    []
 
     Raises:
         DataError: none was added.

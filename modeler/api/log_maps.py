@@ -32,7 +32,11 @@ _BETTER = 0.5  # of the error, that a guess must reach to be believed
 
 
 def log_map(compiled: CompiledModel, mapping: Mapped = ()) -> LogMap:
-    """Which columns of logs are ours: [log] of the robot file, and `mapping` over it."""
+    """Which columns of logs are ours: [log] of the robot file, and `mapping` over it.
+
+    >>> log_map(compiled, ["q1=position_a:deg"]).entries(compiled.spec.joints)["q1"].columns
+    ('position_a',)
+    """
     if isinstance(mapping, LogMap):
         return mapping
     stated = map_from_table(compiled.log, f"{compiled.spec.robot}: [log]")
@@ -69,9 +73,11 @@ def log_maps(compiled: CompiledModel, logs: Sequence[Any], mapping: Mapped = ())
             names = dataclasses.replace(names, topic=clock.name)
         key = (seen.suggested, seen.plain, *(c.name for c in seen.channels))
         if key not in known:
-            own = _guessed(compiled, log, names, seen)
+            own, joints = _guessed(compiled, log, names, seen), compiled.spec.joints
+            alike = (m for m in known.values() if m.table(joints) == own.table(joints))
             more = " (of this log; the model keeps that of the first)" * bool(known)
-            known[key] = dataclasses.replace(own, told=tuple(line + more for line in own.told))
+            told = tuple(line + more for line in own.told)
+            known[key] = next(alike, None) or dataclasses.replace(own, told=told)
         found.append(known[key])
     return found
 
@@ -80,6 +86,9 @@ def settled(
     compiled: CompiledModel, logs: Sequence[Any], mapping: Mapped = ()
 ) -> tuple[Mapped, dict[str, Any]]:
     """The mapping with its guesses made, and what a model keeps of it, a table like [log].
+
+    >>> settled(compiled, ["mon.parquet"])
+    ((), {})
 
     The model keeps the map of the first log, with what the robot file says; nothing if that says
     it all. Where `auto` gives other logs other maps, they stay to be guessed.
@@ -212,6 +221,9 @@ def read_mapped(
 def file_and_span(place: str | Path) -> tuple[str | Path, tuple[float | None, float | None] | None]:
     """The file of a log, and the seconds that `@start:end` after it means; None for all of it.
 
+    >>> file_and_span("run.parquet@0:10")
+    ('run.parquet', (0.0, 10.0))
+
     Raises:
         DataError: something else stands after the @.
     """
@@ -235,6 +247,9 @@ def look_at(
     place: str | Path | InMemory, compiled: CompiledModel | None = None, mapping: Mapped = ()
 ) -> LogInspection:
     """Channels, clock, gaps and doubts of a log.
+
+    >>> look_at("mon.parquet").table().column("channel")[:3]
+    ['time', 'q1', 'q2']
 
     Args:
         place: of any format of `modeler.logs`; with `@start:end` a piece of it; a frame, a dict.

@@ -32,6 +32,9 @@ _SURE = NormalDist().inv_cdf(0.975)  # of a 95 % interval
 class Parameter(ParameterEstimate):
     """One parameter of a model; `float` of it is the value.
 
+    >>> model["ZZ1R"].unit, model["ZZ1R"].relation
+    ('kg m2', 'ZZ1R = ZZ1 + L1**2*M2')
+
     Attributes:
         relation: what it is the sum of, `ZZ1R = ZZ1 + L1**2*M2`; "" of what stands for itself.
     """
@@ -166,16 +169,27 @@ class Model(IdentifiedModel):
 
     @property
     def params(self) -> Any:
-        """Values of the base parameters by name, SI units: a Series."""
+        """Values of the base parameters by name, SI units: a Series.
+
+        >>> bool(model.params["Fv1"] == model["Fv1"].value)
+        True
+        """
         return labelled(self.beta, self._names)
 
     @property
     def bse(self) -> Any:
-        """Their standard deviations; NaN of those that were set aside."""
+        """Their standard deviations; NaN of those that were set aside.
+
+        >>> bool(model.bse["Fv1"] == model["Fv1"].sigma)
+        True
+        """
         return labelled(self._sigmas, self._names)
 
     def conf_int(self, level: float = 0.95) -> Any:
         """Their intervals: a DataFrame with the columns `lower` and `upper`.
+
+        >>> list(model.conf_int(0.9).columns)
+        ['lower', 'upper']
 
         Args:
             level: 0.95 for 95 %; it is 1 - alpha of statsmodels.
@@ -187,14 +201,22 @@ class Model(IdentifiedModel):
         return labelled(sides, self._names, ["lower", "upper"])
 
     def cov_params(self) -> Any:
-        """Covariance of the base parameters: a DataFrame."""
+        """Covariance of the base parameters: a DataFrame.
+
+        >>> model.cov_params().shape
+        (10, 10)
+        """
         return labelled(self.covariance, self._names, self._names)
 
     # Its logs, and others: what it predicts, how well.
 
     @property
     def nobs(self) -> int:
-        """Rows of the fit."""
+        """Rows of the fit.
+
+        >>> model.nobs == model.fit.rows
+        True
+        """
         return self.fit.rows
 
     @property
@@ -208,7 +230,11 @@ class Model(IdentifiedModel):
 
     @property
     def resid(self) -> Any:
-        """Measured minus predicted torque there."""
+        """Measured minus predicted torque there.
+
+        >>> list(model.resid.columns)
+        ['tau1', 'tau2']
+        """
         rows = self._rows
         return self._on_rows(rows.torque - rows.predicted(self.beta))
 
@@ -229,6 +255,10 @@ class Model(IdentifiedModel):
     def predict(self, log: AnyLog, mapping: Mapped = ()) -> Any:
         """Torque at every row of a log, in the log's own names and units; its torques are not read.
 
+        >>> run = simulate(robot, duration=2.0, seed=1)
+        >>> model.predict({"time": run.time, "q": run.q})["tau"].shape
+        (2000, 2)
+
         Args:
             log: positions over time, and velocities and accelerations if there are any.
             mapping: as of `read_logs`.
@@ -245,12 +275,19 @@ class Model(IdentifiedModel):
 
     @checked
     def compare(self, logs: Logs | None = None, mapping: Mapped = ()) -> validation.Comparison:
-        """Measured against predicted torque; None: on the logs that were held out."""
+        """Measured against predicted torque; None: on the logs that were held out.
+
+        >>> model.compare().prediction.logs
+        ('tue.parquet',)
+        """
         return checks.compare(self, self._others(logs, "compare"), mapping)
 
     @checked
     def error(self, logs: Logs | None = None, mapping: Mapped = ()) -> float:
         """Relative error of the torque, ||measured - predicted|| / ||measured||.
+
+        >>> model.error("tue.parquet") == model.error()
+        True
 
         After the same filters on both sides, all joints together; `compare` has it by joint.
 
@@ -270,6 +307,9 @@ class Model(IdentifiedModel):
         mapping: Mapped = (),
     ) -> Diagnosis:
         """Which physical effects the model lacks, ranked, with their status.
+
+        >>> model.missing().effects[0].effect
+        'spring'
 
         Args:
             held_out: logs of other motion, on which errors are told; None: those of `identify`.
@@ -291,6 +331,9 @@ class Model(IdentifiedModel):
         mapping: Mapped = (),
     ) -> "Model":
         """A new model with one effect more; `table("waterfall")` says what it gained.
+
+        >>> model.add("spring", joint=1).error() < model.error()
+        True
 
         Args:
             effect: id, as `effects()` lists them; "auto": all that a diagnosis names.
@@ -357,7 +400,11 @@ class Model(IdentifiedModel):
         precision: Precision = "double",
         cuda: bool = False,
     ) -> Emitted:
-        """Its C, with its values, written to a folder; as `generate`."""
+        """Its C, with its values, written to a folder; as `generate`.
+
+        >>> model.to_c("arm_c").spec.prefix
+        'two_link'
+        """
         return generate(self, folder, force, precision, cuda)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -370,6 +417,9 @@ class Model(IdentifiedModel):
 
 def open_model(path: str | Path) -> Model:
     """Read a model file. Robot files are read by `open_robot`, either by `load`.
+
+    >>> open_model(save(model, "arm.json"))["Fv1"].unit
+    'N m s/rad'
 
     Raises:
         ManifestError: missing, not a model file, of another format, damaged, or changed since it

@@ -140,6 +140,9 @@ def excite(
 ) -> excitation.Exciting:
     """A motion within limits along which the parameters are well told apart (docs/excitation.md).
 
+    >>> excite(robot, duration=4.0, harmonics=2, starts=1).sampled(100.0)["q1"].shape
+    (401,)
+
     Args:
         thing: a robot, or a model: then weighted as its fit, essential parameters only.
         limits: joint -> lower, upper, speed, acceleration and, if wanted, torque, SI; in place of
@@ -166,6 +169,10 @@ def forecast(
     noise: float = 0.0,
 ) -> FitResult:
     """What a fit would say of a log of a motion, before it is run: its sigmas and its cut-offs.
+
+    >>> motion = excite(robot, duration=4.0, harmonics=2, starts=1)
+    >>> forecast(model, motion, rate=200.0).parameters[0].name
+    'ZZ1R'
 
     The log is made of the motion, the torques of the model along it, and noise of both; what
     `observe` and `identify` make of it is the forecast, with the cut-offs that they choose.
@@ -347,6 +354,9 @@ def simulate(
     **settings: Any,
 ) -> SimulatedLog:
     """A measurement of a robot under its controller; `observe` and the others take it as a log.
+
+    >>> simulate(robot, duration=2.0, seed=1).q.shape
+    (2000, 2)
 
         simulate(load("demo-arm"), "run.parquet", hide=["load_friction@2"], duration=20, seed=1)
 

@@ -22,6 +22,9 @@ Reported = (
 def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -> Path:
     """Write the page of a result; it needs no other file.
 
+    >>> write_report(model, "fit.html").name
+    'fit.html'
+
     Args:
         thing: a robot, a look at a log, a model (its fit; of one with additions, what they
             gained), a comparison, models side by side, a diagnosis, estimators side by side, or a

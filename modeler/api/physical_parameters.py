@@ -206,6 +206,9 @@ class Physical(Presented):
 def physical(thing: Robot | Derivation | IdentifiedModel, of: Source | None = None) -> Physical:
     """The physical parameters of a robot, or of a model with values.
 
+    >>> physical(load("wrist")).system.letters[:3]
+    ('am', 'at2', 'at3')
+
     Args:
         thing: it.
         of: what is identified: "base" or "coefficients"; None: see `physical_system`.

@@ -55,6 +55,9 @@ def chosen_mode(found: HomeModes, letter: str | None, best: bool = False) -> int
 def at_home(robot: Robot, found: HomeModes, letter: str | None = None) -> Robot:
     """The robot with an assembly mode as its [home], in its file's text too.
 
+    >>> at_home(load("five-bar"), home(load("five-bar")), "B").name
+    'five-bar'
+
     Raises:
         DataError: no such mode.
     """

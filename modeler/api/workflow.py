@@ -90,6 +90,9 @@ def generate(
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
 
+    >>> "two_link.h" in generate(derivation).files
+    True
+
     Args:
         source: what was derived, or a fitted model.
         folder: the module is written there if it is given.
@@ -111,7 +114,11 @@ def generate(
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:
-    """The C module made callable; compiled once for the same content."""
+    """The C module made callable; compiled once for the same content.
+
+    >>> compile_model(emitted).gravity([[0.0, 0.0]], model.beta).shape
+    (1, 2)
+    """
     return load_compiled(emitted.spec, emitted.code, emitted.log)
 
 
@@ -119,6 +126,9 @@ def read_logs(
     compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()
 ) -> list[observation.Log]:
     """Logs by path, `path@start:end` for a piece of it in seconds, or as they are.
+
+    >>> [log.rows for log in read_logs(compiled, ["mon.parquet", "tue.parquet@1:2"])]
+    [6000, 1000]
 
     Args:
         compiled: the robot; its file's [log] says which columns are which.
@@ -134,6 +144,10 @@ def read_currents(
     compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()
 ) -> list[observation.Log]:
     """Logs of currents; where the robot file states no drive gain, torques are in drive units.
+
+    >>> run = simulate(robot, duration=2.0, seed=1)
+    >>> read_currents(compiled, {"time": run.time, "q": run.q, "current": run.tau})[0].rows
+    2000
 
     Raises:
         DataError: a log gives a torque instead.
@@ -224,7 +238,11 @@ def observe(
     processing: observation.Processing | None = None,
     mapping: Mapped = (),
 ) -> observation.Observation:
-    """The rows y = W beta of logs."""
+    """The rows y = W beta of logs.
+
+    >>> observe(compiled, ["mon.parquet"]).W.shape[1]
+    10
+    """
     given = read_logs(compiled, logs, mapping)
     observation.check_apart(given)
     return observation.observe(compiled, given, processing)
@@ -232,6 +250,9 @@ def observe(
 
 def recompile(model: IdentifiedModel) -> CompiledModel:
     """The compiled robot of a model, its C emitted anew from the robot text in the model.
+
+    >>> recompile(model).spec.robot
+    'two-link'
 
     A model file may come from anybody; `model.compile()` would run the C that stands in it.
 
@@ -270,6 +291,9 @@ def _uncoded(spec: ModuleSpec) -> ModuleSpec:
 def reduced(model: M) -> M:
     """The model with its essential parameters only, estimated anew; all others are 0.
 
+    >>> len(reduced(model).beta) == len(model.beta)
+    True
+
     Raises:
         DataError: the model was saved by a version that kept none.
     """
@@ -279,6 +303,9 @@ def reduced(model: M) -> M:
 
 def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
     """Write a model file, or the file of a robot; an interrupted write leaves the old file.
+
+    >>> save(robot, "arm.toml").name, save(model, "arm.json").name
+    ('arm.toml', 'arm.json')
 
     Raises:
         ModelerError: the folder cannot be written.
@@ -326,7 +353,11 @@ def effects(robot: Robot | None = None) -> Table:
 
 
 def estimators() -> Table:
-    """The estimators that `fit` takes as `method`."""
+    """The estimators that `fit` takes as `method`.
+
+    >>> estimators().column("method")[:2]
+    ['weighted', 'ordinary']
+    """
     rows = [(a.id, a.title, a.law, a.source, a.avoid, a.motion) for a in ABOUT.values()]
     names = "method, title, law, source, when not to use it, noise of the motion"
     return Table.of("estimators", names, rows)

@@ -12,7 +12,8 @@ from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
 from modeler.core.errors import DataError, RobotError
 from modeler.core.estimators import ABOUT
 from modeler.core.files import check_writable
-from modeler.core.json import entries, shown
+from modeler.core.json import entries
+from modeler.core.toml_cells import shown
 from modeler.effects import CATALOGUE, Acts, Effect, Form, effect_named
 from modeler.robot import Robot, near, read_robot, robot_from_text, with_effects, with_home_text
 

@@ -35,6 +35,8 @@ def renewed(words: Sequence[str], parsers: Mapping[str, argparse.ArgumentParser]
     if at is None:
         return Renewed(list(words))
     name, rest = words[at], list(words[at + 1 :])
+    if name == "help":  # as other programs have it
+        return renewed([*words[:at], *rest, "--help"], parsers)
     told: list[str] = []
     if name in OLD_COMMANDS:
         told = [f"`{name}` is called `{OLD_COMMANDS[name]}` now"]
@@ -42,7 +44,7 @@ def renewed(words: Sequence[str], parsers: Mapping[str, argparse.ArgumentParser]
         rest = [option, *rest]
     elif name == "estimators":
         name, rest, told = _estimators(rest, parsers)
-    if name not in COMMANDS or "--words" in rest[1:2]:  # of the scripts of completion: as it is
+    if name not in COMMANDS:
         return Renewed([*words[: at + 1], *rest], told)
     if name == "derive":
         rest, told = _derive(rest)

@@ -18,8 +18,10 @@ from modeler.core.builtin import MOTIONS, OTHER_PROGRAMS, builtin_file, builtin_
 from modeler.core.errors import DataError, ModelerError, file_and_window
 
 _MOTIONS = (".csv", ".parquet")
-LOG_ENDINGS = (*_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy")
-"""How the name of a log ends."""
+LOG_ENDINGS = (
+    *_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy", ".xlsx", ".tsv", ".lvm",
+)  # fmt: skip
+"""How the name of a log ends, and of nothing else."""
 
 
 class Word(str):
@@ -88,7 +90,7 @@ class LogFile(Input):
     """A log, as FILE or FILE@START:END."""
 
     what = "a log"
-    endings = LOG_ENDINGS
+    endings = (*LOG_ENDINGS, ".txt", ".dat", ".asc", ".log")
 
     @property
     def file(self) -> Path:

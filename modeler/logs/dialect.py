@@ -26,10 +26,16 @@ _DELIMITERS = {
 }  # fmt: skip
 _BOMS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 _EMPTY = {"", "null", "none", "na", "n/a", "#n/a", "nan", "-nan", "+nan"}
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?:inity)?")
-_COMMAS = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?|[+-]?\d+(?:[eE][+-]?\d+)?|[+-]?inf(?:inity)?")
+_NUMBERS = {
+    decimal: re.compile(rf"[+-]?(?:(?:\d+{mark}?\d*|{mark}\d+)(?:e[+-]?\d+)?|inf(?:inity)?)")
+    for decimal, mark in ((".", r"\."), (",", ","), ("", "[.,]"))
+}
+"""What is a number, by its decimal; "": by either."""
+_PROSE = re.compile(r"[^,;\t|]*\w:(?:\s|$)")  # as in "Operator: me"
 _COMMENT = re.compile(r"^\s*(?:#|%|//)+\s*")
-_RATE = re.compile(r"(?i)(?:sampl\w*|rate|freq\w*|abtast\w*|\bfs\b).*?(\d+(?:[.,]\d+)?)\s*(k?)hz\b")
+_RATE = re.compile(
+    r"(?i)(?:sampl\w*|rate|freq\w*|abtast\w*|\bfs\b).*?(\d+(?:[.,]\d+)?)[\s;]*(k?)hz\b"
+)
 _STEP = re.compile(
     r"(?i)(?:delta[_ ]?[xt]|(?:sampl\w*|cycle|abtast\w*|zyklus)[ _-]*(?:time|period|interval|zeit)"
     r"|zykluszeit|\bdt|\bts)\s*(?:[\[(](\w+)[\])])?[\s:=;,\"]+(\d+(?:[.,]\d+)?(?:e[+-]?\d+)?)"
@@ -133,14 +139,14 @@ def dialect_of(path: Path) -> Dialect:
     lines, starts = _lines(raw, whole)
     text = [line.decode("utf-8" if "utf" in encoding else "latin-1", "replace") for line in lines]
     text = [line.removeprefix("\ufeff") for line in text]
-    if not lines:
+    if not any(line.strip() for line in lines):
         raise DataError(
             f"{path}: the first line does not end within {_LINE >> 20} MiB, or is empty; expected "
             "the names of the columns; write the file again"
         )
     delimiter, decimal = _marks(text, path)
     rows = [split(line, delimiter) for line in text]
-    head = head_of(rows, decimal, str(path), text, delimiter)
+    head = head_of(text, rows, delimiter, decimal, str(path))
     row = rows[head.first] if head.first < len(rows) else []
     clocks: dict[str, Origin] = {}
     for name, entry in zip(head.names, row, strict=False):
@@ -161,13 +167,9 @@ def _letters_of(raw: bytes, whole: bool) -> str:
 
 
 def _lines(raw: bytes, whole: bool) -> tuple[list[bytes], list[int]]:
-    """Lines that are not blank, and where each begins; without one that is cut off."""
-    lines, starts = list[bytes](), list[int]()
-    for match in re.finditer(rb"[^\r\n]+(\r\n|\n|\r)?", raw):
-        if match[0].strip() and (match[1] or whole):
-            lines.append(match[0].rstrip(b"\r\n"))
-            starts.append(match.start())
-    return lines, starts
+    """Lines, and where each begins; without one that is cut off."""
+    found = [m for m in re.finditer(rb"([^\r\n]*)(\r\n|\n|\r|$)", raw) if m[2] or (whole and m[1])]
+    return [match[1] for match in found], [match.start() for match in found]
 
 
 def split(line: str, delimiter: str) -> list[str]:
@@ -188,28 +190,20 @@ def bare(name: str) -> str:
     return name
 
 
-def _is_number(entry: str, decimal: str) -> bool:
-    """Of a spreadsheet, whose decimal is "", with either."""
-    if not decimal:
-        return decimal_number(entry) is not None
-    return (_NUMBER if decimal == "." else _COMMAS).fullmatch(entry.lower()) is not None
-
-
 def decimal_number(entry: str) -> float | None:
     """The number that an entry is, with a decimal point or comma; None if it is none."""
-    text = entry.lower()
-    if _NUMBER.fullmatch(text) is None and _COMMAS.fullmatch(text) is None:
-        return None
-    return float(text.replace(",", "."))
+    known = _NUMBERS[""].fullmatch(entry.lower()) is not None
+    return float(entry.replace(",", ".")) if known else None
 
 
 def _is_value(entry: str, decimal: str) -> bool:
-    return _is_number(entry, decimal) or is_clock(entry)
+    """True of a number, a date or a time of day."""
+    return _NUMBERS[decimal].fullmatch(entry.lower()) is not None or is_clock(entry)
 
 
 def _marks(lines: Sequence[str], path: Path) -> tuple[str, str]:
     """What stands between columns, and before decimals: where most entries become numbers."""
-    last = lines[-_JUDGED:]
+    last = [line for line in lines if line.strip()][-_JUDGED:]
 
     def score(marks: tuple[str, str]) -> tuple[float, ...]:
         delimiter, decimal = marks
@@ -234,84 +228,88 @@ def _marks(lines: Sequence[str], path: Path) -> tuple[str, str]:
 
 
 def head_of(
-    rows: Sequence[Sequence[str]], decimal: str, where: str,
-    lines: Sequence[str] = (), delimiter: str = "",
-) -> Head:  # fmt: skip
+    lines: Sequence[str], rows: Sequence[Sequence[str]], delimiter: str, decimal: str, where: str
+) -> Head:
     """Where the rows of numbers begin, and what stands above them.
 
     Args:
-        rows: entries of every line that is not blank, from the first on.
+        lines: of the file, from the first on.
+        rows: their entries.
+        delimiter: between these.
         decimal: of the numbers; "" for either.
         where: name of the file, for messages.
-        lines: the same as they are, of a text.
-        delimiter: between the entries of a text.
 
     Raises:
         DataError: a quote is left open, or names and rows are of other numbers.
     """
-    last = rows[-_JUDGED:]
+    last = [row for row in rows if any(row)][-_JUDGED:]
     valued = [row for row in last if any(_is_value(e, decimal) for e in row)] or last
     width = Counter(map(len, valued)).most_common(1)[0][0]
     even = [row for row in valued if len(row) == width]
-    places = [
-        k for k in range(width) if 2 * sum(_is_value(r[k], decimal) for r in even) > len(even)
-    ]
+    shares = [sum(_is_value(row[k], decimal) for row in even) / len(even) for k in range(width)]
+    places = [k for k, share in enumerate(shares) if share > 0.5]
 
     def is_row(row: Sequence[str]) -> bool:
-        if len(row) != width:
-            return False
-        held = [row[k] for k in places]
-        fine = sum(_is_value(e, decimal) or e.lower() in _EMPTY for e in held)
-        begins = bool(held) and (_is_value(held[0], decimal) or held[0].lower() in _EMPTY)
-        return begins and 2 * fine > len(held) and any(_is_value(e, decimal) for e in held)
+        held = [row[k] for k in places] if len(row) == width else []
+        fine = [_is_value(e, decimal) or e.lower() in _EMPTY for e in held]
+        return any(_is_value(e, decimal) for e in held) and fine[0] and 2 * sum(fine) > len(fine)
 
     first = next((i for i, row in enumerate(rows) if is_row(row)), min(1, len(rows)))
-    if first and (lines[first - 1] if lines else "").count('"') % 2:
+    if first and lines[first - 1].count('"') % 2:
         raise DataError(
             f'{where}: the line above the rows has a quote (") that is not closed; expected the '
             "names of the columns; close it, or delete it"
         )
-    above = [_names_in(rows[i], lines[i] if lines else "", width) for i in range(first)]
+    ends = not any(row[-1] for row in even)  # with a mark, which names may lack
+    above = [_names_in(rows[i], lines[i], width, ends) for i in range(first)]
     units = _units_at(above)
     at = _names_at(above, decimal, units)
-    unnamed = tuple(f"c{k + 1}" for k in range(width))
+    rate = _rate(lines[:first])
     if at is None:
-        if first and lines:
-            _refuse_other_count(rows[first - 1], lines[first - 1], width, delimiter, decimal, where)
-        told = [f"{_counted(first)} before the rows"] if first else []
+        for i in [i for i in range(first) if any(rows[i])][-1:]:
+            _refuse_other_count(rows[i], lines[i], width, delimiter, decimal, where)
+        told = [f"{_counted(first)} before the rows"] * (first > 0)
         told.append(f"no names: columns are called c1 to c{width}" if width > 1 else "no name: c1")
-        if rows and rows[0] == [str(k) for k in range(width)] and first == 0 and len(rows) > 1:
-            first = 1  # the numbers of columns, as a table without names has them
-        return Head(unnamed, first, rate=_rate(lines or map("\t".join, rows), first),
-                    told=tuple(told))  # fmt: skip
-    names = tuple(n or u for n, u in zip(above[at] or (), unnamed, strict=True))
+        numbered = first == 0 and len(rows) > 1 and [*rows[0]] == [str(k) for k in range(width)]
+        names = tuple(f"c{k + 1}" for k in range(width))
+        return Head(names, first + numbered, rate=rate, told=tuple(told))
+    names = _distinct(above[at] or [], above[at - 1] if at else None)
     stated = {}
-    told = [f"{_counted(at)} before the names"] if at else []
+    told = [f"{_counted(at)} before the names"] * (at > 0)
     if units is not None and units != at:
         stated = {n: u for n, e in zip(names, above[units] or (), strict=True) if (u := _unit(e))}
         told.append(f"units in line {units + 1}")
     between = first - at - 1 - (units is not None and units > at)
     told += [f"{_counted(between)} between names and rows"] * (between > 0)
-    return Head(names, first, stated, _rate(lines or map("\t".join, rows), first), tuple(told))
+    return Head(names, first, stated, rate, tuple(told))
+
+
+def _distinct(names: Sequence[str], over: Sequence[str] | None) -> tuple[str, ...]:
+    """Names, `Position[J1]` where they repeat under groups; `c3` of a column without."""
+    twice = len(set(names) - {""}) < len([name for name in names if name])
+    if twice and over is not None:
+        groups = [next((g for g in reversed(over[: k + 1]) if g), "") for k in range(len(names))]
+        names = [f"{g}[{n}]" if g and n else g or n for g, n in zip(groups, names, strict=True)]
+    return tuple(name or f"c{k + 1}" for k, name in enumerate(names))
 
 
 def _counted(lines: int) -> str:
     return f"{lines} line{'s' * (lines > 1)}"
 
 
-def _names_in(row: Sequence[str], line: str, width: int) -> list[str] | None:
+def _names_in(row: Sequence[str], line: str, width: int, ends: bool) -> list[str] | None:
     """The entries of a line as one for each column; None if it has not so many."""
     plain = _COMMENT.sub("", line)
-    ways = [list(row)]
-    if line:
-        ways += [[bare(e) for e in re.split(mark, plain.strip())]
-                 for mark in (r"\s*[,;\t|]\s*", r"\s{2,}", r"\s+")]  # fmt: skip
-    for entries in ways:
+    if _PROSE.match(plain):
+        return None
+    marks = (r"\s*[,;\t|]\s*", r"\s{2,}", r"\s+")
+    others = ([bare(e) for e in re.split(mark, plain.strip())] for mark in marks)
+    for entries in (list(row), *others):
         entries = [_COMMENT.sub("", e) if k == 0 else e for k, e in enumerate(entries)]
         if len(entries) == width + 1 and entries[-1].lower() in ("", "comment"):
             entries = entries[:-1]  # a mark at the end of the line, or what LabVIEW adds
-        if len(entries) == width - 1 and entries == ways[0] and line.endswith((",", ";", "\t")):
-            entries = [*entries, ""]
+        if len(entries) == width - 1 and ends:
+            entries.append("")
         if len(entries) == width:
             return entries
     return None
@@ -348,8 +346,9 @@ def _refuse_other_count(
 ) -> None:
     """Names directly above the rows, but not as many as there are columns."""
     words = [e for e in row if e and not _is_value(e, decimal)]
-    prose = _COMMENT.match(line) or (delimiter == _BLANKS and re.search("[:=]", line))
-    if prose or len(row) < 2 or len(words) < len(row) or len(row) == width:
+    prose = _COMMENT.match(line) or _PROSE.match(line) or (delimiter == _BLANKS and "=" in line)
+    alone = len(row) < 2 and not (width == 2 and delimiter == ",")  # else a decimal comma
+    if prose or alone or len(words) < len(row) or len(row) == width:
         return
     raise DataError(
         f"{where}: row 1: got {width} entries for {len(row)} columns; expected one each; write "
@@ -357,9 +356,9 @@ def _refuse_other_count(
     )
 
 
-def _rate(lines: Sequence[str] | map, first: int) -> float | None:
+def _rate(lines: Sequence[str]) -> float | None:
     """Samples in a second, as a line above the rows states it."""
-    for line, _ in zip(lines, range(first), strict=False):
+    for line in lines:
         if match := _RATE.search(line):
             return float(match[1].replace(",", ".")) * (1e3 if match[2] else 1.0)
         if match := _STEP.search(line):

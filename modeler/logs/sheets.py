@@ -37,7 +37,6 @@ def read_sheets(path: Path, wanted: Wanted) -> Columns:
             f"{path}: topic {wanted.topic}: no sheet of that name; the sheets are "
             f"{', '.join(book.sheet_names)}"
         )
-    sheets = {n: [row for row in rows if any(row)] for n, rows in sheets.items()}
     name = next((n for n, rows in sheets.items() if _has_numbers(rows)), None)
     if name is None:
         raise DataError(
@@ -45,8 +44,8 @@ def read_sheets(path: Path, wanted: Wanted) -> Columns:
             "each; save the values of the formulas, or as CSV"
         )
     rows = sheets[name]
-    head = head_of(rows, "", f"{path}, sheet {name}")
-    first, columns = rows[head.first], zip(*rows[head.first :], strict=True)
+    head = head_of(["\t".join(row) for row in rows], rows, "\t", "", f"{path}, sheet {name}")
+    first, columns = rows[head.first], zip(*filter(any, rows[head.first :]), strict=True)
     clocks = {n: first_moment(c) for n, c in zip(head.names, first, strict=True) if is_clock(c)}
     arrays = [_array(c, n in clocks) for n, c in zip(head.names, columns, strict=True)]
     table = pa.table(arrays, names=list(head.names))
@@ -71,7 +70,8 @@ def _text(cell: Any) -> str:
 
 
 def _has_numbers(rows: Sequence[Sequence[str]]) -> bool:
-    return len(rows) >= _LEAST and any(decimal_number(entry) is not None for entry in rows[-1])
+    last = [row for row in rows if any(row)][-1:]
+    return len(rows) >= _LEAST and any(decimal_number(e) is not None for row in last for e in row)
 
 
 def _array(entries: Sequence[str], clock: bool) -> pa.Array:

@@ -333,6 +333,9 @@ def show(
 ) -> ShownRobot:
     """Draw a robot at its [home], found where that is missing or poor.
 
+    >>> show(robot, "arm.html").skeleton.robot.name
+    'two-link'
+
     What cannot be derived (loops that do not close, or are singular at [home]) is drawn as it is
     stated; `posture.note` says so.
 

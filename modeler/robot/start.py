@@ -32,6 +32,9 @@ def new_robot(
 ) -> Robot:
     """Writes a commented robot file to start from, which derives as it is.
 
+    >>> derive(new_robot("six.toml", joints="RRP")).base.proof.kind
+    'exact'
+
     Args:
         path: of the file, ending in .toml; the robot is called as it is.
         template: `serial`, `parallelogram` or `parallel`.

@@ -246,7 +246,7 @@ def test_a_long_log_is_looked_at_in_blocks(log, place, chunked, tmp_path, monkey
 @pytest.mark.parametrize("words", [["diagnose", "{model}", "{log}"],
                                    ["compare", "--free-run", "{model}", "{log}"],
                                    ["add", "{model}", "viscous@1", "{log}", "--out", "{model}2"],
-                                   ["estimators", "two-link", "{log}"]])  # fmt: skip
+                                   ["fit", "two-link", "{log}", "--method", "all"]])  # fmt: skip
 def test_a_command_that_needs_all_rows_refuses_too_many(words, place, capsys, monkeypatch):
     fitted(place, "run.parquet", "model")
     monkeypatch.setattr("modeler.observation.read.MOST_WHOLE", 5000)

@@ -60,7 +60,7 @@ LOADED = [
 ]  # fmt: skip
 BOTH = [f"fit {ROBOT} RI --payload-log RLI --payload-mass {MASS} --method tls --out X"]
 OTHERS = [
-    f"log R --robot {ROBOT}", f"estimators {ROBOT} R --holdout other.csv --methods weighted",
+    f"log R --robot {ROBOT}", f"fit {ROBOT} R --holdout other.csv --method weighted,ridge",
     f"fleet {ROBOT} R full.csv", "compare m.json R", "compare m.json R --free-run",
     "diagnose m.json R", "diagnose m.json full.csv --holdout R",
     "add m.json spring R --out Y", f"fit {ROBOT} R --out own.json", "physical own.json",

@@ -77,7 +77,8 @@ def labview(folder: Path, table: Table) -> Path:
              "Time\t12:00:00.1234567890123456789", "***End_of_Header***\t", "\t"]  # fmt: skip
     second = ["Channels\t6\t\t\t\t\t\t", f"Samples\t{x([str(n)] * 6)}\t",
               f"Date\t{x(['2024/05/01'] * 6)}\t", f"Time\t{x(['12:00:00.12345'] * 6)}\t",
-              f"Y_Unit_Label\t{x(['deg'] * 3 + ['N m'] * 3)}\t", f"X_Dimension\t{x(['Time'] * 6)}\t",
+              f"Y_Unit_Label\t{x(['deg'] * 3 + ['N m'] * 3)}\t",
+              f"X_Dimension\t{x(['Time'] * 6)}\t",
               f"X0\t{x(['0.0000000000000000E+0'] * 6)}\t", f"Delta_X\t{x(['0.001000'] * 6)}\t",
               "***End_of_Header***\t\t\t\t\t\t\t"]  # fmt: skip
     names = [f"pos {j}" for j in "123"] + [f"torque {j}" for j in "123"]
@@ -100,7 +101,8 @@ def twincat(folder: Path, table: Table) -> Path:
     head = ["Name\tYT Scope Project", "File\tC:\\Scope\\run.tcscopex",
             "Starttime of export\t133590384000000000\tWednesday, May 1, 2024",
             "Endtime of export\t133590384060000000\tWednesday, May 1, 2024", "",
-            "Name\t" + "\t".join(symbols), "Data-Type" + "\tREAL64" * 6, "SampleTime[ms]" + "\t1" * 6,
+            "Name\t" + "\t".join(symbols), "Data-Type" + "\tREAL64" * 6,
+            "SampleTime[ms]" + "\t1" * 6,
             "Unit\t" + "\t".join(["°"] * 3 + ["Nm"] * 3)]  # fmt: skip
     return written(
         folder / "scope.csv",
@@ -143,8 +145,8 @@ def iso_index(folder: Path, table: Table) -> Path:
 
 def clock_of_day(folder: Path, table: Table) -> Path:
     """Times of a day in America, after noon."""
-    stamps = [f"5/1/2024 {1 + int(t >= 3)}:{59 * int(t < 3):02d}:{57 + t if t < 3 else t - 3:012.9f} PM"
-              for t in table["time"]]  # fmt: skip
+    clock = [(1, 59, 57 + t) if t < 3 else (2, 0, t - 3) for t in table["time"]]
+    stamps = [f"5/1/2024 {h}:{m:02d}:{s:012.9f} PM" for h, m, s in clock]
     body = text_of(rows_of(table)[:, 1:], ",").splitlines()
     lines = [f"{s},{line}" for s, line in zip(stamps, body, strict=True)]
     head = "Clock,pos1,pos2,pos3,torque1,torque2,torque3"
@@ -232,8 +234,9 @@ def lerobot(folder: Path, table: Table) -> Path:
     columns = {
         k: pa.array([*v.astype("float32")], pa.list_(pa.float32())) for k, v in lists.items()
     }
-    columns |= {"timestamp": pa.array((frame / 1000).astype("float32")), "frame_index": pa.array(frame),
-                "episode_index": pa.array(episode), "index": pa.array(np.arange(n) + 5000)}  # fmt: skip
+    columns["timestamp"] = pa.array((frame / 1000).astype("float32"))
+    columns |= {"frame_index": pa.array(frame), "episode_index": pa.array(episode)}
+    columns["index"] = pa.array(np.arange(n) + 5000)
     (folder / "data" / "chunk-000").mkdir(parents=True)
     (folder / "meta").mkdir()
     features = {k: {"dtype": "float32", "shape": [3], "names": names} for k in lists}

@@ -95,8 +95,8 @@ def test_from_python_too(ground):
     model = load_model(ground / "p.json")
     mapping = {"time": "run.t [ms]", "q1": {"column": "run.x", "unit": "mm", "sign": -1},
                "tau1": "run.F [kN]"}  # fmt: skip
-    found = compare(model, [ground / "b.mat"], mapping).as_dict()
-    twin = compare(model, [ground / "b.parquet"]).as_dict()
+    found = compare(model, [ground / "b.mat"], mapping).to_dict()
+    twin = compare(model, [ground / "b.parquet"]).to_dict()
     assert found["relative_error"] == pytest.approx(twin["relative_error"], rel=1e-9)
     better = add(model, "asymmetric_viscous", [ground / "a.mat"], mapping=mapping)
     assert undo(better, [ground / "a.mat"], mapping).beta == pytest.approx(model.beta, rel=1e-9)
@@ -111,8 +111,8 @@ def test_map_does_what_log_does(ground, tmp_path, capsys):
     )
     assert (status, err) == (0, "")
     assert values(tmp_path / "f.json") == pytest.approx(values(ground / "p.json"), rel=1e-12)
-    argv = ["estimators", "emps", ground / "a.mat", "--holdout", ground / "b.mat", *MAP]
-    status, _, err = run(capsys, *argv, "--methods", "weighted")
+    argv = ["fit", "emps", ground / "a.mat", "--holdout", ground / "b.mat", *MAP]
+    status, _, err = run(capsys, *argv, "--method", "weighted,ordinary")
     assert (status, err) == (0, "")
 
 

@@ -1,8 +1,21 @@
 """Logs as programs write them give the fit of a plain file with the same numbers."""
 
-import pytest
+import re
+import sys
+from pathlib import Path
 
-from tests.logs.programs import KINDS
+import numpy as np
+import pytest
+import scipy.io
+from hypothesis import given, settings, strategies as st
+
+from modeler.core.errors import DataError
+from modeler.logs.blocks import blocks_of
+from modeler.logs.columns import Wanted
+from modeler.logs.log_table import LogTable
+from modeler.logs.mapping import map_from_table
+from modeler.logs.readers import read_columns
+from tests.logs.programs import KINDS, lerobot, rows_of, sheet, text_of, written
 from tests.logs.writers import parquet
 
 
@@ -19,4 +32,250 @@ def test_every_kind_gives_the_fit_of_the_plain_file(name, case, tmp_path):
     found = case.fitted(place, kind.words)
     assert found == pytest.approx(
         beta, rel=1e3 * kind.digits, abs=1e3 * kind.digits * abs(beta).max()
+    )
+
+
+TEXTS = ["German Excel", "Unicode text of Excel", "LabVIEW", "a controller without names",
+         "TwinCAT Scope", "a recorder without time", "pandas with an ISO index", "times of the day",
+         "epoch nanoseconds", "Parquet with timestamps", "LeRobot"]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_blocks_are_the_rows_of_the_file(name, case, tmp_path):
+    (tmp_path / "run").mkdir()
+    place = KINDS[name].write(tmp_path / "run", case.table)
+    whole, blocks = read_columns(place, Wanted()), blocks_of(place)
+    parts = list(blocks.blocks(700))
+    assert len(parts) > 5 and sum(part.rows for part in parts) == whole.rows
+    assert abs(blocks.rows - whole.rows) < 0.1 * whole.rows
+    for column, values in whole.columns:
+        found = [dict(part.columns)[column] for part in parts]
+        if values.numeric:
+            assert np.array_equal(np.concatenate([f.numbers() for f in found]), values.numbers())
+    window = blocks.window(0.5, 300)
+    assert (window.units, window.told, window.rate) == (whole.units, whole.told, whole.rate)
+    name, seen = window.columns[0][0], window.columns[0][1].numbers()
+    assert np.isin(seen, dict(whole.columns)[name].numbers()).all() and window.rows > 200
+
+
+TOLD = {
+    "German Excel": "read with ; between columns, decimal commas, in latin-1",
+    "LabVIEW": "read with tabs between columns, 22 lines before the names, units in line 18",
+    "a controller without names": "read with blanks between columns, no names: columns are called "
+    "c1 to c7",
+    "TwinCAT Scope": "read with tabs between columns, 5 lines before the names, units in line 9, 2 "
+    "lines between names and rows",
+    "a recorder without time": "read with 2 lines before the names",
+    "times of the day": "read with Clock counted from the first row",
+    "a workbook": "read with sheet data, 1 line before the names, units in line 3",
+    "a folder of joints": "joint1.tsv and 2 more: read with tabs between columns",
+    "a folder of numpy files": "one motion in 3 files: positions.npy, time.npy, torques.npy",
+    "LeRobot": "time is that of the frames at 1000 Hz, as info.json says; every episode is a "
+    "segment",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", TOLD)
+def test_what_was_guessed_is_one_line(name, case, tmp_path):
+    (tmp_path / "run").mkdir()
+    place = KINDS[name].write(tmp_path / "run", case.table)
+    assert TOLD[name] in read_columns(place, Wanted()).told
+
+
+def test_a_dataset_is_all_its_files(case, tmp_path):
+    lerobot(tmp_path, case.table)
+    found = read_columns(tmp_path, Wanted())
+    columns = dict(found.columns)
+    assert found.rows == len(case.table["time"]) and found.rate == 1000
+    assert columns["timestamp"].numbers() == pytest.approx(case.table["time"], abs=1e-9)
+    assert set(columns["segment"].numbers()) == {0.0, 1.0}
+    assert "action[elbow_flex]" in columns
+
+
+# One log in several files.
+
+
+FILES = {"q": "_q.csv", "tau": "_tau.csv"}
+
+
+@pytest.mark.parametrize("ending", ["_", ""])
+def test_files_of_log_are_read_by_what_they_hold(ending, case, tmp_path):
+    """`data/run` + `_q.csv`, or `data/run/` + `q.csv`; columns go by place or by their digits."""
+    place = tmp_path / "run"
+    if not ending:
+        place.mkdir()
+    head = str(place) + ("_" if ending else "/")
+    rows = rows_of(case.table)
+    written(Path(f"{head}q.csv"), "time j1 j2 j3\n" + text_of(rows[:, :4], " "))
+    written(Path(f"{head}tau.csv"), text_of(rows[:, 4:], ";", ","))
+    files = {"q": f"{ending}q.csv", "tau": f"{ending}tau.csv"}
+    assert case.fitted(place, {"files": files}) == pytest.approx(case.beta, rel=1e-6)
+    found = LogTable(place, map_from_table({"files": files}, "[log]"))
+    assert found.names == ("time", "q1", "q2", "q3", "tau1", "tau2", "tau3")
+
+
+def two(folder, q, tau, clocks=(0.0, 0.0)):
+    """q.csv and tau.csv with these clocks, s later."""
+    for name, rows, late in (("q", q, clocks[0]), ("tau", tau, clocks[1])):
+        lines = [f"{k * 1e-3 + late:.9f},{k}" for k in range(rows)]
+        written(folder / f"{name}.csv", "time,a\n" + "\n".join(lines) + "\n")
+    return folder
+
+
+def test_clocks_a_little_apart_are_one(tmp_path):
+    found = read_columns(two(tmp_path, 100, 100, (0.0, 2e-4)), Wanted())
+    assert "up to 0.0002 apart: that of q.csv" in found.told[0]
+    assert [name for name, _ in found.columns] == ["time", "q", "tau"]
+
+
+def test_dates_of_files_are_compared(tmp_path):
+    for name, second in (("q", 10), ("tau", 11)):
+        lines = [f"2024-05-01 12:00:{second + k / 100:06.3f};{k}" for k in range(50)]
+        written(tmp_path / f"{name}.csv", "stamp;a\n" + "\n".join(lines) + "\n")
+    with pytest.raises(DataError, match=r"the clocks of tau\.csv and q\.csv are 1 apart in row 1"):
+        read_columns(tmp_path, Wanted())
+
+
+def several(folder, text):
+    for name in ("mon", "tue"):
+        written(folder / f"{name}.csv", text)
+    return folder
+
+
+BROKEN = [
+    (lambda f: two(f, 100, 90), "tau.csv has 90 rows and q.csv 100; expected the same rows"),
+    (lambda f: two(f, 99, 99, (0.0, 0.7)), "the clocks of tau.csv and q.csv are 0.7 apart in row"),
+    (lambda f: several(f, "time,q1,tau1\n" + "0,1,2\n1,2,3\n" * 20), "is in several files, mon"),
+    (lambda f: f, "is a folder without metadata.yaml, meta/info.json or logs"),
+    (lambda f: (f / "meta").mkdir() or f / "meta" / "x", "there is no such file"),
+    (lambda f: written(f / "a.csv", "q1;time\n" + "1;x\n" * 30), "column time, row 1: got"),
+    (lambda f: written(f / "a.csv", "time,q1\n" + "12:00:00,1\n" * 20 + "noon,1\n"), "row 21: got"),
+    (lambda f: written(f / "a.csv", "time,q1\n" + "1,1,1\n" * 20), "got 3 entries for 2 columns"),
+    (lambda f: written(f / "a.csv", "time,q1\n" + "1,\0\n" * 20), "line 2 holds bytes that no"),
+    (lambda f: written(f / "a.xlsx", "none"), "cannot be read as spreadsheet"),
+]
+
+
+@pytest.mark.parametrize(("make", "line"), BROKEN)
+def test_what_cannot_be_read_is_one_line(tmp_path, make, line):
+    with pytest.raises(DataError, match=re.escape(line)) as told:
+        LogTable(make(tmp_path)).numbers("time")
+    assert "\n" not in str(told.value)
+
+
+def test_files_of_log_that_are_not_there(tmp_path):
+    with pytest.raises(DataError, match=r"there is no file .*run_q\.csv; expected a log, or what"):
+        LogTable(tmp_path / "run", map_from_table({"files": FILES}, "[log]"))
+    with pytest.raises(DataError, match=r"\[log\], files: got 3; expected how the names"):
+        map_from_table({"files": 3}, "[log]")
+
+
+def test_a_damaged_dataset_is_one_line(case, tmp_path):
+    path = lerobot(tmp_path, case.table)
+    (tmp_path / "meta" / "info.json").write_text("{")
+    with pytest.raises(DataError, match=r"info\.json: cannot be read .*; copy the dataset again"):
+        read_columns(path, Wanted())
+
+
+def test_sheets_are_chosen_by_name(case, tmp_path):
+    path = sheet(tmp_path, case.table)
+    found = read_columns(path, Wanted())
+    assert [(s.name, s.clock) for s in found.streams] == [("Sheet", False), ("data", True)]
+    assert read_columns(path, Wanted("data")).rows == found.rows
+    with pytest.raises(DataError, match=r"topic x: no sheet of that name; the sheets are Sheet, d"):
+        read_columns(path, Wanted("x"))
+    with pytest.raises(DataError, match="no sheet with rows of numbers"):
+        read_columns(path, Wanted("Sheet"))
+
+
+def test_a_sheet_without_its_package_is_one_line(tmp_path, monkeypatch):
+    written(tmp_path / "run.xlsx", "any")
+    monkeypatch.setitem(sys.modules, "python_calamine", None)
+    with pytest.raises(DataError, match="needs the package python-calamine; run: pip install"):
+        read_columns(tmp_path / "run.xlsx", Wanted())
+
+
+# A rate that the file states.
+
+
+RATES = [
+    ("Sample rate: 2 kHz", 2000.0), ("Abtastrate;500,0;Hz", 500.0), ("fs = 250 Hz", 250.0),
+    ("Delta_X\t0.004", 250.0), ("SampleTime[ms];2", 500.0), ("cycle time = 4 ms", 250.0),
+    ("dt: 1e-3", 1000.0), ("Zykluszeit: 8 ms", 125.0), ("robot 500, run 3", None),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("line", "rate"), RATES)
+def test_a_line_above_tells_the_rate(line, rate, tmp_path):
+    path = written(tmp_path / "a.txt", f"{line}\nq1;tau1;x\n" + "0.1;2.5;3\n" * 20)
+    found = read_columns(path, Wanted())
+    assert found.rate == (None if rate is None else pytest.approx(rate))
+
+
+@pytest.mark.parametrize(("name", "value"), [("fs", 500), ("dt", 2e-3), ("fps", 500.0)])
+@pytest.mark.parametrize("ending", ["mat", "npz"])
+def test_a_value_beside_arrays_tells_the_rate(ending, name, value, tmp_path):
+    path = tmp_path / f"run.{ending}"
+    content = {"q1": np.arange(50.0), "tau1": np.ones(50), name: np.asarray(value)}
+    scipy.io.savemat(path, content) if ending == "mat" else np.savez(path, **content)
+    table = LogTable(path)
+    assert table.numbers("time") == pytest.approx(np.arange(50) / 500)
+    assert "no time column: rows counted at 500 Hz, as the file says" in table.told
+    stated = LogTable(path, map_from_table({"rate": 100}, "--map"))
+    assert stated.numbers("time")[1] == pytest.approx(0.01)
+
+
+HEADS = [
+    ("time,Position,,Torque,\n,J1,J2,J1,J2\n", ",", "",
+     ["time", "Position[J1]", "Position[J2]", "Torque[J1]", "Torque[J2]"]),
+    ("sep=;\nt;a;b;c;d\n", ";", "", ["t", "a", "b", "c", "d"]),
+    ("t;a;b;c;d\n", ";", ";", ["t", "a", "b", "c", "d", "c6"]),
+    ("t a   b c   d e   f g   h i\n", "  ", "", ["t a", "b c", "d e", "f g", "h i"]),
+    ("0,1,2,3,4\n", ",", "", ["c1", "c2", "c3", "c4", "c5"]),
+    ("", ",", "", ["c1", "c2", "c3", "c4", "c5"]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("head", "delimiter", "end", "names"), HEADS)
+def test_heads_of_other_programs(head, delimiter, end, names, tmp_path):
+    values = np.arange(100.0).reshape(20, 5) / 8.0
+    body = text_of(values, delimiter).replace("\n", f"{end}\n")
+    found = read_columns(written(tmp_path / "a.csv", head + body), Wanted())
+    assert [name for name, _ in found.columns] == names
+    read = np.column_stack([column.numbers() for _, column in found.columns[:5]])
+    assert (read == values).all()
+
+
+# Habits of text files, drawn: what was written is what is read.
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    delimiter=st.sampled_from([",", ";", "\t", "|", "  "]), comma=st.booleans(),
+    title=st.sampled_from([[], ["# run 3"], ["Robot: arm", "Operator: me, myself"]]),
+    names=st.sampled_from(["plain", "comment", "none"]), units=st.booleans(),
+    encoding=st.sampled_from(["utf-8", "utf-8-sig", "utf-16", "cp1252"]),
+    ends=st.sampled_from(["\n", "\r\n"]), width=st.integers(2, 9), seed=st.integers(0, 2**31),
+)  # fmt: skip
+def test_any_habit_is_read_back(
+    tmp_path_factory, delimiter, comma, title, names, units, encoding, ends, width, seed
+):
+    numbers = np.random.default_rng(seed)
+    values = np.round(numbers.normal(size=(40, width)) * 10.0 ** numbers.integers(-3, 4), 5)
+    comma = comma and delimiter != ","
+    lines = [*title]
+    if names != "none":
+        lines.append("# " * (names == "comment") + delimiter.join(f"ch{k}" for k in range(width)))
+        lines += [delimiter.join(["rad"] * width)] * units
+    body = text_of(values, delimiter, "," if comma else ".", 17)
+    path = tmp_path_factory.mktemp("habit") / "a.txt"
+    written(path, "\n".join([*lines, body]), encoding, ends)
+    found = read_columns(path, Wanted())
+    first = "c1" if names == "none" else "ch0"
+    assert found.columns[0][0] == first and found.rows == 40
+    assert np.column_stack([c.numbers() for _, c in found.columns]) == pytest.approx(
+        values, rel=1e-12
+    )
+    assert dict(found.units) == (
+        {f"ch{k}": "rad" for k in range(width)} if units and names != "none" else {}
     )

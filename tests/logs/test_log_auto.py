@@ -1,0 +1,223 @@
+"""`--map auto`, what a model keeps of it, `log --write`, and [fit] and [diagnose] of a robot."""
+
+import json
+import shlex
+import shutil
+
+import numpy as np
+import pytest
+
+from modeler.api import load, read_logs
+from modeler.cli import main
+from modeler.core.builtin import builtin_text
+from modeler.core.errors import DataError, RobotError
+from modeler.estimation import load_model
+from modeler.logs.mapping import map_from_table
+from modeler.robot import robot_from_text
+from tests.logs.programs import german_excel, joined, text_of, written
+from tests.logs.test_log_commands import run, values
+from tests.logs.writers import parquet
+
+TABLES = [
+    {"time": "t [ms]", "q<j>": "pos[{n}] [deg]", "tau<j>": {"column": "load_{j}", "sign": -1}},
+    {"q2": {"column": "enc 2 [x]", "unit": "rev/8192", "scale": 0.01, "sign": -1, "offset": 3.5},
+     "rate": 500.0, "topic": "/joint_states", "names": {"1": "waist"}, "q<j>": "p.{name}"},
+    {"files": {"q": "_q.csv", "tau": "_tau.csv"}, "current<j>": "c{n+6}", "time": "pos [deg] [s]"},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_a_table_of_a_map_reads_alike(table, case):
+    joints = case.compiled.spec.joints
+    before = map_from_table(table, "[log]")
+    again = map_from_table(json.loads(json.dumps(before.table(joints))), "model")
+    for own, entry in before.entries(joints).items():
+        other = again.entries(joints)[own]
+        assert entry.like(other) and entry.columns[-1] == other.columns[-1]
+    for name in ("names", "topic", "rate", "files"):
+        assert getattr(again, name) == getattr(before, name)
+
+
+def test_a_pattern_over_a_joint_replaces_it(case):
+    low = map_from_table({"q2": "enc2", "q<j>": "a{j}", "x": "force"}, "robot")
+    high = map_from_table({"q<j>": "b{j}"}, "--map")
+    assert high.overriding(low).table(case.compiled.spec.joints) == {"q<j>": "b{j}", "x": "force"}
+
+
+def degrees(case) -> dict[str, np.ndarray]:
+    """Names that tell a role, ranges that tell a unit."""
+    table = {"stamp": case.table["time"] * 1e3}
+    for k, column in enumerate(np.rad2deg(joined(case.table, "q")).T):
+        table[f"winkel_{k}"] = column
+    for k, column in enumerate(joined(case.table, "tau").T):
+        table[f"moment_{k}"] = column
+    return table
+
+
+def test_a_unit_by_range_is_believed_where_it_fits(case, tmp_path):
+    path = parquet(tmp_path / "a.parquet", degrees(case))
+    assert case.fitted(path, ["auto"]) == pytest.approx(case.beta, rel=1e-6)
+    (log,) = read_logs(case.compiled, [path], ["auto"])
+    (told,) = [line for line in log.told if "auto" in line]
+    assert "q<j> = winkel_{n-1} [deg]" in told and "time = stamp [ms]" in told
+    assert not any("auto" in line for line in log.notes)  # which would be doubts
+
+
+def test_what_is_stated_goes_over_the_guess(case, tmp_path):
+    table = degrees(case)
+    table["winkel_1"] *= -1.0
+    path = parquet(tmp_path / "a.parquet", table)
+    assert case.fitted(path, ["auto", "q2=-winkel_1:deg"]) == pytest.approx(case.beta, rel=1e-6)
+
+
+def test_every_log_has_its_own_guess(case, tmp_path):
+    first = parquet(tmp_path / "a.parquet", degrees(case))
+    second = german_excel(tmp_path, case.table)
+    one, other = read_logs(case.compiled, [first, second], ["auto"])
+    assert one.q == pytest.approx(other.q, abs=1e-9)
+    assert other.told[-1].endswith("(of this log; the model keeps that of the first)")
+
+
+EMPS = ("Zeit [ms];Weg [mm];Strom (soll);Kraft [kN]\n", [1e3, 1e3, 1e-3])
+
+
+@pytest.fixture(scope="module")
+def ground(tmp_path_factory):
+    """Two runs of one machine with names and units of their own."""
+    folder = tmp_path_factory.mktemp("auto")
+    import pyarrow.parquet as pq
+
+    for name, seed in (("a", "1"), ("b", "2")):
+        out = folder / f"{name}.parquet"
+        assert main(["simulate", "emps", "--duration", "8", "--seed", seed, "--noise", "0.5",
+                     "--out", str(out)]) == 0  # fmt: skip
+        table = pq.read_table(out).to_pydict()
+        rows = np.array([table["time"], table["q1"], table["tau1"]]).T * EMPS[1]
+        rows = np.column_stack([rows[:, :2], 0 * rows[:, 0], rows[:, 2]])
+        written(folder / f"{name}.txt", EMPS[0] + text_of(rows, ";", ","), "cp1252")
+    return folder
+
+
+def test_what_is_told_to_be_next_reads_the_log_again(ground, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("a.txt", "b.txt"):
+        shutil.copy(ground / name, name)
+    argv = ["fit", "emps", "a.txt", "--map", "auto", "--out", "m.json"]
+    status, out, err = run(capsys, *argv)
+    assert (status, err) == (0, "") and "read with ; between columns, decimal commas" in out
+    assert run(capsys, "fit", "emps", ground / "a.parquet", "--out", "p.json")[0] == 0
+    assert values(tmp_path / "m.json") == pytest.approx(values(tmp_path / "p.json"), rel=1e-7)
+    assert load_model("m.json").mapping["q1"] == "Weg [mm]"
+    for _ in range(3):  # fit, then compare and diagnose, then what these say
+        following = [shlex.split(line[6:]) for line in out.splitlines() if line[:6] == "next: "]
+        assert following
+        out = ""
+        for words in following:
+            words = ["b.txt" if w == "HELD_OUT_LOG" else w for w in words[1:]]
+            status, more, err = run(capsys, *words)
+            assert (status, err) == (0, ""), words
+            out += more
+    argv = ["add", "m.json", "asymmetric_viscous", ground / "a.txt", "--out", "better.json"]
+    assert run(capsys, *argv)[0] == 0
+    assert load_model("better.json").mapping == load_model("m.json").mapping
+    assert run(capsys, "add", "better.json", "undo", ground / "a.txt", "--out", "u.json")[0] == 0
+    assert run(capsys, "compare", "u.json", ground / "b.parquet")[0] == 0  # our own names serve
+
+
+LOG = """# mine
+[log]  # of last year
+time = "t"
+
+[log.names]
+1 = "waist"
+
+[drive_gains]
+1 = 2.0
+"""
+
+
+def test_the_guess_is_written_into_the_robot_file(ground, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    before = builtin_text("emps").replace("[drive_gains]", "[x]").split("[x]")[0] + LOG
+    (tmp_path / "emps.toml").write_text(before)
+    argv = ["log", ground / "a.txt", "--robot", "emps.toml", "--write"]
+    status, out, err = run(capsys, *argv)
+    assert (status, err) == (0, "")
+    assert "written: [log] in emps.toml in place of its own" in out
+    after = (tmp_path / "emps.toml").read_text()
+    assert after.startswith(before.partition("[log]")[0]) and "waist" not in after
+    assert robot_from_text(after, "emps.toml").drive_gains == {"1": 2.0}
+    assert run(capsys, "fit", "emps.toml", ground / "a.txt", "--out", "m.json")[0] == 0
+    assert load_model("m.json").mapping == {}
+
+
+WRITES = [
+    (["log", "{a}", "--write"], "--write: got no robot file to write into; expected --robot"),
+    (["log", "{a}", "--robot", "emps", "--write"], "--write: emps is built in; save it"),
+    (["log", "{a}", "--robot", "arm.par", "--write"], "another program's file"),
+]
+
+
+@pytest.mark.parametrize(("words", "line"), WRITES)
+def test_what_cannot_be_written_into_is_one_line(ground, capsys, words, line):
+    status, _, err = run(capsys, *[word.format(a=ground / "a.txt") for word in words])
+    assert status == 1 and line in err and err.count("\n") == 1
+
+
+def test_options_stand_in_the_robot_file(ground, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = builtin_text("emps") + '\n[fit]\nmethod = "ordinary"\ncutoff = 40\ndecimate = 7\n'
+    text += '[diagnose]\nwithout = ["asymmetric_viscous", "spring@1"]\n'
+    (tmp_path / "emps.toml").write_text(text)
+    log = ground / "a.parquet"
+    _, out, err = run(capsys, "fit", "emps.toml", log, "--out", "m.json")
+    said = 'by [fit] of the robot file: method = "ordinary", cutoff = 40, decimate = 7'
+    assert said in out + err
+    model = load_model("m.json")
+    assert model.fit.method == "ordinary"
+    assert (model.processing.position_cutoff, model.processing.decimation) == (40, 7)
+    run(capsys, "fit", "emps.toml", log, "--out", "n.json", "--cutoff", "60", "--method=weighted")
+    model = load_model("n.json")
+    assert (model.fit.method, model.processing.position_cutoff) == ("weighted", 60)
+    assert model.processing.decimation == 7
+    argv = ["fit", "emps", log, "--out", "p.json", "--method", "ordinary", "--cutoff", "40",
+            "--decimate", "7"]  # fmt: skip
+    run(capsys, *argv)
+    assert values(tmp_path / "m.json") == pytest.approx(values(tmp_path / "p.json"), rel=1e-12)
+    _, out, err = run(capsys, "diagnose", "m.json", log, "--json", "d.json")
+    assert "by [diagnose] of the robot file" in out + err
+    assert "asymmetric_viscous" not in json.dumps(
+        json.loads((tmp_path / "d.json").read_text())["effects"]
+    )
+
+
+SECTIONS = [
+    ("[fit]\ncutof = 40\n", r"\[fit\]: unknown key \"cutof\" \(did you mean \"?cutoff"),
+    (
+        '[fit]\nmethod = "robus"\n',
+        r"\[fit\], method: got \"robus\"; expected one of .*did you mean",
+    ),
+    ("[fit]\ncutoff = -1\n", r"\[fit\], cutoff: got -1; expected a number of 0 or more"),
+    ("[fit]\ndecimate = 2.5\n", r"\[fit\], decimate: got 2.5; expected a whole number from 1"),
+    ("[fit]\ndecimate = true\n", r"\[fit\], decimate: got true; expected a whole number from 1"),
+    ("[fit]\nlow_speed = 1.5\n", r"\[fit\], low_speed: got 1.5; expected a share"),
+    ("[fit]\nkeep_damaged = 1\n", r"\[fit\], keep_damaged: got 1; expected true or false"),
+    ('[diagnose]\nwithout = "spring"\n', r"\[diagnose\], without: got \"spring\"; expected a list"),
+    ("[diagnose]\nholdout = 1\n", r"\[diagnose\]: unknown key \"holdout\""),
+    ("fit = 1\n", r"\[fit\]: got 1; expected a table"),
+]
+
+
+@pytest.mark.parametrize(("text", "line"), SECTIONS)
+def test_a_mistake_in_these_tables_is_one_line(text, line):
+    robot = builtin_text("emps")
+    text = text + robot if text.startswith("fit =") else f"{robot}\n{text}"
+    with pytest.raises(RobotError, match=line) as told:
+        robot_from_text(text, "emps.toml")
+    assert "\n" not in str(told.value)
+
+
+def test_words_of_a_mapping_are_told(case):
+    with pytest.raises(DataError, match=r"--map automatic: expected .*, or auto"):
+        read_logs(case.compiled, [], ["automatic"])
+    assert load("emps").fit == {}
