@@ -19,7 +19,8 @@ from modeler.core.errors import DataError, ModelerError, file_and_window
 
 _MOTIONS = (".csv", ".parquet")
 LOG_ENDINGS = (
-    *_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy", ".xlsx", ".tsv", ".lvm",
+    *_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy", ".xlsx", ".tsv",
+    ".lvm",
 )  # fmt: skip
 """How the name of a log ends, and of nothing else."""
 

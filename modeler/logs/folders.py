@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.logs.clock_times import Origin, seconds_between
 from modeler.logs.columns import Column, Columns, ColumnValues, Wanted
 from modeler.logs.guess import role_of, template_of
 
@@ -115,7 +114,7 @@ def _clock(parts: Sequence[_Part], where: Path) -> tuple[_Part | None, str]:
     step = float(np.median(np.abs(np.diff(time)))) if len(time) > 1 else 0.0
     widest = 0.0
     for part in timed[1:]:
-        apart = seconds_between(_origin(part), _origin(first))
+        apart = (_origin(part) - _origin(first)) * (1e-9 if _is_time(part) else 1.0)
         off = np.abs(_times(part) + apart - time)
         widest = max(widest, float(np.nanmax(off, initial=0.0)))
         if widest > _SAME * step:
@@ -134,8 +133,12 @@ def _column(part: _Part) -> Column:
     return dict(part.found.columns)[part.clock or ""]
 
 
-def _origin(part: _Part) -> Origin:
-    return getattr(_column(part), "origin", None)
+def _origin(part: _Part) -> int:
+    return getattr(_column(part), "origin", None) or 0
+
+
+def _is_time(part: _Part) -> bool:
+    return getattr(_column(part), "is_time", False)
 
 
 def _times(part: _Part) -> np.ndarray:
