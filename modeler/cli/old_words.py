@@ -35,6 +35,8 @@ def renewed(words: Sequence[str], parsers: Mapping[str, argparse.ArgumentParser]
     if at is None:
         return Renewed(list(words))
     name, rest = words[at], list(words[at + 1 :])
+    if name == "help":  # as other programs have it
+        return renewed([*words[:at], *rest, "--help"], parsers)
     told: list[str] = []
     if name in OLD_COMMANDS:
         told = [f"`{name}` is called `{OLD_COMMANDS[name]}` now"]

@@ -23,6 +23,8 @@ _BINARY: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Div: operator.truediv, ast.Pow: operator.pow,
 }  # fmt: skip
 
+_PRINTED = str.maketrans({"\u2212": "-", "\u00b7": "*", "\u00d7": "*", "\u03c0": "pi"})
+"""Signs of books as we write them."""
 _DEGREES = re.compile(r"(\b\d[\w.]*|\b[^\W\d]\w*(?=\s|°)|\))\s*(?:deg\b|°)")
 """What is measured in degrees: a number, a name or a bracket before the unit."""
 
@@ -149,7 +151,8 @@ def parse(value: str | int | float) -> Expression:
         ) from None
     _check_text(text)
     try:
-        tree = ast.parse(_DEGREES.sub(r"\1*pi/180", text), mode="eval").body
+        spelled = _DEGREES.sub(r"\1*pi/180", text.translate(_PRINTED))
+        tree = ast.parse(spelled, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ExpressionError(
             f'got "{text}", which cannot be read; expected a number or an expression '

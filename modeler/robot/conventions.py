@@ -45,6 +45,7 @@ _ONE_ROW = {
 }
 _GREEK = {
     "\u03b1": "alpha", "\u03b3": "gamma", "\u03b8": "theta", "\u03c3": "sigma", "\u03bc": "mu",
+    "\u00b5": "mu",
 }  # fmt: skip
 _SERIAL = (
     "a classical table is of a serial robot, for its a and alpha place the one axis that follows; "

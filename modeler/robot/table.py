@@ -170,7 +170,10 @@ def _check_antecedents(rows: list[tuple[Row, RowPlace]], columns: list[str]) -> 
 
 def _whose_hint(antecedent: Any, rows: list[tuple[Row, RowPlace]], columns: list[str]) -> str:
     """What to say of a length where Khalil's table has the antecedent."""
-    if "r" in columns or rows[-1][1].letter("a") != "a" or not is_length(antecedent):
+    letters = isinstance(antecedent, str) and all(row["j"].isdigit() for row, _ in rows)
+    if "r" in columns or "d" not in columns or rows[-1][1].letter("a") != "a":
+        return ""
+    if not is_length(antecedent) and (not letters or antecedent.isdigit()):
         return ""
     return f"; a is a length in the tables of others: {whose_line(columns, [r for r, _ in rows])}"
 

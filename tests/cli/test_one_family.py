@@ -101,6 +101,15 @@ def test_the_help_lists_commands_by_family() -> None:
     assert not any(old in text for old in OLD_COMMANDS)
 
 
+@pytest.mark.parametrize(
+    ("line", "usage"), [("help", "modeler [-h]"), ("help free-run", "modeler compare MODEL")]
+)
+def test_help_may_be_a_command(capsys, line: str, usage: str) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(line.split())
+    assert stop.value.code == 0 and capsys.readouterr().out.startswith(f"usage: {usage}")
+
+
 # What was typed until now.
 
 

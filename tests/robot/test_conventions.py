@@ -302,6 +302,8 @@ def read(mdh, more="", head=""):
          ['row "2", column a: got 0.43', 'write convention = "craig"', 'or convention = "clas']),
         ('columns = ["j","a","d","theta"]\nrows = [["1","0",0,"q1"], ["2","A2",0,"q2"]]',
          ['row "2", column a: got "A2"', 'write convention = "craig"']),
+        ('columns = ["j","a","d","theta"]\nrows = [["1","0",0,"q1"], ["2","l",0,"q2"]]',
+         ['row "2", column a: got "l"', 'write convention = "craig"']),
         ('columns = ["j","parent","theta"]\nrows = [["1","0","q1"]]',
          ['"parent"', 'Write convention = "craig"']),
         # a wrist, whose lengths are 0: not three joints on the base
@@ -433,6 +435,7 @@ def test_the_table_is_shown_and_kept_in_its_letters(convention, tmp_path):
     [
         ("90 deg", math.pi / 2), ("-90deg", -math.pi / 2), ("37.5°", math.radians(37.5)),
         ("pi/2 - 30 deg", math.pi / 3), ("(10 + 20) deg", math.pi / 6), ("1e1 deg", math.pi / 18),
+        ("\u221230\u00b0", -math.pi / 6), ("2\u00b7\u03c0/3", 2 * math.pi / 3),
         ("2*A2 deg", math.radians(0.8)), (".5 deg", math.radians(0.5)),
     ],
 )  # fmt: skip
