@@ -91,7 +91,7 @@ class LogFile(Input):
     """A log, as FILE or FILE@START:END."""
 
     what = "a log"
-    endings = (*LOG_ENDINGS, ".txt", ".dat", ".asc", ".log")
+    endings = LOG_ENDINGS
 
     @property
     def file(self) -> Path:
