@@ -1,5 +1,7 @@
 """Is a model true? Comparisons, free runs, several models on the same rows."""
 
+from __future__ import annotations  # what a signature names is loaded when it is checked
+
 from collections.abc import Callable, Mapping, Sequence
 from string import ascii_uppercase
 

@@ -1,5 +1,7 @@
 """Effects into a model: one by its name, all that a diagnosis names; the last one out again."""
 
+from __future__ import annotations  # what a signature names is loaded when it is checked
+
 import dataclasses
 from collections.abc import Callable, Sequence
 

@@ -1,5 +1,7 @@
 """A model as one object: its parameters, what it predicts, what it lacks, what it is made into."""
 
+from __future__ import annotations  # what a signature names is loaded when it is checked
+
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler import report, validation
+from modeler import diagnosis, report, validation
 from modeler.api import checks, improve
 from modeler.api.arguments import checked
 from modeler.api.log_maps import Mapped
@@ -20,7 +22,6 @@ from modeler.core.errors import DataError, Precision
 from modeler.core.files import read_file
 from modeler.core.manifest import Emitted
 from modeler.core.table import labelled
-from modeler.diagnosis import Diagnosis
 from modeler.estimation import IdentifiedModel, ParameterEstimate, model_file
 from modeler.observation import Log, Observation
 from modeler.robot import Robot, near, read_robot
@@ -101,7 +102,7 @@ class Model(IdentifiedModel):
     folder: str = ""
 
     @classmethod
-    def of(cls, model: IdentifiedModel, **more: Any) -> "Model":
+    def of(cls, model: IdentifiedModel, **more: Any) -> Model:
         """The same model as one of this class."""
         own = {f.name: getattr(model, f.name) for f in dataclasses.fields(IdentifiedModel)}
         return cls(**own, **more)
@@ -305,7 +306,7 @@ class Model(IdentifiedModel):
         logs: Logs | None = None,
         without: Sequence[str] = (),
         mapping: Mapped = (),
-    ) -> Diagnosis:
+    ) -> diagnosis.Diagnosis:
         """Which physical effects the model lacks, ranked, with their status.
 
         >>> model.missing().effects[0].effect
@@ -329,7 +330,7 @@ class Model(IdentifiedModel):
         logs: Logs | None = None,
         held_out: Logs | None = None,
         mapping: Mapped = (),
-    ) -> "Model":
+    ) -> Model:
         """A new model with one effect more; `table("waterfall")` says what it gained.
 
         >>> model.add("spring", joint=1).error() < model.error()

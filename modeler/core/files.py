@@ -3,7 +3,6 @@
 import contextlib
 import enum
 import errno
-import hashlib
 import os
 import re
 import signal
@@ -153,6 +152,8 @@ def checksum(path: Path) -> str:
     if not path.is_dir():
         status = path.stat()
         return _checksum(path.absolute(), status.st_size, status.st_mtime_ns)
+    import hashlib  # `modeler --help` has no use for it
+
     inside = sorted(one for one in path.rglob("*") if one.is_file())
     names = (one.relative_to(path).as_posix() for one in inside)
     lines = (f"{name}\0{checksum(one)}\n" for name, one in zip(names, inside, strict=True))
@@ -162,6 +163,8 @@ def checksum(path: Path) -> str:
 @lru_cache(maxsize=256)
 def _checksum(path: Path, size: int, written: int) -> str:
     """Of a file; taken once for a state of it."""
+    import hashlib
+
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 

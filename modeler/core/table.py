@@ -4,7 +4,6 @@ Every table that a result gives is one of these. Whatever a user wrote (a title,
 here and nowhere else.
 """
 
-import csv
 import html
 import io
 import math
@@ -118,6 +117,8 @@ class Table(Brief):
 
     def csv(self) -> str:
         """Comma-separated, the names with their units; texts that need it are quoted."""
+        import csv
+
         written = io.StringIO()
         rows = csv.writer(written, lineterminator="\n")
         rows.writerow(_headed(*column) for column in self.columns)
