@@ -19,7 +19,8 @@ from modeler.core.errors import DataError, ModelerError, file_and_window
 
 _MOTIONS = (".csv", ".parquet")
 LOG_ENDINGS = (
-    *_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy", ".xlsx", ".tsv", ".lvm",
+    *_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy", ".xlsx", ".tsv",
+    ".lvm",
 )  # fmt: skip
 """How the name of a log ends, and of nothing else."""
 
@@ -90,7 +91,7 @@ class LogFile(Input):
     """A log, as FILE or FILE@START:END."""
 
     what = "a log"
-    endings = (*LOG_ENDINGS, ".txt", ".dat", ".asc", ".log")
+    endings = LOG_ENDINGS
 
     @property
     def file(self) -> Path:

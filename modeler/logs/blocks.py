@@ -18,15 +18,7 @@ import pyarrow.parquet
 
 from modeler.core.errors import DataError
 from modeler.core.files import check_unpacked
-from modeler.logs.clock_times import (
-    Origin,
-    counted,
-    is_beyond,
-    is_moment,
-    origins_of,
-    seconds_from,
-    stated_units,
-)
+from modeler.logs.clock_times import counted, is_beyond, is_moment, origins_of, stated_units
 from modeler.logs.columns import Columns, ColumnValues, NotNumbers, Wanted, unreadable
 from modeler.logs.datasets import Dataset, dataset_of, flattened, needed_columns, one_clock
 from modeler.logs.dialect import TEXTS, bare, dialect_of
@@ -48,12 +40,12 @@ class _Arrow:
     Attributes:
         column: of it.
         before: rows of the file that stand before it.
-        origin: what a time is counted from: day and second of a text, a whole number else.
+        origin: what a time is counted from, ns; None of what is none.
     """
 
     column: pa.ChunkedArray
     before: int = 0
-    origin: Origin = None
+    origin: int | None = None
 
     @property
     def is_time(self) -> bool:
@@ -68,10 +60,8 @@ class _Arrow:
         return self.origin is not None or any(is_one(kind) for is_one in numbers)
 
     def numbers(self) -> np.ndarray:
-        if isinstance(self.origin, tuple):
-            return seconds_from(self.column, self.origin, self.before)
         if self.origin is not None:
-            return counted(self.column, self.origin)
+            return counted(self.column, self.origin, self.before)
         if not self.numeric:
             kind = self.column.type
             text = pa.types.is_string(kind) or pa.types.is_large_string(kind)
@@ -182,14 +172,13 @@ class _Text:
         parse = pa.csv.ParseOptions(delimiter=dialect.delimiter)
         convert = pa.csv.ConvertOptions(
             decimal_point=dialect.decimal, include_columns=names,
-            column_types={name: pa.int64() if isinstance(first, int) else pa.string()
-                          for name, first in dialect.clocks.items() if name in names},
+            column_types=dict.fromkeys(dialect.clocks, pa.string()),
         )  # fmt: skip
         if not text.strip():
             table = pa.table({name: pa.nulls(0) for name in dict.fromkeys(names)})
         else:
             table = self._parsed(dialect.table(text), before, parse, convert)
-        found = arrow_columns(table, before, dialect.clocks)
+        found = arrow_columns(table, before, {**dialect.clocks, **dialect.wholes})
         units = {**found.units, **head.units}
         return dataclasses.replace(found, units=units, told=dialect.told, rate=head.rate)
 
@@ -211,7 +200,7 @@ class _Text:
 
 
 def arrow_columns(
-    table: pa.Table, before: int = 0, origins: Mapping[str, Any] = MappingProxyType({})
+    table: pa.Table, before: int = 0, origins: Mapping[str, int] = MappingProxyType({})
 ) -> Columns:
     """The columns of a table; `before` rows of its file stand before it.
 

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -18,81 +17,79 @@ _PATTERN = (
 )
 """`2024-05-01T12:00:00.25+02:00`, `01.05.2024 12:00:00,25`, `5/1/2024 1:02:03.4 PM`, `12:00:00`."""
 
-_DAY = 86400.0  # s
+_DAY = 86_400 * 10**9  # ns
 _EXACT = 2**53  # whole numbers beyond it are no floats
 _EPOCH_NS = (10**18, 4 * 10**18)  # 2001 to 2096
-_SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 
 
 def is_clock(text: str) -> bool:
     """True of a date or a time of day."""
-    match = re.match(_PATTERN, text.strip('" '))
+    match = re.match(_PATTERN, text)
     return match is not None and any(match[key] for key in ("y", "c", "H"))
 
 
-def first_moment(text: str) -> tuple[int, float]:
-    """Day since 1970, or 0, and second of that day, of one text."""
-    days, seconds = _parts(pa.chunked_array([[text.strip('" ')]]))
-    return int(days[0]), float(seconds[0])
+def first_moment(text: str) -> int:
+    """Nanoseconds of one text, since 1970 or of a day."""
+    return int(_nanoseconds(pa.chunked_array([[text]]), 0)[0][0])
 
 
-Origin = tuple[int, float] | int | None
-"""What times are counted from: day and second, a whole number in the unit of the column, 0."""
+def is_beyond(number: int) -> bool:
+    """True of a whole number that no float holds, as nanoseconds since 1970 are."""
+    return abs(number) > _EXACT
 
 
-def seconds_between(later: Origin, first: Origin) -> float:
-    """From one origin to another of the same kind."""
-    if isinstance(later, tuple) and isinstance(first, tuple):
-        return (later[0] - first[0]) * _DAY + later[1] - first[1]
-    whole = isinstance(later, int) and isinstance(first, int)
-    return float(later - first) if whole else 0.0  # type: ignore[operator]
+def is_moment(kind: pa.DataType) -> bool:
+    """True of the types of times that Arrow has."""
+    t = pa.types
+    return any(is_one(kind) for is_one in (t.is_timestamp, t.is_duration, t.is_time, t.is_date))
 
 
-def seconds_from(column: pa.ChunkedArray, first: tuple[int, float], before: int) -> np.ndarray:
-    """(n,) seconds of texts from a first moment on; the zone of a file is one, so it is not asked.
+def counted(column: pa.ChunkedArray, origin: int, before: int) -> np.ndarray:
+    """(n,) from an origin on: s of times, whole numbers as they are; what is missing is NaN.
 
     Args:
-        column: of texts; what is missing is NaN.
-        first: day and second that are counted from.
+        column: of texts, of times, of whole numbers. The zone of a file is one: it is not asked.
+        origin: what they are counted from, ns.
         before: rows of the file that stand before it.
 
     Raises:
         NotNumbers: a text that is no time; names its row.
     """
-    days, seconds = _parts(column)
-    known = np.array(column.is_valid())
-    empty = np.array(pc.fill_null(pc.equal(pc.utf8_trim_whitespace(column), ""), True))
-    if (wrong := np.isnan(seconds) & known & ~empty).any():
+    if pa.types.is_string(column.type):
+        whole, missing = _nanoseconds(column, before)
+        return np.where(missing, np.nan, (whole - origin) * 1e-9)
+    steps = pc.cast(pc.subtract(_whole(column), origin), pa.float64(), safe=False)
+    return np.array(steps.to_numpy()) * (1e-9 if is_moment(column.type) else 1.0)
+
+
+def _nanoseconds(column: pa.ChunkedArray, before: int) -> tuple[np.ndarray, np.ndarray]:
+    """(n,) nanoseconds of texts, and whether they are missing."""
+    found = pc.extract_regex(column, _PATTERN)
+
+    def text(key: str) -> pa.ChunkedArray:
+        return pc.fill_null(pc.struct_field(found, key), "")
+
+    def number(key: str) -> np.ndarray:
+        texts = pc.replace_substring(text(key), ",", ".")
+        return pc.cast(pc.if_else(pc.equal(texts, ""), "0", texts), pa.float64()).to_numpy()
+
+    missing = np.array(pc.equal(pc.utf8_trim_whitespace(pc.fill_null(column, "")), ""))
+    if (wrong := np.array(pc.is_null(found)) & ~missing).any():
         row = int(np.argmax(wrong))
         raise NotNumbers(
             f', row {before + row + 1}: got "{column[row].as_py()}"; expected a time as in the '
             "other rows; correct it, or delete the row"
         )
-    return np.where(empty, np.nan, (days - first[0]) * _DAY + (seconds - first[1]))
-
-
-def _parts(column: pa.ChunkedArray) -> tuple[np.ndarray, np.ndarray]:
-    """(n,) days since 1970 and seconds of the day."""
-    found = pc.extract_regex(column, _PATTERN)
-
-    def number(key: str) -> np.ndarray:
-        texts = pc.replace_substring(pc.struct_field(found, key), ",", ".")
-        filled = pc.if_else(pc.equal(texts, ""), "0", texts)
-        return np.array(pc.cast(filled, pa.float64()).to_numpy(), dtype=float)
-
-    hours, first, second = number("H"), number("a"), number("b")
-    half = np.array(pc.fill_null(pc.utf8_lower(pc.struct_field(found, "p")), "").to_pylist())
-    hours = np.where(half == "", hours, hours % 12 + 12 * (half == "pm"))
+    half = np.array(pc.utf8_lower(text("p")).to_pylist())
+    hours = np.where(half == "", number("H"), number("H") % 12 + 12 * (half == "pm"))
     seconds = hours * 3600.0 + number("M") * 60.0 + number("S")
-    if not (np.nanmax(number("y"), initial=0) or np.nanmax(number("c"), initial=0)):
-        return np.zeros(len(seconds)), seconds
-    american = "/" in pc.struct_field(found, "s").to_pylist() and np.nanmax(first) <= 12
-    year = number("y") + number("c")
+    first, second, year = number("a"), number("b"), number("y") + number("c")
+    american = "/" in text("s").to_pylist() and first.max() <= 12
     month = number("m") + (first if american else second)
     day = number("d") + (second if american else first)
-    there = ~np.isnan(year) & (month >= 1)
-    start = (np.where(there, (year - 1970) * 12 + month - 1, 0)).astype("M8[M]").astype("M8[D]")
-    return start.astype(float) + np.where(there, day - 1, 0), seconds
+    months = np.where(year > 0, (year - 1970) * 12 + month - 1, 0).astype("M8[M]")
+    days = months.astype("M8[D]").astype(np.int64) + np.where(year > 0, day - 1, 0).astype(np.int64)
+    return days * _DAY + np.rint(seconds * 1e9).astype(np.int64), missing
 
 
 def origins_of(table: pa.Table) -> dict[str, int]:
@@ -109,43 +106,19 @@ def origins_of(table: pa.Table) -> dict[str, int]:
     return found
 
 
-def is_beyond(number: int) -> bool:
-    """True of a whole number that no float holds, as nanoseconds since 1970 are."""
-    return abs(number) > _EXACT
-
-
-def is_moment(kind: pa.DataType) -> bool:
-    """True of the types of times that Arrow has."""
-    t = pa.types
-    return any(is_one(kind) for is_one in (t.is_timestamp, t.is_duration, t.is_time, t.is_date))
-
-
 def _whole(column: pa.ChunkedArray) -> pa.ChunkedArray | None:
-    """Its whole numbers; None of what has none."""
-    if pa.types.is_integer(column.type):
+    """Its whole numbers, ns of times; None of what has none."""
+    kind, t = column.type, pa.types
+    if t.is_integer(kind):
         return column
-    if not is_moment(column.type):
+    if not is_moment(kind):
         return None
-    narrow = column.type.bit_width == 32
-    return pc.cast(pc.cast(column, pa.int32()) if narrow else column, pa.int64())
+    stamp = pa.timestamp("ns", getattr(kind, "tz", None))
+    ns = pa.duration("ns") if t.is_duration(kind) else pa.time64("ns") if t.is_time(kind) else stamp
+    return pc.cast(pc.cast(column, ns), pa.int64())
 
 
-def counted(column: pa.ChunkedArray, origin: int) -> np.ndarray:
-    """(n,) from an origin on: seconds of a time, whole numbers as they are."""
-    kind = column.type
-    steps = pc.cast(pc.subtract(_whole(column), origin), pa.float64(), safe=False)
-    unit = _DAY if kind == pa.date32() else _SECONDS.get(getattr(kind, "unit", ""), 1.0)
-    if pa.types.is_integer(kind):
-        unit = 1.0
-    elif kind == pa.date64():
-        unit = 1e-3
-    return np.array(steps.to_numpy(), dtype=float) * unit
-
-
-def stated_units(table: pa.Table, origins: Mapping[str, Any]) -> dict[str, str]:
+def stated_units(table: pa.Table, origins: Mapping[str, int]) -> dict[str, str]:
     """`ns` for whole numbers that are nanoseconds since 1970."""
-    low, high = _EPOCH_NS
-    kinds = zip(table.column_names, table.columns, strict=True)
-    return {
-        n: "ns" for n, c in kinds if pa.types.is_integer(c.type) and low < origins.get(n, 0) < high
-    }
+    whole = [f.name for f in table.schema if pa.types.is_integer(f.type)]
+    return {n: "ns" for n in whole if _EPOCH_NS[0] < origins.get(n, 0) < _EPOCH_NS[1]}

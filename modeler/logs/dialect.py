@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from modeler.core.errors import DataError
-from modeler.logs.clock_times import Origin, first_moment, is_beyond, is_clock
+from modeler.logs.clock_times import first_moment, is_clock
 from modeler.logs.mapping import find_unit
 
 TEXTS = (".csv", ".txt", ".dat", ".tsv", ".log", ".asc", ".lvm")
@@ -24,7 +24,7 @@ _BLANKS = " "
 _DELIMITERS = {
     ",": "commas", ";": ";", "\t": "tabs", "|": "|", _BLANKS: "blanks",
 }  # fmt: skip
-_BOMS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+_WHOLE = re.compile(r"(?:\d{17,18}|[1-8]\d{18})$")  # that no float holds
 _EMPTY = {"", "null", "none", "na", "n/a", "#n/a", "nan", "-nan", "+nan"}
 _NUMBERS = {
     decimal: re.compile(rf"[+-]?(?:(?:\d+{mark}?\d*|{mark}\d+)(?:e[+-]?\d+)?|inf(?:inity)?)")
@@ -72,8 +72,8 @@ class Dialect:
         delimiter: between columns; a blank means any run of blanks.
         decimal: of numbers, a point or a comma.
         encoding: of the text.
-        clocks: columns of times, and what they are counted from, the first row: day and second of
-            a text, nanoseconds since 1970.
+        clocks: columns of times as texts, with their first row, from which they are counted, ns.
+        wholes: the same of whole numbers that no float holds.
     """
 
     head: Head
@@ -81,16 +81,18 @@ class Dialect:
     delimiter: str = ","
     decimal: str = "."
     encoding: str = "utf-8"
-    clocks: Mapping[str, Origin] = field(default_factory=dict)
+    clocks: Mapping[str, int] = field(default_factory=dict)
+    wholes: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def told(self) -> tuple[str, ...]:
         """What is unlike commas, points, and names in the first line: one sentence, or nothing."""
+        counted = [*self.clocks, *self.wholes]
         told = [
             *([f"{_DELIMITERS[self.delimiter]} between columns"] * (self.delimiter != ",")),
             *(["decimal commas"] * (self.decimal == ",")), *self.head.told,
             *([f"in {self.encoding}"] * (not self.encoding.startswith("utf-8"))),
-            *([f"{', '.join(self.clocks)} counted from the first row"] * bool(self.clocks)),
+            *([f"{', '.join(counted)} counted from the first row"] * bool(counted)),
         ]  # fmt: skip
         return (f"read with {', '.join(told)}",) if told else ()
 
@@ -124,10 +126,10 @@ def dialect_of(path: Path) -> Dialect:
                 break
             raw += more
         whole = not file.read(1)
-    encoding = next((e for bom, e in _BOMS.items() if raw.startswith(bom)), "")
-    if not encoding and raw[:200].count(b"\0") >= len(raw[:200]) // 3:
+    encoding = "utf-16" if raw[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8"
+    if encoding == "utf-8" and raw[:200].count(b"\0") >= len(raw[:200]) // 3 > 0:
         encoding = "utf-16-le" if raw[1:2] == b"\0" else "utf-16-be"
-    if encoding.startswith("utf-16"):
+    if encoding != "utf-8":
         raw = raw.decode(encoding, "replace").encode()
     if b"\0" in raw:
         line = raw[: raw.index(b"\0")].count(b"\n") + 1
@@ -135,10 +137,12 @@ def dialect_of(path: Path) -> Dialect:
             f"{path}: line {line} holds bytes that no text has; expected a text with columns of "
             "numbers; it is damaged, or another kind of file: give it the ending of its format"
         )
-    encoding = encoding or _letters_of(raw, whole)
     lines, starts = _lines(raw, whole)
-    text = [line.decode("utf-8" if "utf" in encoding else "latin-1", "replace") for line in lines]
-    text = [line.removeprefix("\ufeff") for line in text]
+    joined = b"\n".join(lines)
+    try:
+        text = joined.decode().removeprefix("\ufeff").split("\n")
+    except UnicodeDecodeError:
+        encoding, text = "latin-1", joined.decode("latin-1").split("\n")
     if not any(line.strip() for line in lines):
         raise DataError(
             f"{path}: the first line does not end within {_LINE >> 20} MiB, or is empty; expected "
@@ -148,22 +152,11 @@ def dialect_of(path: Path) -> Dialect:
     rows = [split(line, delimiter) for line in text]
     head = head_of(text, rows, delimiter, decimal, str(path))
     row = rows[head.first] if head.first < len(rows) else []
-    clocks: dict[str, Origin] = {}
-    for name, entry in zip(head.names, row, strict=False):
-        if is_clock(entry):
-            clocks[name] = first_moment(entry)
-        elif re.fullmatch(r"\d{16,18}|[1-8]\d{18}", entry) and is_beyond(int(entry)):
-            clocks[name] = int(entry)
+    firsts = list(zip(head.names, row, strict=False))
+    clocks = {name: first_moment(entry) for name, entry in firsts if is_clock(entry)}
+    wholes = {name: int(entry) for name, entry in firsts if _WHOLE.match(entry)}
     start = starts[head.first] if head.first < len(starts) else starts[-1] + len(lines[-1])
-    return Dialect(head, start, delimiter, decimal, encoding, clocks)
-
-
-def _letters_of(raw: bytes, whole: bool) -> str:
-    try:
-        codecs.getincrementaldecoder("utf-8")().decode(raw, whole)
-    except UnicodeDecodeError:
-        return "latin-1"
-    return "utf-8"
+    return Dialect(head, start, delimiter, decimal, encoding, clocks, wholes)
 
 
 def _lines(raw: bytes, whole: bool) -> tuple[list[bytes], list[int]]:

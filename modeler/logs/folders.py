@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.logs.clock_times import Origin, seconds_between
-from modeler.logs.columns import Column, Columns, ColumnValues, Wanted
+from modeler.logs.columns import Column, Columns, NotNumbers, Wanted
 from modeler.logs.guess import role_of, template_of
 
 _SAME = 0.5  # of a step, that clocks of the same rows are apart at most
@@ -75,7 +74,7 @@ def read_files(places: Mapping[Path, str], where: Path, reader: Reader) -> Colum
 
 def _part(path: Path, key: str, reader: Reader) -> _Part:
     found = reader(path, Wanted())
-    timed = [name for name, _ in found.columns if role_of(name) == "time"]
+    timed = [n for n, column in found.columns if column.numeric and role_of(n) == "time"]
     alone = len(found.columns) == 1
     return _Part(path, found, timed[0] if timed and not alone else None, key)
 
@@ -108,15 +107,14 @@ def _clock(parts: Sequence[_Part], where: Path) -> tuple[_Part | None, str]:
     Raises:
         DataError: further than half a step.
     """
-    timed = [part for part in parts if part.clock is not None]
+    timed = [(part, *_times(part)) for part in parts if part.clock is not None]
     if not timed:
         return None, ""
-    first, time = timed[0], _times(timed[0])
+    first, time, start = timed[0]
     step = float(np.median(np.abs(np.diff(time)))) if len(time) > 1 else 0.0
     widest = 0.0
-    for part in timed[1:]:
-        apart = seconds_between(_origin(part), _origin(first))
-        off = np.abs(_times(part) + apart - time)
+    for part, own, begins in timed[1:]:
+        off = np.abs(own + (begins - start) - time)
         widest = max(widest, float(np.nanmax(off, initial=0.0)))
         if widest > _SAME * step:
             row = int(np.nanargmax(off)) + 1
@@ -130,19 +128,14 @@ def _clock(parts: Sequence[_Part], where: Path) -> tuple[_Part | None, str]:
     )
 
 
-def _column(part: _Part) -> Column:
-    return dict(part.found.columns)[part.clock or ""]
-
-
-def _origin(part: _Part) -> Origin:
-    return getattr(_column(part), "origin", None)
-
-
-def _times(part: _Part) -> np.ndarray:
-    column = _column(part)
-    return (
-        column.numbers() if column.numeric else ColumnValues(np.arange(part.found.rows)).numbers()
-    )
+def _times(part: _Part) -> tuple[np.ndarray, float]:
+    """The times of a file, and what they are counted from, in the same unit."""
+    column = dict(part.found.columns)[part.clock or ""]
+    origin = getattr(column, "origin", None) or 0
+    try:
+        return column.numbers(), origin * 1e-9 if getattr(column, "is_time", False) else origin
+    except NotNumbers as why:
+        raise DataError(f"{part.path}: column {part.clock}{why}") from None
 
 
 def _sentences(parts: Sequence[_Part], kind: str) -> tuple[str, ...]:

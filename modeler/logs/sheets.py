@@ -1,9 +1,7 @@
 """Spreadsheets (.xlsx and what else calamine reads), by the rules of text files."""
 
-import datetime
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import pyarrow as pa
 
@@ -28,10 +26,9 @@ def read_sheets(path: Path, wanted: Wanted) -> Columns:
         raise missing_package(path, "a spreadsheet", "python-calamine") from None
     with reading(path, "spreadsheet", "save it again as .xlsx, or as CSV"):
         book = CalamineWorkbook.from_path(str(path))
-        names = [n for n in book.sheet_names if wanted.topic in ("", n)]
-        sheets = {
-            n: [[*map(_text, r)] for r in book.get_sheet_by_name(n).to_python()] for n in names
-        }
+        cells = {n: book.get_sheet_by_name(n).to_python() for n in book.sheet_names
+                 if wanted.topic in ("", n)}  # fmt: skip
+        sheets = {n: [[str(c).strip() for c in row] for row in rows] for n, rows in cells.items()}
     if not sheets:
         raise DataError(
             f"{path}: topic {wanted.topic}: no sheet of that name; the sheets are "
@@ -56,17 +53,6 @@ def read_sheets(path: Path, wanted: Wanted) -> Columns:
     streams = tuple(Stream(n, "sheet", len(r), n == name) for n, r in sheets.items())
     streams *= len(streams) > 1
     return Columns(found.columns, found.rows, head.units, (), streams, head.rate, told=read)
-
-
-def _text(cell: Any) -> str:
-    """A cell as a text file has it."""
-    if isinstance(cell, datetime.datetime | datetime.date | datetime.time):
-        return cell.isoformat().replace("T", " ")
-    if isinstance(cell, datetime.timedelta):
-        return repr(cell.total_seconds())
-    if isinstance(cell, bool):
-        return str(cell)
-    return repr(cell) if isinstance(cell, int | float) else str(cell).strip()
 
 
 def _has_numbers(rows: Sequence[Sequence[str]]) -> bool:

@@ -136,6 +136,12 @@ def test_dates_of_files_are_compared(tmp_path):
         read_columns(tmp_path, Wanted())
 
 
+def damaged_clock(folder):
+    for name in ("q", "tau"):
+        written(folder / f"{name}.csv", "time,a\n" + "12:00:00,1\n" * 20 + "noon,1\n")
+    return folder
+
+
 def several(folder, text):
     for name in ("mon", "tue"):
         written(folder / f"{name}.csv", text)
@@ -146,6 +152,7 @@ BROKEN = [
     (lambda f: two(f, 100, 90), "tau.csv has 90 rows and q.csv 100; expected the same rows"),
     (lambda f: two(f, 99, 99, (0.0, 0.7)), "the clocks of tau.csv and q.csv are 0.7 apart in row"),
     (lambda f: several(f, "time,q1,tau1\n" + "0,1,2\n1,2,3\n" * 20), "is in several files, mon"),
+    (damaged_clock, 'column time, row 21: got "noon"; expected a time as in the other rows'),
     (lambda f: f, "is a folder without metadata.yaml, meta/info.json or logs"),
     (lambda f: (f / "meta").mkdir() or f / "meta" / "x", "there is no such file"),
     (lambda f: written(f / "a.csv", "q1;time\n" + "1;x\n" * 30), "column time, row 1: got"),
