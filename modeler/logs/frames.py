@@ -11,7 +11,9 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.logs.arrays import Held, columns_of
 from modeler.logs.blocks import arrow_columns
+from modeler.logs.clock_times import is_moment, origins_of
 from modeler.logs.columns import Columns, Wanted
+from modeler.logs.datasets import flattened
 
 _PER_JOINT = ("q", "qd", "qdd", "qc", "tau", "current")
 
@@ -38,7 +40,7 @@ def columns_given(given: InMemory, where: str, joints: Sequence[JointSpec] = ())
     20
 
     Args:
-        given: it; an index that is not just counted is a column too.
+        given: it; an index that is not just counted is a column too, dates without a name the time.
         where: what messages call it.
         joints: of the robot: an array (rows, joints) of our name has a column for each, one
             (rows, actuated joints) for each of those.
@@ -49,7 +51,9 @@ def columns_given(given: InMemory, where: str, joints: Sequence[JointSpec] = ())
     if isinstance(given, Mapping):
         return columns_of(Path(where), "dict", list(_held(given, where, joints)), Wanted())
     try:
-        return arrow_columns(pa.table(given))
+        table = pa.table(given)
+        table = table.rename_columns([_called(field, table) for field in table.schema])
+        return arrow_columns(flattened(table, None), 0, origins_of(table))
     except (pa.ArrowException, TypeError, ValueError) as error:
         told = " ".join(str(error).split())[:200]
         raise DataError(
@@ -58,11 +62,17 @@ def columns_given(given: InMemory, where: str, joints: Sequence[JointSpec] = ())
         ) from None
 
 
+def _called(field: pa.Field, table: pa.Table) -> str:
+    """The name of a column; of an index of pandas without one, of dates or times, `time`."""
+    nameless = field.name.startswith("__index_level_") and is_moment(field.type)
+    return "time" if nameless and "time" not in table.column_names else str(field.name)
+
+
 def _held(given: Mapping[str, Any], where: str, joints: Sequence[JointSpec]) -> Iterator[Held]:
     for name, values in given.items():
         array = np.asarray(values)
-        if array.dtype.kind == "b":
-            array = array.astype(float)
+        if array.dtype.kind in "Mm" and array.size:  # dates and times: s since the first
+            array = (array - array.flat[0]) / np.timedelta64(1, "s")
         if array.dtype.kind == "O" or not array.ndim:
             raise DataError(
                 f"{where}: got {type(values).__name__} as {name}; expected an array of numbers, "

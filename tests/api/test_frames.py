@@ -169,6 +169,22 @@ def test_currents_come_out_as_currents(tmp_path: Path) -> None:
     assert (left < 0.1).all()
 
 
+@pytest.mark.parametrize(
+    "kind", ["index", "nameless index", "since start", "Polars", "UTC", "dict"]
+)
+def test_dates_are_times(kind: str, frame: Any, model: md.Model) -> None:
+    since = pandas.to_timedelta(frame["time"], unit="s")
+    at = pandas.Timestamp("2024-05-01T12:00:00") + since
+    given = frame.assign(time={"since start": since, "UTC": at.dt.tz_localize("UTC")}.get(kind, at))
+    if "index" in kind:
+        given = given.set_index("time").rename_axis(None if "less" in kind else "time")
+    given = polars.from_pandas(given) if kind == "Polars" else given
+    given = {n: given[n].to_numpy() for n in given} if kind == "dict" else given
+    made = md.identify("two-link", given)
+    np.testing.assert_allclose(made.beta, model.beta, rtol=1e-4, atol=1e-6)
+    assert len(made.predict(given)["tau1"]) == len(frame)
+
+
 def test_a_piece_of_a_file(model: md.Model, run: Path) -> None:
     whole, part = model.predict(run), model.predict(f"{run}@1:2")
     assert part.index[0] == 1.0 and len(part) == 1000
