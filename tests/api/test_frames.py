@@ -175,7 +175,7 @@ def test_currents_come_out_as_currents(tmp_path: Path) -> None:
 def test_dates_are_times(kind: str, frame: Any, model: md.Model) -> None:
     since = pandas.to_timedelta(frame["time"], unit="s")
     at = pandas.Timestamp("2024-05-01T12:00:00") + since
-    given = frame.assign(time={"since start": since, "UTC": at.dt.tz_localize("UTC")}.get(kind, at))
+    given = frame.assign(time={"since": since, "UTC": at.dt.tz_localize("UTC")}.get(kind, at))
     if "index" in kind:
         given = given.set_index("time").rename_axis(None if "less" in kind else "time")
     given = polars.from_pandas(given) if kind == "Polars" else given
