@@ -58,10 +58,7 @@ def counted(column: pa.ChunkedArray, origin: int, before: int) -> np.ndarray:
     if pa.types.is_string(column.type):
         whole, missing = _nanoseconds(column, before)
         return np.where(missing, np.nan, (whole - origin) * 1e-9)
-    whole = _whole(column)
-    if whole is None:  # some of these rows are no whole numbers
-        whole = pc.cast(column, pa.float64())
-    steps = pc.cast(pc.subtract(whole, origin), pa.float64(), safe=False)
+    steps = pc.cast(pc.subtract(_whole(column), origin), pa.float64(), safe=False)
     return np.array(steps.to_numpy()) * (1e-9 if is_moment(column.type) else 1.0)
 
 
