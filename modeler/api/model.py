@@ -18,7 +18,7 @@ from modeler.api.arguments import checked
 from modeler.api.log_maps import Mapped
 from modeler.api.predicting import predicted_torque
 from modeler.api.workflow import AnyLog, Logs, generate, listed, observe, recompile
-from modeler.core.errors import DataError, Precision
+from modeler.core.errors import DataError
 from modeler.core.files import read_file
 from modeler.core.manifest import Emitted
 from modeler.core.table import labelled
@@ -394,19 +394,13 @@ class Model(IdentifiedModel):
     # What it is made into.
 
     @checked
-    def to_c(
-        self,
-        folder: str | Path,
-        force: bool = False,
-        precision: Precision = "double",
-        cuda: bool = False,
-    ) -> Emitted:
+    def to_c(self, folder: str | Path, force: bool = False) -> Emitted:
         """Its C, with its values, written to a folder; as `generate`.
 
         >>> model.to_c("arm_c").spec.prefix
         'two_link'
         """
-        return generate(self, folder, force, precision, cuda)
+        return generate(self, folder, force)
 
     def __getstate__(self) -> dict[str, Any]:
         """Without what can be computed again."""

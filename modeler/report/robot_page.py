@@ -18,7 +18,7 @@ from modeler.report.robot_closing import CLOSED, Gap, Posture, gaps_of, home_pos
 from modeler.report.robot_labels import good_view
 from modeler.report.robot_scene import Point, Scene, scene_of
 from modeler.report.robot_skeleton import Skeleton, SkeletonRow, kind_word, poses, skeleton_of
-from modeler.robot import JointKind, Robot, written_table
+from modeler.robot import JointKind, Robot, written_letter, written_table
 
 _DIGITS = 7  # of coordinates of drawn points: finer than any screen
 
@@ -33,7 +33,7 @@ def page_content(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
         "stated": bool(skeleton.robot.home),
         **entries(posture, "closed held"),
         "loose": list(posture.loose),
-        "rows": [_row(row) for row in skeleton.rows],
+        "rows": [_row(row, skeleton.robot) for row in skeleton.rows],
         "free": list(skeleton.free),
         "given": list(skeleton.given),
         "ranges": ranges,
@@ -54,7 +54,7 @@ def page_content(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
     }
 
 
-def _row(row: SkeletonRow) -> dict[str, Any]:
+def _row(row: SkeletonRow, robot: Robot) -> dict[str, Any]:
     joint = row.joint
     used = np.flatnonzero(row.coefficients)
     return {
@@ -66,6 +66,7 @@ def _row(row: SkeletonRow) -> dict[str, Any]:
         "unit": joint.unit,
         "cells": dict(row.cells),
         "texts": {name: getattr(joint, name).text for name in row.cells},
+        "letters": {name: written_letter(robot, joint, name) for name in row.cells},
         **entries(row, "rate constant"),
         "terms": [[int(k), float(row.coefficients[k])] for k in used],
     }

@@ -1,5 +1,9 @@
 from .cells import linear_form as linear_form
-from .conventions import written_cell as written_cell, written_table as written_table
+from .conventions import (
+    written_cell as written_cell,
+    written_letter as written_letter,
+    written_table as written_table,
+)
 from .edit import (
     home_lines as home_lines,
     with_coupling as with_coupling,

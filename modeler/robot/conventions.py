@@ -259,9 +259,21 @@ class WrittenTable:
 
 def written_cell(robot: Robot, joint: Joint, column: str) -> str:
     """`row "3", column alpha`: where the file has that cell of Khalil's."""
+    row, letter = _written(robot, joint, column)
+    return f'row "{row}", column {letter}'
+
+
+def written_letter(robot: Robot, joint: Joint, column: str) -> str:
+    """`alpha`, or `alpha of 3`: how the file calls that cell of Khalil's."""
+    row, letter = _written(robot, joint, column)
+    return letter if row == joint.name else f"{letter} of {row}"
+
+
+def _written(robot: Robot, joint: Joint, column: str) -> tuple[str, str]:
+    """Row and letter."""
     carried = robot.convention == "classical" and column in ("alpha", "d")
     row = joint.antecedent if carried else joint.name
-    return f'row "{row}", column {CONVENTIONS[robot.convention].get(column, column)}'
+    return row, CONVENTIONS[robot.convention].get(column, column)
 
 
 def written_table(robot: Robot) -> WrittenTable:

@@ -146,7 +146,7 @@ function tip(number, x, y) {
     if (text === "0" && value === 0) continue;
     const unit = ["gamma", "alpha", "theta"].includes(name) ? "rad" : "m";
     const same = text === rounded(value, 6) ? "" : `= ${rounded(value, 6)} ${unit}`;
-    cells.push(made("tr", {}, made("td", { textContent: name }), made("td", { textContent: text }),
+    cells.push(made("tr", {}, made("td", { textContent: row.letters[name] }), made("td", { textContent: text }),
       made("td", { textContent: same || unit }), made("td", { textContent: unit === "rad" ? degrees(value) : "" })));
   }
   const kind = row.kind === "fixed" ? "fixed frame" : `${row.kind}, ${row.actuated ? "actuated" : row.virtual ? "platform" : "passive"}`;

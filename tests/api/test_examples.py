@@ -62,7 +62,14 @@ def test_every_function_has_an_example() -> None:
     assert lacking <= {"of", "its_logs", "fittedvalues"} and len(methods) > 12
 
 
-@pytest.mark.parametrize("module", [name for name in MODULES if examples(name)])
+SLOW = {"modeler.api.improve", "modeler.api.model"}  # some seconds: they diagnose
+
+
+@pytest.mark.parametrize(
+    "module",
+    [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW))
+     for name in MODULES if examples(name)],
+)  # fmt: skip
 def test_examples_print_what_they_say(module: str, names: dict[str, Any]) -> None:
     for example in examples(module, names):
         said: list[str] = []

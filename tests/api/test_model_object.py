@@ -122,6 +122,7 @@ def test_without_pandas_it_is_dicts(model: md.Model, monkeypatch: pytest.MonkeyP
     np.testing.assert_array_equal(model.resid["tau2"], expected)
 
 
+@pytest.mark.slow  # some seconds
 def test_errors_and_what_is_missing(model: md.Model, place: Path, logs: list[str]) -> None:
     held = str(place / "wed.parquet")
     assert model.error() == model.error(held) == md.compare(model, [held]).relative_error
@@ -206,6 +207,7 @@ def test_it_remembers_frames_while_it_lives(logs: list[str]) -> None:
                                made.missing().joints["2"].systematic)  # fmt: skip
 
 
+@pytest.mark.slow  # some seconds
 def test_effects_method_and_options_of_the_robot_file(logs: list[str], tmp_path: Path) -> None:
     bare = md.identify("demo-arm", logs, effects="viscous,coulomb")
     assert not {"Off1", "Ia3"} & {*bare.params.index}

@@ -59,6 +59,7 @@ def check(found: Any) -> None:
     assert samples == api.compare(made["model"], [made["log"]]).samples
 
 
+@pytest.mark.slow  # some seconds
 def test_through_joblib() -> None:
     joblib = pytest.importorskip("joblib")
     made = session()

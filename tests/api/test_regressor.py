@@ -73,6 +73,7 @@ def test_a_fit_is_that_of_identify(runs: list[Any], rows: Any) -> None:
     assert np.isfinite(found).all()
 
 
+@pytest.mark.slow  # some seconds
 def test_one_group_a_log(rows: Any) -> None:
     X, y, groups = rows
     robot = TorqueRegressor("two-link")

@@ -275,3 +275,29 @@ def test_pointing_at_a_joint_tells_its_row(browser, tmp_path) -> None:
         "[...document.querySelectorAll('tr[data-row=\"2\"] td')].map((c) => c.textContent)"
     )
     assert cells == ["3", "2", "1", "0", "0", "0.4318", "0", "0.1501", "0"]
+
+
+def test_a_classical_table_is_shown_in_its_letters(browser, tmp_path) -> None:
+    """The cells behind the joint are those of the frame that follows, in table, values and tip."""
+    rows = '["1", "q1", 0.2, 0.3, "90 deg"], ["2", "q2 + pi/2", 0, "A", 0]'
+    text = (
+        'name = "arm"\ngravity = [0, 0, -9.81]\n[symbols]\nA = 0.25\n[mdh]\n'
+        'convention = "classical"\ncolumns = ["j", "theta", "d", "a", "alpha"]\n'
+        f"rows = [{rows}]\n"
+    )
+    shown(browser, tmp_path, text)
+    rows_of_it = "[...document.querySelectorAll('#mdh tr')]"
+    body = f"{rows_of_it}.map((r) => [...r.cells].map((c) => c.textContent))"
+    assert browser.value(body) == [
+        ["j", "\u03bc", "\u03c3", "\u03b8", "d", "a", "\u03b1", "q"],
+        ["1", "1", "0", "q1", "0.2", "0.3", "90 deg", "0"],
+        ["2", "1", "0", "q2 + \u03c0/2", "0", "A", "0", "0"],
+        ["tool", "0", "2", "0", "0", "0", "0", ""],
+    ]
+    browser.value("document.getElementById('numbers').click()")
+    told = browser.value(body)
+    assert told[1][3:7] == ["0", "0.2", "0.3", "1.5708"]
+    assert told[2][3:7] == ["1.5708", "0", "0.25", "0"]
+    browser.value("tip(1, 0, 0)")
+    tip = browser.value("document.getElementById('tip').innerText")
+    assert "a of 1" in tip and "alpha of 1" in tip and "theta" in tip

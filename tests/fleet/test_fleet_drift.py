@@ -56,7 +56,7 @@ def test_what_is_planted_is_found_and_nothing_else(case: str) -> None:
     assert one.percent == pytest.approx(percent, rel=0.35)
     size = one.change if one.quantity.unit == "%" else one.percent / 100.0 * abs(one.before)
     assert abs(size - one.change) < 1e-9 and abs(one.score) > 4.0 and one.chance < 0.025
-    assert found.verdict == "drift" and found.as_dict()["findings"][0]["machine"] == "r2"
+    assert found.verdict == "drift" and found.to_json()["findings"][0]["machine"] == "r2"
 
 
 def test_an_offset_that_leaps_is_found() -> None:
@@ -156,4 +156,4 @@ def test_a_log_that_is_left_out_and_a_short_fleet_are_told() -> None:
     assert "r9: one period, so a drift of its own cannot be seen" in lines
     assert "3 machines: an odd one among fewer than 5 is not told" in lines
     assert found.verdict == "nothing drifts" and found.logs == 7
-    assert found.as_dict()["left_out"] == [{"log": "r1/day9.csv", "why": "r1/day9.csv: damaged"}]
+    assert found.to_json()["left_out"] == [{"log": "r1/day9.csv", "why": "r1/day9.csv: damaged"}]
