@@ -50,18 +50,18 @@ class _Arrow:
     @property
     def is_time(self) -> bool:
         """True of dates and times of day, which nothing but `time` may be."""
-        return self.origin is not None and not pa.types.is_integer(self.column.type)
+        kind = self.column.type
+        return self.origin is not None and (is_moment(kind) or pa.types.is_string(kind))
 
     @property
     def numeric(self) -> bool:
         t = pa.types
         numbers = (t.is_integer, t.is_floating, t.is_decimal, t.is_null)
-        kind = self.column.type
-        return self.origin is not None or any(is_one(kind) for is_one in numbers)
+        return self.is_time or any(is_one(self.column.type) for is_one in numbers)
 
     def numbers(self) -> np.ndarray:
-        if self.origin is not None:
-            return counted(self.column, self.origin, self.before)
+        if self.is_time or (self.origin is not None and pa.types.is_integer(self.column.type)):
+            return counted(self.column, self.origin or 0, self.before)
         if not self.numeric:
             kind = self.column.type
             text = pa.types.is_string(kind) or pa.types.is_large_string(kind)
@@ -78,10 +78,11 @@ class _Arrow:
                     ) from None
             raise NotNumbers(f" holds {kind}; expected numbers; write the column as floating point")
         column = pc.cast(self.column, pa.float64(), safe=False)
+        first = self.origin or 0  # of whole numbers, some of which are floats here
         if column.null_count or not column.num_chunks:
-            return np.array(column.to_numpy(), dtype=float)
+            return np.array(column.to_numpy(), dtype=float) - first
         # Arrow's own `to_numpy` loads pandas, where it is installed.
-        return np.concatenate([np.from_dlpack(chunk) for chunk in column.chunks])
+        return np.concatenate([np.from_dlpack(chunk) for chunk in column.chunks]) - first
 
 
 def read_csv(path: Path, wanted: Wanted) -> Columns:
@@ -178,7 +179,10 @@ class _Text:
             table = pa.table({name: pa.nulls(0) for name in dict.fromkeys(names)})
         else:
             table = self._parsed(dialect.table(text), before, parse, convert)
-        found = arrow_columns(table, before, {**dialect.clocks, **dialect.wholes})
+        kinds = dict(zip(table.column_names, table.schema.types, strict=True))
+        texts = {name for name, kind in kinds.items() if pa.types.is_string(kind)}
+        wholes = {name: first for name, first in dialect.wholes.items() if name not in texts}
+        found = arrow_columns(table, before, {**dialect.clocks, **wholes})
         units = {**found.units, **head.units}
         return dataclasses.replace(found, units=units, told=dialect.told, rate=head.rate)
 

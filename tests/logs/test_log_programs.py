@@ -16,7 +16,7 @@ from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import map_from_table
 from modeler.logs.readers import read_columns
 from tests.logs.programs import KINDS, lerobot, rows_of, sheet, text_of, written
-from tests.logs.writers import parquet
+from tests.logs.writers import START, parquet
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -80,6 +80,15 @@ def test_what_was_guessed_is_one_line(name, case, tmp_path):
     (tmp_path / "run").mkdir()
     place = KINDS[name].write(tmp_path / "run", case.table)
     assert TOLD[name] in read_columns(place, Wanted()).told
+
+
+def test_a_whole_number_among_floats_stays_one(tmp_path):
+    stamps = [f"{START + k * 1000}" for k in range(20)] + [f"{float(START + 20000):.1f}"]
+    path = written(tmp_path / "a.csv", "stamp,q1\n" + "".join(f"{s},1\n" for s in stamps))
+    found = dict(read_columns(path, Wanted()).columns)["stamp"].numbers()
+    assert found == pytest.approx(np.arange(21) * 1000.0, abs=300)  # what a float keeps
+    with pytest.raises(DataError, match='row 21: got "never"'):
+        LogTable(written(path, path.read_text().replace(stamps[-1], "never"))).numbers("stamp")
 
 
 def test_a_dataset_is_all_its_files(case, tmp_path):
