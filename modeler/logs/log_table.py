@@ -253,6 +253,6 @@ class LogTable:
             hint = f' (if column {head} is meant, "{unit}" is no unit that is known)'
         return (
             f"no column {name if wanted == name else f'{wanted} ({name})'}{hint}; the columns are "
-            f"{', '.join(there[:_SHOWN])}; add it or rename the one that holds it, or say which "
-            f"it is: --map {name}=COLUMN"
+            f"{', '.join(there[:_SHOWN])}; say which it is, --map {name}=COLUMN, or let it be "
+            "guessed, --map auto (mapping in Python), or add it"
         )
