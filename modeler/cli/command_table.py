@@ -102,7 +102,7 @@ _DERIVE = Command(
     "base parameters and grouping relations, with their proof",
     "Derives the model of ROBOT, linear in the dynamic parameters: which base parameters it has, "
     "how the standard parameters group, and the proof. Robots of up to "
-    f"{FEW_JOINTS} joints also get their PG/PJ/PS coefficients.",
+    f"{FEW_JOINTS} joints also get their PG/PJ/PS coefficients, unless these are more than a page.",
     "modeler derive puma560 --format latex --document > puma560.tex",
     (
         _ROBOT, _CHANGED,

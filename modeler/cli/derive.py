@@ -138,6 +138,8 @@ def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
 
 MANY = 200
 """Coefficients up to which all are listed; of more, those from which the others follow."""
+PAGE = 40
+"""Coefficients that are listed unasked."""
 
 _FORMS: dict[Form, Callable[[BaseParameters], str]] = {
     "text": relations.as_text,
@@ -187,7 +189,7 @@ def run_derive(args: argparse.Namespace) -> Json:
     tied = _tied_lines(derivation.model)
     agreement = f"Newton-Euler against Lagrange: {opinion:.1e} of the largest torque"
     words = Words(args.format, args.document)
-    words.title(f"{robot.name}: {robot.title}")
+    words.title(robot.heading)
     words.say(f"{len(base.columns)} standard parameters, {base.rank} base parameters ({counts})")
     for line in tied:
         words.say(line)
@@ -305,6 +307,10 @@ def _print_coefficients(args: argparse.Namespace, derivation: Derivation, words:
     unasked = args.terms is None and args.coefficients_out is None
     try:
         table = formulas.coefficients.coefficient_table(derivation.model, derivation.base)
+        if unasked and len(table.coefficients) > PAGE:
+            words.say()
+            words.say(f"{len(table.coefficients)} PG/PJ/PS coefficients: --terms lists them")
+            return
         few = args.expanded or len(table.coefficients) <= MANY
         shown, lines = (
             table if few else formulas.coefficients.independent_coefficients(table),

@@ -8,7 +8,14 @@ from modeler.cli.console import Json, print_error, say, say_lines, show_next
 from modeler.core.builtin import CONVENTIONS, TEMPLATES
 from modeler.core.errors import ModelerError, RobotError
 from modeler.core.files import Kind, destination, write_atomically
-from modeler.robot import check_new_robot, converted, new_robot, robot_from_text, template_robot
+from modeler.robot import (
+    Robot,
+    check_new_robot,
+    converted,
+    new_robot,
+    robot_from_text,
+    template_robot,
+)
 
 _URDF = (
     "a SYMORO file needs no new one: `modeler convert`; URDF is to follow: docs/converting.md has "
@@ -22,23 +29,26 @@ def run_new(args: argparse.Namespace) -> Json:
     check_new_robot(out, args.force)
     words = ("template", "joints", "convention")
     given = {key: value for key, value in vars(args).items() if key in words and value}
-    if not given and sys.stdin is not None and sys.stdin.isatty():
+    asked = not given and sys.stdin is not None and sys.stdin.isatty()
+    if asked:
         given = _answers()
     robot = new_robot(out, force=args.force, **given)
     loops = ", loops that close" if robot.loops else ""
     say(f"{robot.title}: {len(robot.moving)} joints{loops}, written to {out}; write your lengths")
     show_next([f"modeler derive {out}"])
-    return {
-        "robot": robot.name,
-        "out": str(out),
-        "joints": [joint.name for joint in robot.moving],
-        "loops": [loop.name for loop in robot.loops],
-    }
+    if asked:
+        print_error(_URDF)
+    return _about(robot, out)
+
+
+def _about(robot: Robot, out: Path) -> Json:
+    """What a script is told of a robot file that was written."""
+    joints, loops = ([one.name for one in many] for many in (robot.moving, robot.loops))
+    return {"robot": robot.name, "out": str(out), "joints": joints, "loops": loops}
 
 
 def _answers() -> dict[str, str]:
     """What the user says of the robot; Enter takes what stands in brackets."""
-    print_error(_URDF)
     found = {"template": _asked(f"kind: {', '.join(TEMPLATES)}", TEMPLATES[0], "template")}
     if found["template"] == TEMPLATES[0]:
         found["joints"] = _asked("joints from the base, R or P each", "RRRRRR", "joints")
@@ -75,11 +85,4 @@ def run_convert(args: argparse.Namespace) -> Json:
     loops = f", {len(robot.loops)} loops" if robot.loops else ""
     say(f"{robot.name}: {len(robot.moving)} joints{loops}, written to {out}")
     say_lines(found.notes, "* ")
-    return {
-        "robot": robot.name,
-        "file": str(args.file),
-        "out": str(out),
-        "joints": [joint.name for joint in robot.moving],
-        "loops": [loop.name for loop in robot.loops],
-        "notes": list(found.notes),
-    }
+    return {**_about(robot, out), "file": str(args.file), "notes": list(found.notes)}

@@ -1,15 +1,15 @@
 """The little expression language of robot files and effect equations.
 
 `"q1 + pi/2"`, `"-b3"`, `"sqrt(a**2 + b**2)"`: numbers, names, `pi`, `+ - * / **`, parentheses and
-the functions below; `90 deg` is 90*pi/180. An `Expression` is parsed and checked once, and then
-folded over any algebra: numbers, numpy arrays, sympy, or the expression graph.
+the functions below; `90 deg` is 90*pi/180, `60 mm` is 0.06. An `Expression` is parsed and checked
+once, and then folded over any algebra: numbers, numpy arrays, sympy, or the expression graph.
 """
 
 import ast
 import math
 import operator
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -25,8 +25,12 @@ _BINARY: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
 
 _PRINTED = str.maketrans({"\u2212": "-", "\u00b7": "*", "\u00d7": "*", "\u03c0": "pi"})
 """Signs of books as we write them."""
-_DEGREES = re.compile(r"(\b\d[\w.]*|\b[^\W\d]\w*(?=\s|°)|\))\s*(?:deg\b|°)")
-"""What is measured in degrees: a number, a name or a bracket before the unit."""
+_LENGTHS = {"mm": "0.001", "cm": "0.01", "m": "1.0", "in": "0.0254"}
+_MEASURED = re.compile(
+    r"(\b\d[\d_.]*(?:[eE][+-]?\d+)?|\b[^\W\d]\w*(?=\s|°)|\))\s*(deg\b|°|(?:mm|cm|m|in)\b)"
+)
+"""What has a unit: a number, a name or a bracket before it."""
+_CALL = re.compile(rf"\b(?:{'|'.join(FUNCTIONS)})\s*\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\)")
 
 MOST_LETTERS = 4000
 MOST_OPERATIONS = 300
@@ -67,6 +71,17 @@ class Expression:
         """The expression with a changed tree; itself if nothing was changed."""
         tree = change(self._tree)
         return self if ast.dump(tree) == ast.dump(self._tree) else parse(written(tree))
+
+    def units(self, of: Mapping[str, Collection[str]]) -> set[str]:
+        """What it is measured in: "rad" of degrees, "m"; not what stands in a function.
+
+        Args:
+            of: the same of the names in it.
+        """
+        outside = _CALL.sub("1", self.text)
+        names = re.findall(r"[^\W\d]\w*", _MEASURED.sub(r"\1", outside))
+        found = {"m" if unit in _LENGTHS else "rad" for _, unit in _MEASURED.findall(outside)}
+        return found.union(*(of.get(name, ()) for name in names))
 
     @property
     def is_zero(self) -> bool:
@@ -151,7 +166,7 @@ def parse(value: str | int | float) -> Expression:
         ) from None
     _check_text(text)
     try:
-        spelled = _DEGREES.sub(r"\1*pi/180", text.translate(_PRINTED))
+        spelled = _MEASURED.sub(_spelled, text.translate(_PRINTED))
         tree = ast.parse(spelled, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ExpressionError(
@@ -163,6 +178,16 @@ def parse(value: str | int | float) -> Expression:
     _check(tree, text, names)
     _check_exponents(tree, text)
     return Expression(text, frozenset(names), tree)
+
+
+def _spelled(found: re.Match[str]) -> str:
+    """`90*pi/180` of `90 deg`, `0.06` of `60 mm`; half an inch, `1/2*0.0254`, of `1/2 in`."""
+    what, unit = found.groups()
+    if unit not in _LENGTHS:
+        return f"{what}*pi/180"
+    if what[0].isdigit() and not found.string[: found.start()].rstrip().endswith(("/", "**", ".")):
+        return repr(float(Fraction(repr(float(what))) * Fraction(_LENGTHS[unit])))
+    return f"{what}*{_LENGTHS[unit]}"
 
 
 def written(tree: ast.expr) -> str:
@@ -192,17 +217,21 @@ def decimal_text(value: Fraction, halves: bool = False) -> str | None:
 
 def _check_text(text: str) -> None:
     """Refuse text that is too long, or too deep in parentheses, before it is parsed."""
-    if len(text) > MOST_LETTERS:
-        raise ExpressionError(
-            f'got "{text}" of {len(text)} letters; expected at most {MOST_LETTERS}: give its '
-            "parts names in [symbols]"
-        )
+    _check_count(len(text), MOST_LETTERS, "letters", text)
     depth = deepest = 0
     for letter in text:
         depth += (letter == "(") - (letter == ")")
         deepest = max(deepest, depth)
     if deepest > DEEPEST:
         raise ExpressionError(_too_deep(text))
+
+
+def _check_count(count: int, most: int, what: str, text: str) -> None:
+    if count > most:
+        raise ExpressionError(
+            f'got "{text}" of {count} {what}; expected at most {most}: give its parts names in '
+            "[symbols]"
+        )
 
 
 def _too_deep(text: str) -> str:
@@ -228,11 +257,7 @@ def _check_size(tree: ast.expr, text: str) -> None:
             if isinstance(child, ast.expr):
                 same = chain and child is node.left  # type: ignore[attr-defined]
                 left.append((child, depth + (not same)))
-    if count > MOST_OPERATIONS:
-        raise ExpressionError(
-            f'got "{text}" of {count} operations; expected at most {MOST_OPERATIONS}: give its '
-            "parts names in [symbols]"
-        )
+    _check_count(count, MOST_OPERATIONS, "operations", text)
 
 
 def _check_exponents(tree: ast.expr, text: str) -> None:

@@ -21,7 +21,7 @@ from modeler.runtime import CompiledModel
 def _robot_summary(robot: Robot) -> str:
     kinds = Counter("passive" if not j.actuated else "actuated" for j in robot.moving)
     joints = ", ".join(f"{n} {kind}" for kind, n in sorted(kinds.items()))
-    lines = [f"{robot.name}: {robot.title}"]
+    lines = [robot.heading]
     lines.append(f"{len(robot.moving)} joints ({joints}), {len(robot.coordinates)} coordinates, "
                  f"{len(robot.loops)} loops")  # fmt: skip
     for use in robot.effects:
@@ -52,7 +52,7 @@ def _mdh(robot: Robot) -> Table:
     ]  # fmt: skip
     units = [f"{letter} [{unit}]" for letter, unit in table.units.items()]
     return Table.of(
-        f"{robot.name}: {robot.title}", ["j", *given, "mu", "sigma", *units], rows,
+        robot.heading, ["j", *given, "mu", "sigma", *units], rows,
         f"{table.step}; sigma 0 revolute, 1 prismatic, 2 fixed; mu 1 actuated",
     )  # fmt: skip
 
@@ -187,7 +187,7 @@ def derivation_page(
                  for parameter in base.parameters]  # fmt: skip
     proof = [*relations.proof_paragraphs(base.proof), agreement]
     return Page(
-        title=f"{robot.name}: {robot.title}" if robot.title else robot.name,
+        title=robot.heading,
         headline=(
             str(len(formulas)),
             f"base parameters of {len(base.columns)} standard parameters; proof: {base.proof.kind}",

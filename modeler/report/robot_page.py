@@ -188,7 +188,7 @@ def posture_lines(skeleton: Skeleton, posture: Posture) -> list[str]:
     cells = [_HEAD, *(_cells(row, frames[i], posture) for i, row in enumerate(skeleton.rows))]
     table = [line.rstrip() for line in aligned(cells, (0, 1, 2, 7))]
     plain = gravity_text(skeleton).replace("\u2212", "-").replace("\u00b2", "2")
-    lines = [f"{robot.name}: {robot.title}", plain]
+    lines = [robot.heading, plain]
     lines += ["frames at home: origin in frame 0 [m], direction of the joint's axis", *table]
     return [*lines, *_loop_lines(skeleton, posture)]
 

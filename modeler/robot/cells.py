@@ -123,6 +123,7 @@ LARGEST_RATIO = 1e4
 MOST_NAME_LETTERS = 63
 """Of a name that goes into C, which tells names apart by as many letters (C99, 5.2.4.1)."""
 
+_MEASURED = {"rad": "an angle", "m": "a length"}
 _QUARTER = math.pi / 2
 _EXACT = 1e-9  # rad; nearer to a multiple of pi/2 than this is that multiple
 
@@ -224,13 +225,36 @@ def check_declared(expression: Expression, known: Mapping[str, Any], place: Plac
             )
 
 
-def number_at(place: Place, symbols: Mapping[str, float]) -> float:
-    """The cell as a number; it may be an expression of the declared symbols.
+def check_unit(
+    expression: Expression, of: Mapping[str, Collection[str]], unit: str, place: Place
+) -> None:
+    """Refuse a length where an angle stands, and an angle where a length stands.
+
+    Args:
+        expression: what stands there.
+        of: what its symbols are measured in; see `Expression.units`.
+        unit: expected, rad or m.
+        place: of the expression.
+
+    Raises:
+        RobotError: all that is in it is measured in the other unit.
+    """
+    other = {"rad": "m", "m": "rad"}.get(unit, "")
+    if expression.units(of) == {other}:
+        raise place.error(
+            f"got {shown(expression.text)}, {_MEASURED[other]}; expected {_MEASURED[unit]}, "
+            f"{unit}: are two columns or entries swapped?"
+        )
+
+
+def number_at(place: Place, symbols: Mapping[str, float], unit: str = "") -> float:
+    """The cell as a number, rad or m if `unit` says so; it may be an expression of the declared symbols.
 
     Raises:
         RobotError: not a number, or a name that is not declared.
     """
     expression = place.expression()
+    check_unit(expression, {}, unit, place)
     check_declared(expression, symbols, place)
     return form_at(expression, symbols, place).constant
 

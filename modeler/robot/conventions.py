@@ -118,7 +118,7 @@ def khalil_columns(place: Place, convention: str) -> list[str]:
     ours = {letter: column for column, letter in CONVENTIONS[convention].items()}
     for number, column in enumerate(columns, start=1):
         if column not in list(ours):
-            advice = ""
+            advice = '; row names stand in column "j"' if "j" not in columns else ""
             if column == "parent" and convention == "khalil":
                 advice = '; of Craig\'s table? Write convention = "craig" in [mdh]'
             elif convention == "classical" and column in ("parent", "gamma", "b"):
@@ -195,7 +195,10 @@ def whose_line(columns: Sequence[str], rows: Sequence[Row]) -> str:
     ]
     first, second = reversed(lines) if classical else lines
     khalil = "a names antecedents" if "a" in columns else "d is along x"
-    return f'write {first} or {second}, and "khalil" where {khalil}'
+    return (
+        f'write {first} or {second}, and "khalil" where {khalil}; `modeler new arm.toml '
+        "--convention craig` begins such a file"
+    )
 
 
 def shifted(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:

@@ -98,13 +98,7 @@ def with_drive_gains(text: str, gains: Mapping[str, float]) -> str:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
     changed = _with_numbers(text, "drive_gains", gains)
-    before = _document(text)
-    if before is None or _document(changed) != before | {"drive_gains": dict(gains)}:
-        raise RobotError(
-            "the [drive_gains] table cannot be replaced; write it as a table of its own, one joint "
-            "a line"
-        )
-    return changed
+    return _checked(changed, text, "drive_gains", dict(gains), "one joint a line")
 
 
 def with_log(text: str, table: Mapping[str, Any]) -> str:
@@ -120,9 +114,14 @@ def with_log(text: str, table: Mapping[str, Any]) -> str:
     at = own[0] if own else len(kept)
     before = kept[:at] if own else [*kept, ""]
     changed = "\n".join([*before, *new, *kept[at:]]).rstrip("\n") + "\n"
-    if _document(changed) != {**tomllib.loads(text), "log": dict(table)}:
+    return _checked(changed, text, "log", dict(table), "one entry a line")
+
+
+def _checked(changed: str, text: str, table: str, entries: dict[str, Any], how: str) -> str:
+    """The changed text, if all that differs is what that table says."""
+    if _document(changed) != {**tomllib.loads(text), table: entries}:
         raise RobotError(
-            "the [log] table cannot be replaced; write it as a table of its own, one entry a line"
+            f"the [{table}] table cannot be replaced; write it as a table of its own, {how}"
         )
     return changed
 

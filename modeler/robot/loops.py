@@ -10,7 +10,7 @@ from typing import Any
 from modeler.core.expression import Expression
 from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.angles import exact_terms
-from modeler.robot.cells import joint_sum, name_of, number_at
+from modeler.robot.cells import joint_sum, linear_form, name_of, number_at
 from modeler.robot.conventions import Row, RowPlace
 from modeler.robot.robot import LOOP_KINDS, Joint, JointKind, Loop
 from modeler.robot.table import HOME, ROW_NAME, Rows, row_kind
@@ -125,7 +125,7 @@ def read_home(
                 f"is no joint variable{near(key, variables)}; expected some of "
                 f"{listed(list(variables)[:12])}"
             )
-        angle = number_at(here, symbols)
+        angle = number_at(here, symbols, moving[variables[key]].unit)
         if moving[variables[key]].angular and abs(angle) > 2 * math.pi + _ROUNDING:
             raise here.error(
                 f"got {angle:g} rad, which is more than a turn; angles are in radians: write "
@@ -226,6 +226,24 @@ def read_relations(
         for name in ready:
             del left[name]
     return relations
+
+
+def told_twins(relations: Mapping[str, Expression], symbols: Mapping[str, float]) -> list[str]:
+    """What to tell of rows whose cell is another row's variable, as if it were a slip.
+
+    Args:
+        relations: of the cells of the table, by row.
+        symbols: values of the declared symbols.
+    """
+    found = []
+    for name, tie in relations.items():
+        [(other, factor), *more] = linear_form(tie, symbols).coefficients.items()
+        if factor == 1.0 and not more:
+            found.append(
+                f'row "{name}" moves with {other}, as row "{other[1:]}" does; write q{name} if it '
+                "is a joint of its own"
+            )
+    return found
 
 
 # Legs that are alike: what holds {i} is written once and stands for every leg.

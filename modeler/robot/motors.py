@@ -10,11 +10,12 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 from modeler.core.expression import decimal_text
-from modeler.core.toml_cells import Place, listed, near, shown
+from modeler.core.toml_cells import Place, listed, shown
 from modeler.robot.cells import LARGEST_RATIO, check_name_length, joint_sum, name_of
 from modeler.robot.conventions import Row, RowPlace
 from modeler.robot.loops import MARK
 from modeler.robot.robot import INERTIAL, Joint, JointKind, Robot, SharedParameter
+from modeler.robot.sections import joint_at
 from modeler.robot.table import HOME, ROW_NAME, Rows, row_kind
 
 _EXAMPLE = '[motors] m1 = "q1", m2 = "q2 - 0.4*q1"'
@@ -202,11 +203,7 @@ def read_links(place: Place, moving: Mapping[str, Joint]) -> dict[str, tuple[str
     """
     links = {}
     for name, here in place.items('[links] 5 = [], P = ["M"]'):
-        if name not in moving:
-            raise here.error(
-                f"there is no moving row {shown(name)}{near(name, moving)}; expected one of "
-                f"{listed(moving)}"
-            )
+        joint_at(name, moving, here)
         entries = here.entries('["M"]')
         for entry in entries:
             if entry not in INERTIAL:

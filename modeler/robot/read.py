@@ -23,6 +23,7 @@ from modeler.robot.effects import needs_reference, read_effects, read_own_effect
 from modeler.robot.loops import (
     expanded,
     leg_names,
+    told_twins,
     read_home,
     read_loops,
     read_platform,
@@ -48,7 +49,7 @@ from modeler.robot.sections import (
     read_parameters,
     read_physical,
 )
-from modeler.robot.table import Rows, table_joints, table_rows
+from modeler.robot.table import Rows, check_units, table_joints, table_rows
 
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
@@ -144,9 +145,15 @@ def robot_from_text(text: str, where: str) -> Robot:
         motors={m: {j: float(c) for j, c in row.items()} for m, row in motors.items()},
         platform=platform,
         convention=convention,
-        readings=(_ROUNDED.format(told_angles(rounded)),) if rounded else (),
         text=text,
     )
+    readings = [_ROUNDED.format(told_angles(rounded))] if rounded else []
+    readings += filter(None, [check_units(robot, values, section("mdh"))])
+    if "mu" not in document["mdh"]["columns"]:  # who writes it knows which joints have no motor
+        meant = {*driven, *document.get("relations", ())}
+        slips = {n: tie for n, tie in relations.items() if f"q{n}" not in meant}
+        readings += told_twins(slips, values)
+    robot = dataclasses.replace(robot, readings=tuple(readings))
     if "notes" in document:
         notes = place.at("notes", document["notes"]).text('"my robot"')
         robot = dataclasses.replace(robot, notes=notes)

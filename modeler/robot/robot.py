@@ -248,6 +248,11 @@ class Robot(Presented):
     readings: tuple[str, ...] = ()
     text: str = ""
 
+    @property
+    def heading(self) -> str:
+        """Name and title as a line."""
+        return self.name if self.title == self.name else f"{self.name}: {self.title}"
+
     def opened(self) -> "Robot":
         """The virtual tree: no loops, no relations, every joint of the table actuated."""
         joints = tuple(replace(joint, actuated=joint.moves) for joint in self.joints)

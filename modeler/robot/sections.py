@@ -233,7 +233,7 @@ def read_limits(
     for joint, here in _by_joint(place, moving, '[limits] "1" = [-2, 2, 3, 10]'):
         cells = here.entries("[lower, upper, speed, acceleration]", length=4)
         lower, upper, speed, acceleration = (
-            number_at(here.at(f"entry {k}", entry), symbols) for k, entry in enumerate(cells, 1)
+            number_at(here.at(f"entry {k}", e), symbols, joint.unit) for k, e in enumerate(cells, 1)
         )
         if lower >= upper:
             raise here.error(

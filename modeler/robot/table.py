@@ -1,7 +1,7 @@
 """The `[mdh]` table of a robot file: rows to `Joint`s."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from modeler.core.expression import Expression, parse
@@ -11,6 +11,7 @@ from modeler.robot.cells import (
     check_declared,
     check_name_length,
     check_size,
+    check_unit,
     exact_angle_at,
     form_at,
     length_at,
@@ -28,13 +29,20 @@ from modeler.robot.conventions import (
     shifted,
     table_example,
     whose_line,
+    written_cell,
 )
-from modeler.robot.robot import Joint, JointKind
+from modeler.robot.robot import Joint, JointKind, Robot
 
 Rows = tuple[tuple[Row, RowPlace], ...]
 
 MOST_ROWS = 150
 """Rows of a table. Deriving and the C grow with their square: docs/theory.md has the seconds."""
+LONGEST_LINK = 20.0
+"""m, of a robot; longer ones are told, for they may be mm."""
+_IN_MM = (
+    'lengths are in m: {0}, is {1:g} m; write "{1:g} mm" if it is in mm, there or in [symbols], '
+    'and "{1:g} m" if it is in m'
+)
 _ALONG_Z = '; a table where d is along z needs convention = "craig" or "classical" in [mdh]'
 ROW_NAME = re.compile(r"[A-Za-z0-9]+")
 
@@ -115,7 +123,42 @@ def table_joints(
             "no row of the table moves; expected at least one joint with sigma 0 (revolute) "
             "or 1 (prismatic)"
         )
-    return tuple(_joint(row, place, kinds, symbols, rounded) for row, place in rows)
+    joints = []
+    for row, place in rows:
+        name, kind = row["j"], kinds[row["j"]]
+        # The place of the variable last: one in the wrong column is told there, not as missing.
+        order = sorted(GEOMETRY, key=lambda column: column == HOME.get(kind))
+        cells = {c: _cell(row.get(c, 0), c, place, kinds, symbols, rounded) for c in order}
+        joints.append(Joint(name, row["a"], _actuated(row, kind, place), kind, **cells))
+    return tuple(joints)
+
+
+def check_units(robot: Robot, values: Mapping[str, float], place: Place) -> str:
+    """Refuse angles in columns of lengths and the reverse.
+
+    Args:
+        robot: with its rows.
+        values: of its symbols.
+        place: of the table.
+
+    Returns:
+        What to tell of the longest length if it is one in mm by its looks; else nothing.
+
+    Raises:
+        RobotError: names the cell.
+    """
+    units: dict[str, Collection[str]] = {}
+    for name, worth in robot.symbols.items():
+        units[name] = worth.units(units) or {""}
+    longest, told = LONGEST_LINK, ""
+    for joint in robot.joints:
+        for column in GEOMETRY:
+            cell, at = getattr(joint, column), place.at(written_cell(robot, joint, column))
+            check_unit(cell, units, "rad" if column in ANGLES else "m", at)
+            size = abs(cell.number({joint.variable: 0.0, **values}))
+            if column not in ANGLES and size > longest and "m" not in cell.units(units):
+                longest, told = size, _IN_MM.format(at.spot, size)
+    return told
 
 
 def _row(
@@ -194,37 +237,26 @@ def row_kind(row: Row, place: RowPlace) -> JointKind:
     Raises:
         RobotError: not 0, 1 or 2.
     """
-    cell = row.get("sigma", 0)
-    if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1, 2):
-        raise place.column("sigma", cell).mismatch("0 (revolute), 1 (prismatic) or 2 (fixed)")
-    return JointKind(cell)
+    cell = place.column("sigma", row.get("sigma", 0))
+    return JointKind(_one_of(3, cell, "0 (revolute), 1 (prismatic) or 2 (fixed)"))
+
+
+def _one_of(count: int, place: Place, expected: str) -> int:
+    """The cell, which must be one of 0, 1, ..."""
+    if type(place.value) is not int or place.value not in range(count):
+        raise place.mismatch(expected)
+    return place.value
 
 
 def _actuated(row: Row, kind: JointKind, place: RowPlace) -> bool:
     if "mu" not in row:
         return kind is not JointKind.FIXED
-    cell = row["mu"]
-    if isinstance(cell, bool) or not isinstance(cell, int) or cell not in (0, 1):
-        raise place.column("mu", cell).mismatch("1 (actuated) or 0 (passive)")
+    cell = _one_of(2, place.column("mu", row["mu"]), "1 (actuated) or 0 (passive)")
     if cell == 1 and kind is JointKind.FIXED:
         raise place.column("mu").error(
             "got 1 on a fixed row (sigma 2), which has no motor; write 0, or correct sigma"
         )
     return cell == 1
-
-
-def _joint(
-    row: Row,
-    place: RowPlace,
-    kinds: Mapping[str, JointKind],
-    symbols: Mapping[str, float],
-    rounded: dict[str, str],
-) -> Joint:
-    kind = kinds[row["j"]]
-    # The place of the variable last: a variable in the wrong column is told there, not as missing.
-    order = sorted(GEOMETRY, key=lambda column: column == HOME.get(kind))
-    cells = {c: _cell(row.get(c, 0), c, place, kinds, symbols, rounded) for c in order}
-    return Joint(row["j"], row["a"], _actuated(row, kind, place), kind, **cells)
 
 
 def _cell(
@@ -256,14 +288,15 @@ def _cell(
                 f"column {' or '.join(map(where.letter, [home] if home else HOME.values()))} "
                 f"without {own}"
             )
-    check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
     if column == home:
         example = f"{own} + {'pi/2' if column == 'theta' else '0.1'}"
         if own not in expression.names:
             raise place.error(
-                f"{got}, without the joint variable; expected {own}, as in {shown(example)}; a row "
-                "that does not move has sigma 2"
+                f"{got}, without the joint variable; expected {own}, the variable of this row, as "
+                f"in {shown(example)}; a row that does not move has sigma 2"
             )
+    check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
+    if column == home:
         form = form_at(expression, symbols, place, example)
         factor = form.coefficients.get(own, 0.0)
         if factor not in (1.0, -1.0):
