@@ -21,14 +21,7 @@ from modeler.core.errors import DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
 from modeler.core.formula import latex_text
 from modeler.core.manifest import FunctionSpec
-from modeler.derivation import (
-    BaseParameters,
-    LinkColumn,
-    SymbolicModel,
-    random_states,
-    regressor_values,
-    relations,
-)
+from modeler.derivation import LinkColumn, SymbolicModel, random_states, regressor_values, relations
 from modeler.robot import Robot
 
 if TYPE_CHECKING:
@@ -141,25 +134,10 @@ MANY = 200
 PAGE = 40
 """Coefficients that are listed unasked."""
 
-_FORMS: dict[Form, Callable[[BaseParameters], str]] = {
-    "text": relations.as_text,
-    "latex": relations.as_latex,
-    "markdown": relations.as_markdown,
-}
-_CLOSED_FORMS: dict[Form, Callable[[formulas.ClosedForm], str]] = {
-    "text": formulas.render.closed_form_text,
-    "latex": formulas.render.closed_form_latex,
-    "markdown": formulas.render.closed_form_markdown,
-}
 _SHEETS: dict[Form, Callable[[formulas.function_sheet.Sheet, Words], str]] = {
     "text": lambda sheet, _: "\n".join(formulas.function_sheet.sheet_lines(sheet)),
     "latex": lambda sheet, words: formulas.function_sheet.sheet_latex(sheet, words.heading),
     "markdown": lambda sheet, _: formulas.function_sheet.sheet_markdown(sheet),
-}
-_TABLES: dict[Form, Callable[[formulas.coefficients.CoefficientTable], str]] = {
-    "text": formulas.render.coefficients_text,
-    "latex": formulas.render.coefficients_latex,
-    "markdown": formulas.render.coefficients_markdown,
 }
 _WIDTH = 96
 _COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
@@ -194,16 +172,13 @@ def run_derive(args: argparse.Namespace) -> Json:
     for line in tied:
         words.say(line)
     words.say()
-    words.formulas(_FORMS[args.format](base))
+    words.formulas(getattr(relations, f"as_{args.format}")(base))
     words.say()
     words.say(relations.proof_text(base.proof))
     words.say(agreement)
     result |= print_closed_forms(args, derivation, words)
     if args.report is not None:
-        from modeler.report import (
-            derivation_page,  # pages take long to load
-            write_page,
-        )
+        from modeler.report import derivation_page, write_page  # pages take long to load
 
         page = derivation_page(derivation, tied, agreement, args.robot)
         words.say(f"written: {write_page(Path(args.report), page)}")
@@ -277,7 +252,7 @@ def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: 
         closed = formulas.closed_form(model, base)
         if args.format == "latex":
             words.say(formulas.render.equation(closed))
-        words.formulas(_CLOSED_FORMS[args.format](closed))
+        words.formulas(getattr(formulas.render, f"closed_form_{args.format}")(closed))
     motion = args.closed_form and not args.expanded
     asked = {"closed_form": motion, "regressor": args.regressor}
     if any(asked.values()):
@@ -311,25 +286,22 @@ def _print_coefficients(args: argparse.Namespace, derivation: Derivation, words:
             words.say()
             words.say(f"{len(table.coefficients)} PG/PJ/PS coefficients: --terms lists them")
             return
-        few = args.expanded or len(table.coefficients) <= MANY
-        shown, lines = (
-            table if few else formulas.coefficients.independent_coefficients(table),
-            _facts(table),
-        )
+        shown, lines = table, _facts(table)
+        if not args.expanded and len(table.coefficients) > MANY:
+            shown = formulas.coefficients.independent_coefficients(table)
+            lines.insert(
+                0,
+                f"listed: {len(shown.coefficients)} of {len(table.coefficients)} coefficients, "
+                "from which the others follow; --expanded lists all",
+            )
     except ModelerError as error:
         if not unasked:
             raise
         words.say()
         words.say(f"no coefficients: {error}")
         return
-    if not few:
-        lines.insert(
-            0,
-            f"listed: {len(shown.coefficients)} of {len(table.coefficients)} coefficients, from "
-            "which the others follow; --expanded lists all",
-        )
     words.say()
-    words.formulas(_TABLES[args.format](shown))
+    words.formulas(getattr(formulas.render, f"coefficients_{args.format}")(shown))
     words.say()
     for line in lines:
         words.say(line)

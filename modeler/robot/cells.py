@@ -210,6 +210,19 @@ def check_size(expression: Expression, values: Iterable[float], most: float, pla
             )
 
 
+def check_count(count: int, most: int, what: str, place: Place) -> None:
+    """Refuse more of them than a table may have.
+
+    Raises:
+        RobotError: says how many there are.
+    """
+    if count > most:  # before any work that nobody could wait for
+        raise place.error(
+            f"got {count} {what}; expected at most {most}: model parts of the robot in files of "
+            "their own"
+        )
+
+
 def check_declared(expression: Expression, known: Mapping[str, Any], place: Place) -> None:
     """Refuse names that are not known: declared symbols, and joint variables where they may stand.
 
@@ -248,7 +261,7 @@ def check_unit(
 
 
 def number_at(place: Place, symbols: Mapping[str, float], unit: str = "") -> float:
-    """The cell as a number, rad or m if `unit` says so; it may be an expression of the declared symbols.
+    """The cell as a number, in `unit`; it may be an expression of the declared symbols.
 
     Raises:
         RobotError: not a number, or a name that is not declared.

@@ -10,7 +10,7 @@ from typing import Any
 from modeler.core.expression import Expression
 from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.angles import exact_terms
-from modeler.robot.cells import joint_sum, linear_form, name_of, number_at
+from modeler.robot.cells import check_count, joint_sum, name_of, number_at
 from modeler.robot.conventions import Row, RowPlace
 from modeler.robot.robot import LOOP_KINDS, Joint, JointKind, Loop
 from modeler.robot.table import HOME, ROW_NAME, Rows, row_kind
@@ -43,11 +43,8 @@ def read_loops(place: Place, joints: Sequence[Joint]) -> tuple[Loop, ...]:
     if "rows" not in table:
         raise place.error(f"rows is missing; {advice}")
     rows = place.at("rows", table["rows"]).entries(_EXAMPLE)
-    if len(rows) > MOST_LOOPS:
-        raise place.at("rows").error(
-            f"got {len(rows)} loops, those of all legs counted; expected at most {MOST_LOOPS}: "
-            "model parts of the robot in files of their own"
-        )
+    told = "loops, those of all legs counted"
+    check_count(len(rows), MOST_LOOPS, told, place.at("rows"))
     loops = []
     for number, cells in enumerate(rows, start=1):
         here = place.at(f"row {number}", cells)
@@ -147,6 +144,7 @@ def read_relations(
     rows: Rows,
     symbols: Mapping[str, float],
     rounded: dict[str, str],
+    readings: list[str],
 ) -> dict[str, Expression]:
     """The relations of a file, by row; rows that follow others become passive in `rows`.
 
@@ -159,6 +157,7 @@ def read_relations(
         rows: of the table of joints and motors.
         symbols: values of the declared symbols.
         rounded: grows by the decimal angles that are taken for multiples of pi.
+        readings: grows by what is told of a cell that looks like a slip.
 
     Raises:
         RobotError: unknown joints, a relation that is not linear, a circle, an actuated joint
@@ -207,6 +206,12 @@ def read_relations(
                 f"got 1, and q{name} follows other joints ({here.spot}); write 0, or remove the "
                 "relation"
             )
+        [(other, factor), *more] = form.coefficients.items()
+        if "mu" not in row and f"q{name}" not in {**driven, **stated} and factor == 1 and not more:
+            readings.append(
+                f'row "{name}" moves with {other}, as row "{other[1:]}" does; write q{name} if it '
+                "is a joint of its own"
+            )
         row["mu"] = 0
     relations = {
         name: expression.rewritten(lambda tree: exact_terms(tree, rounded))
@@ -226,24 +231,6 @@ def read_relations(
         for name in ready:
             del left[name]
     return relations
-
-
-def told_twins(relations: Mapping[str, Expression], symbols: Mapping[str, float]) -> list[str]:
-    """What to tell of rows whose cell is another row's variable, as if it were a slip.
-
-    Args:
-        relations: of the cells of the table, by row.
-        symbols: values of the declared symbols.
-    """
-    found = []
-    for name, tie in relations.items():
-        [(other, factor), *more] = linear_form(tie, symbols).coefficients.items()
-        if factor == 1.0 and not more:
-            found.append(
-                f'row "{name}" moves with {other}, as row "{other[1:]}" does; write q{name} if it '
-                "is a joint of its own"
-            )
-    return found
 
 
 # Legs that are alike: what holds {i} is written once and stands for every leg.
@@ -280,11 +267,7 @@ def leg_names(place: Place) -> tuple[str, ...]:
     if place.value is None:
         return ()
     legs = [name_of(leg) for leg in place.entries('["1", "2", "3"]')]
-    if len(legs) > MOST_LEGS:
-        raise place.error(
-            f"got {len(legs)} legs; expected at most {MOST_LEGS}: model a few of them, or parts of "
-            "the robot in files of their own"
-        )
+    check_count(len(legs), MOST_LEGS, "legs", place)
     for leg in legs:
         if not isinstance(leg, str) or not ROW_NAME.fullmatch(leg):
             raise place.error(

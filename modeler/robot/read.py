@@ -23,7 +23,6 @@ from modeler.robot.effects import needs_reference, read_effects, read_own_effect
 from modeler.robot.loops import (
     expanded,
     leg_names,
-    told_twins,
     read_home,
     read_loops,
     read_platform,
@@ -130,8 +129,8 @@ def robot_from_text(text: str, where: str) -> Robot:
     variables = _joint_columns(rows)
     symbols, values = read_symbols(section("symbols", {}), variables)
     motors, driven = read_motors(section("motors", {}), rows, values)
-    rounded: dict[str, str] = {}
-    relations = read_relations(section("relations", {}), driven, rows, values, rounded)
+    rounded, readings = dict[str, str](), list[str]()
+    relations = read_relations(section("relations", {}), driven, rows, values, rounded, readings)
     title = place.at("title", document.get("title", document["name"])).text('"my robot"')
     if len(title.splitlines()) > 1:
         raise place.at("title", title).mismatch("one line; put the rest into notes")
@@ -147,12 +146,8 @@ def robot_from_text(text: str, where: str) -> Robot:
         convention=convention,
         text=text,
     )
-    readings = [_ROUNDED.format(told_angles(rounded))] if rounded else []
-    readings += filter(None, [check_units(robot, values, section("mdh"))])
-    if "mu" not in document["mdh"]["columns"]:  # who writes it knows which joints have no motor
-        meant = {*driven, *document.get("relations", ())}
-        slips = {n: tie for n, tie in relations.items() if f"q{n}" not in meant}
-        readings += told_twins(slips, values)
+    readings += [_ROUNDED.format(told_angles(rounded))] if rounded else []
+    readings += check_units(robot, values, section("mdh"))
     robot = dataclasses.replace(robot, readings=tuple(readings))
     if "notes" in document:
         notes = place.at("notes", document["notes"]).text('"my robot"')

@@ -8,6 +8,7 @@ from modeler.core.expression import Expression, parse
 from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import (
     LARGEST_LENGTH,
+    check_count,
     check_declared,
     check_name_length,
     check_size,
@@ -70,11 +71,8 @@ def table_rows(
     columns = khalil_columns(place.at("columns", table["columns"]), convention)
     listed_rows = place.at("rows", table["rows"]).entries(example)
     count = len(listed_rows) + len(platform)
-    if count > MOST_ROWS:  # before any work that nobody could wait for
-        raise place.at("rows").error(
-            f"got {count} rows, those of all legs and of the platform counted; "
-            f"expected at most {MOST_ROWS}: model parts of the robot in files of their own"
-        )
+    told = "rows, those of all legs and of the platform counted"
+    check_count(count, MOST_ROWS, told, place.at("rows"))
     if not listed_rows:
         raise place.at("rows").error(
             f"the table is empty; write one row per joint, as in {example}"
@@ -133,7 +131,7 @@ def table_joints(
     return tuple(joints)
 
 
-def check_units(robot: Robot, values: Mapping[str, float], place: Place) -> str:
+def check_units(robot: Robot, values: Mapping[str, float], place: Place) -> list[str]:
     """Refuse angles in columns of lengths and the reverse.
 
     Args:
@@ -142,7 +140,7 @@ def check_units(robot: Robot, values: Mapping[str, float], place: Place) -> str:
         place: of the table.
 
     Returns:
-        What to tell of the longest length if it is one in mm by its looks; else nothing.
+        What to tell of the longest length if it is one in mm by its looks.
 
     Raises:
         RobotError: names the cell.
@@ -150,14 +148,14 @@ def check_units(robot: Robot, values: Mapping[str, float], place: Place) -> str:
     units: dict[str, Collection[str]] = {}
     for name, worth in robot.symbols.items():
         units[name] = worth.units(units) or {""}
-    longest, told = LONGEST_LINK, ""
+    longest, told = LONGEST_LINK, list[str]()
     for joint in robot.joints:
         for column in GEOMETRY:
             cell, at = getattr(joint, column), place.at(written_cell(robot, joint, column))
             check_unit(cell, units, "rad" if column in ANGLES else "m", at)
             size = abs(cell.number({joint.variable: 0.0, **values}))
             if column not in ANGLES and size > longest and "m" not in cell.units(units):
-                longest, told = size, _IN_MM.format(at.spot, size)
+                longest, told = size, [_IN_MM.format(at.spot, size)]
     return told
 
 

@@ -88,7 +88,7 @@ MISTAKES = [
     ("loop rows", "rows = [[", "row = [[", ["[loops]", 'unknown key "row"']),
     ("home of nothing", "q21 = ", "q91 = ", ["[home]", '"q91"', "no joint variable"]),
     ("home no number", '"-pi/3"', '"x"', ["[home]", "x is not declared"]),
-    ("links row", "7 = []", "8 = []", ["[links]", '"8"', "no moving row"]),
+    ("links row", "7 = []", "8 = []", ["[links]", '"8"', "no moving joint"]),
     ("links parameter", '["M", "MX"]', '["M", "X"]', ["[links]", '"P"', '"X"', "expected some of"]),
     ("shared without mark", '"*2{i}"', '"*2"', ["shared", '"*2"', "{i}"]),
     ("shared nothing", '"*2{i}"', '"*9{i}"', ["shared", "matches no parameter of leg 1"]),

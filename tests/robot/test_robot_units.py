@@ -1,0 +1,115 @@
+"""Units of lengths, swapped units, and slips of a table that are told."""
+
+import json
+import re
+from fractions import Fraction
+
+import pytest
+
+from modeler.cli import main
+from modeler.core.errors import RobotError
+from modeler.core.expression import parse
+from modeler.robot.read import robot_from_text
+
+METRES = {"mm": Fraction(1, 1000), "cm": Fraction(1, 100), "m": 1, "in": Fraction(254, 10000)}
+
+
+def arm(rows, columns='"j", "theta", "alpha", "d"', further=""):
+    head = 'name = "arm"\ngravity = [0, 0, -9.81]\n'
+    return robot_from_text(f"{head}{further}\n[mdh]\ncolumns = [{columns}]\nrows = [{rows}]", "a")
+
+
+def exact(text):
+    return parse(text).fold({}, {}, None, lambda value: value)
+
+
+@pytest.mark.parametrize("unit", METRES)
+@pytest.mark.parametrize("digits", ["60", "400", "7", "12.5", "0.3", "1e-2"])
+@pytest.mark.parametrize("gap", [" ", ""])
+def test_lengths_with_units_are_exact(unit, digits, gap):
+    worth = Fraction(digits) * METRES[unit]
+    assert exact(f"{digits}{gap}{unit}") == worth
+    assert exact(f"-{digits} {unit} + 3/8 in") == -worth + Fraction(3, 8) * METRES["in"]
+    assert parse(f"{digits} {unit}").number() == float(worth)
+
+
+def test_units_stand_wherever_degrees_do():
+    text = '[symbols]\nD2 = "60 mm"\nL = "D2 + 40 mm"\n[limits]\n2 = ["-10 cm", "0.2 m", 1, 1]\n'
+    text += '[home]\nq2 = "12 mm"'
+    rows = '["1", 0, "q1", 0, "D2"], ["2", 1, 0, 0, "q2 + 400 mm"]'
+    robot = arm(rows, '"j", "sigma", "theta", "d", "r"', text)
+    assert robot.symbol_values() == {"D2": 0.06, "L": 0.1}
+    assert (robot.limits["2"].lower, robot.home["2"]) == (-0.1, 0.012)
+    assert robot.joint("2").r.number({"q2": 0.0}) == 0.4
+    assert robot.readings == ()
+
+
+SWAPPED = [
+    ('["1", "q1", 0, "90 deg"]', "", ["column d", "an angle; expected a length, m"]),
+    ('["1", "q1", "60 mm", 0]', "", ["column alpha", "a length; expected an angle, rad"]),
+    ('["1", "q1 + 3 cm", 0, 0]', "", ["column theta", "a length; expected an angle"]),
+    ('["1", "q1", 0, "2*A"]', '[symbols]\nA = "30 deg"', ["column d", "an angle"]),
+    ('["1", "q1", 0, 0]', '[limits]\n1 = [-1, "9 mm", 1, 1]', ["[limits]", "entry 2", "a length"]),
+    ('["1", "q1", 0, 0]', '[home]\nq1 = "9 mm"', ["[home]", "a length; expected an angle"]),
+]
+
+
+@pytest.mark.parametrize(("rows", "further", "told"), SWAPPED)
+def test_units_of_the_other_kind_are_refused(rows, further, told):
+    with pytest.raises(RobotError, match=".*".join(map(re.escape, told))) as caught:
+        arm(rows, further=further)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("cell", ["R*sin(30 deg)", "R*(30 deg)", "cos((A)) * 3 m"])
+def test_angles_within_lengths_are_fine(cell):
+    robot = arm(f'["1", "q1", 0, "{cell}"]', further='[symbols]\nR = 0.2\nA = "30 deg"')
+    assert robot.joint("1").d.names
+
+
+def test_lengths_in_mm_are_told():
+    rows = '["1", "q1", 0, 60], ["2", "q2", 0, "D3"]'
+    (told,) = arm(rows, further="[symbols]\nD3 = 400").readings
+    assert 'row "2", column d, is 400 m' in told and '"400 mm"' in told
+    assert arm('["1", "q1", 0, 19]').readings == ()
+    assert arm('["1", "q1", 0, "60 m"]').readings == ()
+
+
+@pytest.mark.parametrize("name", ["theta1", "θ1", "th1", "t1", "theta"])
+def test_other_names_of_the_joint_variable_are_answered_with_it(name):
+    with pytest.raises(RobotError, match="expected q1, the variable of this row"):
+        arm(f'["1", "{name}", 0, 0]')
+    with pytest.raises(RobotError, match="expected q1, the variable of this row"):
+        arm('["1", 1, 0, "d1"]', '"j", "sigma", "theta", "r"')
+
+
+@pytest.mark.parametrize("name", ["i", "link", "joint"])
+def test_row_names_under_another_letter_are_answered_with_j(name):
+    with pytest.raises(RobotError, match=f'entry 1 is "{name}".*row names stand in column "j"'):
+        arm('["1", "q1"]', f'"{name}", "theta"')
+
+
+def test_a_variable_in_two_rows_is_told_unless_it_is_meant():
+    slip = '["1", "q1", 0, 0], ["2", "q2", 0, 0.3], ["3", "q2", 0, 0.4]'
+    (told,) = arm(slip).readings
+    assert told.startswith('row "3" moves with q2') and "write q3" in told
+    assert arm(slip.replace('["3", "q2"', '["3", "-q2"')).readings == ()
+    meant = re.sub(r"(\d)\]", r"\1, 1]", slip).replace("0.4, 1]", "0.4, 0]")
+    assert arm(meant, '"j", "theta", "alpha", "d", "mu"').readings == ()
+    stated = slip.replace('["3", "q2"', '["3", "q3"')
+    assert arm(stated, further='[relations]\nq3 = "q2"').readings == ()
+
+
+def test_a_robot_without_title_prints_its_name_once(capsys, tmp_path):
+    rows = '["1", "q1", 0, 0], ["2", "q2", "pi/2", 0.06], ["3", "q3", 0, 0.4]'
+    path = tmp_path / "arm.toml"
+    path.write_text(arm(rows).text, encoding="utf-8")
+    assert main(["derive", str(path), "--json", str(tmp_path / "d.json")]) == 0
+    out = capsys.readouterr().out
+    assert out.splitlines()[0] == "arm"
+    # what would fill more than a page is counted
+    (line,) = [line for line in out.splitlines() if "PG/PJ/PS" in line]
+    assert int(line.split()[0]) > 40 and "--terms" in line and "PJ1 " not in out
+    assert json.loads((tmp_path / "d.json").read_text())["rank"] == 15
+    assert main(["derive", str(path), "--terms"]) == 0
+    assert "PJ1 " in capsys.readouterr().out
