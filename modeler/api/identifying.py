@@ -1,24 +1,22 @@
 """From a robot and its logs to a model, in one call."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
 from modeler.api import fitting, workflow
 from modeler.api.arguments import Steps, silent
 from modeler.api.log_maps import Mapped, settled
-from modeler.api.long_logs import fit_long
+from modeler.api.long_logs import Telling, fit_if_long
 from modeler.api.model import Model
 from modeler.api.workflow import AnyLog, Logs, listed, read_logs
 from modeler.codegen import Derivation
-from modeler.core.errors import GAIN_METHOD, DataError, Method, RobotError
+from modeler.core.errors import GAIN_METHOD, DataError, Method
 from modeler.core.manifest import Emitted
 from modeler.derivation import with_home
-from modeler.effects import effect_named
-from modeler.estimation import OF_TRIANGLES
-from modeler.observation import Log, Processing, WholeLogNeeded, check_apart, observe
-from modeler.robot import Robot, near, read_robot, robot_from_text, with_effects, with_home_text
+from modeler.observation import Log, Observation, Processing, check_apart, observe
+from modeler.robot import Robot, read_robot, robot_with_effects
 from modeler.runtime import CompiledModel
 
 Effects = str | Sequence[str] | Mapping[str, Any]
@@ -70,11 +68,23 @@ def identify(
         compiled = workflow.compile_model(emitted)
     mapping, kept = settled(compiled, given, mapping)
     held = _in_memory(compiled, held, mapping)
-    made, memory = _fitted(
-        derivation, emitted, compiled, _in_memory(compiled, given, mapping), held,
-        fitting.request_of(stated), mapping, load, processing or fitting.processing_of(stated),
-        steps,
+    given, asked = _in_memory(compiled, given, mapping), fitting.request_of(stated)
+    if asked.method == GAIN_METHOD and load is None:
+        raise DataError(
+            f"identify: method {GAIN_METHOD} finds the gains of drives from a weighed load; "
+            "give load=Load(logs, mass)"
+        )
+
+    def check(bare: Sequence[Log], loaded: Sequence[Log]) -> None:
+        others = () if asked.method == GAIN_METHOD else read_logs(compiled, held, mapping)
+        check_apart([*bare, *loaded], others)
+
+    made, _, _, loaded = fitted_on(
+        asked, derivation, emitted, compiled, given, load or fitting.Load((), None),
+        processing or fitting.processing_of(stated), mapping, check, Telling(steps),
     )  # fmt: skip
+    memory = [log for log in given if isinstance(log, Log)]
+    memory += [log for log in loaded if not log.path]
     return dataclasses.replace(
         made, mapping=kept, given=tuple(memory), held_out=tuple(held), folder=str(Path.cwd())
     )
@@ -88,26 +98,8 @@ def robot_with(robot: Robot | str | Path, effects: Effects | None = None) -> Rob
     """
     robot = robot if isinstance(robot, Robot) else read_robot(robot)
     if effects is not None:
-        names = effects.split(",") if isinstance(effects, str) else effects
-        wanted = effects if isinstance(effects, Mapping) else {n.strip(): "all" for n in names}
-        known = [effect.id for effect in robot.catalogue]
-        for name in wanted:
-            if effect_named(name, robot.catalogue) is None:
-                raise RobotError(
-                    f"effects: got {name}{near(name, known)}; expected some of {', '.join(known)}"
-                )
-        text = with_effects(robot.text, dict(wanted))
-        robot = robot_from_text(text, f"{robot.name} with effects")
-    if not robot.loops:
-        return robot
-    home = with_home(robot)
-    if not home.told:
-        return robot
-    try:
-        text = with_home_text(robot.text, robot.home, home.robot.home)
-    except RobotError:  # it is found again, the same
-        return home.robot
-    return robot_from_text(text, f"{robot.name} with its [home]")
+        robot = robot_with_effects(robot, effects, "effects")
+    return with_home(robot).in_text(robot) if robot.loops else robot
 
 
 def _in_memory(compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped) -> list[AnyLog]:
@@ -118,42 +110,42 @@ def _in_memory(compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped)
     return [log if isinstance(log, paths) else next(rest) for log in logs]
 
 
-def _fitted(
-    derivation: Derivation, emitted: Emitted, compiled: CompiledModel, logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog], asked: fitting.FitRequest, mapping: Mapped,
-    load: fitting.Load | None, processing: Processing, steps: Steps,
-) -> tuple[Model, list[Log]]:  # fmt: skip
-    """The model; the logs of the fit that are in memory only."""
+def fitted_on(
+    asked: fitting.FitRequest, derivation: Derivation, emitted: Emitted, compiled: CompiledModel,
+    logs: Sequence[AnyLog], load: fitting.Load, processing: Processing, mapping: Mapped,
+    check: Callable[[Sequence[Log], Sequence[Log]], None], told: Telling,
+) -> tuple[Model, Observation, fitting.FitOutcome, list[Log]]:  # fmt: skip
+    """The model of logs of any length, by any method.
+
+    Args:
+        asked: how; the load comes to it.
+        derivation: of the robot.
+        emitted: its C.
+        compiled: that, callable.
+        logs: without load.
+        load: and the logs that carry it, if any do.
+        processing: of the logs.
+        mapping: as of `read_logs`.
+        check: refuses logs, bare and loaded, that do not belong together.
+        told: what is told of it.
+
+    Returns:
+        The model, what it was fitted to, how, and the loaded logs.
+    """
     if asked.method == GAIN_METHOD:
-        if load is None:
-            raise DataError(
-                f"identify: method {GAIN_METHOD} finds the gains of drives from a weighed load; "
-                "give load=Load(logs, mass)"
-            )
-        model, _ = fitting.found_with_gains(
-            derivation, compiled, logs, load, processing, working=steps, mapping=mapping
+        found = fitting.found_with_gains(
+            derivation, compiled, logs, load, processing, check, told.steps, mapping
         )
-        return model, []
-    memory = [log for log in logs if isinstance(log, Log)]
-    if workflow.are_long(logs) and load is None:
-        if asked.method in OF_TRIANGLES and asked == fitting.FitRequest(asked.method):
-            try:
-                sources = workflow.sources_of(compiled, logs, mapping)
-                with steps("reading and reducing"):
-                    long = fit_long(
-                        derivation, emitted, compiled, sources, asked.method, processing
-                    )
-                return long[0], memory
-            except WholeLogNeeded:
-                if workflow.too_long(logs):
-                    raise
-        workflow.check_fits_memory(logs, f"method {asked.method}")
-    with steps("building the observation matrix"):
-        read = read_logs(compiled, logs, mapping)
-        loaded = [] if load is None else read_logs(compiled, load.logs, mapping)
-        check_apart([*read, *loaded], read_logs(compiled, holdout, mapping))
+        return *found, fitting.FitOutcome(found[0].fit), []
+    long = fit_if_long(
+        asked, derivation, emitted, compiled, logs, load.logs, processing, mapping, told
+    )
+    if long is not None:
+        return *long, fitting.FitOutcome(long[0].fit), []
+    with told.steps("building the observation matrix"):
+        read, loaded = (read_logs(compiled, some, mapping) for some in (logs, load.logs))
+        check(read, loaded)
         observation = observe(compiled, [*read, *loaded], processing)
-    payloads = () if load is None else tuple(load.payloads(loaded))
-    asked = dataclasses.replace(asked, payloads=payloads)
-    model, _ = fitting.fitted(asked, derivation, emitted, compiled, observation, steps)
-    return model, memory + [log for log in loaded if not log.path]
+    asked = dataclasses.replace(asked, payloads=tuple(load.payloads(loaded)) if loaded else ())
+    model, way = fitting.fitted(asked, derivation, emitted, compiled, observation, told.steps)
+    return model, observation, way, loaded

@@ -1,15 +1,19 @@
 """The fit of long logs, which never has all rows in memory."""
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from functools import reduce
 from pathlib import Path
 from typing import TypeGuard
 
 from modeler import observation
-from modeler.api.fitting import FitOutcome, identified, judged
+from modeler.api.arguments import Steps, silent
+from modeler.api.fitting import FitOutcome, FitRequest, identified, judged
+from modeler.api.log_maps import Mapped
 from modeler.api.model import Model
 from modeler.api.workflow import (
+    AnyLog,
     are_long as are_long,
     check_fits_memory as check_fits_memory,
     sources_of as sources_of,
@@ -19,9 +23,28 @@ from modeler.codegen import Derivation
 from modeler.core.errors import DataError, Method
 from modeler.core.jobs import Workers
 from modeler.core.manifest import Emitted
-from modeler.estimation import FitResult, long_logs as chunked
+from modeler.estimation import OF_TRIANGLES, FitResult, long_logs as chunked
 from modeler.logs import LogMap
 from modeler.runtime import CompiledModel, compiled_once
+
+
+@dataclass(frozen=True)
+class Telling:
+    """What a fit tells while it runs, and who does the work.
+
+    Attributes:
+        steps: is called with the title of each step, which lasts as long as the context.
+        bar: the same, for a step whose share can be told.
+        note: is told what is done otherwise than asked.
+        cluster: gives workers for long logs; None: threads of this process.
+    """
+
+    steps: Steps = silent
+    bar: Callable[[str], AbstractContextManager[Callable[[float], None]]] = lambda title: (
+        nullcontext(lambda share: None)
+    )
+    note: Callable[[str], None] = lambda line: None
+    cluster: AbstractContextManager[Workers] | None = None
 
 
 def fit_long(
@@ -53,6 +76,50 @@ def fit_long(
     observation.check_apart(streamed.observation.report.logs)
     result = judged_long(compiled, streamed, method)
     return identified(derivation, emitted, streamed.observation, result), streamed
+
+
+def fit_if_long(
+    asked: FitRequest,
+    derivation: Derivation,
+    emitted: Emitted,
+    compiled: CompiledModel,
+    logs: Sequence[AnyLog],
+    loaded: Sequence[AnyLog],
+    processing: observation.Processing,
+    mapping: Mapped,
+    told: Telling,
+) -> tuple[Model, observation.Observation] | None:
+    """The model of long logs, read in chunks; None where all rows are to be in memory.
+
+    Raises:
+        DataError: they are more rows than a way to fit that needs all of them may have.
+    """
+    every = [*logs, *loaded]
+    if told.cluster is None and not are_long(every):
+        return None
+    if loaded or asked != FitRequest(asked.method) or asked.method not in OF_TRIANGLES:
+        what = f"method {asked.method}" if asked.below is None else "--essential-below"
+        check_fits_memory(every, what)
+        return None
+    try:
+        with told.bar("reading and reducing") as bar, told.cluster or nullcontext() as workers:
+            sources = sources_of(compiled, logs, mapping)
+            reducer = None if workers is None else by_workers(workers, emitted)
+            here = [each.name for each in sources if not from_anywhere(each)]
+            if workers is not None and here:
+                told.note(
+                    f"--dask: {', '.join(here)}: read and reduced by this process; workers can "
+                    "begin in the middle of Parquet files only"
+                )
+            model, streamed = fit_long(
+                derivation, emitted, compiled, sources, asked.method, processing, bar, reducer
+            )
+    except observation.WholeLogNeeded as error:
+        if too_long(every):
+            raise
+        told.note(f"{error}; read as a whole instead")
+        return None
+    return model, streamed.observation
 
 
 def judged_long(compiled: CompiledModel, streamed: chunked.Streamed, method: Method) -> FitResult:

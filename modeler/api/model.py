@@ -375,12 +375,10 @@ class Model(IdentifiedModel):
         ask = _ask(what)
         if not log.path:
             raise DataError(f"{what}: {log.name} was no file, and is not kept with a model; {ask}")
-        places = [Path(log.path), Path(self.folder, log.path)]
-        sums = [model_file.checksum_of(str(place)) for place in places]
-        for place, found in zip(places, sums, strict=True):
-            if found and found == log.checksum:
-                return str(place)
-        why = "has changed since it was fitted" if any(sums) else "is not there any more"
+        if place := log.place(self.folder):
+            return place
+        there = any(log.places(self.folder).values())
+        why = "has changed since it was fitted" if there else "is not there any more"
         raise DataError(f"{what}: {log.path} {why}; {ask}")
 
     def _others(self, logs: Logs | None, what: str) -> Sequence[AnyLog]:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -195,6 +195,10 @@ class Physical(Presented):
             fitted.aside,
         )  # fmt: skip
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Found anew where it lands: rings of polynomials do not travel."""
+        return _again, (self.derivation, self.system.source, self.fitted)
+
     def _with_values(self) -> FittedSource:
         if self.fitted is None:
             raise DataError(
@@ -222,6 +226,10 @@ def physical(thing: Robot | Derivation | IdentifiedModel, of: Source | None = No
     derivation = derive(thing) if isinstance(thing, Robot) else thing
     system = physical_system(derivation.model, derivation.base, of)
     return Physical(system, derivation, None if model is None else _fitted(system, model))
+
+
+def _again(derivation: Derivation, of: Source, fitted: FittedSource | None) -> Physical:
+    return Physical(physical_system(derivation.model, derivation.base, of), derivation, fitted)
 
 
 def _fitted(system: PhysicalSystem, model: IdentifiedModel) -> FittedSource:

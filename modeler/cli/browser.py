@@ -1,14 +1,20 @@
 """`--open`: the page that a command writes is shown in the browser."""
 
 import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from modeler.cli.console import note
 from modeler.cli.places import DemoFolder, FilePlace, Output
 
 
-def place_page(args: argparse.Namespace) -> None:
-    """A page that shall be shown and has no place gets one in a temporary folder, which stays."""
+@contextmanager
+def opened_page(args: argparse.Namespace) -> Iterator[None]:
+    """What `--open` asked for is shown afterwards.
+
+    A page that has no place gets one in a temporary folder, which stays if the command is done.
+    """
     args.page_is_temporary = False
     if vars(args).get("open") and "report" in args and args.report is None:
         import tempfile  # these are loaded where they are wanted
@@ -16,17 +22,24 @@ def place_page(args: argparse.Namespace) -> None:
         folder = tempfile.mkdtemp(prefix="modeler-")
         args.report = Output(Path(folder) / f"{args.command}.html")
         args.page_is_temporary = True
+    try:
+        yield
+    except BaseException:
+        forget_page(args)
+        raise
+    _show_page(args)
 
 
 def forget_page(args: argparse.Namespace) -> None:
     """There is no page after all."""
     if args.page_is_temporary:
-        Path(args.report).parent.rmdir()
+        with suppress(OSError):  # not empty: the page was written
+            Path(args.report).parent.rmdir()
         args.report, args.open = None, False
 
 
-def show_page(args: argparse.Namespace) -> None:
-    """Shows what `--open` asked for; one line where there is no browser, or no page."""
+def _show_page(args: argparse.Namespace) -> None:
+    """One line where there is no browser, or no page."""
     if not vars(args).get("open"):
         return
     import webbrowser

@@ -43,8 +43,9 @@ def run_compare(args: argparse.Namespace) -> Json:
     noise = (
         all(validation.looks_like_noise(item) for item in comparison.joints) and not model.warning
     )
-    fitted = [log.name for log in model.logs]
-    following = after_compare(args.model, fitted, args.logs, held, noise)
+    folder = Path(args.model).parent
+    fitted = dict.fromkeys(log.place(folder) or "FITTED_LOG" for log in model.logs)
+    following = after_compare(args.model, [*fitted], args.logs, held, noise)
     origin = Origin(args.model, comparison.prediction.logs, held, [following])
     draw_page(args.report, lambda: pages.comparison_page(comparison, lines, origin))
     draw_pictures(args.picture, lambda: pages.all_pictures(comparison))

@@ -3,28 +3,26 @@
 import argparse
 import dataclasses
 from collections.abc import Mapping, Sequence
-from contextlib import nullcontext
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
 import modeler.api.fitting as fitting
-import modeler.api.long_logs as long_logs
-from modeler.api.log_maps import Mapped, settled
-from modeler.api.workflow import compile_model, derive, generate, read_logs
+from modeler.api.identifying import fitted_on
+from modeler.api.log_maps import settled
+from modeler.api.long_logs import Telling
+from modeler.api.workflow import compile_model, derive, generate
 from modeler.cli.command_table import ALL, Methods
 from modeler.cli.console import Json, draw_page, note, progress, say, say_lines, show_next, working
 from modeler.cli.lists import robot_of, use_options_of
-from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError
 from modeler.core.files import write_atomically
-from modeler.core.jobs import open_workers
-from modeler.core.manifest import Emitted
+from modeler.core.jobs import Workers, open_workers
 from modeler.core.table import aligned
 from modeler.estimation import OF_TRIANGLES, IdentifiedModel, save_model, side_by_side
-from modeler.observation import Log, Observation, Processing, WholeLogNeeded, check_apart, observe
+from modeler.observation import Log, Observation, Processing, check_apart
 from modeler.report import after_fit, estimators_page, remarks_of, table_of, values_of, write_page
 from modeler.robot import INERTIAL, read_robot, robot_from_text, with_parameters
-from modeler.runtime import CompiledModel
 
 
 def run_fit(args: argparse.Namespace) -> Json:
@@ -43,25 +41,13 @@ def run_fit(args: argparse.Namespace) -> Json:
     with working("looking at the logs"):
         mapping, kept = settled(compiled, args.logs, args.map)
     load = fitting.Load(args.payload_log, args.payload_mass, args.payload_link, args.payload_moved)
-    if args.method == GAIN_METHOD:
-        found = fitting.found_with_gains(
-            derivation, compiled, args.logs, load, processing,
-            lambda logs, loaded: _check_given(args, logs, loaded), working, mapping,
-        )  # fmt: skip
-        return _written(args, kept, *found)
-    long = _fit_if_long(args, derivation, emitted, compiled, processing, mapping)
-    if long is not None:
-        return _written(args, kept, *long)
-    with working("building the observation matrix"):
-        logs = read_logs(compiled, args.logs, mapping)
-        loaded = read_logs(compiled, args.payload_log, mapping)
-        _check_given(args, logs, loaded)
-        observation = observe(compiled, [*logs, *loaded], processing)
-    payloads = tuple(load.payloads(loaded)) if loaded else ()
-    asked = fitting.FitRequest(
-        args.method, args.model == "energy", args.window, payloads, args.essential_below
-    )
-    model, way = fitting.fitted(asked, derivation, emitted, compiled, observation, working)
+    energy, below = args.model == "energy", args.essential_below
+    asked = fitting.FitRequest(args.method, energy, args.window, (), below)
+    model, observation, way, _ = fitted_on(
+        asked, derivation, emitted, compiled, args.logs, load, processing, mapping,
+        lambda logs, loaded: _check_given(args, logs, loaded),
+        Telling(working, progress, note, _cluster(args)),
+    )  # fmt: skip
     return _written(args, kept, model, observation, way.lines) | way.further
 
 
@@ -135,53 +121,27 @@ def _check_given(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence
             )
 
 
-def _fit_if_long(
-    args: argparse.Namespace,
-    derivation: Derivation,
-    emitted: Emitted,
-    compiled: CompiledModel,
-    processing: Processing,
-    mapping: Mapped,
-) -> tuple[IdentifiedModel, Observation] | None:
-    """The model of long logs, read in chunks; None where all rows are to be in memory.
+def _cluster(args: argparse.Namespace) -> AbstractContextManager[Workers] | None:
+    """Of `--dask`; None without.
 
     Raises:
-        DataError: they are more rows than a way to fit that needs all of them may have.
+        DataError: the fit needs all rows in one memory.
     """
-    places = [*args.logs, *args.payload_log]
-    if args.dask is None and not long_logs.are_long(places):
+    if args.dask is None:
         return None
-    whole = "--essential-below" if args.essential_below is not None else ""
-    if whole or args.method not in OF_TRIANGLES or args.model == "energy" or args.payload_log:
-        if args.dask is not None:
-            way = "--model energy" if args.model == "energy" else f"--method {args.method}"
-            raise DataError(
-                f"--dask {args.dask}: got {'--payload-log' if args.payload_log else whole or way}, "
-                f"which needs all rows in one memory; expected --method "
-                f"{' or '.join(OF_TRIANGLES)} of the torque model; leave --dask out"
-            )
-        long_logs.check_fits_memory(places, whole or f"method {args.method}")
-        return None
-    cluster = nullcontext() if args.dask is None else open_workers(args.dask)
-    try:
-        with progress("reading and reducing") as bar, cluster as workers:
-            sources = long_logs.sources_of(compiled, args.logs, mapping)
-            reducer = None if workers is None else long_logs.by_workers(workers, emitted)
-            here = [each.name for each in sources if not long_logs.from_anywhere(each)]
-            if workers is not None and here:
-                note(
-                    f"--dask: {', '.join(here)}: read and reduced by this process; workers can "
-                    "begin in the middle of Parquet files only"
-                )
-            model, streamed = long_logs.fit_long(
-                derivation, emitted, compiled, sources, args.method, processing, bar, reducer
-            )
-    except WholeLogNeeded as error:
-        if long_logs.too_long(places):
-            raise
-        note(f"{error}; read as a whole instead")
-        return None
-    return model, streamed.observation
+    why = (
+        "--payload-log" if args.payload_log
+        else "--essential-below" if args.essential_below is not None
+        else "--model energy" if args.model == "energy"
+        else f"--method {args.method}" if args.method not in OF_TRIANGLES
+        else ""
+    )  # fmt: skip
+    if why:
+        raise DataError(
+            f"--dask {args.dask}: got {why}, which needs all rows in one memory; expected --method "
+            f"{' or '.join(OF_TRIANGLES)} of the torque model; leave --dask out"
+        )
+    return open_workers(args.dask)
 
 
 def _written(

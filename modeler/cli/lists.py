@@ -15,7 +15,7 @@ from modeler.core.files import check_writable
 from modeler.core.json import entries
 from modeler.core.toml_cells import shown
 from modeler.effects import CATALOGUE, Acts, Effect, Form, effect_named
-from modeler.robot import Robot, near, read_robot, robot_from_text, with_effects, with_home_text
+from modeler.robot import Robot, near, read_robot, robot_with_effects as with_given_effects
 
 # The signature of an effect, drawn in characters: torque against what it depends on.
 
@@ -87,15 +87,9 @@ def robot_of(args: argparse.Namespace) -> Robot:
 
     with working(f"closing the loops of {robot.name}"):
         home = with_home(robot)
-    if not home.told:
-        return robot
-    say(home.told)
-    # The text goes into model files: it says which assembly mode was meant.
-    try:
-        text = with_home_text(robot.text, robot.home, home.robot.home)
-    except RobotError:  # it is found again, the same
-        return home.robot
-    return robot_from_text(text, f"{args.robot} with its [home]")
+    if home.told:
+        say(home.told)
+    return home.in_text(robot)
 
 
 def check_own_file(robot: str, what: str) -> None:
@@ -130,16 +124,7 @@ def robot_with_effects(args: argparse.Namespace) -> Robot:
     robot = read_robot_with_notes(args.robot)
     if args.effects is None:
         return robot
-    wanted = [name.strip() for name in args.effects.split(",") if name.strip()]
-    names = [effect.id for effect in robot.catalogue]
-    unknown = [name for name in wanted if effect_named(name, robot.catalogue) is None]
-    if unknown:
-        raise RobotError(
-            f"--effects: got {unknown[0]}{near(unknown[0], names)}; expected some of "
-            f"{', '.join(names)}, with commas between"
-        )
-    text = with_effects(robot.text, dict.fromkeys(wanted, "all"))
-    return robot_from_text(text, f"{args.robot} with --effects")
+    return with_given_effects(robot, args.effects, "--effects")
 
 
 def read_robot_with_notes(name: str) -> Robot:

@@ -89,24 +89,23 @@ def _answer(words: Sequence[str], phase: Phase) -> None:
 
 def _carried_out(args: "argparse.Namespace", phase: Phase, every_line: bool) -> None:
     with phase():
-        from modeler.cli.browser import place_page, show_page
+        from modeler.cli.browser import opened_page
         from modeler.cli.console import clock, note, run_command, step
         from modeler.cli.places import check_places
 
     for line in args.read_as:
         note(line)
-    place_page(args)
-    check_places(args)
-    with phase(), step("loading"), clock("loading"):
-        import logging
+    with opened_page(args):
+        check_places(args)
+        with phase(), step("loading"), clock("loading"):
+            import logging
 
-        # Where it may keep no list of fonts it says so in lines of its own; pictures are the same.
-        if not every_line:
-            logging.getLogger("matplotlib").setLevel(logging.ERROR)
-        run = args.load()
-    with step(args.command):
-        run_command(args, run)
-    show_page(args)
+            # Where it may keep no list of fonts it says so in its own lines; pictures are the same.
+            if not every_line:
+                logging.getLogger("matplotlib").setLevel(logging.ERROR)
+            run = args.load()
+        with step(args.command):
+            run_command(args, run)
 
 
 @contextlib.contextmanager

@@ -2,6 +2,7 @@
 
 import re
 import textwrap
+import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -211,6 +212,9 @@ def dynamics_functions(
     gravity = model.torque(beta, speeds=False, accelerations=False, effects=False)
     coriolis = model.torque(beta, accelerations=False, gravity=False, effects=False)
     friction = model.torque(losses, links=False)
+    held = _held_by_friction(model)
+    also = f", {held}" * bool(held)
+    apart = f", offsets and {held}, which the friction function holds" * bool(held)
 
     def function(role: str, does: str, equation: str, inputs: tuple[ArgumentSpec, ...],
                  values: Sequence[Expr]) -> CFunction:  # fmt: skip
@@ -227,13 +231,30 @@ def dynamics_functions(
             ArgumentSpec("M", (joints, joints), "kg m2, kg m or kg", "inertia matrix"),
             entries_of(matrix),
         ),
-        function("gravity", "Torques that hold the robot still, without friction.",
+        function("gravity",
+                 comment_text(f"Torques that hold the robot still, without friction{apart}."),
                  "g(q) = tau(q, 0, 0) without effects", (q, b), gravity),
         function("coriolis", "Coriolis and centripetal torques.",
                  "c(q, qd) = tau(q, qd, 0) without gravity and effects", (q, qd, b), coriolis),
-        function("friction", "Torques of all effects but rotor inertias: friction, offsets.",
-                 "f(qd)", losing, friction),
+        function("friction",
+                 comment_text("Torques of all effects but rotor inertias: friction, "
+                              f"offsets{also}."),
+                 f"f(q, qd) with {held}" if held else "f(qd)", losing, friction),
     )  # fmt: skip
+
+
+def _held_by_friction(model: SymbolicModel) -> str:
+    """What acts at rest too and is no offset, as "the counterbalance of joint 2"; "" if nothing."""
+    joints: dict[str, dict[str, None]] = {}
+    for column in model.columns:
+        for part in column.parts if isinstance(column, ShaftColumn) else ():
+            still = part.acts is Acts.POSITION or not part.equation.names & {"v", "a", "z"}
+            if still and part.kind != "offset":
+                joints.setdefault(part.effect, {})[model.robot.joints[part.row].name] = None
+    return " and ".join(
+        f"the {effect.replace('_', ' ')} of joint{'s' * (len(names) > 1)} {', '.join(names)}"
+        for effect, names in joints.items()
+    )
 
 
 def reads_more(model: SymbolicModel) -> bool:
@@ -306,6 +327,11 @@ def entries_of(values: Sequence[Expr]) -> tuple[tuple[int, Expr], ...]:
 _WIDTH = 100
 _FEW = 16  # outputs that are always 0, up to which each is written in its own line
 _RUN = 8  # of more, as many as one statement writes: a line of the cache
+_PLAIN = str.maketrans(
+    {"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss", "æ": "ae",
+     "Æ": "Ae", "ø": "oe", "Ø": "Oe", "œ": "oe", "ł": "l", "Ł": "L", "–": "-", "—": "-",
+     "’": "'", "„": "'", "“": "'", "”": "'", "°": " deg"}
+)  # fmt: skip
 
 
 def relation(parameter: BaseParameter) -> str:
@@ -317,7 +343,9 @@ def relation(parameter: BaseParameter) -> str:
 def comment_text(text: str) -> str:
     """`text` such that it can stand in a C comment: no end of comment, ASCII only, short lines."""
     text = " ".join(text.replace("*/", "* /").replace("/*", "/ *").split())
-    text = text.encode("ascii", "replace").decode()
+    plain = unicodedata.normalize("NFC", text).translate(_PLAIN)
+    letters = (c for c in unicodedata.normalize("NFKD", plain) if not unicodedata.combining(c))
+    text = "".join(letters).encode("ascii", "replace").decode()
     return "\n * ".join(textwrap.wrap(text, _WIDTH - 4))
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from modeler.core.errors import DerivationError, LoopError
+from modeler.core.errors import DerivationError, LoopError, RobotError
 from modeler.core.result import Presented
 from modeler.derivation.assembly_modes import STARTS, AssemblyMode, assembly_modes, lengthened
 from modeler.derivation.closure import SINGULAR, check_freedom, nearest_closed, open_loop
@@ -16,7 +16,7 @@ from modeler.derivation.graph import Graph
 from modeler.derivation.implied import implied_relations
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.walks import Linkage, linkage_of
-from modeler.robot import Robot
+from modeler.robot import Robot, robot_from_text, with_home_text
 
 # [home]: taken as stated where it is good, else found; refused where it is singular.
 #
@@ -80,6 +80,16 @@ class Home:
 
     robot: Robot
     told: str = ""
+
+    def in_text(self, robot: Robot) -> Robot:
+        """The robot whose file's text says it too: that goes into model files."""
+        if not self.told:
+            return robot
+        try:
+            text = with_home_text(robot.text, robot.home, self.robot.home)
+        except RobotError:  # it is found again, the same
+            return self.robot
+        return robot_from_text(text, f"{robot.name} with its [home]")
 
 
 def settled_home(model: SymbolicModel) -> Home:

@@ -1,13 +1,14 @@
 """What a diagnosis says, as plain data; the share of the error that its effects close."""
 
 import math
+import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import LONGEST, Brief
 from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
 from modeler.core.table import percent
@@ -288,6 +289,10 @@ class Diagnosis(Presented):
     contradicted: bool
     window: Window | None
     search: Search
+
+    def __repr__(self) -> str:
+        said = textwrap.shorten(self.sentences[0], LONGEST, placeholder=" ...")
+        return f"Diagnosis({self.robot}: {said})"
 
     @property
     def band(self) -> float:

@@ -77,6 +77,16 @@ class LogProvenance:
     path: str = ""
     checksum: str = ""
 
+    def places(self, folder: str | Path) -> dict[str, str]:
+        """{where it may be: checksum of what is there, "" without}: by its path, from a folder."""
+        both = (self.path, str(Path(folder, self.path))) if self.path else ()
+        return {place: checksum_of(place) for place in both}
+
+    def place(self, folder: str | Path) -> str:
+        """Where it is, unchanged: by its path, or by that from a folder; "" if nowhere."""
+        found = self.places(folder).items()
+        return next((place for place, own in found if own and own == self.checksum), "")
+
     def shares_rows(self, log: LogRows) -> bool:
         """True if rows of `log` were fitted."""
         return shared_rows(log, self.content, self.start, self.end)

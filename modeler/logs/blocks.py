@@ -189,7 +189,10 @@ class _Text:
     def _parsed(
         self, text: bytes, before: int, parse: pa.csv.ParseOptions, convert: pa.csv.ConvertOptions
     ) -> pa.Table:
-        source = pa.py_buffer(text)
+        # In memory of Arrow: what is Python's would be let go by a thread of Arrow, which ends the
+        # process (SIGABRT) where Python is ending already, as after an error of a name.
+        source = pa.allocate_buffer(len(text))
+        pa.FixedSizeBufferWriter(source).write(text)
         for threads in (True, False):  # rows are counted only where one thread reads all
             how = pa.csv.ReadOptions(column_names=list(self.names), use_threads=threads)
             try:

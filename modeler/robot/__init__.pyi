@@ -6,6 +6,7 @@ from .conventions import (
 )
 from .edit import (
     home_lines as home_lines,
+    robot_with_effects as robot_with_effects,
     with_coupling as with_coupling,
     with_drive_gains as with_drive_gains,
     with_effect as with_effect,

@@ -9,12 +9,13 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core.errors import RobotError
-from modeler.core.toml_cells import Place
+from modeler.core.toml_cells import Place, near
 from modeler.effects import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Effect, effect_named
 from modeler.robot.angles import pi_multiple
 from modeler.robot.effects import parameter_owners, read_own_effects
 from modeler.robot.loops import MARK, expanded, leg_names
-from modeler.robot.robot import INERTIAL
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import INERTIAL, Robot
 
 Effects = Mapping[str, str | list]
 """Effect id or alias -> "all", the names of the joints that have it, or tables with shapes."""
@@ -68,7 +69,7 @@ def with_own_effect(text: str, name: str, definition: Mapping[str, Any]) -> str:
     if name in tomllib.loads(text).get("own_effects", {}):
         raise RobotError(f"[own_effects.{name}]: the robot has it already; choose another name")
     lines = [f"{_toml_key(key)} = {_toml(value)}" for key, value in definition.items()]
-    return "\n".join([text.rstrip("\n"), "", f"[own_effects.{_toml_key(name)}]", *lines]) + "\n"
+    return _at_end([text], f"[own_effects.{_toml_key(name)}]", *lines)
 
 
 def _catalogue(text: str) -> tuple[Effect, ...]:
@@ -129,8 +130,12 @@ def _checked(changed: str, text: str, table: str, entries: dict[str, Any], how: 
 def _with_numbers(text: str, table: str, values: Mapping[str, float]) -> str:
     """The text with another table of numbers, at its end."""
     kept = [line for head, line in _lines(text) if head != f"[{table}]"]
-    entries = [f'"{name}" = {value!r}' for name, value in values.items()]
-    return "\n".join([*kept, "", f"[{table}]", *entries]) + "\n"
+    return _at_end(kept, f"[{table}]", *(f'"{name}" = {value!r}' for name, value in values.items()))
+
+
+def _at_end(lines: Sequence[str], *table: str) -> str:
+    """The text with a table after one blank line."""
+    return "\n".join(["\n".join(lines).rstrip(), "", *table]) + "\n"
 
 
 def _lines(text: str) -> Iterator[tuple[str, str]]:
@@ -170,7 +175,7 @@ def with_coupling(text: str, joint: str, speed: str) -> str:
     for place, line in enumerate(lines):
         if line.split("#")[0].strip() == "[coupling]":
             return "\n".join([*lines[: place + 1], entry, *lines[place + 1 :]]) + "\n"
-    return "\n".join([*lines, "", "[coupling]", entry]) + "\n"
+    return _at_end(lines, "[coupling]", entry)
 
 
 def with_effects(text: str, effects: Effects) -> str:
@@ -201,13 +206,39 @@ def with_effects(text: str, effects: Effects) -> str:
         if head != "[effects]" and not gone:
             kept.append(line)
     lines = ["[effects]", *(f"{name} = {_toml(joints)}" for name, joints in effects.items())]
-    changed = "\n".join([*kept, "", *lines]) + "\n"
+    changed = _at_end(kept, *lines)
     if others(tomllib.loads(text)) != others(_document(changed)):
         raise RobotError(
             "the [effects] table cannot be replaced; write it as a table of its own, one effect a "
             "line, each with its joints on the same line"
         )
     return changed
+
+
+def robot_with_effects(
+    robot: Robot, effects: str | Sequence[str] | Mapping[str, Any], where: str
+) -> Robot:
+    """The robot with other effects.
+
+    Args:
+        robot: as it is.
+        effects: ids of those that every joint has, in a text with commas between; or a table as
+            [effects].
+        where: begins the message.
+
+    Raises:
+        RobotError: no such effect.
+    """
+    if isinstance(effects, str):
+        effects = [name.strip() for name in effects.split(",") if name.strip()]
+    wanted = dict(effects) if isinstance(effects, Mapping) else dict.fromkeys(effects, "all")
+    known = [effect.id for effect in robot.catalogue]
+    for name in wanted:
+        if effect_named(name, robot.catalogue) is None:
+            raise RobotError(
+                f"{where}: got {name}{near(name, known)}; expected some of {', '.join(known)}"
+            )
+    return robot_from_text(with_effects(robot.text, wanted), f"{robot.name} with {where}")
 
 
 def _belongs(

@@ -13,6 +13,7 @@ from scipy import stats
 import modeler as md
 from modeler.cli import main
 from modeler.core.errors import DataError, ManifestError, ModelerError, RobotError
+from tests.notebook.session import session
 
 HIDDEN = "load_friction@2"
 
@@ -255,3 +256,9 @@ def test_wrong_arguments_are_refused_in_one_line(
     with pytest.raises(ModelerError, match=said) as told:
         act((logs[0], model))
     assert "\n" not in str(told.value)
+
+
+def test_a_diagnosis_prints_its_first_sentence() -> None:
+    found = session()["diagnosis"]
+    assert repr(found)[:60] == f"Diagnosis({found.robot}: {found.sentences[0]})"[:60]
+    assert len(repr(found)) < 220

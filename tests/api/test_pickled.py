@@ -13,7 +13,7 @@ from tests.notebook.session import session
 KINDS = (
     "robot", "derivation", "emitted", "compiled", "simulated", "log", "observation", "model", "fit",
     "better", "comparison", "diagnosis", "fleet", "free run", "contest", "estimators", "modes",
-    "motion",
+    "motion", "physical",
 )  # fmt: skip
 
 

@@ -270,6 +270,11 @@ def test_open_shows_the_page_that_was_written(opened: Path, line: str, page: str
     assert "<html" in written.read_text()[:500]
 
 
+def test_a_refused_command_leaves_no_folder_for_its_page(opened: Path) -> None:
+    assert main(["derive", "no-such-robot", "--open"]) == 1
+    assert not [*opened.parent.glob("modeler-*")] and not opened.exists()
+
+
 def test_without_a_browser_open_is_one_line(capsys, tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("webbrowser.open", lambda place: False)
     assert main(["show", "two-link", "--out", str(tmp_path / "t.html"), "--open"]) == 0

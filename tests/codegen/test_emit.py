@@ -14,14 +14,15 @@ import sympy
 import modeler
 from modeler.codegen.closed import solving_of
 from modeler.codegen.emit import emit
-from modeler.codegen.functions import module_prefix, symbol_macros
+from modeler.codegen.functions import comment_text, module_prefix, symbol_macros
 from modeler.codegen.package import FOLDER, PROGRAMS, write_emitted
+from modeler.codegen.workflow import derive, generate
 from modeler.core.errors import EmitError, ModelerError
 from modeler.core.manifest import module_from_json
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import grouping_matrix
-from modeler.robot.read import read_robot
+from modeler.robot import read_robot, robot_from_text, with_effects
 from tests.codegen.fitted_library import fitted_of
 from tests.modules import STRICT, compiled, compiler, module, plain, states
 from tests.repository import ROOT
@@ -285,3 +286,20 @@ def test_a_robot_without_base_parameters_is_refused():
     made = module("wrist")
     with pytest.raises(EmitError, match="wrist has no base parameters"):
         emit(made.model, dataclasses.replace(made.base, parameters=()))
+
+
+def test_the_header_says_which_effects_friction_holds_that_act_at_rest():
+    text = read_robot("two-link").text
+    springs = {"viscous": "all", "spring": [{"joint": "2", "q0": 0.5, "h": 0.0}]}
+    emitted = generate(derive(robot_from_text(with_effects(text, springs), "springs")))
+    header = " ".join(emitted.files["two_link.h"].replace("\n *", " ").split())
+    apart = "offsets and the spring of joint 2, which the friction function holds."
+    assert f"hold the robot still, without friction, {apart}" in header
+    assert "friction, offsets, the spring of joint 2." in header
+    friction = next(f for f in emitted.spec.functions if f.name.endswith("_friction"))
+    assert friction.equation == "f(q, qd) with the spring of joint 2"
+
+
+def test_letters_of_comments_are_written_in_ascii():
+    told = comment_text("Prüfstand é Größe u\u0308 – 5° 工")
+    assert told == "Pruefstand e Groesse ue - 5 deg ?"

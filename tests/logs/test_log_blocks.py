@@ -11,7 +11,7 @@ import pyarrow.parquet
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.logs.blocks import blocks_of
+from modeler.logs.blocks import _Text, blocks_of
 from modeler.logs.mapping import map_from_table
 from modeler.observation.chunk import read_part, window
 from modeler.observation.log import finger, fingerprint, fingerprint_of
@@ -230,3 +230,18 @@ def test_no_piece_is_one_line(span, line, tmp_path, case):
     path = written(tmp_path / "run.parquet", log_columns(case.compiled))
     with pytest.raises(DataError, match=line):
         read_part(source_of(path, case.compiled.spec), case.compiled.spec, *span)
+
+
+def test_the_text_may_go_while_arrow_parses_it(tmp_path, monkeypatch):
+    """What is Python's, a thread of Arrow lets go at the end of the process, which that aborts."""
+    place, text = tmp_path / "a.csv", bytearray(b"1,2\n3,4\n")
+    place.write_text("time,q1\n1,2\n")
+    read = pa.csv.read_csv
+
+    def gone(source, *how):
+        text.clear()  # BufferError where the source is this memory
+        return read(source, *how)
+
+    monkeypatch.setattr(pa.csv, "read_csv", gone)
+    found = dict(_Text(place).columns(text).named)
+    np.testing.assert_array_equal(found["q1"].numbers(), [2.0, 4.0])

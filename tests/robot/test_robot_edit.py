@@ -81,3 +81,10 @@ def test_other_nominal_values_keep_what_is_known_of_them():
         robot = robot_from_text(with_parameters(head + tail, {"Fv1": 3.0}), "x.toml")
         assert robot.parameters == {"Fv1": 3.0, "ZZ1": 1.0}
         assert robot.uncertainty == {"Fv1": 0.2, "ZZ1": 0.0}
+
+
+def test_one_blank_line_stands_between_sections():
+    text = read_robot("two-link").text
+    for k in range(5):
+        text = with_parameters(with_effects(text, {"viscous": "all"}), {"Fv1": float(k + 1)})
+    assert "\n\n\n" not in text and "\n\n[parameters]\n" in text and "\n\n[effects]\n" in text
