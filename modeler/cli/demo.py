@@ -111,9 +111,10 @@ def _improved(
     say_lines([*waterfall(better), *left_out], "   ")
     if better.history:
         held = better.history[-1].held_out
-        place = str(out / "improved.json")
+        place, train = str(out / "improved.json"), str(out / "train.parquet")
+        others = [str(out / name) for name in held]
         origin = pages.Origin(
-            place, held, True, pages.after_add(place, [str(out / name) for name in held])
+            place, held, True, pages.after_add(place, [train], others, better.fit)
         )
         pages.write_page(out / "improved.html", additions_page(better, left_out, origin))
     return better

@@ -92,7 +92,8 @@ def run_add(args: argparse.Namespace) -> Json:
         with working(f"adding {args.effect}"):
             better = add_effect(model, compiled, args.effect, args.joint, logs)
     save_model(args.out, better)
-    places, following = [args.out], report.after_add(args.out, args.holdout)
+    following = report.after_add(args.out, args.logs, args.holdout, better.fit)
+    places = [args.out]
     if args.robot_out is not None:
         write_atomically(Path(args.robot_out), better.robot_text)
         places.append(args.robot_out)

@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 from modeler.codegen import derive, generate
 from modeler.core.errors import DataError, RobotError
 from modeler.core.manifest import ModuleSpec
-from modeler.core.table import percent, printed
+from modeler.core.table import percent
 from modeler.diagnosis.added_model import (
     HoldoutRows,
     Logs,
@@ -19,6 +19,7 @@ from modeler.diagnosis.added_model import (
     described,
     left_of,
     left_out,
+    not_needed,
     rows_of,
     with_shapes,
 )
@@ -29,7 +30,7 @@ from modeler.diagnosis.effect_columns import body_parameters
 from modeler.diagnosis.plausible import objection
 from modeler.diagnosis.profile import values_of
 from modeler.diagnosis.result import Pick, doubt
-from modeler.diagnosis.score import Residuals, Score, error_changes, errors_of, rms_error, scored
+from modeler.diagnosis.score import Residuals, Score, errors_of, no_better, rms_error, scored
 from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.state import SearchData, analysed, state_of
@@ -195,16 +196,17 @@ def add_findings(
 
     What a diagnosis says with a doubt is left out. One after the other; each is judged beside those
     that were put in before it, by `scored`. Drive gains come first and are judged together where
-    that lowers the error: one of two wrong gains alone may spoil other joints. A reason is one line
-    that names the effect and its joint.
+    that lowers the error: one of two wrong gains alone may spoil other joints. What has values that
+    may all be 0 once everything is in is taken out again. A reason is one line that names the
+    effect and its joint.
     """
     left = [
         f"left out: {f.effect}, {where(f.joint)} (perhaps and no more: {f.doubt})"
         for f in findings if f.doubt
     ]  # fmt: skip
     best = _Fitted(model, rows_of(compiled, logs, model.processing))
-    best, findings = _with_gains(best, [f for f in findings if not f.doubt])
-    for finding in findings:
+    best, rest = _with_gains(best, [f for f in findings if not f.doubt])
+    for finding in rest:
         try:
             requested_effect(best.model, finding.effect, finding.joint)
             assert finding.pick is not None  # `requested_effect` refuses what is no column
@@ -215,8 +217,19 @@ def add_findings(
         if score.better:
             best = after
         else:
-            left.append(f"left out: {finding.effect}, {where(finding.joint)} ({_refused(score)})")
-    return model if best.model is model else _finished(best), tuple(left)
+            why = no_better(score.errors, score.changed)
+            left.append(f"left out: {finding.effect}, {where(finding.joint)} ({why})")
+    if best.model is model:
+        return model, tuple(left)
+    better = _finished(best)
+    idle = [(s.effect, s.joint) for s in better.history[1:] if not_needed(better, s)]
+    for finding in reversed(findings):  # one after the other, the last that was found first
+        if (finding.effect, finding.joint) in idle:
+            needed = [f for f in findings if f is not finding]
+            better, others = add_findings(model, compiled, needed, logs)
+            why = "with the others in, none of its values differs from 0"
+            return better, (*others, f"left out: {finding.effect}, {where(finding.joint)} ({why})")
+    return better, tuple(left)
 
 
 def _with_gains(
@@ -239,17 +252,6 @@ def _with_gains(
     done = [dataclasses.replace(step, falls=True) for step in steps[-len(gains) :]]
     after = after.with_history((*steps[: -len(gains)], *done))
     return after, [f for f in findings if f not in gains]
-
-
-def _refused(score: Score) -> str:
-    """Why a change is none for the better."""
-    if score.spoilt:
-        return f"the error rises: {error_changes(score.errors, score.changed)}"
-    total = " -> ".join(printed(score.whole.before, score.whole.after))
-    return (
-        "the error does not fall by more than chance: "
-        f"{total} over all joints; {error_changes(score.errors, score.changed)}"
-    )
 
 
 def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:

@@ -10,12 +10,12 @@ from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.profile import Profile, is_linear, profile
 from modeler.diagnosis.ranking import base_of, blocks_of
-from modeler.diagnosis.score import Residuals, error_changes
+from modeler.diagnosis.score import Residuals, error_changes, no_better
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.signals import SignalReference, tilt_axes
 from modeler.diagnosis.state import SearchData, State, columns_of, state_of
 from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Acts, Effect, effect_named
-from modeler.estimation import Addition, IdentifiedModel, prior_of, spread_text
+from modeler.estimation import Addition, IdentifiedModel, ParameterEstimate, prior_of, spread_text
 from modeler.numerics.least_squares import column_lengths
 from modeler.observation import (
     Log,
@@ -228,12 +228,10 @@ def added(model: IdentifiedModel) -> list[str]:
     if len(model.history) < 2:
         return []
     last = model.history[-1]
-    own = {p.name for p in model.spec.standard if (p.effect, p.joint) == (last.effect, last.joint)}
-    base = {b.name for b in model.spec.base if b.column_of in own}
     lines = [
         f"{p.name} = {p.value:.5g}{spread_text(p.value, p.sigma or 0.0, p.interval)} {p.unit}"
-        for p in model.fit.parameters if p.name in base
-    ]  # fmt: skip
+        for p in _parameters_of(model, last)
+    ]
     if lines and last.shapes:
         units, sigmas, ends = _units(model, last), last.shape_sigmas, last.shape_intervals
         texts = [
@@ -242,6 +240,21 @@ def added(model: IdentifiedModel) -> list[str]:
         ]
         lines.append("with " + ", ".join(texts))
     return lines
+
+
+def _parameters_of(model: IdentifiedModel, step: Addition) -> list[ParameterEstimate]:
+    """Base parameters that are an effect's own."""
+    own = {p.name for p in model.spec.standard if (p.effect, p.joint) == (step.effect, step.joint)}
+    base = {b.name for b in model.spec.base if b.column_of in own}
+    return [p for p in model.fit.parameters if p.name in base]
+
+
+def not_needed(model: IdentifiedModel, step: Addition) -> bool:
+    """True of an effect none of whose parameters differs from 0, beside all else in the model."""
+    own = _parameters_of(model, step)
+    spreads = [2.0 * (p.sigma or 0.0) for p in own]
+    ends = [p.interval or (p.value - s, p.value + s) for p, s in zip(own, spreads, strict=True)]
+    return bool(own) and all(low <= 0.0 <= high for low, high in ends)
 
 
 def _units(model: IdentifiedModel, step: Addition) -> dict[str, str]:
@@ -278,14 +291,11 @@ def notes(model: IdentifiedModel, since: int = -1) -> list[str]:
 
 
 def _change(name: str, step: Addition) -> str:
-    change = error_changes(step.joints, step.changed)
     if step.falls:
         doubt = f"; it is perhaps missing and no more: {step.doubt}" if step.doubt else ""
-        return f"{name}: the error falls: {change}{doubt}"
-    return (
-        f"{name}: the error does not fall ({change}); `modeler add MODEL undo` takes the effect "
-        "out again"
-    )
+        return f"{name}: the error falls: {error_changes(step.joints, step.changed)}{doubt}"
+    why = no_better(step.joints, step.changed)
+    return f"{name}: {why}; `modeler add MODEL undo` takes the effect out again"
 
 
 # The rows of logs for a robot, also with other effects, and what a model leaves of them.

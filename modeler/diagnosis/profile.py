@@ -415,9 +415,26 @@ def profile_of(state: State, place: int) -> Profile | None:
         state: with the effect.
         place: of it among the effects of the state.
     """
+    return profile(state, state.picks[place], _own(state, place))
+
+
+def _own(state: State, place: int) -> slice:
+    """The columns of an effect of the state."""
     sizes = [len(values) for values in state.values]
     first = state.W[0].shape[1] - sum(sizes[place:])
-    return profile(state, state.picks[place], slice(first, first + sizes[place]))
+    return slice(first, first + sizes[place])
+
+
+def explained_by(state: State, place: int) -> Callable[[Candidate], float]:
+    """The fall of S with an effect that was put in, by its shapes; 0 where physics forbids it."""
+    problem = ProfileProblem(state, state.picks[place], _own(state, place))
+
+    def fall(candidate: Candidate) -> float:
+        point = problem.at(candidate)
+        possible = point is not None and _possible(candidate, point)
+        return problem.target[2] - point.squares if point is not None and possible else 0.0
+
+    return fall
 
 
 def named_intervals(along: Profile, named: EffectValues) -> dict[str, tuple[float, float]]:

@@ -97,8 +97,14 @@ class Score:
 
     @property
     def better(self) -> bool:
-        """True if the printed error surely falls, and no joint is spoilt."""
-        return self.whole.falls and not self.spoilt
+        """True if the printed error surely falls, and no joint is spoilt.
+
+        Or if that of a joint surely falls by more than its noise, and none rises: what other
+        effects leave of other joints may be more than all of it.
+        """
+        falls = any(change.falls and change.ratio < 1.0 / WORSE for change in self.joints)
+        mends = falls and not any(change.rises for change in self.joints)
+        return mends or (self.whole.falls and not self.spoilt)
 
     @property
     def spoilt(self) -> bool:
@@ -199,6 +205,15 @@ def error_changes(joints: Mapping[str, tuple[float, float]], changed: Sequence[s
     if len(changed) < len(joints):
         parts.append("other joints unchanged" if changed else "no joint changes")
     return "; ".join(part for part in parts if part)
+
+
+def no_better(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
+    """Why a change is none for the better, of errors as for `error_changes`."""
+    said, errors = error_changes(joints, changed), list(zip(*joints.values(), strict=True))
+    if any(Change(name, *joints[name], 0.0).ratio > WORSE for name in changed):
+        return f"the error rises: {said}"
+    total = " -> ".join(printed(*map(rms_error, errors)))
+    return f"the error does not fall by more than chance: {total} over all joints; {said}"
 
 
 def _by_block(logs: Residuals, block: float) -> Callable[[Residuals, int], np.ndarray]:

@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -26,19 +27,29 @@ from modeler.diagnosis.judge import (
     tried,
 )
 from modeler.diagnosis.plausible import DRIVES, drives, objection
-from modeler.diagnosis.profile import values_of
+from modeler.diagnosis.profile import explained_by, values_of
 from modeler.diagnosis.state import SearchData, State, state_of, visible
 from modeler.effects import Effect, Shape
 
 _STEPS = 8
+_TURNS = 5
 
 WHOLE = 0.85
 """Share of the best fall with which a whole number of waves per turn is preferred: teeth, poles and
 rollers are counted."""
 
 
-def refined(state: State, candidate: Candidate) -> Candidate:
-    """The candidate at the shapes that explain most: variable projection, one shape at a time."""
+def refined(
+    state: State, candidate: Candidate, explained: Callable[[Candidate], float] | None = None
+) -> Candidate:
+    """The candidate at the shapes that explain most: variable projection.
+
+    Args:
+        state: of the model.
+        candidate: where to begin.
+        explained: by shapes; None: by motion left out of the fit.
+    """
+    explained = explained or partial(_explained, state)
     smooth = [shape for shape in candidate.form.shapes if candidate.refinable(shape)]
     if not smooth:
         return candidate
@@ -56,7 +67,7 @@ def refined(state: State, candidate: Candidate) -> Candidate:
             low = np.maximum(low, [_lowest(state, shape) for shape in smooth])
 
     def lost(x: np.ndarray) -> float:
-        return -_explained(state, candidate.moved(smooth, np.clip(x, low, high)))
+        return -explained(candidate.moved(smooth, np.clip(x, low, high)))
 
     if len(smooth) == 1:
         found = minimize_scalar(
@@ -366,7 +377,7 @@ def search(
         ties = (*equals, *doubted)
         steps.append(Step(best, rivals, state, ties))
         state, judgement = later, after
-    kept, state = _backward(state, steps, start.picks, tick)
+    kept, state = _settled(state, steps, start.picks, tick)
     looked = judgement, tuple(every), tuple(without), tuple(given)
     return Search(start, tuple(kept), state, *looked)
 
@@ -485,6 +496,63 @@ def about_itself(state: State) -> State:
     return state_of(state.data, state.picks, state.beta if about is None else about)
 
 
+def _settled(
+    state: State, steps: Sequence[Step], given: Sequence[Candidate], tick: Tick
+) -> tuple[list[Step], State]:
+    """The effects that are needed, each at the shapes that are best beside all the others.
+
+    A shape that was sought while others were missing leaves what one more effect describes: that is
+    dropped if the others on its joint, at shapes sought again without it, leave it nothing.
+    """
+    kept, state = _backward(state, steps, given, tick)
+    while (fewer := _with_one_less(state, given, kept, tick)) is not None:
+        kept = fewer
+    if len(kept) + len(given) > 1:
+        kept = _reshaped(state, given, kept, [own for own in kept if _bends(own.pick)], tick)
+    picks = [*given, *(step.pick for step in kept)]
+    return kept, state if picks == list(state.picks) else state_of(state.data, picks, state.beta)
+
+
+def _with_one_less(
+    state: State, given: Sequence[Candidate], kept: Sequence[Step], tick: Tick
+) -> list[Step] | None:
+    """Without the weakest effect that others describe at shapes of theirs; None if there is none."""
+    for step in sorted(kept, key=lambda step: step.judged.gain):
+        rest = [own for own in kept if own is not step]
+        bent = [own for own in rest if own.pick.joint == step.pick.joint and _bends(own.pick)]
+        if bent:
+            rest = _reshaped(state, given, rest, bent, tick)
+            beside = state_of(state.data, [*given, *(s.pick for s in rest)], state.beta)
+            if not _judged_again(beside, refined(beside, step.pick)).significant:
+                return rest
+    return None
+
+
+def _bends(pick: Candidate) -> bool:
+    """True if its shapes may be others."""
+    return any(pick.refinable(shape) for shape in pick.form.shapes)
+
+
+def _reshaped(
+    state: State, given: Sequence[Candidate], kept: Sequence[Step], bent: Sequence[Step], tick: Tick
+) -> list[Step]:
+    """The effects kept; some of them at their best shapes beside the others, one after the other."""
+    found = list(kept)
+    for i, step in enumerate(kept):
+        if step in bent:
+            picks = [*given, *(own.pick for own in found)]
+            whole = state_of(state.data, picks, state.beta)
+            explained, pick = explained_by(whole, len(given) + i), step.pick
+            for _ in range(_TURNS):  # each begins with steps as large as those of the grid
+                pick, last = refined(whole, pick, explained), pick
+                if pick == last:
+                    break
+            judged = _judged_again(_without(state, given, found, found[i]), pick)
+            found[i] = dataclasses.replace(step, judged=judged)
+            tick()
+    return found
+
+
 def _backward(
     state: State, steps: Sequence[Step], given: Sequence[Candidate], tick: Tick
 ) -> tuple[list[Step], State]:
@@ -510,5 +578,10 @@ def _backward(
 
 def _beside(state: State, given: Sequence[Candidate], kept: Sequence[Step], step: Step) -> Judged:
     """One of the effects, judged in the model with the others."""
+    return _judged_again(_without(state, given, kept, step), step.pick)
+
+
+def _without(state: State, given: Sequence[Candidate], kept: Sequence[Step], step: Step) -> State:
+    """The state with all of the effects but one."""
     others = [*given, *(s.pick for s in kept if s is not step)]
-    return _judged_again(state_of(state.data, others, state.beta), step.pick)
+    return state_of(state.data, others, state.beta)

@@ -304,9 +304,14 @@ def after_fit(
     if verdict is not None and not verdict.usable:
         words = "".join(f" --map {_listed([word])}" for word in mapped)
         return [f"modeler log {_listed(logs[:1])} --robot {_listed([robot])}{words}", look]
-    lacks = verdict is not None and verdict.usable_for != "physics"
-    lacks = lacks or any("`modeler diagnose`" in line for line in fit.sentences)
-    return [look, judge] if lacks else [judge, look]
+    return [look, judge] if _lacks(fit) else [judge, look]
+
+
+def _lacks(fit: "FitResult") -> bool:
+    """True if an effect seems to be missing."""
+    if fit.verdict is not None and fit.verdict.usable_for != "physics":
+        return True
+    return any("`modeler diagnose`" in line for line in fit.sentences)
 
 
 def after_compare(
@@ -331,26 +336,38 @@ def after_compare(
 def after_diagnosis(
     model: str, logs: Sequence[str], holdout: Sequence[str], diagnosis: "Diagnosis"
 ) -> list[str]:
-    """Add the first effect that has columns; without any, see what is left, or take the model."""
-    first = next((f for f in diagnosis.effects if f.pick is not None), None)
-    if first is None and diagnosis.verdict == "nothing significant":
+    """Add the effects that have columns; without any, see what is left, or take the model."""
+    named = [f for f in diagnosis.effects if f.pick is not None]
+    if not named and diagnosis.verdict == "nothing significant":
         return [_taken(model)]
-    if first is None:
+    if not named:
         return [f"modeler compare {_listed([model, *(holdout or logs)])} --report compare.html"]
-    joint = f" --joint {shlex.quote(first.joint)}" if first.joint else ""
-    held = f" --holdout {_listed(holdout)}" if holdout else ""
-    effect = shlex.quote(first.effect)
-    words = f"modeler add {_listed([model])} {effect}{joint} {_listed(logs)}{held}"
+    first = named[0]
+    effect = shlex.quote(first.effect) + (
+        f" --joint {shlex.quote(first.joint)}" if first.joint else ""
+    )
+    effect = "auto" if sum(not f.doubt for f in named) > 1 else effect
     path = Path(model)
     better = path.with_name(f"{path.name.partition('.')[0]}-improved{''.join(path.suffixes)}")
+    words = f"modeler add {_listed([model])} {effect} {_listed(logs)}{_held(holdout)}"
     return [f"{words} --out {_listed([str(better)])}"]
 
 
-def after_add(model: str, holdout: Sequence[str]) -> list[str]:
-    """Judge the new model on what was never fitted, and take it to the controller."""
+def after_add(
+    model: str, logs: Sequence[str], holdout: Sequence[str], fit: "FitResult"
+) -> list[str]:
+    """Judge the new model on what was never fitted, and take it to the controller.
+
+    First see what it lacks still, if it does.
+    """
     own = _listed([model])
-    logs = _listed(holdout) if holdout else "HELD_OUT_LOG"
-    return [f"modeler compare {own} {logs}", _taken(model)]
+    look = f"modeler diagnose {own} {_listed(logs)}{_held(holdout)}"
+    judge = f"modeler compare {own} {_listed(holdout) if holdout else 'HELD_OUT_LOG'}"
+    return [*([look] if _lacks(fit) else []), judge, _taken(model)]
+
+
+def _held(holdout: Sequence[str]) -> str:
+    return f" --holdout {_listed(holdout)}" if holdout else ""
 
 
 def _taken(model: str) -> str:
