@@ -74,7 +74,10 @@ def test_an_effect_that_is_not_there_is_added_by_name_and_told(case: Case, sprun
     worse = add_effect(sprung.model, case.compiled, "stribeck", "2", sprung.logs)
     assert not worse.history[-1].falls
     (line,) = notes(worse)
-    assert "stribeck, joint 2: the error does not fall by more than chance: " in line and "undo" in line
+    assert (
+        "stribeck, joint 2: the error does not fall by more than chance: " in line
+        and "undo" in line
+    )
 
 
 def test_what_cannot_be_added_is_left_out_with_its_reason(case: Case, sprung: Found) -> None:
