@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from modeler.core.table import printed
-from modeler.diagnosis.score import Residuals, Score, error_changes, scored
+from modeler.diagnosis.score import Change, Residuals, Score, error_changes, no_better, scored
 
 RATE, SPAN = 20.0, 30.0
 
