@@ -516,7 +516,7 @@ def _settled(
 def _with_one_less(
     state: State, given: Sequence[Candidate], kept: Sequence[Step], tick: Tick
 ) -> list[Step] | None:
-    """Without the weakest effect that others describe at shapes of theirs; None if there is none."""
+    """Without the weakest effect that others describe at other shapes; None if there is none."""
     for step in sorted(kept, key=lambda step: step.judged.gain):
         rest = [own for own in kept if own is not step]
         bent = [own for own in rest if own.pick.joint == step.pick.joint and _bends(own.pick)]
@@ -536,7 +536,7 @@ def _bends(pick: Candidate) -> bool:
 def _reshaped(
     state: State, given: Sequence[Candidate], kept: Sequence[Step], bent: Sequence[Step], tick: Tick
 ) -> list[Step]:
-    """The effects kept; some of them at their best shapes beside the others, one after the other."""
+    """The effects kept; some of them at their best shapes beside the others, in turn."""
     found = list(kept)
     for i, step in enumerate(kept):
         if step in bent:

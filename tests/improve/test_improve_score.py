@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from modeler.core.table import printed
-from modeler.diagnosis.score import Residuals, Score, error_changes, scored
+from modeler.diagnosis.score import Change, Residuals, Score, error_changes, no_better, scored
 
 RATE, SPAN = 20.0, 30.0
 
@@ -131,3 +131,16 @@ def test_two_logs_may_have_the_same_clock() -> None:
     both = dataclasses.replace(one, run=(run,), time=(time,))
     better = dataclasses.replace(both, residual=(0.6 * both.residual[0],))
     assert scored(both, better).better
+
+
+def test_a_joint_that_is_mended_counts_beside_one_that_says_nothing() -> None:
+    """Of joint 2 nearly all is explained; joint 1 leaves so much that the sum says nothing."""
+    calm, loud = Change("2", 0.02, 0.002, 9.0), Change("1", 0.14, 0.14, 0.1)
+    whole = Change("", 0.1, 0.099, 1.0)
+    assert Score((loud, calm), whole).better
+    assert not Score((loud, Change("2", 0.02, 0.019, 9.0)), whole).better
+    assert not Score((Change("1", 0.14, 0.141, -5.0), calm), whole).better
+    line = no_better({"1": (0.14, 0.14), "2": (0.02, 0.019)}, ["2"])
+    assert line.startswith("the error does not fall by more than chance: ")
+    assert "joint 2 2 % -> 1.9 %" in line
+    assert no_better({"1": (0.01, 0.02)}, ["1"]).startswith("the error rises: ")
