@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.diagnosis import add as module
+from modeler.diagnosis import add as module, added_model
 from modeler.diagnosis.add import add_effect, add_findings
 from modeler.diagnosis.added_model import Logs, notes
 from modeler.diagnosis.diagnosis import diagnose
@@ -99,6 +99,28 @@ def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(
     step = add_effect(sprung.model, case.compiled, "spring", "3", sprung.logs)
     assert "it is perhaps missing and no more: the error falls by little" in notes(step)[0]
     assert step.history[-1].to_json()["doubt"] == "the error falls by little"
+
+
+def test_what_is_not_needed_beside_all_the_rest_is_taken_out_again(
+    case: Case, sprung: Found, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    wide = added_model.not_needed
+    monkeypatch.setattr(module, "not_needed", lambda m, s: s.effect == "spring" or wide(m, s))
+    better, left_out = add_findings(
+        sprung.model, case.compiled, sprung.diagnosis.effects, sprung.logs
+    )
+    assert "spring" not in {step.effect for step in better.history}
+    assert any("spring, joint 3 (with the others in, none of its values" in s for s in left_out)
+
+
+def test_an_effect_is_needed_unless_all_of_its_values_may_be_zero(
+    case: Case, sprung: Found
+) -> None:
+    better = add_effect(sprung.model, case.compiled, "spring", "3", sprung.logs)
+    assert not added_model.not_needed(better, better.history[-1])
+    none = [dataclasses.replace(p, value=1e-9, interval=None) for p in better.fit.parameters]
+    fit = dataclasses.replace(better.fit, parameters=tuple(none))
+    assert added_model.not_needed(dataclasses.replace(better, fit=fit), better.history[-1])
 
 
 @pytest.mark.parametrize("refitted", [True, False], ids=["spring", "payload"])
