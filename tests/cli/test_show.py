@@ -130,7 +130,7 @@ def test_another_programs_file_is_shown_with_its_notes(here, capsys) -> None:
     (here / "arm.par").write_text(par_text({"Ant": "0", "d": "0", "R": "0.4", "Theta": "t1"}))
     assert main(["show", "arm.par", "--out", "p.html"]) == 0
     out, err = capsys.readouterr()
-    assert out.startswith("arm: ") and "modeler: arm.par: joint variables are called" in err
+    assert out.startswith("arm\n") and "modeler: arm.par: joint variables are called" in err
 
 
 def test_loops_that_do_not_close_are_shown_and_told(here, capsys) -> None:

@@ -12,7 +12,7 @@ from typing import get_args
 import pytest
 
 from modeler.cli import main, parser
-from modeler.cli.derive import _CLOSED_FORMS, _COMMENT, _FORMS, _SHEETS, _TABLES
+from modeler.cli.derive import _COMMENT, _SHEETS
 from modeler.cli.options import Form
 from modeler.effects.catalogue import CATALOGUE
 from modeler.simulation import HIDDEN
@@ -115,7 +115,7 @@ def test_a_command_loads_nothing_long_that_it_has_no_use_for(place: Path, comman
 
 
 def test_choices_are_those_that_commands_know() -> None:
-    for forms in (_FORMS, _CLOSED_FORMS, _SHEETS, _TABLES, _COMMENT):
+    for forms in (_SHEETS, _COMMENT):
         assert set(forms) == set(get_args(Form))
     assert set(HIDDEN) == {effect.id for effect in CATALOGUE}  # what --hide offers
 
