@@ -81,7 +81,7 @@ ONLY_IN = {
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 20
 MOST_MODULES = 329  # what torques answer to; what is known before; tables, logs, Python, one family
-MOST_CODE_LINES = 55_184  # what is known before; tables of every book, logs as they come, Python
+MOST_CODE_LINES = 55_182  # what is known before; tables of every book, logs as they come, Python
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.

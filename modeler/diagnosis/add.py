@@ -196,8 +196,8 @@ def add_findings(
 
     What a diagnosis says with a doubt is left out. One after the other; each is judged beside those
     that were put in before it, by `scored`. Drive gains come first and are judged together where
-    that lowers the error: one of two wrong gains alone may spoil other joints. What has values that
-    may all be 0 once everything is in is taken out again. A reason is one line that names the
+    that lowers the error: one of two wrong gains alone may spoil other joints. What has no value
+    above its sigma once everything is in is taken out again. A reason is one line that names the
     effect and its joint.
     """
     left = [
@@ -227,7 +227,7 @@ def add_findings(
         if (finding.effect, finding.joint) in idle:
             needed = [f for f in findings if f is not finding]
             better, others = add_findings(model, compiled, needed, logs)
-            why = "with the others in, none of its values differs from 0"
+            why = "with the others in, none of its values is above its sigma"
             return better, (*others, f"left out: {finding.effect}, {where(finding.joint)} ({why})")
     return better, tuple(left)
 

@@ -250,11 +250,9 @@ def _parameters_of(model: IdentifiedModel, step: Addition) -> list[ParameterEsti
 
 
 def not_needed(model: IdentifiedModel, step: Addition) -> bool:
-    """True of an effect none of whose parameters differs from 0, beside all else in the model."""
+    """True of an effect whose parameters are all below their sigmas, beside all in the model."""
     own = _parameters_of(model, step)
-    spreads = [2.0 * (p.sigma or 0.0) for p in own]
-    ends = [p.interval or (p.value - s, p.value + s) for p, s in zip(own, spreads, strict=True)]
-    return bool(own) and all(low <= 0.0 <= high for low, high in ends)
+    return bool(own) and all(abs(p.value) <= (p.sigma or 0.0) for p in own)
 
 
 def _units(model: IdentifiedModel, step: Addition) -> dict[str, str]:
