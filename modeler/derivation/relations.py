@@ -32,40 +32,45 @@ from modeler.derivation.result import (
 # around whatever binds less than its place in that product.
 
 
-class _Text(StrPrinter):
-    """Decimal numbers with their digits, not as fractions."""
+class _Decimals:
+    """A printer of sympy that writes numbers by their digits where they end, not as fractions."""
+
+    halves: bool
+
+    def _print_Rational(self, expr: sympy.Rational) -> str:
+        return decimal(expr, self.halves) or str(super()._print_Rational(expr))  # type: ignore[misc]
+
+    def _print_Mul(self, expr: sympy.Mul) -> str:
+        number, rest = expr.as_coeff_Mul()
+        digits = decimal(number, self.halves)
+        if digits is None:
+            return str(super()._print_Mul(expr))  # type: ignore[misc]
+        return self._times(digits, rest)
+
+    def _times(self, digits: str, rest: sympy.Expr) -> str:
+        raise NotImplementedError
+
+
+class _Text(_Decimals, StrPrinter):
+    """As text."""
 
     def __init__(self, halves: bool) -> None:
         super().__init__({"full_prec": False})  # decimal numbers without zeros behind them
         self.halves = halves
 
-    def _print_Rational(self, expr: sympy.Rational) -> str:
-        return decimal(expr, self.halves) or str(super()._print_Rational(expr))
-
-    def _print_Mul(self, expr: sympy.Mul) -> str:
-        number, rest = expr.as_coeff_Mul()
-        digits = decimal(number, self.halves)
-        if digits is None:
-            return str(super()._print_Mul(expr))
+    def _times(self, digits: str, rest: sympy.Expr) -> str:
         text = self.parenthesize(rest, PRECEDENCE["Mul"], strict=True)
         return f"{digits}{text[1:]}" if text.startswith("1/") else f"{digits}*{text}"
 
 
-class _Latex(LatexPrinter):
-    """The same in LaTeX."""
+class _Latex(_Decimals, LatexPrinter):
+    """In LaTeX."""
 
     def __init__(self, halves: bool, letters: Mapping[sympy.Symbol, str]) -> None:
         super().__init__({"symbol_names": letters})
         self.halves = halves
 
-    def _print_Rational(self, expr: sympy.Rational) -> str:
-        return decimal(expr, self.halves) or str(super()._print_Rational(expr))
-
-    def _print_Mul(self, expr: sympy.Mul) -> str:
-        number, rest = expr.as_coeff_Mul()
-        digits = decimal(number, self.halves)
-        if digits is None:
-            return str(super()._print_Mul(expr))
+    def _times(self, digits: str, rest: sympy.Expr) -> str:
         top, bottom = sympy.fraction(rest)
         text = self.parenthesize(top, PRECEDENCE["Mul"], strict=True)
         times = r" \cdot " if text[0].isdigit() else " "

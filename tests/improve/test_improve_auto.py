@@ -113,14 +113,16 @@ def test_what_is_not_needed_beside_all_the_rest_is_taken_out_again(
     assert any("spring, joint 3 (with the others in, none of its values" in s for s in left_out)
 
 
-def test_an_effect_is_needed_unless_all_of_its_values_may_be_zero(
-    case: Case, sprung: Found
+@pytest.mark.parametrize(("sigmas", "needed"), [(1.5, True), (-1.5, True), (0.9, False)])
+def test_an_effect_is_needed_unless_all_of_its_values_are_below_their_sigmas(
+    case: Case, sprung: Found, sigmas: float, needed: bool
 ) -> None:
     better = add_effect(sprung.model, case.compiled, "spring", "3", sprung.logs)
-    assert not added_model.not_needed(better, better.history[-1])
-    none = [dataclasses.replace(p, value=1e-9, interval=None) for p in better.fit.parameters]
-    fit = dataclasses.replace(better.fit, parameters=tuple(none))
-    assert added_model.not_needed(dataclasses.replace(better, fit=fit), better.history[-1])
+    step = better.history[-1]
+    assert not added_model.not_needed(better, step)
+    values = [dataclasses.replace(p, value=sigmas * p.sigma) for p in better.fit.parameters]
+    fit = dataclasses.replace(better.fit, parameters=tuple(values))
+    assert added_model.not_needed(dataclasses.replace(better, fit=fit), step) != needed
 
 
 @pytest.mark.parametrize("refitted", [True, False], ids=["spring", "payload"])
