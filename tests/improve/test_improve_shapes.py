@@ -1,4 +1,4 @@
-"""Shapes of an effect are sought again once the others are in: none is named to mend a bad shape."""
+"""Shapes of an effect are sought again with the others in: none is named to mend a bad shape."""
 
 import json
 from pathlib import Path
