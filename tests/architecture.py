@@ -27,10 +27,11 @@ STAGES: dict[str, set[str]] = {
     "fleet": {"core", "effects", *SOUTH[: SOUTH.index("fleet")]},
     "excitation": {"core", "effects", "numerics", "runtime", "observation", "diagnosis"},
     "simulation": {"core", "robot"},
+    "export": {"core", "effects", "robot", "numerics", "runtime", "observation", "estimation"},
     "papers": {"core", *NORTH, "numerics", "runtime", "observation", "estimation", "simulation"},
     "report": {"core", *NORTH, *SOUTH, "simulation"},
-    "api": {"core", *NORTH, *SOUTH, "simulation", "report"},
-    "cli": {"core", *NORTH, *SOUTH, "simulation", "papers", "report", "api"},
+    "api": {"core", *NORTH, *SOUTH, "simulation", "export", "report"},
+    "cli": {"core", *NORTH, *SOUTH, "simulation", "papers", "export", "report", "api"},
 }
 
 # An effect goes round: from the diagnosis into the robot description, and from there all the way.
@@ -41,7 +42,7 @@ PACKAGES: dict[str, set[str]] = {
     "core": {"numpy", "mpmath", "pandas", "distributed"},
     "numerics": {"numpy", "scipy"},
     "effects": set(),
-    "robot": set(),
+    "robot": {"numpy", "mujoco"},
     "derivation": {"numpy", "sympy", "casadi", "flint"},
     "formulas": {"numpy", "sympy"},
     "codegen": {"numpy", "sympy", "jinja2"},
@@ -54,6 +55,7 @@ PACKAGES: dict[str, set[str]] = {
     "fleet": {"numpy", "scipy"},
     "excitation": {"numpy", "matplotlib", "pyarrow"},
     "simulation": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
+    "export": {"numpy", "scipy", "cvxpy"},
     "papers": {"numpy", "sympy"},
     "report": {"numpy", "scipy", "matplotlib", "jinja2"},
     "api": {"numpy", "sklearn"},
@@ -67,7 +69,7 @@ ONLY_IN = {
     "cffi": ("runtime/bind.py",),
     "casadi": ("derivation/lagrange.py", "simulation/"),
     "clarabel": ("estimation/nearest_body.py",),
-    "cvxpy": ("estimation/consistent.py", "simulation/completion.py"),
+    "cvxpy": ("estimation/consistent.py", "simulation/completion.py", "export/completion.py"),
     "flint": ("derivation/precise.py",),
     "pandas": ("core/table.py",),
     "h5py": ("logs/arrays.py",),
@@ -75,13 +77,14 @@ ONLY_IN = {
     "python_calamine": ("logs/sheets.py",),
     "distributed": ("core/jobs.py",),
     "sklearn": ("api/regressor.py",),
+    "mujoco": ("robot/mjcf.py",),
     "matplotlib": ("report/", "excitation/result.py"),
 }
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
-MOST_PACKAGES = 20
-MOST_MODULES = 329  # what torques answer to; what is known before; tables, logs, Python, one family
-MOST_CODE_LINES = 55_182  # what is known before; tables of every book, logs as they come, Python
+MOST_PACKAGES = 21  # files of neighbours are written
+MOST_MODULES = 341  # URDF and MJCF in; URDF, MJCF, SDF out
+MOST_CODE_LINES = 57_682  # URDF and MJCF in; URDF, MJCF, SDF out
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.

@@ -29,6 +29,7 @@ from .robot import (
     Joint as Joint,
     JointKind as JointKind,
     Limits as Limits,
+    LinkFrame as LinkFrame,
     Loop as Loop,
     PhysicalLink as PhysicalLink,
     Place as Place,

@@ -139,6 +139,26 @@ class Limits:
     acceleration: float
 
 
+@dataclass(frozen=True)
+class LinkFrame(Brief):
+    """The frame of a link in another program's file: where it is on a row of the table.
+
+    Its pose in the frame of the row is Trans(x, y, z) Rz(yaw) Ry(pitch) Rx(roll), as URDF has it.
+
+    Attributes:
+        row: name of the row whose frame it moves with; "0" for the base.
+        joint: name in that file of the joint of the row, for the link that this joint moves; ""
+            for a link that is held by a fixed joint, and for the base.
+        position: x, y, z, m.
+        angles: roll, pitch, yaw, rad.
+    """
+
+    row: str
+    joint: str
+    position: tuple[Expression, Expression, Expression]
+    angles: tuple[Expression, Expression, Expression]
+
+
 LOOP_KINDS = (
     "rigid", "revolute", "prismatic", "cylindrical", "universal", "spherical", "position", "planar",
 )  # fmt: skip
@@ -211,6 +231,8 @@ class Robot(Presented):
         links: inertial parameters of rows that have not all ten: row -> prefixes.
         shared: parameters that similar legs have in common.
         reference: standard parameters at which effects that depend on the load are linearised.
+        frames: links of the file that the robot was read from, by name, so that values find their
+            way back.
         notes: source of the table and remarks, for people.
         convention: in whose letters the table was given; `joints` are rows of Khalil's.
         readings: what reading the file decided or left out, for people.
@@ -243,6 +265,7 @@ class Robot(Presented):
     links: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     shared: tuple[SharedParameter, ...] = ()
     reference: Mapping[str, float] = field(default_factory=dict)
+    frames: Mapping[str, LinkFrame] = field(default_factory=dict)
     notes: str = ""
     convention: str = "khalil"
     readings: tuple[str, ...] = ()

@@ -1,0 +1,222 @@
+"""Rigid bodies and the joints between them, as URDF, MJCF and SDF state a robot.
+
+A file's robot is a tree of bodies, each with a frame that the file has chosen. The readers of these
+formats make a `BodyTree` of it; `moving_links` puts together what fixed joints hold together; the
+rows of the MDH table follow from the axes (`modeler.robot.mdh_rows`).
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from modeler.robot.robot import JointKind
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """Where a frame b is in a frame a: x_a = rotation x_b + position.
+
+    Attributes:
+        position: (3,) origin of b in a, m.
+        rotation: (3, 3) the axes of b in a, as columns.
+    """
+
+    position: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    rotation: np.ndarray = field(default_factory=lambda: np.eye(3))
+
+    def __matmul__(self, other: "Pose") -> "Pose":
+        """The pose of c in a, from that of b in a and that of c in b."""
+        return Pose(self.place(other.position), self.rotation @ other.rotation)
+
+    def place(self, point: np.ndarray) -> np.ndarray:
+        """A point of b, in a."""
+        return self.rotation @ point + self.position
+
+    def inverse(self) -> "Pose":
+        """The pose of a in b."""
+        return Pose(-self.rotation.T @ self.position, self.rotation.T)
+
+
+@dataclass(frozen=True, eq=False)
+class Inertial:
+    """Mass, mass centre and inertia of a body, as files state them.
+
+    Attributes:
+        mass: kg.
+        centre: (3,) mass centre in the body's frame, m.
+        inertia: (3, 3) about the mass centre, along the axes of the body's frame, kg m2.
+    """
+
+    mass: float
+    centre: np.ndarray
+    inertia: np.ndarray
+
+    def seen_from(self, pose: Pose) -> "Inertial":
+        """The same in the frame a, in which the body's frame b has that pose."""
+        turn = pose.rotation
+        return Inertial(self.mass, pose.place(self.centre), turn @ self.inertia @ turn.T)
+
+
+def about_origin(body: Inertial) -> np.ndarray:
+    """(10,) XX XY XZ YY YZ ZZ about the origin of the frame, MX MY MZ, M: standard parameters."""
+    c, m = body.centre, body.mass
+    tensor = body.inertia + m * (c @ c * np.eye(3) - np.outer(c, c))
+    return np.array([*tensor[np.triu_indices(3)], *(m * c), m])
+
+
+@dataclass(frozen=True, eq=False)
+class TreeJoint:
+    """A joint between two bodies.
+
+    The frame of `child` in that of `parent` is pose for q = zero; it turns about, or slides along,
+    `axis` through `point` by q - zero.
+
+    Attributes:
+        name: as the file has it.
+        kind: revolute, prismatic or fixed.
+        parent, child: names of bodies.
+        pose: of the child's frame in the parent's at q = zero.
+        axis: (3,) of length one, in the child's frame.
+        point: (3,) on the axis, in the child's frame, m.
+        zero: position at which `pose` holds, rad or m.
+        lower, upper, speed, effort: limits; None where the file states none.
+        damping: N m s/rad, N s/m. friction: dry, N m, N. armature: rotor inertia as the joint
+            feels it, kg m2, kg. stiffness: of a spring, about `rest`. None: not stated.
+        leader: joint that it follows, q = ratio q_leader + offset; "" if it follows none.
+        actuated: True if a motor drives it.
+    """
+
+    name: str
+    kind: JointKind
+    parent: str
+    child: str
+    pose: Pose = field(default_factory=Pose)
+    axis: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, 1.0]))
+    point: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    zero: float = 0.0
+    lower: float | None = None
+    upper: float | None = None
+    speed: float | None = None
+    effort: float | None = None
+    damping: float | None = None
+    friction: float | None = None
+    armature: float | None = None
+    stiffness: float | None = None
+    rest: float = 0.0
+    leader: str = ""
+    ratio: float = 1.0
+    offset: float = 0.0
+    actuated: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class Meeting:
+    """A point of one body that stays at a point of another: a ball joint that closes a loop.
+
+    Attributes:
+        name: for messages.
+        body, other: names of bodies.
+        point, other_point: (3,) in their frames, m.
+    """
+
+    name: str
+    body: str
+    point: np.ndarray
+    other: str
+    other_point: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class BodyTree:
+    """The robot of a file.
+
+    Attributes:
+        name: as the file has it.
+        format: "URDF", "MJCF".
+        root: the body that stands still; its frame is frame 0.
+        bodies: name -> what it weighs; None where the file says nothing.
+        joints: every one after that which moves its parent; in file order but for that.
+        meetings: points that close loops.
+        gravity: (3,) acceleration of gravity in frame 0, m/s2.
+        hidden: bodies that the reader made up, between several joints of one body.
+        notes: what was decided or left out, a line each.
+    """
+
+    name: str
+    format: str
+    root: str
+    bodies: Mapping[str, Inertial | None]
+    joints: tuple[TreeJoint, ...]
+    meetings: tuple[Meeting, ...] = ()
+    gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
+    hidden: frozenset[str] = frozenset()
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class MovingLink:
+    """Bodies that move as one: what a joint moves, and what fixed joints hold to it.
+
+    Its frame is that of the child of its joint; of the first link, which stands still, the root's.
+
+    Attributes:
+        joint: that moves it; None of the first.
+        parent: place of the link before it in the list; -1 of the first.
+        pose: of its frame in that of the link before it at q = zero.
+        bodies: name -> pose of the body's frame in the link's.
+        inertial: of all of them together, in the link's frame; None if no body states any.
+    """
+
+    joint: TreeJoint | None
+    parent: int
+    pose: Pose
+    bodies: Mapping[str, Pose]
+    inertial: Inertial | None
+
+
+def moving_links(tree: BodyTree) -> list[MovingLink]:
+    """The links of the tree, bodies on fixed joints lumped; the first stands still.
+
+    The order of the others is that of the joints that move.
+    """
+    members: list[dict[str, Pose]] = [{tree.root: Pose()}]
+    joints: list[tuple[TreeJoint | None, int, Pose]] = [(None, -1, Pose())]
+    link_of = {tree.root: 0}
+    for joint in tree.joints:
+        at = link_of[joint.parent]
+        pose = members[at][joint.parent] @ joint.pose
+        if joint.kind is JointKind.FIXED:
+            members[at][joint.child] = pose
+        else:
+            joints.append((joint, at, pose))
+            members.append({joint.child: Pose()})
+            at = len(members) - 1
+        link_of[joint.child] = at
+    return [
+        MovingLink(joint, parent, pose, own, together(_stated(tree, own)))
+        for (joint, parent, pose), own in zip(joints, members, strict=True)
+    ]
+
+
+def _stated(tree: BodyTree, members: Mapping[str, Pose]) -> Iterator[Inertial]:
+    for name, pose in members.items():
+        body = tree.bodies[name]
+        if body is not None:
+            yield body.seen_from(pose)
+
+
+def together(bodies: Iterator[Inertial]) -> Inertial | None:
+    """One body of several in the same frame; None of none."""
+    parts = list(bodies)
+    if len(parts) < 2:
+        return parts[0] if parts else None
+    mass = sum(part.mass for part in parts)
+    if mass == 0.0:
+        return Inertial(0.0, np.zeros(3), np.sum([part.inertia for part in parts], axis=0))
+    centre = np.sum([part.mass * part.centre for part in parts], axis=0) / mass
+    inertia = np.zeros((3, 3))
+    for part in parts:
+        arm = part.centre - centre
+        inertia += part.inertia + part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return Inertial(mass, centre, inertia)
