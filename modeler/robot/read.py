@@ -43,6 +43,7 @@ from modeler.robot.sections import (
     read_diagnose,
     read_drive_gains,
     read_fit,
+    read_frames,
     read_limits,
     read_numbers,
     read_parameters,
@@ -52,7 +53,7 @@ from modeler.robot.table import Rows, check_units, table_joints, table_rows
 
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
-    "relations", "platform", "loops", "home", "links", "effects", "own_effects", "coupling",
+    "relations", "platform", "loops", "home", "frames", "links", "effects", "own_effects", "coupling",
     "motors", "parameters", "reference", "drive_gains", "limits", "physical", "terms", "log",
     "fit", "diagnose",
 )  # fmt: skip
@@ -212,6 +213,9 @@ def _with_tables(
         log=section("log").table('"q<j>" = "position_{j} [deg]"'),
         fit=read_fit(section("fit")),
         diagnose=read_diagnose(section("diagnose")),
+        frames=read_frames(
+            place.at("[frames]", document.get("frames")), [j.name for j in robot.joints], values
+        ),
     )
 
 
