@@ -19,6 +19,7 @@ from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.angles import told_angles
 from modeler.robot.cells import check_name_length, read_gravity, read_symbols
 from modeler.robot.conventions import read_convention
+from modeler.robot.convert import check_known_format, converted
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.loops import (
     expanded,
@@ -36,13 +37,13 @@ from modeler.robot.motors import (
     read_shared,
     shared_names,
 )
-from modeler.robot.par_convert import check_known_format, converted
 from modeler.robot.robot import Joint, Robot
 from modeler.robot.sections import (
     read_coupling,
     read_diagnose,
     read_drive_gains,
     read_fit,
+    read_frames,
     read_limits,
     read_numbers,
     read_parameters,
@@ -52,7 +53,7 @@ from modeler.robot.table import Rows, check_units, table_joints, table_rows
 
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
-    "relations", "platform", "loops", "home", "links", "effects", "own_effects", "coupling",
+    "relations", "platform", "loops", "home", "frames", "links", "effects", "own_effects", "coupling",
     "motors", "parameters", "reference", "drive_gains", "limits", "physical", "terms", "log",
     "fit", "diagnose",
 )  # fmt: skip
@@ -212,6 +213,9 @@ def _with_tables(
         log=section("log").table('"q<j>" = "position_{j} [deg]"'),
         fit=read_fit(section("fit")),
         diagnose=read_diagnose(section("diagnose")),
+        frames=read_frames(
+            place.at("[frames]", document.get("frames")), [j.name for j in robot.joints], values
+        ),
     )
 
 
