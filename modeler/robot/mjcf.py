@@ -495,7 +495,7 @@ class _Reading:
         if other >= 0 or len(joints) != 2 or any(model.wrap_type[p] != _WRAP_JOINT for p in parts):
             raise self._refused(f"{name} holds a tendon; expected a fixed one over two joints")
         first_share, second_share = (float(model.wrap_prm[p]) for p in parts)
-        return *joints, -second_share / first_share, constant / first_share
+        return joints[0], joints[1], -second_share / first_share, constant / first_share
 
     def _meetings(self) -> Iterator[Meeting]:
         """Points that `connect` holds together."""
