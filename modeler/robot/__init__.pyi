@@ -43,3 +43,4 @@ from .start import (
     new_robot as new_robot,
     template_robot as template_robot,
 )
+from .tree_cuts import lock_values as lock_values
