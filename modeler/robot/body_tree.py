@@ -77,22 +77,22 @@ def doubt(body: Inertial, slack: float = 0.0) -> str:
 
     Args:
         body: as the file states it.
-        slack: what rounding of the printed digits may have moved a moment by, kg m2.
+        slack: what rounding of the printed digits may have moved the sum of the three by, kg m2.
     """
     if body.mass < 0.0:
         return f"mass {body.mass:g} kg is negative"
     if body.mass == 0.0:
         return "mass 0"
-    if not body.inertia.any():
+    if abs(body.inertia).max() <= 1e-12 * body.mass:  # a sphere of a micrometre
         return "a mass with inertia 0"
     if np.array_equal(body.inertia, np.eye(3)):
         return "the identity as inertia"
     small, middle, large = (float(x) for x in np.linalg.eigvalsh(body.inertia))
     printed = f"principal moments {small:.4g}, {middle:.4g}, {large:.4g} kg m2"
     slack += 1e-9 * abs(large)
-    if small < -slack:
+    if small < -slack / 3:
         return f"{printed}: one is negative"
-    if small + middle < large - 3 * slack:
+    if small + middle < large - slack:
         return f"{printed}: one is larger than the sum of the others"
     return ""
 
@@ -193,6 +193,8 @@ class BodyTree:
         unread: joint -> "file: line: joint: kind" of those of a kind that we do not have, ball,
             free, planar; `fixed` among `joints` until `tree_cuts.cut` has cut them off, locked
             them, or refuses.
+        home: posture near which the meetings are closed, joint -> position; empty: every joint at
+            its `zero`.
         notes: what was decided or left out, a line each.
     """
 
@@ -206,6 +208,7 @@ class BodyTree:
     hidden: frozenset[str] = frozenset()
     doubted: Mapping[str, str] = field(default_factory=dict)
     unread: Mapping[str, str] = field(default_factory=dict)
+    home: Mapping[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
 

@@ -159,7 +159,8 @@ class _Writing:
         """The posture of the file, near which its loops are closed."""
         if not self.loops:
             return []
-        return [f"q{name} = {number(joint.zero)}" for name, joint in self.joints.items()]
+        places = {joint.name: joint.zero for joint in self.joints.values()} | dict(self.tree.home)
+        return [f"q{name} = {number(places[j.name])}" for name, j in self.joints.items()]
 
     def relations(self) -> list[str]:
         """Joints that follow others."""

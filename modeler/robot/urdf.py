@@ -35,7 +35,7 @@ _UNREAD = ("floating", "planar", "ball", "spherical", "universal", "screw")
 _DECIMAL = re.compile(r"[+-]?(?:\d+\.?(\d*)|\.(\d+))(?:[eE]([+-]?\d{1,4}))?", re.ASCII)
 _ZERO = 1e-6
 """m, rad, and of a unit axis: smaller is what an exporter's arithmetic left of 0."""
-_MOST_NAMED = 12
+_MOST_NAMED = 6
 
 
 def urdf_tree(data: bytes, where: str, exact_decimals: bool = False) -> BodyTree:
@@ -126,11 +126,12 @@ class _Spot:
         return float(self.digits(attribute, default)[0])
 
     def stated(self, attribute: str) -> float | None:
-        """A number that may be missing; of a limit, inf says that there is none."""
+        """A number that may be missing; what is infinite, or as good as that, sets no limit."""
         text = self.element.attributes.get(attribute, "").strip()
         if not text or text.lower().lstrip("+-") in ("inf", "infinity", ".inf"):
             return None
-        return self.value(attribute)
+        value = float(self.digits(attribute, "0", most=math.inf)[0])
+        return value if abs(value) <= LARGEST else None
 
 
 class _Reading:
@@ -238,7 +239,7 @@ class _Reading:
         xx, xy, xz, yy, yz, zz = (float(word) for word in printed.values())
         matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         body = Inertial(mass.value("value"), np.zeros(3), matrix)
-        reason = doubt(body, sum(_half_unit(word) for word in printed.values()))
+        reason = doubt(body, sum(_half_unit(word) for word in printed.values() if float(word)))
         if reason:
             self._doubted[name] = reason
             self._tell(f"{reason}: {{}}; no prior is made of it", name)
@@ -378,7 +379,9 @@ class _Reading:
                 continue
             leader = mimic.needed("joint", "joint1")
             if leader not in joints:
-                raise mimic.place.error(f"there is no joint {shown(leader)}{near(leader, joints)}")
+                told = "the file lacks the joint to mimic, it moves freely: {}"
+                self._tell(told, f"{name} of {leader}")
+                continue
             direct[name] = leader, mimic.value("multiplier", "1"), mimic.value("offset")
         found = dict(joints)
         for name in direct:

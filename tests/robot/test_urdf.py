@@ -1,0 +1,328 @@
+"""URDFs as body trees: against Pinocchio on public robots; what the schema says of each element."""
+
+import math
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import RobotError
+from modeler.robot.body_tree import BodyTree, Pose, about_origin, moving_links
+from modeler.robot.robot import JointKind
+from modeler.robot.tree_cuts import cut, lock_values
+from modeler.robot.urdf import urdf_tree
+from tests.robot.public_robots import each_public_urdf
+
+ARM = """<?xml version="1.0"?>
+<robot name="arm">
+  <link name="base"/>
+  <link name="upper">
+    <inertial>
+      <origin xyz="0.1 0.02 -0.03" rpy="0.3 -0.2 0.5"/>
+      <mass value="2.5"/>
+      <inertia ixx="0.02" ixy="0.001" ixz="-0.002" iyy="0.03" iyz="0.0005" izz="0.025"/>
+    </inertial>
+  </link>
+  <link name="fore"><inertial><mass value="1"/>
+    <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
+  <link name="flange"><inertial><origin xyz="0 0 0.1"/><mass value="0.5"/>
+    <inertia ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"/></inertial></link>
+  <link name="left"/>
+  <link name="right"/>
+  <joint name="shoulder" type="revolute">
+    <parent link="base"/><child link="upper"/>
+    <origin xyz="0 0 0.4" rpy="1.5708 0 -1.571"/><axis xyz="0 0 2"/>
+    <limit lower="-1.5" upper="2" velocity="3" effort="40"/><dynamics damping="0.7" friction="1.5"/>
+  </joint>
+  <joint name="elbow" type="continuous">
+    <parent link="upper"/><child link="fore"/><origin xyz="0.3 1e-9 0" rpy="0 0.7854 0.25"/>
+  </joint>
+  <joint name="wrist" type="fixed"><parent link="fore"/><child link="flange"/>
+    <origin xyz="0 0.1 0" rpy="0 3.1416 0"/></joint>
+  <joint name="finger" type="prismatic"><parent link="flange"/><child link="left"/>
+    <axis xyz="0 1 0"/><limit lower="0" upper="0.04" effort="inf" velocity="0"/></joint>
+  <joint name="other" type="prismatic"><parent link="flange"/><child link="right"/>
+    <axis xyz="0 1 0"/><mimic joint="finger" multiplier="-2" offset="0.01"/></joint>
+</robot>
+"""
+
+
+def read(text: str = ARM, exact_decimals: bool = False) -> BodyTree:
+    return urdf_tree(text.encode(), "arm.urdf", exact_decimals)
+
+
+def edited(*pairs: tuple[str, str], text: str = ARM) -> str:
+    for old, new in pairs:
+        assert old in text, old
+        text = text.replace(old, new, 1)
+    return text
+
+
+def positions(tree: BodyTree, seed: int) -> dict[str, float]:
+    """Random positions of the joints, followers where their leader puts them."""
+    rng = np.random.default_rng(seed)
+    q = {joint.name: float(rng.uniform(-2, 2)) for joint in tree.joints}
+    for joint in tree.joints:
+        if joint.leader:
+            q[joint.name] = joint.ratio * q[joint.leader] + joint.offset
+    return q
+
+
+def placements(tree: BodyTree, q: Mapping[str, float]) -> dict[str, Pose]:
+    poses = {tree.root: Pose()}
+    for joint in tree.joints:
+        poses[joint.child] = poses[joint.parent] @ joint.at(q[joint.name])
+    return poses
+
+
+def joint_of(tree: BodyTree, name: str):
+    return next(joint for joint in tree.joints if joint.name == name)
+
+
+@each_public_urdf()
+def test_public_robots_are_those_of_pinocchio(path: Path):
+    """Every link at random positions, the lumped bodies, dampings and limits."""
+    pin = pytest.importorskip("pinocchio", reason="NOT CHECKED: Pinocchio is not installed")
+    data = path.read_bytes()
+    if b"<link" not in data:
+        with pytest.raises(RobotError, match="has no link"):
+            urdf_tree(data, path.name)
+        return
+    tree = cut(urdf_tree(data, path.name, exact_decimals=True))
+    model = pin.buildModelFromUrdf(str(path))
+    state, q = pin.neutral(model), positions(tree, seed=zlib.crc32(path.stem.encode()))
+    moving = [joint for joint in tree.joints if joint.kind is not JointKind.FIXED]
+    assert {joint.name for joint in moving} == set(model.names) - {"universe"}
+    for joint in moving:
+        theirs = model.joints[model.getJointId(joint.name)]
+        at = theirs.idx_q
+        if theirs.nq == 2:
+            state[at : at + 2] = math.cos(q[joint.name]), math.sin(q[joint.name])
+        else:
+            state[at] = q[joint.name]
+            if joint.lower is not None and joint.upper is not None:
+                assert model.lowerPositionLimit[at] == joint.lower
+                assert model.upperPositionLimit[at] == joint.upper
+        if joint.damping is not None:
+            assert model.damping[theirs.idx_v] == joint.damping
+        if joint.effort is not None:
+            assert model.effortLimit[theirs.idx_v] == joint.effort
+    known = model.createData()
+    pin.framesForwardKinematics(model, known, state)
+    for name, pose in placements(tree, q).items():
+        theirs = known.oMf[model.getFrameId(name, pin.FrameType.BODY)]
+        assert np.allclose(pose.position, theirs.translation, rtol=0, atol=1e-12), name
+        assert np.allclose(pose.rotation, theirs.rotation, rtol=0, atol=1e-12), name
+    for link in moving_links(tree):
+        number = 0 if link.joint is None else model.getJointId(link.joint.name)
+        theirs = model.inertias[number].toDynamicParameters()  # m, mc, xx xy yy xz yz zz
+        ours = np.zeros(10) if link.inertial is None else about_origin(link.inertial)
+        order = [9, 6, 7, 8, 0, 1, 3, 2, 4, 5]
+        assert np.allclose(ours[order], theirs, rtol=1e-11, atol=1e-13), link.bodies
+
+
+@each_public_urdf()
+def test_what_is_snapped_is_a_rounding(path: Path):
+    """Snapped poses are those of the digits to what two decimals of an angle say, and told."""
+    data = path.read_bytes()
+    if b"<link" not in data:
+        return
+    exact, snapped = (urdf_tree(data, path.name, choice) for choice in (True, False))
+    changed = 0.0
+    for one, other in zip(exact.joints, snapped.joints, strict=True):
+        changed = max(changed, float(abs(one.pose.rotation - other.pose.rotation).max()))
+        assert np.allclose(one.pose.position, other.pose.position, rtol=0, atol=1e-6)
+        assert np.allclose(one.axis, other.axis, rtol=0, atol=2e-6)
+    assert changed < 5e-3
+    if changed > 0:
+        assert any("exact here" in note or "are 0 here" in note for note in snapped.notes)
+    assert not any("here:" in note or "are 0 here" in note for note in exact.notes)
+
+
+def test_right_angles_are_exact():
+    tree = read()
+    shoulder = joint_of(tree, "shoulder").pose.rotation
+    assert np.array_equal(shoulder, [[0, 0, -1], [-1, 0, 0], [0, 1, 0]])
+    assert not np.signbit(shoulder[shoulder == 0]).any()
+    elbow = joint_of(tree, "elbow").pose
+    assert np.array_equal(elbow.position, [0.3, 0, 0])
+    assert elbow.rotation[2, 0] == -math.sqrt(0.5)
+    told = [note for note in tree.notes if "exact here" in note]
+    assert len(told) == 1 and "1.5708 is pi/2" in told[0] and "0.7854 is pi/4" in told[0]
+    assert any("1 lengths, angles" in note for note in tree.notes)
+    kept = joint_of(read(exact_decimals=True), "shoulder").pose.rotation
+    assert kept[2, 2] == pytest.approx(math.cos(1.5708), rel=1e-9)
+    assert kept[2, 2] != 0
+
+
+def test_elements_of_the_schema():
+    tree = read()
+    assert (tree.name, tree.format, tree.root) == ("arm", "URDF", "base")
+    shoulder, elbow, finger, other = (
+        joint_of(tree, name) for name in ("shoulder", "elbow", "finger", "other")
+    )
+    assert (shoulder.lower, shoulder.upper, shoulder.speed, shoulder.effort) == (-1.5, 2, 3, 40)
+    assert (shoulder.damping, shoulder.friction, shoulder.armature) == (0.7, 1.5, None)
+    assert np.array_equal(shoulder.axis, [0, 0, 1])
+    assert any("length 1" in note and "shoulder" in note for note in tree.notes)
+    assert np.array_equal(elbow.axis, [1, 0, 0])
+    assert elbow.lower is None
+    assert elbow.damping is None
+    assert (finger.lower, finger.upper, finger.speed, finger.effort) == (0, 0.04, None, None)
+    assert (other.leader, other.ratio, other.offset) == ("finger", -2, 0.01)
+    assert (other.actuated, finger.actuated) == (False, True)
+    assert tree.bodies["base"] is None
+    assert any("no <inertial>" in note and '"left"' in note for note in tree.notes)
+
+
+def test_joints_are_sorted_only_as_far_as_must_be():
+    head, *joints = ARM.removesuffix("</robot>\n").split("  <joint ")
+    moved = [*joints[1:4], joints[0], joints[4], "</robot>"]
+    tree = read(head + "  <joint ".join(["", *moved[:-1]]) + moved[-1])
+    order = ["shoulder", "elbow", "wrist", "finger", "other"]
+    assert [joint.name for joint in tree.joints] == order
+
+
+def test_mimic_joints_have_one_leader():
+    chain = edited(
+        ('<axis xyz="0 1 0"/><limit', '<mimic joint="elbow" multiplier="3" offset="1"/><limit')
+    )
+    other = joint_of(read(chain), "other")
+    assert (other.leader, other.ratio) == ("elbow", -6)
+    assert other.offset == pytest.approx(-2 + 0.01)
+    still = read(edited(('multiplier="-2"', 'multiplier="0"')))
+    assert joint_of(still, "other").kind is JointKind.FIXED
+    assert np.allclose(joint_of(still, "other").pose.position, [0, 0.01, 0])
+    lost = read(edited(('mimic joint="finger"', 'mimic joint="finge"')))
+    assert not joint_of(lost, "other").leader
+    assert any('"other of finge"' in note for note in lost.notes)
+
+
+def test_armature_is_gear_ratio_squared_times_rotor_inertia():
+    drake = """<transmission><joint name="elbow"/><actuator name="m">
+      <drake:gear_ratio value="50"/><drake:rotor_inertia value="2e-5"/></actuator></transmission>"""
+    named = """<transmission name="t"><joint name="shoulder"/><actuator name="m">
+      <mechanicalReduction>-100</mechanicalReduction><motorInertia>3e-5</motorInertia></actuator>
+      </transmission><transmission name="u"><joint name="finger"/><actuator name="n">
+      <mechanicalReduction>7</mechanicalReduction></actuator></transmission>"""
+    tree = read(edited(("</robot>", f"{drake}{named}</robot>")))
+    assert joint_of(tree, "elbow").armature == pytest.approx(0.05)
+    assert joint_of(tree, "shoulder").armature == pytest.approx(0.3)
+    assert joint_of(tree, "finger").armature is None
+
+
+FREE = ('type="continuous"', 'type="floating"')
+
+
+def test_a_floating_base_stands_still():
+    tree = cut(read(edited(('type="revolute"', 'type="floating"'))))
+    assert joint_of(tree, "shoulder").kind is JointKind.FIXED
+    assert any("shoulder" in note and "floating" in note for note in tree.notes)
+    assert not tree.unread
+
+
+def test_other_joints_are_refused_cut_off_or_held():
+    text = edited(FREE)
+    with pytest.raises(
+        RobotError, match=r'arm.urdf: line 22: joint "elbow": floating joints are'
+    ) as e:
+        cut(read(text))
+    assert "--lock elbow=0" in str(e.value)
+    held = cut(read(text), locks={"elbow": 0})
+    assert len(moving_links(held)) == 4
+    assert len(cut(read(text), tip="upper").joints) == 1
+    base = cut(read(text), base="fore")
+    assert {joint.name for joint in base.joints} == {"wrist", "finger", "other"}
+    with pytest.raises(RobotError, match="expected 0: a floating joint"):
+        cut(read(text), locks={"elbow": 0.1})
+
+
+def test_gravity_is_seen_from_the_new_base():
+    """It points where it pointed, and frames stand to each other as before."""
+    tree, base = read(), cut(read(), base="upper")
+    q = positions(tree, 3) | {"shoulder": 0.0}
+    before, after = placements(tree, q), placements(base, q)
+    assert np.allclose(before["upper"].rotation @ base.gravity, tree.gravity, atol=1e-15)
+    for name, pose in after.items():
+        expected = before["upper"].inverse() @ before[name]
+        assert np.allclose(pose.position, expected.position, atol=1e-14)
+    assert any("gravity" in note for note in base.notes)
+    assert "base" not in base.bodies
+
+
+def test_a_tip_keeps_what_is_fixed_on_the_way():
+    tree = cut(read(), tip="left")
+    assert set(tree.bodies) == set(read().bodies) - {"right"}
+    short = cut(read(), tip="fore")
+    assert set(short.bodies) == {"base", "upper", "fore", "flange"}
+    assert sum(link.inertial.mass for link in moving_links(short) if link.inertial) == 4.0
+    gone = cut(read(), tip="upper")
+    assert any("1.5 kg" in note and "--lock" in note for note in gone.notes)
+    led = cut(read(), tip="right")
+    assert joint_of(led, "other").kind is JointKind.FIXED
+
+
+def test_locked_joints_lump_their_bodies():
+    """Placements are those of the tree at that position; the mass stays."""
+    tree = read()
+    locked = cut(tree, locks={"elbow": "30 deg", "finger": "20 mm"})
+    q = positions(tree, 5) | {"elbow": math.pi / 6, "finger": 0.02, "other": -0.03}
+    ours, theirs = placements(locked, q), placements(tree, q)
+    for name, pose in ours.items():
+        assert np.allclose(pose.position, theirs[name].position, atol=1e-14), name
+        assert np.allclose(pose.rotation, theirs[name].rotation, atol=1e-14), name
+    links = moving_links(locked)
+    assert len(links) == 2
+    assert links[1].inertial is not None
+    assert links[1].inertial.mass == 4.0
+    assert any("outside" in note for note in cut(tree, locks={"shoulder": 3}).notes)
+
+
+def test_cuts_name_what_they_do_not_find():
+    for cuts, told in (
+        ({"base": "uper"}, r'--base: "uper": no link of that name in arm \(did you mean "upper"'),
+        ({"tip": "elbow"}, '--tip: "elbow": is a joint; expected a link'),
+        ({"locks": {"elbo": 1}}, r'--lock: "elbo": no joint of that name \(did you mean "elbow"'),
+        ({"locks": {"other": 1}}, 'follows joint "finger"; lock that one'),
+        ({"locks": {"finger": "30 deg"}}, 'got "30 deg"; expected a position in m'),
+        ({"locks": {"elbow": "30 mm"}}, "expected a position in rad"),
+        ({"locks": {"elbow": "far"}}, "expected a position in rad or m"),
+        ({"locks": {"elbow": "1/0"}}, "expected a position in rad or m"),
+    ):
+        with pytest.raises(RobotError, match=told):
+            cut(read(), **cuts)
+    assert lock_values(["a=b=30 deg", "c = 1"]) == {"a=b": "30 deg", "c": "1"}
+    for texts in (["elbow"], ["=1"], ["a=1", "a=2"]):
+        with pytest.raises(RobotError, match="--lock"):
+            lock_values(texts)
+
+
+INERTIA = 'ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"'
+
+
+@pytest.mark.parametrize(
+    ("mass", "inertia", "told"),
+    [
+        ("0", INERTIA, "mass 0"),
+        ("-1", INERTIA, "mass -1 kg is negative"),
+        ("1", INERTIA.replace("0.001", "0"), "inertia 0"),
+        ("1", INERTIA.replace("0.001", "1"), "identity"),
+        ("1", INERTIA.replace('izz="0.001"', 'izz="0.0031"'), "0.001, 0.001, 0.0031 kg m2"),
+        ("1", INERTIA.replace('iyy="0.001"', 'iyy="-0.001"'), "negative"),
+        ("1", INERTIA.replace('ixy="0"', 'ixy="0.002"'), "negative"),
+        ("1", INERTIA, ""),
+        # 0.0014 + 0.0014 > 0.0026: within what the printed digits say.
+        ("1", INERTIA.replace('izz="0.001"', 'izz="0.003"'), ""),
+    ],
+)
+def test_doubted_bodies_are_told(mass: str, inertia: str, told: str):
+    tree = read(edited((INERTIA, inertia), ('mass value="0.5"', f'mass value="{mass}"')))
+    assert tree.bodies["flange"] is not None
+    notes = [note for note in tree.notes if "prior" in note]
+    if told:
+        assert told in tree.doubted["flange"]
+        assert len(notes) == 1 and told in notes[0] and '"flange"' in notes[0]
+    else:
+        assert not tree.doubted and not notes
