@@ -42,6 +42,7 @@ from modeler.robot.sections import (
     read_coupling,
     read_diagnose,
     read_drive_gains,
+    read_drives,
     read_fit,
     read_limits,
     read_numbers,
@@ -53,7 +54,7 @@ from modeler.robot.table import Rows, check_units, table_joints, table_rows
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
     "relations", "platform", "loops", "home", "links", "effects", "own_effects", "coupling",
-    "motors", "parameters", "reference", "drive_gains", "limits", "physical", "terms", "log",
+    "motors", "parameters", "reference", "drive_gains", "drives", "limits", "physical", "terms", "log",
     "fit", "diagnose",
 )  # fmt: skip
 _NEEDED = {
@@ -195,8 +196,11 @@ def _with_tables(
         f"names such as {listed(known[:12])} (friction and rotors only where [effects] has them)"
     )
     parameters, uncertainty = read_parameters(section("parameters"), known, names)
+    readings, drive_gains = [*robot.readings], read_drive_gains(section("drive_gains"), moving)
+    drive_gains, drives = read_drives(section("drives"), moving, drive_gains, readings)
     return dataclasses.replace(
         robot,
+        readings=tuple(readings),
         loops=loops,
         home=home,
         shared=shared,
@@ -205,7 +209,8 @@ def _with_tables(
         priority=_priority(place.at("priority", document.get("priority", [])), known, robot),
         parameters=parameters,
         uncertainty=uncertainty,
-        drive_gains=read_drive_gains(section("drive_gains"), moving),
+        drive_gains=drive_gains,
+        drives=drives,
         limits=read_limits(section("limits"), moving, values),
         physical=read_physical(section("physical"), moving),
         terms=section("terms").table("[terms]"),
