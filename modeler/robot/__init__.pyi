@@ -4,6 +4,7 @@ from .conventions import (
     written_letter as written_letter,
     written_table as written_table,
 )
+from .convert import converted as converted
 from .edit import (
     home_lines as home_lines,
     robot_with_effects as robot_with_effects,
@@ -20,7 +21,6 @@ from .edit import (
 )
 from .loops import read_home as read_home
 from .motors import joint_directions as joint_directions
-from .par_convert import converted as converted
 from .read import read_robot as read_robot, robot_from_text as robot_from_text
 from .robot import (
     INERTIAL as INERTIAL,

@@ -12,6 +12,7 @@ from modeler.core.toml_cells import Place, listed
 from modeler.effects import CATALOGUE
 from modeler.robot.angles import exact_angle, exact_terms, told_angles
 from modeler.robot.cells import C_WORDS
+from modeler.robot.conventions import ANGLES, GEOMETRY
 from modeler.robot.effects import parameter_owners
 from modeler.robot.par_text import (
     BODIES,
@@ -31,8 +32,6 @@ from modeler.robot.par_text import (
 # The frames of a `.par` file: how many there are, what carries them, where their joints are.
 
 
-GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
-ANGLES = ("gamma", "alpha", "theta")
 _USUAL = re.compile(r"(?:theta|th|t|q|r|d|x)_?(\d+)", re.IGNORECASE)
 
 

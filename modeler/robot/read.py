@@ -19,6 +19,7 @@ from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.angles import told_angles
 from modeler.robot.cells import check_name_length, read_gravity, read_symbols
 from modeler.robot.conventions import read_convention
+from modeler.robot.convert import check_known_format, converted
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.loops import (
     expanded,
@@ -36,7 +37,6 @@ from modeler.robot.motors import (
     read_shared,
     shared_names,
 )
-from modeler.robot.par_convert import check_known_format, converted
 from modeler.robot.robot import Joint, Robot
 from modeler.robot.sections import (
     read_coupling,
