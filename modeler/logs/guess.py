@@ -91,12 +91,12 @@ def guesses(
     found: dict[str, Guess] = {}
     by_duty = bool(joints) and any(joint.drive for joint in joints)
     for template, labels in groups.items():
-        names = [template.replace("{}", label) for label in labels]
-        unit = find_unit(stated.get(names[0]) or _named(names[0]) or "?")
+        own_columns = [template.replace("{}", label) for label in labels]
+        unit = find_unit(stated.get(own_columns[0]) or _named(own_columns[0]) or "?")
         own = _role(template) or ("" if unit is None else _KINDS.get(unit.powers, ""))
         if by_duty and own == "tau" and re.search(r"load(?![a-z])", template.lower()):
             own = "duty"  # what such drives call their load is a share of the voltage
-        if own == "time" and not all(_rises(columns[name]) for name in names):
+        if own == "time" and not all(_rises(columns[name]) for name in own_columns):
             own = "tau" if template.lower().split()[:1] == ["t"] else ""
         better = own in found and len(labels) > len(found[own].labels)
         if own and (own not in found or better):
@@ -342,9 +342,7 @@ def log_text(
     return "\n".join([head, *lines]) + "\n" if lines else ""
 
 
-def _lines_of(
-    one: Guess, own: Sequence[str], named: bool, names: Mapping[str, str]
-) -> list[str]:
+def _lines_of(one: Guess, own: Sequence[str], named: bool, names: Mapping[str, str]) -> list[str]:
     """The lines of one quantity: a pattern, and joints of another unit by themselves."""
     ours = all(c in (one.own, *(one.own + j for j in own)) for c in one.columns)
     unit = one.units[0] if len(set(one.units)) == 1 else ""

@@ -257,8 +257,8 @@ def _positions(
         units.append("counts" if text and known is None else "m" if slides else "rad")
         factor = 1.0 if known is None or table.unit(name) else known.factor  # else it is SI already
         columns.append(values[name] * factor)
-    names = tuple(map(table.called, one.columns))
-    return Positions(names, tuple(units), time, np.column_stack(columns))
+    called = tuple(map(table.called, one.columns))
+    return Positions(called, tuple(units), time, np.column_stack(columns))
 
 
 def _repeats(

@@ -180,9 +180,7 @@ def backwards(table: LogTable, row: int, before: float, time: float) -> DataErro
     )
 
 
-def _torque(
-    table: LogTable, joint: JointSpec, spec: ModuleSpec
-) -> tuple[np.ndarray, str, float]:
+def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str, float]:
     """Its torque, where that comes from, and the torque per speed that is to be taken from it."""
     tau, current, duty = (f"{kind}{joint.name}" for kind in ("tau", "current", "duty"))
     if tau in table:
@@ -207,9 +205,7 @@ def _torque(
     )
 
 
-def _by_duty(
-    table: LogTable, joint: JointSpec, spec: ModuleSpec
-) -> tuple[np.ndarray, str, float]:
+def _by_duty(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str, float]:
     """The torque gain (duty voltage - k_e qd) / R of a joint, its last term apart."""
     duty, voltage, drive = f"duty{joint.name}", f"voltage{joint.name}", joint.drive
     if drive is None or joint.drive_gain is None:

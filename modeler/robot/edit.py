@@ -99,7 +99,9 @@ def with_drive_gains(text: str, gains: Mapping[str, float]) -> str:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
     drives = tomllib.loads(text).get("drives", {})
-    known = {name: drive | {"gain": gains.get(name, drive["gain"])} for name, drive in drives.items()}
+    known = {
+        name: drive | {"gain": gains.get(name, drive["gain"])} for name, drive in drives.items()
+    }
     if known != drives:
         text = _with_table(text, "drives", known, "one joint a line")
     others = {name: gain for name, gain in gains.items() if name not in drives}

@@ -181,10 +181,10 @@ def moved(truth: str, believed: str, links: Sequence[Link], seed: int, seconds: 
         guess.qpos[:], guess.qvel[:] = data.qpos, data.qvel
         mujoco.mj_forward(model, guess)
         mujoco.mj_fullM(model, guess, mass)
-        wanted = (
-            asked[2, k] + damp * (asked[1, k] - data.qvel) + stiff * (asked[0, k] - data.qpos)
+        wanted = asked[2, k] + damp * (asked[1, k] - data.qvel) + stiff * (asked[0, k] - data.qpos)
+        friction = model.dof_damping * data.qvel + model.dof_frictionloss * np.tanh(
+            asked[1, k] / 0.05
         )
-        friction = model.dof_damping * data.qvel + model.dof_frictionloss * np.tanh(asked[1, k] / 0.05)
         tau[k] = np.clip(mass @ wanted + guess.qfrc_bias + friction, -limits, limits)
         data.ctrl[:] = tau[k]
         mujoco.mj_step(plant, data, every)
@@ -213,7 +213,9 @@ def sines(links: Sequence[Link], seed: int, time: np.ndarray) -> np.ndarray:
     return found
 
 
-def logged(run: Run, seed: int, counts: float = 2**18, noise: float = 0.01) -> dict[str, np.ndarray]:
+def logged(
+    run: Run, seed: int, counts: float = 2**18, noise: float = 0.01
+) -> dict[str, np.ndarray]:
     """A log: positions in steps of the encoder, torques with white noise of a share of their rms."""
     draw = np.random.default_rng(seed)
     step = 2 * np.pi / counts
