@@ -12,9 +12,23 @@ FINE, COARSE = 3, 2
 """Decimals that an angle must have to be taken for a multiple of pi/12, and of pi/2: with fewer,
 a measured angle is near one by chance too often."""
 
+_SINES = (0.0, math.sin(math.pi / 12), 0.5, math.sqrt(0.5), math.sqrt(0.75),
+          math.cos(math.pi / 12), 1.0)  # fmt: skip
+"""Of 0, pi/12, .. pi/2, each the double next to it."""
+
 
 def exact_angle(digits: str) -> str | None:
     """The multiple of pi/12 that the printed number is a rounding of; None if it is of none.
+
+    Args:
+        digits: a decimal number, rad.
+    """
+    count = twelfths(digits)
+    return None if count is None else pi_multiple(Fraction(count, 12))
+
+
+def twelfths(digits: str) -> int | None:
+    """How many twelfths of pi the printed number is a rounding of; None if of no whole number.
 
     `1.5708`, `1.571`, `1.57080` and the cut-off `3.1415` are: from the multiple to the number it
     is half a unit of its last digit, or towards 0 a whole one. Zeros at the end are taken for
@@ -24,19 +38,32 @@ def exact_angle(digits: str) -> str | None:
         digits: a decimal number, rad.
     """
     number = abs(Decimal(digits))
-    twelfths = round(float(number) / (math.pi / 12))
-    if twelfths == 0 or twelfths > 24:
+    count = round(float(number) / (math.pi / 12))
+    if count == 0 or count > 24:
         return None
-    least = COARSE if twelfths % 6 == 0 else FINE
+    least = COARSE if count % 6 == 0 else FINE
     decimals = _decimals(number.normalize())
     if decimals < least:
         decimals = _decimals(number)
     if decimals < least:
         return None
     unit = 10.0 ** -min(decimals, 15)
-    if not -unit <= float(number) - twelfths * math.pi / 12 <= unit / 2:
+    if not -unit <= float(number) - count * math.pi / 12 <= unit / 2:
         return None
-    return pi_multiple(Fraction(-twelfths if digits.startswith("-") else twelfths, 12))
+    return -count if digits.startswith("-") else count
+
+
+def cosine_sine(angle: float) -> tuple[float, float]:
+    """Both, of the double next to a multiple of pi/12 as that multiple has them: cos pi/2 is 0."""
+    count = round(angle * 12 / math.pi)
+    if abs(angle - count * math.pi / 12) > 2 * math.ulp(max(1.0, abs(angle))):
+        return math.cos(angle), math.sin(angle)
+    return _sine_of_twelfths(count + 6), _sine_of_twelfths(count)
+
+
+def _sine_of_twelfths(count: int) -> float:
+    half, place = divmod(count % 24, 12)
+    return (-1.0 if half and place else 1.0) * _SINES[min(place, 12 - place)]
 
 
 def _decimals(number: Decimal) -> int:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from modeler.robot.angles import cosine_sine
 from modeler.robot.robot import JointKind
 
 
@@ -56,6 +57,44 @@ class Inertial:
         """The same in the frame a, in which the body's frame b has that pose."""
         turn = pose.rotation
         return Inertial(self.mass, pose.place(self.centre), turn @ self.inertia @ turn.T)
+
+
+def turned(axis: np.ndarray, angle: float) -> np.ndarray:
+    """(3, 3) the rotation about an axis of length one (Rodrigues), exact for right angles."""
+    cosine, sine = cosine_sine(angle)
+    along = np.outer(axis, axis)
+    x, y, z = axis
+    across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    # + 0.0: no matrix has a -0.
+    return np.asarray(along + cosine * (np.eye(3) - along) + sine * across + 0.0)
+
+
+def doubt(body: Inertial, slack: float = 0.0) -> str:
+    """Why no body can have these values, or nobody has weighed them; "" if there is no doubt.
+
+    The principal moments of a body are not negative, and none is larger than the sum of the others
+    (Wensing et al. 2018, equation 6).
+
+    Args:
+        body: as the file states it.
+        slack: what rounding of the printed digits may have moved a moment by, kg m2.
+    """
+    if body.mass < 0.0:
+        return f"mass {body.mass:g} kg is negative"
+    if body.mass == 0.0:
+        return "mass 0"
+    if not body.inertia.any():
+        return "a mass with inertia 0"
+    if np.array_equal(body.inertia, np.eye(3)):
+        return "the identity as inertia"
+    small, middle, large = (float(x) for x in np.linalg.eigvalsh(body.inertia))
+    printed = f"principal moments {small:.4g}, {middle:.4g}, {large:.4g} kg m2"
+    slack += 1e-9 * abs(large)
+    if small < -slack:
+        return f"{printed}: one is negative"
+    if small + middle < large - 3 * slack:
+        return f"{printed}: one is larger than the sum of the others"
+    return ""
 
 
 def about_origin(body: Inertial) -> np.ndarray:
@@ -109,6 +148,16 @@ class TreeJoint:
     offset: float = 0.0
     actuated: bool = True
 
+    def at(self, position: float) -> Pose:
+        """The frame of the child in that of the parent, at a joint position."""
+        step = position - self.zero
+        if self.kind is JointKind.FIXED or step == 0.0:
+            return self.pose
+        if self.kind is JointKind.PRISMATIC:
+            return self.pose @ Pose(step * self.axis)
+        turn = turned(self.axis, step)
+        return self.pose @ Pose(self.point - turn @ self.point, turn)
+
 
 @dataclass(frozen=True, eq=False)
 class Meeting:
@@ -140,6 +189,10 @@ class BodyTree:
         meetings: points that close loops.
         gravity: (3,) acceleration of gravity in frame 0, m/s2.
         hidden: bodies that the reader made up, between several joints of one body.
+        doubted: body -> why its values are no measurement (`doubt`): they make no prior.
+        unread: joint -> "file: line: joint: kind" of those of a kind that we do not have, ball,
+            free, planar; `fixed` among `joints` until `tree_cuts.cut` has cut them off, locked
+            them, or refuses.
         notes: what was decided or left out, a line each.
     """
 
@@ -151,6 +204,8 @@ class BodyTree:
     meetings: tuple[Meeting, ...] = ()
     gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
     hidden: frozenset[str] = frozenset()
+    doubted: Mapping[str, str] = field(default_factory=dict)
+    unread: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
 
