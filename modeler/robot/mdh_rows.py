@@ -10,12 +10,12 @@ with the axis of a joint that link j carries, its origin at the foot, unless ano
 cell. Where axes are parallel but for a little, that foot would be far away, and with it the origin
 about which masses and inertias are counted: a fixed row stands between them instead.
 
-Source: W. Khalil, J.-F. Kleinfinger, A new geometric notation for open and closed-loop robots, 1986;
-    S. Hayati, Robot arm geometric link parameter estimation, 1983 (nearly parallel axes).
+Source: W. Khalil, J.-F. Kleinfinger, A new geometric notation for open and closed-loop robots,
+    1986; S. Hayati, Robot arm geometric link parameter estimation, 1983 (nearly parallel axes).
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -331,6 +331,9 @@ def roll_pitch_yaw(rotation: np.ndarray) -> tuple[float, float, float]:
     return exact_turn(roll), exact_turn(pitch), exact_turn(yaw)
 
 
-def exact_position(position: Iterable[float]) -> tuple[float, ...]:
-    """Lengths, as decimals where they are."""
-    return tuple(exact_length(float(length)) for length in position)
+def towards(point: np.ndarray) -> dict[str, float]:
+    """gamma, b and d of a fixed row whose origin is at a point of the frame before it."""
+    way = _towards(point[:2])
+    gamma = _folded(way.gamma or 0.0)
+    d = exact_length(way.d * _sign(gamma, way.gamma))
+    return {"gamma": gamma, "b": exact_length(float(point[2])), "d": d}

@@ -354,7 +354,7 @@ def _make_polar(
 # The cells of the frames as those of a robot file.
 
 
-_LETTER = {"gamma": "gam", "alpha": "alp", "theta": "off", "b": "B", "d": "D", "r": "R"}
+LETTER = {"gamma": "gam", "alpha": "alp", "theta": "off", "b": "B", "d": "D", "r": "R"}
 _TURN = 6.29  # rad
 
 
@@ -472,7 +472,7 @@ def _as_symbol(
         )
     if abs(number) not in equal:
         unit = "rad" if column in ANGLES else "m"
-        equal[abs(number)] = [symbols.add(f"{_LETTER[column]}{frame.number}", abs(number), unit)]
+        equal[abs(number)] = [symbols.add(f"{LETTER[column]}{frame.number}", abs(number), unit)]
     else:
         equal[abs(number)].append(f"{column} of frame {frame.number}")
     name = equal[abs(number)][0]

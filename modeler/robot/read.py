@@ -44,6 +44,7 @@ from modeler.robot.sections import (
     read_drive_gains,
     read_drives,
     read_fit,
+    read_frames,
     read_limits,
     read_numbers,
     read_parameters,
@@ -53,9 +54,9 @@ from modeler.robot.table import Rows, check_units, table_joints, table_rows
 
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
-    "relations", "platform", "loops", "home", "links", "effects", "own_effects", "coupling",
-    "motors", "parameters", "reference", "drive_gains", "drives", "limits", "physical", "terms", "log",
-    "fit", "diagnose",
+    "relations", "platform", "loops", "home", "frames", "links", "effects", "own_effects",
+    "coupling", "motors", "parameters", "reference", "drive_gains", "drives", "limits", "physical",
+    "terms", "log", "fit", "diagnose",
 )  # fmt: skip
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
@@ -217,6 +218,9 @@ def _with_tables(
         log=section("log").table('"q<j>" = "position_{j} [deg]"'),
         fit=read_fit(section("fit")),
         diagnose=read_diagnose(section("diagnose")),
+        frames=read_frames(
+            place.at("[frames]", document.get("frames")), [j.name for j in robot.joints], values
+        ),
     )
 
 

@@ -8,8 +8,8 @@ from modeler.core.errors import GAIN_METHOD, TWO_STEPS, Derivatives, Method
 from modeler.core.expression import Expression
 from modeler.core.manifest import DriveSpec
 from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.robot.cells import joint_sum, name_of, number_at
-from modeler.robot.robot import Joint, Limits, PhysicalLink
+from modeler.robot.cells import check_declared, form_at, joint_sum, name_of, number_at
+from modeler.robot.robot import Joint, Limits, LinkFrame, PhysicalLink
 
 Coupling = dict[str, dict[str, float]]
 
@@ -343,3 +343,57 @@ def _letters(entries: list[Any], variables: set[str], place: Place) -> list[Expr
                 "numbers"
             )
     return expressions
+
+
+FRAME_COLUMNS = ("link", "row", "joint", "x", "y", "z", "roll", "pitch", "yaw")
+"""Of `[frames]`."""
+_FRAMES = 'columns = ["link", "row", "x"], rows = [["hand", "6", 0.1]]'
+
+
+def read_frames(
+    place: Place, rows: Collection[str], symbols: Mapping[str, float]
+) -> dict[str, LinkFrame]:
+    """Links of another program's file on the rows of the table: `[frames]`.
+
+    Raises:
+        RobotError: columns, names of links or rows, or numbers are wrong.
+    """
+    if place.value is None:
+        return {}
+    table = place.checked_table(("columns", "rows"), f"[frames] {_FRAMES}", "", f"write {_FRAMES}")
+    here = place.at("columns", table["columns"])
+    columns = here.entries(_FRAMES)
+    if (
+        {"link", "row"} - {*columns}
+        or {*columns} - {*FRAME_COLUMNS}
+        or len({*columns}) < len(columns)
+    ):
+        raise here.mismatch(f"link, row and any of {listed(FRAME_COLUMNS[2:])}, each once")
+    found: dict[str, LinkFrame] = {}
+    for k, entry in enumerate(place.at("rows", table["rows"]).entries(_FRAMES), start=1):
+        line = place.at(f"row {k}", entry)
+        cells = dict(zip(columns, line.entries(_FRAMES, len(columns)), strict=True))
+        link = line.at("column link", cells["link"]).text('"hand"')
+        spot = place.at(f"row {k} ({shown(link)})")
+        if link in found:
+            raise spot.error("the link stands there twice; keep one of the rows")
+        row = name_of(cells["row"])
+        if row not in ("0", *rows):
+            raise spot.at("column row", row).mismatch(
+                f'the name of a row, or "0" for the base{near(row, rows)}'
+            )
+        joint = cells.get("joint", "")
+        if not isinstance(joint, str):
+            raise spot.at("column joint", joint).mismatch('a name, or "" for none')
+        x, y, z, roll, pitch, yaw = (
+            _constant(spot.at(f"column {c}", cells.get(c, 0)), symbols) for c in FRAME_COLUMNS[3:]
+        )
+        found[link] = LinkFrame(row, joint, (x, y, z), (roll, pitch, yaw))
+    return found
+
+
+def _constant(place: Place, symbols: Mapping[str, float]) -> Expression:
+    expression = place.expression()
+    check_declared(expression, symbols, place)
+    form_at(expression, symbols, place)
+    return expression
