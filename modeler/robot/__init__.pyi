@@ -54,5 +54,6 @@ from .start import (
     new_robot as new_robot,
     template_robot as template_robot,
 )
+from .tree_cuts import lock_values as lock_values
 from .urdf import urdf_tree as urdf_tree
 from .xml_source import Element as Element, parse_xml as parse_xml, replaced as replaced

@@ -286,7 +286,7 @@ def _sign(folded: float, angle: float | None) -> int:
 def _axes(links: Sequence[MovingLink]) -> list[_Axis]:
     """The axes of the joints; that of a sliding joint where it makes the table simplest.
 
-    On the axis of the first joint that the link carries, if they are parallel; else it may be
+    On the axis of the only joint that the link carries, if they are parallel; else it may be
     anywhere, and goes through the origin of the frame before.
     """
     axes = [_Axis(np.array([0.0, 0.0, 1.0]), np.zeros(3)) for _ in links]
@@ -295,9 +295,9 @@ def _axes(links: Sequence[MovingLink]) -> list[_Axis]:
         assert joint is not None
         through = joint.point if joint.kind is JointKind.REVOLUTE else None
         if through is None:
-            first = next((i for i in range(k + 1, len(links)) if links[i].parent == k), None)
-            if first is not None:
-                other = axes[first].seen_in(links[first].pose)
+            carried = [i for i, link in enumerate(links) if link.parent == k]
+            if len(carried) == 1:
+                other = axes[carried[0]].seen_in(links[carried[0]].pose)
                 if np.linalg.norm(np.cross(other.along, joint.axis)) < PARALLEL:
                     through = other.through
         axes[k] = _Axis(joint.axis, through)

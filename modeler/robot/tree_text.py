@@ -7,6 +7,7 @@ from pathlib import PurePath
 
 import numpy as np
 
+from modeler.core.errors import RobotError
 from modeler.core.toml_cells import listed
 from modeler.robot.angles import pi_multiple
 from modeler.robot.body_tree import (
@@ -57,7 +58,14 @@ def tree_to_toml(tree: BodyTree, where: str) -> Converted:
     Args:
         tree: of a file.
         where: its name, for messages and the name of a robot that has none.
+
+    Raises:
+        RobotError: nothing of it moves.
     """
+    if all(joint.kind is JointKind.FIXED for joint in tree.joints):
+        raise RobotError(
+            f"{where}: no joint of the robot moves; expected at least one that turns or slides"
+        )
     made = _Writing(tree, where)
     parts = [
         *section("[symbols]", symbol_lines(made.symbols.values, made.symbols.comments)),
@@ -218,19 +226,17 @@ class _Writing:
 
     def parameters(self) -> list[str]:
         """Nominal values, and how sure those of the links are."""
-        lines, missing, refused = list[str](), list[str](), list[str]()
+        lines, missing, doubted = list[str](), list[str](), list[str]()
         for k, link in self._moved():
             if link.bodies.keys() <= self.tree.hidden:
                 continue
-            whole = [self.tree.bodies[body] for body in link.bodies]
-            stated = [body for body in whole if body is not None and not _is_nothing(body)]
-            odd = [name for name in link.bodies if _placeholder(self.tree.bodies[name])]
-            if odd:
-                refused += odd
-            elif not stated:
-                missing.append(next(iter(link.bodies)))
-            elif link.inertial is not None:
-                ten = about_origin(link.inertial.seen_from(self.table.places[k]))
+            whole = link.inertial
+            if whole is None or not (whole.mass or whole.inertia.any()):
+                missing.append(f"{k}")
+            elif not self._is_body(link, whole):
+                doubted.append(f"{k}")
+            else:
+                ten = about_origin(whole.seen_from(self.table.places[k]))
                 small = 1e-15 * np.abs(ten).max()
                 lines += [
                     f"{prefix}{k} = {number(worth if abs(worth) > small else 0.0)}"
@@ -240,11 +246,11 @@ class _Writing:
         lines += self._of_joints()
         notes = self.symbols.notes
         if missing:
-            notes.append(f"the file states no mass of {listed(missing)}: no prior")
-        if refused:
+            notes.append(f"the file states no mass of the links of rows {listed(missing)}")
+        if doubted:
             notes.append(
-                f"{listed(refused)}: mass or inertia is a placeholder, or that of no body; the link "
-                "has no prior"
+                f"the links of rows {listed(doubted)} have no values, for a body of theirs can not "
+                "be what the file says"
             )
         prior = [f"inertial = {UNCERTAINTY}"] if bodies else []
         if bodies:
@@ -256,6 +262,13 @@ class _Writing:
             *section(PARAMETERS, lines),
             *section("[parameters.uncertainty]              # over the scale of a body", prior),
         ]
+
+    def _is_body(self, link: MovingLink, whole: Inertial) -> bool:
+        """False for values that nobody has weighed; a frame without mass does no harm."""
+        odd = [name for name in link.bodies if name in self.tree.doubted]
+        stated = [body for name in odd if (body := self.tree.bodies[name]) is not None]
+        harmless = all(body.mass >= 0.0 and not body.inertia.any() for body in stated)
+        return harmless and whole.mass > 0.0 and bool(whole.inertia.any())
 
     def _of_joints(self) -> list[str]:
         """Friction, rotors and springs of the joints that have them."""
@@ -278,23 +291,17 @@ class _Writing:
         for name in self.free:
             joint = self.joints[name]
             lower, upper, speed = joint.lower, joint.upper, joint.speed
-            if lower is None or upper is None:
+            if lower is None or upper is None or lower >= upper:
                 if joint.kind is not JointKind.REVOLUTE or speed is None:
                     continue
                 lower, upper = -math.pi, math.pi
-            if lower >= upper:
-                self.symbols.notes.append(
-                    f"joint {joint.name} has the range {lower:g} to {upper:g}, which is none: left "
-                    "out of [limits]"
-                )
-                continue
             speed = speed or _SPEED[joint.kind]
             cells = [number(x) for x in (lower, upper, speed, _ACCELERATION * speed)]
             lines.append(f"{name} = [{', '.join(cells)}]")
         if lines:
             self.symbols.notes.append(
-                f"accelerations in [limits] are {_ACCELERATION:g} times the speeds: the file states "
-                "none"
+                f"accelerations in [limits] are {_ACCELERATION:g} times the speeds, for the file "
+                "states none"
             )
         return lines
 
@@ -319,18 +326,3 @@ def _quoted_angle(worth: float) -> str:
 
 def _number(worth: float) -> str:
     return "0" if worth == 0.0 else repr(worth)
-
-
-def _is_nothing(body: Inertial) -> bool:
-    return body.mass == 0.0 and not body.inertia.any()
-
-
-def _placeholder(body: Inertial | None) -> bool:
-    """True for values that nobody has measured or drawn: of no mass, the identity, of no body."""
-    if body is None or _is_nothing(body):
-        return False
-    if body.mass <= 0.0 or np.allclose(body.inertia, np.eye(3), atol=1e-9):
-        return True
-    half = float(np.trace(body.inertia)) / 2
-    second = half * np.eye(3) - body.inertia
-    return bool(np.linalg.eigvalsh(second)[0] < -UNCERTAINTY * abs(half))
