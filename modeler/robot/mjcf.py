@@ -478,7 +478,7 @@ class _Reading:
             ratio = ratio if two >= 0 else 0.0
             zero = [float(model.qpos0[model.jnt_qposadr[j]]) for j in (one, two)]
             offset = zero[0] + constant - ratio * zero[1]
-            if ratio and one in self._actuated and two not in {*self._actuated, *ties}:
+            if ratio and two not in {*self._actuated, *ties} and one in {*self._actuated, *ties}:
                 one, two, ratio, offset = two, one, 1 / ratio, -offset / ratio
             if one in ties:
                 raise self._refused(f"{name}: {self._joints[one]} follows another joint already")
