@@ -42,6 +42,7 @@ from modeler.robot.sections import (
     read_coupling,
     read_diagnose,
     read_drive_gains,
+    read_drives,
     read_fit,
     read_frames,
     read_limits,
@@ -54,8 +55,8 @@ from modeler.robot.table import Rows, check_units, table_joints, table_rows
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
     "relations", "platform", "loops", "home", "frames", "links", "effects", "own_effects",
-    "coupling", "motors", "parameters", "reference", "drive_gains", "limits", "physical",
-    "terms", "log", "fit", "diagnose",
+    "coupling", "motors", "parameters", "reference", "drive_gains", "drives", "limits",
+    "physical", "terms", "log", "fit", "diagnose",
 )  # fmt: skip
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
@@ -201,8 +202,11 @@ def _with_tables(
         f"names such as {listed(known[:12])} (friction and rotors only where [effects] has them)"
     )
     parameters, uncertainty = read_parameters(section("parameters"), known, names)
+    readings, drive_gains = [*robot.readings], read_drive_gains(section("drive_gains"), moving)
+    drive_gains, drives = read_drives(section("drives"), moving, drive_gains, readings)
     return dataclasses.replace(
         robot,
+        readings=tuple(readings),
         loops=loops,
         home=home,
         shared=shared,
@@ -211,7 +215,8 @@ def _with_tables(
         priority=_priority(place.at("priority", document.get("priority", [])), known, robot),
         parameters=parameters,
         uncertainty=uncertainty,
-        drive_gains=read_drive_gains(section("drive_gains"), moving),
+        drive_gains=drive_gains,
+        drives=drives,
         limits=read_limits(section("limits"), moving, values),
         physical=read_physical(section("physical"), moving),
         terms=section("terms").table("[terms]"),
