@@ -238,12 +238,20 @@ _NEW = Command(
 _CONVERT = Command(
     "convert", "new:run_convert",
     "another program's robot file as ours",
-    "Writes the robot of a SYMORO file (.par) as a robot file, and says what was decided and what "
-    "has no place there. Every command reads a .par as well; converted, it can be edited.",
-    "modeler convert rx90.par --out rx90.toml",
+    "Writes the robot of a URDF, MJCF or SYMORO file (.par) as a robot file, and says what was "
+    "decided and what has no place there. Every command reads such files as well; converted, they "
+    "can be edited.",
+    "modeler convert arm.urdf --tip tool0 --out arm.toml",
     (
-        value("file", "FILE", places.RobotFile, "a SYMORO file (.par)"),
+        value("file", "FILE", places.RobotFile, "a URDF, MJCF or SYMORO file"),
         value("--out", "ROBOT.toml", places.Output, "robot file to write", **_REQUIRED),
+        value("--base", "LINK", places.Word, "link that stands still; default: the first",
+              default=""),
+        value("--tip", "LINK", places.Word, "last link of the chain that is meant; default: all",
+              default=""),
+        repeated("--lock", "JOINT=POSITION", places.Word,
+                 "hold a joint, as elbow=0.3 or 'elbow=30 deg'; may be given several times"),
+        flag("--exact-decimals", "take 1.5708 as it is, not as pi/2, and lengths below 1 um"),
         flag("--force", "write over a file that is there"),
     ),
     "write what was converted for machines",

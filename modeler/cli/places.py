@@ -72,7 +72,7 @@ class RobotFile(Input):
     """A robot file, or the name of a built-in robot."""
 
     what = "the robot file that is read"
-    endings = (".toml", *OTHER_PROGRAMS)
+    endings: tuple[str, ...] = (".toml", *OTHER_PROGRAMS)
     names = staticmethod(builtin_names)
 
     @property

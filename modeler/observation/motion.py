@@ -105,6 +105,8 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
     if processing.delay != 0.0:
         earlier = piece.time - processing.delay
         tau = np.column_stack([np.interp(earlier, piece.time, own) for own in tau.T])
+    if any(piece.induced):
+        tau = tau - np.multiply(piece.induced, qd)
     if wanted is not None:
         wanted = low_pass(wanted, piece.step, cutoff)
     return Segment(

@@ -4,6 +4,7 @@ from .conventions import (
     written_letter as written_letter,
     written_table as written_table,
 )
+from .convert import converted as converted
 from .edit import (
     home_lines as home_lines,
     robot_with_effects as robot_with_effects,
@@ -20,7 +21,6 @@ from .edit import (
 )
 from .loops import read_home as read_home
 from .motors import joint_directions as joint_directions
-from .par_convert import converted as converted
 from .read import read_robot as read_robot, robot_from_text as robot_from_text
 from .robot import (
     INERTIAL as INERTIAL,
@@ -43,3 +43,4 @@ from .start import (
     new_robot as new_robot,
     template_robot as template_robot,
 )
+from .tree_cuts import lock_values as lock_values

@@ -193,6 +193,8 @@ class BodyTree:
         unread: joint -> "file: line: joint: kind" of those of a kind that we do not have, ball,
             free, planar; `fixed` among `joints` until `tree_cuts.cut` has cut them off, locked
             them, or refuses.
+        home: posture near which the meetings are closed, joint -> position; empty: every joint at
+            its `zero`.
         notes: what was decided or left out, a line each.
     """
 
@@ -206,6 +208,7 @@ class BodyTree:
     hidden: frozenset[str] = frozenset()
     doubted: Mapping[str, str] = field(default_factory=dict)
     unread: Mapping[str, str] = field(default_factory=dict)
+    home: Mapping[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
 

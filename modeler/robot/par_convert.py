@@ -1,16 +1,12 @@
 """A `.par` file as the text of a robot file, with what had to be decided or left out."""
 
-import re
 from dataclasses import dataclass, field
-from pathlib import Path, PurePath
+from pathlib import PurePath
 
-from modeler.core.builtin import NOT_READ
-from modeler.core.errors import RobotError
-from modeler.core.files import read_file
 from modeler.core.toml_cells import listed
 from modeler.robot.cells import robot_name
+from modeler.robot.conventions import GEOMETRY
 from modeler.robot.par_table import (
-    GEOMETRY,
     Counts,
     ParFrame,
     Symbols,
@@ -21,6 +17,20 @@ from modeler.robot.par_table import (
     variables,
 )
 from modeler.robot.par_text import BASE, FORCES, INERTIA, JOINTS, ParFormula, Statements, scan
+from modeler.robot.robot_text import (
+    LINKS,
+    PARAMETERS,
+    Converted,
+    TextRow,
+    effect_lines,
+    head_lines,
+    joined,
+    loop_lines,
+    mdh_lines,
+    name_list,
+    section,
+    symbol_lines,
+)
 
 # What a `.par` file says of the links: which parameters they have, values, friction, rotors.
 
@@ -172,19 +182,6 @@ _NO_HOME = (
 )
 
 
-@dataclass(frozen=True)
-class Converted:
-    """A robot file made from another program's.
-
-    Attributes:
-        text: TOML.
-        notes: what was decided, and what was not carried over; one line each.
-    """
-
-    text: str
-    notes: tuple[str, ...]
-
-
 def par_to_toml(data: bytes, where: str) -> Converted:
     """The robot file that says what the SYMORO file says.
 
@@ -224,125 +221,31 @@ def par_to_toml(data: bytes, where: str) -> Converted:
             f"Type is {kind}, but NJ - NL says that {found.loops} joints are cut, which counts"
         )
     name = robot_name(statements.name, PurePath(where).stem)
-    title = "".join(c for c in statements.name if c.isprintable() and c not in '"\\').strip()
-    parts = [
-        f'name = "{name}"',
-        f'title = "{title or name}"',
-        _notes(where, notes),
-        f"gravity = [{', '.join(_quoted(cell) for cell in pull)}]",
-        "",
-        *_tables(symbols, found, links, made),
-    ]
-    while not parts[-1]:
-        parts.pop()
-    return Converted("\n".join(parts) + "\n", tuple(notes))
-
-
-def _notes(where: str, notes: list[str]) -> str:
-    lines = [f"Read from the SYMORO file {PurePath(where).name}.", *(f"* {n}." for n in notes)]
-    text = "\n".join(lines).replace("\\", "/").replace('"""', "'''")
-    text = "".join(c for c in text if c.isprintable() or c == "\n")
-    return f'notes = """\n{text}"""'
-
-
-def _quoted(cell: str) -> str:
-    """A TOML cell: whole numbers bare, all else as text."""
-    return cell if re.fullmatch(r"-?\d+(\.\d+)?", cell) else f'"{cell}"'
-
-
-def _table(made: list[ParFrame]) -> list[str]:
-    """`[mdh]`, aligned; columns that are 0 everywhere are left out."""
-    used = [c for c in GEOMETRY if any(not frame.cells[c].is_zero for frame in made)]
-    columns = ["j", "a", "mu", "sigma", *used]
-    cells = [[f'"{column}"' for column in columns]]
-    for frame in made:
-        geometry = [frame.cells[c] for c in used]
-        cells.append(
-            [f'"{frame.number}"', f'"{frame.antecedent}"', str(frame.mu), str(frame.sigma)]
-            + ["0" if cell.is_zero else _quoted(cell.text) for cell in geometry]
-        )
-    widths = [max(len(row[i]) for row in cells) + 2 for i in range(len(columns))]
-    lines = [
-        "".join(f"{cell},".ljust(width) for cell, width in zip(row, widths, strict=True))
-        for row in cells
-    ]
-    lines = [line.rstrip().removesuffix(",") for line in lines]
-    return [
-        "[mdh]                                 # sigma: 0 revolute, 1 prismatic, 2 fixed; "
-        "mu: 1 actuated, 0 passive",
-        f"columns = [{lines[0]}]",
-        "rows = [",
-        *(f"          [{line}]," for line in lines[1:]),
-        "]",
-        "",
-    ]
-
-
-def _section(head: str, lines: list[str]) -> list[str]:
-    """A table and a blank line; nothing for one without entries."""
-    return [head, *lines, ""] if lines else []
+    source = f"SYMORO file {PurePath(where).name}"
+    head = head_lines(name, statements.name, source, notes, pull)
+    return Converted(joined([*head, *_tables(symbols, found, links, made)]), tuple(notes))
 
 
 def _tables(symbols: Symbols, found: Counts, links: Bodies, made: list[ParFrame]) -> list[str]:
     """`[symbols]` and all below."""
-    declared = []
-    for name, worth in symbols.values.items():
-        start = f'{name} = "{worth}"' if isinstance(worth, str) else f"{name} = {worth!r}"
-        comment = symbols.comments.get(name)
-        declared.append(f"{start:<37} # {comment}" if comment else start)
+    rows = [
+        TextRow(f"{frame.number}", f"{frame.antecedent}", frame.mu, frame.sigma, {
+            c: "0" if frame.cells[c].is_zero else frame.cells[c].text for c in GEOMETRY
+        })
+        for frame in made
+    ]  # fmt: skip
     loops = [  # every cut joint meets its second frame
-        f'  ["cut{k + 1}", "{found.links + k + 1}", "{found.joints + k + 1}", "rigid"],'
+        (f"cut{k + 1}", f"{found.links + k + 1}", f"{found.joints + k + 1}", "rigid")
         for k in range(found.loops)
     ]
-    columns = 'columns = ["loop", "frame", "meets", "joint"]\nrows = ['
-    has = [
-        f"{name} = [{', '.join(_quoted(key) for key in keys)}]"
-        for name, keys in links.links.items()
-    ]
-    actuated = [str(frame.number) for frame in made if frame.mu]
-    effects = []
-    for effect, joints in links.effects.items():
-        names = ", ".join(f'"{joint}"' for joint in joints)
-        effects.append(f"{effect} = " + ('"all"' if joints == actuated else f"[{names}]"))
+    has = [f"{name} = {name_list(keys)}" for name, keys in links.links.items()]
+    actuated = [f"{frame.number}" for frame in made if frame.mu]
     numbers = [f"{name} = {worth!r}" for name, worth in links.parameters.items()]
     return [
-        *_section("[symbols]", declared),
-        *_table(made),
-        *_section(f"[loops]\n{columns}", [*loops, "]"] if loops else []),
-        *_section(f"{'[links]':<37} # parameters that these rows have", has),
-        *_section("[effects]", effects),
-        *_section(f"{'[parameters]':<37} # kg m^2, kg m, kg; N m s/rad, N m", numbers),
+        *section("[symbols]", symbol_lines(symbols.values, symbols.comments)),
+        *mdh_lines(rows),
+        *loop_lines(loops),
+        *section(LINKS, has),
+        *section("[effects]", effect_lines(links.effects, actuated)),
+        *section(PARAMETERS, numbers),
     ]
-
-
-# Robot files of other programs: which are read, and which are refused by name.
-
-
-def converted(path: Path) -> Converted:
-    """Another program's robot file as the text of ours.
-
-    Raises:
-        RobotError: no such file, a format that is not read, or a mistake in it.
-    """
-    check_known_format(path)
-    try:
-        data = read_file(path)
-    except OSError as error:
-        raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-    if path.suffix.lower() == ".toml":
-        raise RobotError(f"{path}: is a robot file already; expected a SYMORO file, such as x.par")
-    return par_to_toml(data, str(path))
-
-
-def check_known_format(path: Path) -> None:
-    """Refuse a format that is not read, by its name.
-
-    Raises:
-        RobotError: says what to do instead.
-    """
-    name = NOT_READ.get(path.suffix.lower())
-    if name is not None:
-        raise RobotError(
-            f"{path}: {name} is not read yet; expected a robot file (TOML) or a SYMORO file "
-            "(.par); docs/converting.md tells how to write the table of a URDF by hand"
-        )

@@ -12,6 +12,7 @@ from modeler.core.toml_cells import Place, listed
 from modeler.effects import CATALOGUE
 from modeler.robot.angles import exact_angle, exact_terms, told_angles
 from modeler.robot.cells import C_WORDS
+from modeler.robot.conventions import ANGLES, GEOMETRY
 from modeler.robot.effects import parameter_owners
 from modeler.robot.par_text import (
     BODIES,
@@ -31,8 +32,6 @@ from modeler.robot.par_text import (
 # The frames of a `.par` file: how many there are, what carries them, where their joints are.
 
 
-GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
-ANGLES = ("gamma", "alpha", "theta")
 _USUAL = re.compile(r"(?:theta|th|t|q|r|d|x)_?(\d+)", re.IGNORECASE)
 
 
@@ -355,7 +354,7 @@ def _make_polar(
 # The cells of the frames as those of a robot file.
 
 
-_LETTER = {"gamma": "gam", "alpha": "alp", "theta": "off", "b": "B", "d": "D", "r": "R"}
+LETTER = {"gamma": "gam", "alpha": "alp", "theta": "off", "b": "B", "d": "D", "r": "R"}
 _TURN = 6.29  # rad
 
 
@@ -473,7 +472,7 @@ def _as_symbol(
         )
     if abs(number) not in equal:
         unit = "rad" if column in ANGLES else "m"
-        equal[abs(number)] = [symbols.add(f"{_LETTER[column]}{frame.number}", abs(number), unit)]
+        equal[abs(number)] = [symbols.add(f"{LETTER[column]}{frame.number}", abs(number), unit)]
     else:
         equal[abs(number)].append(f"{column} of frame {frame.number}")
     name = equal[abs(number)][0]

@@ -1,0 +1,1 @@
+from .bodies import physics_of as physics_of

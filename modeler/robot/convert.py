@@ -1,0 +1,83 @@
+"""Robot files of other programs: what a file is, by what stands in it, and who reads it."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from modeler.core.errors import RobotError
+from modeler.core.files import read_file
+from modeler.robot.par_convert import par_to_toml
+from modeler.robot.robot_text import Converted
+
+
+def converted(
+    path: str | Path,
+    base: str = "",
+    tip: str = "",
+    lock: Mapping[str, str | float] | None = None,
+    exact_decimals: bool = False,
+) -> Converted:
+    """Another program's robot file as the text of ours.
+
+    A file that begins with `<` is a URDF or an MJCF, as its root element says; any other a SYMORO
+    file.
+
+    Args:
+        path: the file.
+        base: link that stands still; by default the first.
+        tip: last link of the chain that is meant; by default all branches are.
+        lock: joint -> position at which it is held.
+        exact_decimals: take printed angles and lengths as they are: 1.5708 is no pi/2.
+
+    Raises:
+        RobotError: no such file, a format that is not read, or a mistake in it.
+    """
+    path = Path(path)
+    try:
+        data = read_file(path)
+    except OSError as error:
+        raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
+    if path.suffix.lower() == ".toml":
+        raise RobotError(
+            f"{path}: is a robot file already; expected one of another program, such as x.urdf, "
+            "x.xml or x.par"
+        )
+    if path.suffix.lower() != ".par" or is_xml(data):
+        return _tree_text(path, data, base, tip, lock, exact_decimals)
+    if base or tip or lock or exact_decimals:
+        raise RobotError(
+            f"{path}: --base, --tip, --lock and --exact-decimals are for URDF and MJCF; leave them "
+            "out"
+        )
+    return par_to_toml(data, str(path))
+
+
+def is_xml(data: bytes) -> bool:
+    """True if it begins as XML does, and no robot file of ours or SYMORO's."""
+    return data.removeprefix(b"\xef\xbb\xbf").lstrip()[:1] == b"<"
+
+
+def _tree_text(
+    path: Path,
+    data: bytes,
+    base: str,
+    tip: str,
+    lock: Mapping[str, str | float] | None,
+    exact_decimals: bool,
+) -> Converted:
+    from modeler.robot.tree_cuts import cut
+    from modeler.robot.tree_text import tree_to_toml
+    from modeler.robot.urdf import urdf_tree
+    from modeler.robot.xml_source import parse_xml
+
+    root = parse_xml(data, str(path)).tag
+    if root == "sdf":
+        raise RobotError(
+            f"{path}: is SDF, which is not read; give the URDF that it was made from, or an MJCF"
+        )
+    if root in ("mujoco", "mujocoinclude"):
+        from modeler.robot.mjcf import mjcf_tree
+
+        tree = mjcf_tree(path, exact_decimals)
+    else:
+        tree = urdf_tree(data, str(path), exact_decimals)
+    return tree_to_toml(cut(tree, base, tip, lock), str(path))

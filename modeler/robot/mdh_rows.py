@@ -1,0 +1,339 @@
+"""The links of a tree as rows of Khalil and Kleinfinger's table.
+
+A row places the frame of link j in that of the link before it,
+
+    T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r),
+
+with z_j along the axis of joint j. Axes are given; free are the place of the frame along its axis
+and the direction of x_j. They are chosen so that few cells are not 0: x_j along the common normal
+with the axis of a joint that link j carries, its origin at the foot, unless another choice saves a
+cell. Where axes are parallel but for a little, that foot would be far away, and with it the origin
+about which masses and inertias are counted: a fixed row stands between them instead.
+
+Source: W. Khalil, J.-F. Kleinfinger, A new geometric notation for open and closed-loop robots,
+    1986; S. Hayati, Robot arm geometric link parameter estimation, 1983 (nearly parallel axes).
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from modeler.robot.body_tree import MovingLink, Pose, TreeJoint
+from modeler.robot.robot import JointKind
+
+PARALLEL = 1e-9
+"""rad; a smaller angle is none, as it is none between an angle and a multiple of pi/12."""
+FAR = 20.0
+"""Distance of the foot of a common normal, over that of neighbouring joints, beyond which a fixed
+row takes its place. Torques lose as much as the square of it in accuracy."""
+
+_TWELFTH = math.pi / 12
+_ROUNDING = 1e-13  # of a length that is a decimal of at most `_DECIMALS` digits, relative from 1 m
+_DECIMALS = 10
+
+
+@dataclass(frozen=True, eq=False)
+class MdhRow:
+    """A row.
+
+    Attributes:
+        name, antecedent: of rows; "0" is the base.
+        cells: gamma b alpha d theta r, rad and m; what is left out is 0. The variable is to be
+            added to theta (revolute) or r (prismatic).
+        joint: that moves it; None of a fixed row.
+    """
+
+    name: str
+    antecedent: str
+    cells: Mapping[str, float]
+    joint: TreeJoint | None = None
+
+    @property
+    def kind(self) -> JointKind:
+        """Sigma."""
+        return self.joint.kind if self.joint else JointKind.FIXED
+
+
+@dataclass(frozen=True, eq=False)
+class MdhTable:
+    """The rows of a tree.
+
+    Attributes:
+        rows: each after its antecedent.
+        names: (links,) row that carries the link; "0" for the first.
+        places: (links,) pose of the link's frame on that row.
+    """
+
+    rows: tuple[MdhRow, ...]
+    names: tuple[str, ...]
+    places: tuple[Pose, ...]
+
+
+def exact_length(length: float) -> float:
+    """The decimal that it is but for rounding, else the length itself."""
+    for digits in range(_DECIMALS + 1):
+        if abs(length - (short := round(length, digits))) <= _ROUNDING * max(1.0, abs(length)):
+            return short + 0.0  # no -0.0
+    return length
+
+
+def exact_turn(angle: float) -> float:
+    """The angle in (-pi, pi], as a multiple of pi/12 or a decimal if it is one but for rounding."""
+    angle = math.remainder(angle, math.tau)
+    twelfths = round(angle / _TWELFTH)
+    if abs(angle - twelfths * _TWELFTH) < PARALLEL:
+        return math.pi if twelfths == -12 else twelfths * _TWELFTH
+    return exact_length(angle)
+
+
+def row_pose(cells: Mapping[str, float]) -> Pose:
+    """Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r)."""
+    gamma, b, alpha, d, theta, r = (
+        cells.get(c, 0.0) for c in ("gamma", "b", "alpha", "d", "theta", "r")
+    )
+    c, s = _cos(alpha), _sin(alpha)
+    middle = Pose(np.array([d, 0.0, 0.0]), np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]))
+    return _screw(gamma, b) @ middle @ _screw(theta, r)
+
+
+def _screw(angle: float, length: float) -> Pose:
+    c, s = _cos(angle), _sin(angle)
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    return Pose(np.array([0.0, 0.0, length]), turn)
+
+
+def _cos(angle: float) -> float:
+    return _sin(angle + math.pi / 2)
+
+
+def _sin(angle: float) -> float:
+    """Sine that is exact at multiples of pi/2."""
+    quarters = round(angle / (math.pi / 2))
+    if abs(angle - quarters * (math.pi / 2)) < 1e-14:
+        return (0.0, 1.0, 0.0, -1.0)[quarters % 4]
+    return math.sin(angle)
+
+
+@dataclass(frozen=True, eq=False)
+class _Axis:
+    """The axis of a joint.
+
+    Attributes:
+        along: (3,) of length one.
+        through: (3,) a point of it; None if it may be anywhere, as that of a sliding joint.
+    """
+
+    along: np.ndarray
+    through: np.ndarray | None
+
+    def seen_in(self, pose: Pose) -> "_Axis":
+        """The same in the frame a, in which the frame b has that pose."""
+        through = None if self.through is None else pose.place(self.through)
+        return _Axis(pose.rotation @ self.along, through)
+
+
+@dataclass(frozen=True)
+class _Normal:
+    """The common normal of the z axis of a frame and another axis.
+
+    Attributes:
+        gamma: from x to it, about z; None if it may have any direction.
+        b: its foot on z; None if it may be anywhere.
+        d: along it, to the other axis.
+        tilt: None; where the axes are parallel but for a little, `gamma` and `d` lead to where the
+            other axis meets the xy plane, and this is the direction about which it is tilted.
+    """
+
+    gamma: float | None = None
+    b: float | None = None
+    d: float = 0.0
+    tilt: float | None = None
+
+
+def _normal(axis: _Axis, reach: float) -> _Normal:
+    x, y, z = axis.along
+    point = axis.through
+    if math.hypot(x, y) < PARALLEL:
+        return _Normal() if point is None else _towards(point[:2])
+    gamma = math.atan2(x, -y)
+    if point is None:
+        return _Normal(gamma)
+    along = np.array([math.cos(gamma), math.sin(gamma)])
+    across = np.array([-along[1], along[0]])
+    way = -(across @ point[:2]) / (across @ axis.along[:2])
+    b = float(point[2] + way * z)
+    if max(abs(b), abs(way)) <= FAR * reach:
+        return _Normal(gamma, b, float(along @ point[:2]))
+    meets = point - point[2] / z * axis.along
+    near = _towards(meets[:2])
+    return _Normal(near.gamma, None, near.d, gamma)
+
+
+def _towards(point: np.ndarray) -> _Normal:
+    d = math.hypot(*point)
+    return _Normal(math.atan2(point[1], point[0]), None, d) if exact_length(d) else _Normal()
+
+
+def _folded(angle: float) -> float:
+    """The angle or its opposite direction, exact, in (-pi/2, pi/2]."""
+    angle = exact_turn(angle)
+    if -math.pi / 2 + PARALLEL < angle <= math.pi / 2 + PARALLEL:
+        return angle
+    return exact_turn(angle + math.pi)
+
+
+_BEFORE_JOINT = 3.0
+"""What gamma or b costs, a cell of `theta` or `r` being 1: a serial table has none."""
+
+
+def _weight(number: float, angle: bool = False) -> float:
+    """What a cell costs."""
+    if number == 0.0:
+        return 0.0
+    plain = not angle or abs(number / _TWELFTH - round(number / _TWELFTH)) < PARALLEL
+    return 1.0 if plain else 1.5
+
+
+@dataclass
+class _Rows:
+    """The rows as they are made, link by link.
+
+    Attributes:
+        links: of the tree.
+        reach: distance of neighbouring joints, m.
+        axes: of every link's joint, in its file frame.
+        frames: pose of every link's row, in its file frame.
+    """
+
+    links: Sequence[MovingLink]
+    reach: float
+    axes: list[_Axis]
+    frames: list[Pose] = field(default_factory=lambda: [Pose()])
+    rows: list[MdhRow] = field(default_factory=list)
+
+    def carried(self, link: int, frame: Pose) -> list[_Axis]:
+        """The axes of the joints that a link carries, seen in a frame on it."""
+        back = frame.inverse()
+        return [
+            self.axes[k].seen_in(back @ other.pose)
+            for k, other in enumerate(self.links)
+            if other.parent == link
+        ]
+
+    def add(self, k: int) -> None:
+        """The row of link k, and the fixed one before it where that is needed."""
+        link = self.links[k]
+        joint, name = link.joint, f"{k}"
+        assert joint is not None
+        before = self.frames[link.parent].inverse() @ link.pose  # file frame k on the row before
+        axis, antecedent = self.axes[k].seen_in(before), f"{link.parent}"
+        normal = _normal(axis, self.reach)
+        cells = {"gamma": _folded(normal.gamma or 0.0), "b": exact_length(normal.b or 0.0)}
+        start = Pose()
+        if normal.tilt is not None:
+            d = exact_length(normal.d * _sign(cells["gamma"], normal.gamma))
+            cells |= {"d": d, "theta": _folded(normal.tilt - cells["gamma"])}
+            self.rows.append(MdhRow(f"{name}f", antecedent, cells))
+            antecedent, start, cells = f"{name}f", row_pose(cells), {}
+        axis = axis.seen_in((start @ row_pose(cells)).inverse())
+        cells["alpha"] = exact_turn(math.atan2(-axis.along[1], axis.along[2]))
+        if axis.through is not None:
+            cells["d"] = exact_length(float(axis.through[0]))
+        placed = before.inverse() @ start @ row_pose(cells)  # in file frame k
+        revolute = joint.kind is JointKind.REVOLUTE
+        zero = joint.zero
+        theta, r = self._chosen(k, placed, (zero, 0.0) if revolute else (0.0, zero))
+        cells |= {"theta": theta, "r": r}
+        self.rows.append(MdhRow(name, antecedent, cells, joint))
+        at_zero = _screw(theta + zero, r) if revolute else _screw(theta, r + zero)
+        self.frames.append(placed @ at_zero)
+
+    def _chosen(self, k: int, placed: Pose, plain: tuple[float, float]) -> tuple[float, float]:
+        """theta and r of the row of link k, without its variable.
+
+        Args:
+            k: place of the link.
+            placed: its axis, as the row has it before theta and r, in its file frame.
+            plain: turn and shift from there that make both 0.
+        """
+        normals = [_normal(axis, self.reach) for axis in self.carried(k, placed)]
+        feet = [n.b for n in normals if n.b is not None]
+
+        def of_shift(h: float) -> float:
+            others = (_weight(exact_length(b - h)) for b in feet)
+            return _weight(exact_length(h - plain[1])) + _BEFORE_JOINT * sum(others)
+
+        r = exact_length(min([plain[1], *feet], key=of_shift) - plain[1])
+        at = placed @ _screw(0.0, r + plain[1])
+        normals = [_normal(axis, self.reach) for axis in self.carried(k, at)]
+        ways = [n.gamma for n in normals if n.gamma is not None]
+
+        def of_turn(phi: float) -> float:
+            others = (_weight(_folded(gamma - phi), angle=True) for gamma in ways)
+            return _weight(exact_turn(phi - plain[0]), True) + _BEFORE_JOINT * sum(others)
+
+        both = [gamma + half for gamma in ways for half in (0.0, math.pi)]
+        return exact_turn(min([plain[0], *both], key=of_turn) - plain[0]), r
+
+
+def _sign(folded: float, angle: float | None) -> int:
+    """-1 if the direction was turned round."""
+    return 1 if angle is None or math.cos(folded - angle) > 0.0 else -1
+
+
+def _axes(links: Sequence[MovingLink]) -> list[_Axis]:
+    """The axes of the joints; that of a sliding joint where it makes the table simplest.
+
+    On the axis of the only joint that the link carries, if they are parallel; else it may be
+    anywhere, and goes through the origin of the frame before.
+    """
+    axes = [_Axis(np.array([0.0, 0.0, 1.0]), np.zeros(3)) for _ in links]
+    for k in reversed(range(1, len(links))):
+        joint = links[k].joint
+        assert joint is not None
+        through = joint.point if joint.kind is JointKind.REVOLUTE else None
+        if through is None:
+            carried = [i for i, link in enumerate(links) if link.parent == k]
+            if len(carried) == 1:
+                other = axes[carried[0]].seen_in(links[carried[0]].pose)
+                if np.linalg.norm(np.cross(other.along, joint.axis)) < PARALLEL:
+                    through = other.through
+        axes[k] = _Axis(joint.axis, through)
+    return axes
+
+
+def mdh_table(links: Sequence[MovingLink]) -> MdhTable:
+    """The rows of a tree; row j, counted from 1, moves link j, and q_j is the file's position.
+
+    Args:
+        links: as `moving_links` gives them.
+    """
+    ways = [float(np.linalg.norm(link.pose.position)) for link in links]
+    made = _Rows(links, max(ways) or 1.0, _axes(links))
+    for k in range(1, len(links)):
+        made.add(k)
+    names = tuple(f"{k}" for k in range(len(links)))
+    return MdhTable(tuple(made.rows), names, tuple(frame.inverse() for frame in made.frames))
+
+
+def roll_pitch_yaw(rotation: np.ndarray) -> tuple[float, float, float]:
+    """Angles of R = Rz(yaw) Ry(pitch) Rx(roll), exact where they are; roll is 0 where free."""
+    level = math.hypot(rotation[0, 0], rotation[1, 0])
+    pitch = math.atan2(-rotation[2, 0], level)
+    if level < PARALLEL:
+        roll, yaw = 0.0, math.atan2(-rotation[0, 1], rotation[1, 1])
+    else:
+        yaw = math.atan2(rotation[1, 0], rotation[0, 0])
+        left = _screw(-yaw, 0.0).rotation @ rotation
+        roll = math.atan2(-left[1, 2], left[1, 1])
+    return exact_turn(roll), exact_turn(pitch), exact_turn(yaw)
+
+
+def towards(point: np.ndarray) -> dict[str, float]:
+    """gamma, b and d of a fixed row whose origin is at a point of the frame before it."""
+    way = _towards(point[:2])
+    gamma = _folded(way.gamma or 0.0)
+    d = exact_length(way.d * _sign(gamma, way.gamma))
+    return {"gamma": gamma, "b": exact_length(float(point[2])), "d": d}

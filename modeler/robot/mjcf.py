@@ -1,0 +1,592 @@
+"""MJCF as a tree of bodies: MuJoCo itself reads it, so that defaults and rules are its own.
+
+What is read is the model as MuJoCo compiles it: default classes, frames, included and attached
+files, replicas, inertia from geoms. Before that, what no robot model needs is taken out (pictures,
+meshes of bodies whose inertia is stated), so that files that are not there do not matter.
+"""
+
+import itertools
+import math
+import warnings
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from decimal import Decimal
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from modeler.core.errors import RobotError, installing, on_one_line
+from modeler.core.files import read_file
+from modeler.core.toml_cells import listed, shown
+from modeler.robot.angles import cosine_sine, twelfths
+from modeler.robot.body_tree import BodyTree, Inertial, Meeting, Pose, TreeJoint, doubt
+from modeler.robot.robot import JointKind
+from modeler.robot.tree_cuts import held
+from modeler.robot.xml_source import LARGEST_FILE, Element, parse_xml
+
+MOST_FILES = 200
+MOST_REPLICAS = 1000
+NOUGHT = 1e-6
+"""A length of less, m, or an angle, rad, is 0."""
+HIDDEN = 4e-6
+"""What 1.5708 instead of pi/2 leaves in the components of a quaternion with more digits."""
+LIGHT = 1e-12
+"""Of bodies that state nothing, kg and kg m2, for MuJoCo compiles no moving body without."""
+NOTHING = 1e-9
+"""kg; what weighs less states nothing."""
+ALIKE, EXACT = 1e-9, 1e-15
+_FREE, _BALL, _SLIDE, _HINGE = range(4)  # mjtJoint
+_WRAP_JOINT = 1  # mjtWrap
+_ALWAYS = 1  # inertiafromgeom="true"
+
+
+def mjcf_tree(path: Path, exact_decimals: bool = False) -> BodyTree:
+    """The robot of an MJCF file; the world is the root.
+
+    Ball joints are in `unread`; what floats stands still where the file has it.
+
+    Args:
+        path: the file; what it includes stands beside it.
+        exact_decimals: take rounded angles (1.5708, 0.707107) and lengths below 1 um as printed.
+
+    Raises:
+        RobotError: MuJoCo is not installed or refuses the file; a constraint that has no place in
+            a robot file. One line.
+    """
+    mujoco = _mujoco(path)
+    root = _sources(path)
+    with _silent(mujoco), _clear(mujoco, path):
+        spec = mujoco.MjSpec.from_file(str(path))
+        notes = _lighten(spec) + ([] if exact_decimals else _unround(spec))
+        reading = _Reading(mujoco, path, spec.compile(), notes)
+        return reading.tree(root.attributes.get("model") or path.stem)
+
+
+def _mujoco(path: Path) -> Any:
+    try:
+        import mujoco  # type: ignore[import-untyped]
+    except ImportError as error:
+        what = "is not installed" if error.name == "mujoco" else f"does not load ({error})"
+        raise RobotError(
+            on_one_line(f"{path}: MJCF is read by MuJoCo, which {what}; run: {installing('mjcf')}")
+        ) from None
+    return mujoco
+
+
+@contextmanager
+def _silent(mujoco: Any) -> Iterator[None]:
+    """MuJoCo's warnings go nowhere: by itself it prints them and writes MUJOCO_LOG.TXT."""
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda _text: None)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        mujoco.set_mju_user_warning(before)
+
+
+@contextmanager
+def _clear(mujoco: Any, path: Path) -> Iterator[None]:
+    """MuJoCo's refusals as one line."""
+    try:
+        yield
+    except (ValueError, TypeError, mujoco.FatalError, mujoco.UnexpectedError) as error:
+        said = " ".join(line.strip() for line in str(error).splitlines())
+        for word in ("XML Error: ", "Error: "):
+            said = said.replace(word, "")
+        raise RobotError(
+            on_one_line(f"{path}: MuJoCo does not take it: {said}; correct it there")
+        ) from None
+
+
+# The text: everything that MuJoCo is going to read is looked at first.
+
+
+def _sources(path: Path) -> Element:
+    """The root of the file, when it and what it includes are XML of bounded size."""
+    root = _parsed(path, "")
+    if root.tag != "mujoco":
+        what = "a URDF; name it .urdf" if root.tag == "robot" else "no robot"
+        got = shown(root.tag)[1:-1]
+        raise RobotError(f"{path}: line {root.line}: got <{got}>, {what}; expected <mujoco>")
+    waiting, seen = [(path, root)], {path.resolve()}
+    while waiting:
+        place, element = waiting.pop()
+        _check_counts(place, element)
+        for part in element.walk():
+            file = part.attributes.get("file", "")
+            if not file or part.tag not in ("include", "model"):
+                continue
+            beside = [path.parent / file, place.parent / file]
+            found = next((one for one in beside if one.is_file()), beside[0])
+            if found.resolve() not in seen:
+                seen.add(found.resolve())
+                waiting.append((found, _parsed(found, f"{place}: line {part.line}: includes ")))
+            if len(seen) > MOST_FILES:
+                raise RobotError(f"{path}: expected at most {MOST_FILES} included files")
+    return root
+
+
+def _parsed(path: Path, included: str) -> Element:
+    try:
+        data = read_file(path, LARGEST_FILE)
+    except (OSError, ValueError) as error:
+        what = getattr(error, "strerror", None) or str(error)
+        todo = "; put it there or take the line out" if included else ""
+        told = f"{included}{path}{', which' if included else ':'} cannot be read ({what}){todo}"
+        raise RobotError(on_one_line(told)) from None
+    return parse_xml(data, str(path))
+
+
+def _check_counts(path: Path, root: Element) -> None:
+    """Refuse what makes many bodies of few letters, and what is soft."""
+    waiting = [(root, 1)]
+    while waiting:
+        element, times = waiting.pop()
+        where = f"{path}: line {element.line}: <{element.tag[:20]}>"
+        if element.tag in ("composite", "flexcomp", "flex"):
+            raise RobotError(f"{where} is soft; expected rigid bodies; take it out")
+        if element.tag == "replicate":
+            count = element.attributes.get("count", "1").strip()
+            times *= int(count) if count.isdecimal() and len(count) < 10 else MOST_REPLICAS + 1
+            if times > MOST_REPLICAS:
+                raise RobotError(
+                    f"{where} makes {shown(count)} copies; expected at most {MOST_REPLICAS}"
+                )
+        waiting += [(child, times) for child in element.children]
+
+
+# What is taken out before MuJoCo compiles.
+
+
+def _lighten(spec: Any) -> list[str]:
+    """Take out what neither moves nor weighs; bodies that state nothing get next to nothing."""
+    spec.compiler.discardvisual = spec.compiler.fusestatic = False
+    without, used = [], set()
+    for body in spec.bodies:
+        shapes = [geom for geom in body.geoms if geom.meshname or geom.hfieldname]
+        stated = body.explicitinertial and body.compiler.inertiafromgeom != _ALWAYS
+        bare = not (body.geoms or stated)
+        for geom in shapes:
+            mesh = spec.mesh(geom.meshname) if geom.meshname else None
+            if stated or mesh is None or not _weighs(body, geom):
+                spec.delete(geom)
+            elif mesh.file and not (_folder(spec, mesh) / mesh.file).is_file():
+                without.append(f"{body.name} ({Path(mesh.file).name})")
+                bare = True
+            else:
+                used.add(mesh.name)
+                geom.contype = geom.conaffinity = 0  # it needs no hull then
+        if bare and body.name != "world":
+            for geom in body.geoms:
+                spec.delete(geom)
+            body.explicitinertial, body.mass, body.inertia = True, LIGHT, [LIGHT] * 3
+    for part in [*spec.geoms, *spec.sites]:
+        part.material = ""
+    for name in ("sensors", "pairs", "excludes", "skins", "tuples", "materials", "textures"):
+        for part in list(getattr(spec, name)):
+            spec.delete(part)
+    for part in [*spec.hfields, *(mesh for mesh in spec.meshes if mesh.name not in used)]:
+        spec.delete(part)
+    if not without:
+        return []
+    return [f"no values of {_some(without)}: they follow from meshes that are not there"]
+
+
+def _weighs(body: Any, geom: Any) -> bool:
+    low, high = body.compiler.inertiagrouprange
+    weight = geom.density if math.isnan(geom.mass) else geom.mass
+    return bool(weight != 0 and low <= geom.group <= high)
+
+
+def _folder(spec: Any, mesh: Any) -> Path:
+    return Path(spec.modelfiledir, mesh.compiler.meshdir)
+
+
+def _some(names: Iterable[str]) -> str:
+    """The first of them, and how many more there are."""
+    every = list(names)
+    return listed(every[:4]) + (f" and {len(every) - 4} more" if len(every) > 4 else "")
+
+
+# Decimals that round something: taken for it before MuJoCo compiles.
+
+
+def _unround(spec: Any) -> list[str]:
+    """Put multiples of pi/12 for their roundings, 0 for lengths below 1 um; says so."""
+    told: dict[str, None] = {}
+    for part in [*spec.bodies, *spec.frames]:
+        if part.alt.type.name == "mjORIENTATION_EULER" and not part.compiler.degree:
+            part.alt.euler = [_angle(float(x), told) for x in part.alt.euler]
+        elif part.alt.type.name == "mjORIENTATION_QUAT":
+            part.quat = _near(np.array(part.quat), _rotations(), told)
+    for joint in spec.joints:
+        joint.axis = _near(np.array(joint.axis), _directions(), told)
+        if joint.type == _HINGE and not joint.compiler.degree:
+            joint.ref = _angle(joint.ref, told)
+    for part in [*spec.bodies, *spec.frames, *spec.joints, *spec.sites]:
+        small = np.abs(part.pos) < NOUGHT
+        if np.any(part.pos[small]):
+            part.pos = np.where(small, 0.0, part.pos)
+            told["lengths below 1 um"] = None
+    if not told:
+        return []
+    means = "rounded numbers are exact here, multiples of pi/12 and 0"
+    return [f"{means}: {_some(told)}; --exact-decimals keeps them"]
+
+
+def _angle(value: float, told: dict[str, None]) -> float:
+    count = twelfths(f"{Decimal(repr(value)):f}") if abs(value) >= NOUGHT else 0
+    if count is None or value == (exact := count * math.pi / 12):
+        return value
+    told[f"{value:g}"] = None
+    return exact
+
+
+def _near(given: np.ndarray, known: np.ndarray, told: dict[str, None]) -> np.ndarray:
+    """The unit vector among the known ones that the printed one rounds; itself if there is none."""
+    digits = max(-int(Decimal(repr(float(x))).as_tuple().exponent) for x in given)
+    length = float(np.linalg.norm(given))
+    if digits < 3 or not 0.99 < length < 1.01:
+        return given
+    allowed = 0.51 * 10.0**-digits if digits < 5 else max(10.0**-digits, HIDDEN)
+    best: np.ndarray = known[np.argmax(known @ given)]
+    if np.max(np.abs(best - given)) > allowed:
+        return given
+    if np.max(np.abs(best - given / length)) > ALIKE:
+        told[" ".join(f"{x:g}" for x in given)] = None
+    return best
+
+
+@cache
+def _rotations() -> np.ndarray:
+    """(n, 4) quaternions of turns about three different axes by multiples of pi/12, both signs."""
+    turns = np.zeros((3, 48, 4))
+    for count, axis in itertools.product(range(48), range(3)):
+        turns[axis, count, 0], turns[axis, count, axis + 1] = cosine_sine(count * math.pi / 24)
+    middle = [*range(7), *range(42, 48)]  # to a right angle
+    return np.concatenate([
+        _product(_product(turns[i][:, None], turns[j][None, middle]).reshape(-1, 1, 4),
+                 turns[k][None, :24]).reshape(-1, 4)
+        for i, j, k in itertools.permutations(range(3))
+    ])  # fmt: skip
+
+
+def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Quaternions a b, along the last axis."""
+    head = a[..., :1] * b[..., :1] - np.sum(a[..., 1:] * b[..., 1:], axis=-1, keepdims=True)
+    tail = a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + np.cross(a[..., 1:], b[..., 1:])
+    return np.concatenate([head, tail], axis=-1)
+
+
+@cache
+def _directions() -> np.ndarray:
+    """(72, 3) unit vectors in the coordinate planes at multiples of pi/12."""
+    plane = np.array([[*cosine_sine(count * math.pi / 12), 0.0] for count in range(24)])
+    return np.concatenate([np.roll(plane, k, axis=1) for k in range(3)])
+
+
+# What MuJoCo has compiled.
+
+
+class _Reading:
+    """A compiled model, and what has been decided about it."""
+
+    def __init__(self, mujoco: Any, path: Path, model: Any, notes: list[str]) -> None:
+        self._mujoco, self._path, self._model, self._notes = mujoco, path, model, notes
+        self._bodies = _named("body", [model.body(i).name for i in range(model.nbody)])
+        self._joints = _named("joint", [model.joint(i).name for i in range(model.njnt)])
+        self._single = np.isin(model.jnt_type, [_HINGE, _SLIDE])
+        self._out = self._left_out()
+        self._kept = {j for j, body in enumerate(model.jnt_bodyid) if body not in self._out}
+        self._actuated = self._driven()
+
+    def tree(self, name: str) -> BodyTree:
+        """All of it."""
+        model, hidden, unread = self._model, set[str](), dict[str, str]()
+        if all(model.jnt_type[j] == _FREE for j in self._kept):
+            raise self._refused("no hinge or slide moves anything; expected a robot")
+        joints = tuple(self._tree_joints(hidden, unread))
+        joints, meetings = self._tied(joints), tuple(self._meetings())
+        self._tell()
+        bodies = {n: self._inertial(i) for i, n in enumerate(self._bodies) if i not in self._out}
+        doubts = {n: doubt(body) for n, body in bodies.items() if body is not None}
+        floats = model.opt.disableflags & int(self._mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+        return BodyTree(
+            name, "MJCF", self._bodies[0], bodies | dict.fromkeys(hidden), joints, meetings,
+            gravity=np.zeros(3) if floats else np.array(model.opt.gravity),
+            hidden=frozenset(hidden),
+            doubted={n: why for n, why in doubts.items() if why},
+            unread=unread,
+            home=self._home() if meetings else {},
+            notes=tuple(self._notes),
+        )  # fmt: skip
+
+    # Bodies.
+
+    def _inertial(self, body: int) -> Inertial | None:
+        model = self._model
+        mass, moments = float(model.body_mass[body]), model.body_inertia[body]
+        if mass < NOTHING and np.all(moments < NOTHING):
+            return None
+        turn = _matrix(model.body_iquat[body])
+        inertia = turn @ np.diag(moments) @ turn.T
+        inertia[np.abs(inertia) < 10 * EXACT * np.max(moments)] = 0.0
+        return Inertial(mass, np.array(model.body_ipos[body]), inertia)
+
+    def _left_out(self) -> set[int]:
+        """Bodies that float, or that the simulator drags, and carry no joint."""
+        model, out = self._model, set[int]()
+        free = set(model.jnt_bodyid[model.jnt_type == _FREE])
+        for body in range(model.nbody):
+            if body not in free and model.body_mocapid[body] < 0:
+                continue
+            below = {body}
+            for other in range(body + 1, model.nbody):  # each stands behind its parent
+                below |= {other} if model.body_parentid[other] in below else set()
+            what = "floats" if body in free else "is dragged by the simulator (mocap)"
+            if np.sum(np.isin(model.jnt_bodyid, list(below))) > (body in free):
+                told = "here it stands still where the file has it"
+            else:
+                told = "it is left out, for it has no joint"
+                out |= below
+            self._notes.append(f"{self._bodies[body]} {what}; {told}")
+        return out
+
+    # Joints.
+
+    def _tree_joints(self, hidden: set[str], unread: dict[str, str]) -> Iterator[TreeJoint]:
+        """Of the bodies that are kept; of several in a body, each turns those behind it."""
+        model, taken = self._model, {*self._joints}
+        for body, name in enumerate(self._bodies):
+            if body == 0 or body in self._out:
+                continue
+            parent = self._bodies[model.body_parentid[body]]
+            pose = Pose(np.array(model.body_pos[body]), _matrix(model.body_quat[body]))
+            own = np.flatnonzero(model.jnt_bodyid == body).tolist()
+            if not own:
+                label = _other(name, taken)
+                yield TreeJoint(label, JointKind.FIXED, parent, name, pose)
+            for j in own:
+                child = name
+                if j != own[-1]:
+                    child = _other(f"{name}.{self._joints[j]}", {*self._bodies, *hidden})
+                    hidden.add(child)
+                joint = TreeJoint(self._joints[j], JointKind.FIXED, parent, child, pose)
+                if model.jnt_type[j] == _BALL:
+                    unread[joint.name] = f"{self._path}: joint {joint.name}: ball"
+                yield self._moving(joint, j) if self._single[j] else joint
+                parent, pose = child, Pose()
+
+    def _moving(self, joint: TreeJoint, j: int) -> TreeJoint:
+        """The joint with axis, limits and what resists it."""
+        model = self._model
+        dof, place = model.jnt_dofadr[j], model.jnt_qposadr[j]
+        armature, damping = float(model.dof_armature[dof]), float(model.dof_damping[dof])
+        for i in self._motors(j):  # on the motor's side: seen through the gear
+            square = float(model.actuator_gear[i, 0]) ** 2
+            armature += square * float(model.actuator_armature[i])
+            damping += square * float(model.actuator_damping[i])
+        lower, upper = map(float, model.jnt_range[j])
+        return replace(
+            joint,
+            kind=JointKind.PRISMATIC if model.jnt_type[j] == _SLIDE else JointKind.REVOLUTE,
+            axis=np.array(model.jnt_axis[j]),
+            point=np.array(model.jnt_pos[j]),
+            zero=float(model.qpos0[place]),
+            lower=lower if model.jnt_limited[j] else None,
+            upper=upper if model.jnt_limited[j] else None,
+            effort=float(model.jnt_actfrcrange[j, 1]) if model.jnt_actfrclimited[j] else None,
+            damping=damping or None,
+            friction=float(model.dof_frictionloss[dof]) or None,
+            armature=armature or None,
+            stiffness=float(model.jnt_stiffness[j]) or None,
+            rest=float(model.qpos_spring[place]),
+            actuated=j in self._actuated,
+        )
+
+    def _motors(self, joint: int) -> np.ndarray:
+        """Actuators that act on that joint alone."""
+        model = self._model
+        return np.flatnonzero((model.actuator_trntype < 2) & (model.actuator_trnid[:, 0] == joint))
+
+    def _driven(self) -> set[int]:
+        """Joints that an actuator moves, through whatever transmission; all if there is none."""
+        mujoco, model = self._mujoco, self._model
+        data = mujoco.MjData(model)
+        for j in np.flatnonzero(self._single):  # no posture in which a lever happens to vanish
+            data.qpos[model.jnt_qposadr[j]] += 0.1 * math.sin(j + 1)
+        for step in ("mj_kinematics", "mj_comPos", "mj_tendon", "mj_transmission"):
+            getattr(mujoco, step)(model, data)
+        acting = np.abs(np.ravel(data.actuator_moment)) > ALIKE
+        dofs = np.ravel(data.moment_colind)[: acting.size][acting]
+        return {int(model.dof_jntid[dof]) for dof in dofs} & self._kept or self._kept
+
+    # Constraints.
+
+    def _equalities(self) -> Iterator[tuple[str, int, str]]:
+        """Active ones: kind, number, and a name."""
+        model = self._model
+        for i in np.flatnonzero(model.eq_active0).tolist():
+            kind = self._mujoco.mjtEq(model.eq_type[i]).name.removeprefix("mjEQ_").lower()
+            yield kind, i, model.equality(i).name or f"{kind} equality {i + 1}"
+
+    def _tied(self, joints: tuple[TreeJoint, ...]) -> tuple[TreeJoint, ...]:
+        """Joints that equalities tie follow the one that has a motor, or stand still."""
+        ties = self._ties()
+        made = {joint.name: joint for joint in joints}
+        for one in ties:
+            name, leader, ratio, offset = self._joints[one], one, 1.0, 0.0
+            for _ in range(len(ties) + 1):
+                if leader in ties:
+                    leader, slope, shift = ties[leader]
+                    ratio, offset = ratio * slope, offset + ratio * shift
+            if leader in ties:
+                raise self._refused(f"equalities let joint {name} follow itself; take one out")
+            if leader < 0:
+                self._notes.append(f"joint {name} stands still: an equality holds it")
+                made[name] = held(made[name], offset)
+            else:
+                made[name] = replace(
+                    made[name], leader=self._joints[leader], ratio=ratio, offset=offset,
+                    actuated=False,
+                )  # fmt: skip
+        return tuple(made.values())
+
+    def _ties(self) -> dict[int, tuple[int, float, float]]:
+        """Joint -> that which it follows, -1 for none, ratio and offset."""
+        model, ties = self._model, dict[int, tuple[int, float, float]]()
+        for kind, i, name in self._equalities():
+            if kind not in ("joint", "tendon"):
+                continue
+            one, two = int(model.eq_obj1id[i]), int(model.eq_obj2id[i])
+            constant, ratio, *others = map(float, model.eq_data[i, :5])
+            if kind == "tendon":
+                one, two, ratio, constant = self._pair(name, one, two, constant)
+            elif two >= 0 and any(others):
+                raise self._refused(
+                    f"{name} lets {self._joints[one]} follow {self._joints[two]} by a polynomial; "
+                    "expected a straight line, polycoef 0 from the third on"
+                )
+            if not {one, two} <= self._kept | {-1}:
+                self._notes.append(f"{name} is left out with its body")
+                continue
+            ratio = ratio if two >= 0 else 0.0
+            zero = [float(model.qpos0[model.jnt_qposadr[j]]) for j in (one, two)]
+            offset = zero[0] + constant - ratio * zero[1]
+            if ratio and two not in {*self._actuated, *ties} and one in {*self._actuated, *ties}:
+                one, two, ratio, offset = two, one, 1 / ratio, -offset / ratio
+            if one in ties:
+                raise self._refused(f"{name}: {self._joints[one]} follows another joint already")
+            ties[one] = (two if ratio else -1, ratio, offset)
+        return ties
+
+    def _pair(
+        self, name: str, tendon: int, other: int, constant: float
+    ) -> tuple[int, int, float, float]:
+        """Joint, leader, ratio, constant of a fixed tendon over two joints whose length is held."""
+        model, first = self._model, int(self._model.tendon_adr[tendon])
+        parts = range(first, first + int(model.tendon_num[tendon]))
+        joints = [int(model.wrap_objid[p]) for p in parts]
+        if other >= 0 or len(joints) != 2 or any(model.wrap_type[p] != _WRAP_JOINT for p in parts):
+            raise self._refused(f"{name} holds a tendon; expected a fixed one over two joints")
+        first_share, second_share = (float(model.wrap_prm[p]) for p in parts)
+        return joints[0], joints[1], -second_share / first_share, constant / first_share
+
+    def _meetings(self) -> Iterator[Meeting]:
+        """Points that `connect` holds together."""
+        model = self._model
+        for kind, i, name in self._equalities():
+            if kind in ("joint", "tendon"):
+                continue
+            if kind not in ("connect", "weld"):
+                raise self._refused(f"{name} is not read; expected joint, connect or weld")
+            ends = [int(model.eq_obj1id[i]), int(model.eq_obj2id[i])]
+            points = [np.array(model.eq_data[i, k : k + 3]) for k in (0, 3)]
+            if model.eq_objtype[i] == int(self._mujoco.mjtObj.mjOBJ_SITE):
+                points = [np.array(model.site_pos[site]) for site in ends]
+                ends = [int(model.site_bodyid[site]) for site in ends]
+            one, two = (self._bodies[end] for end in ends)
+            if self._out & {*ends}:
+                self._notes.append(f"{name} of {one} and {two} is left out with its body")
+            elif self._carrier(ends[0]) == self._carrier(ends[1]):
+                self._notes.append(f"{name} of {one} and {two} is left out: they move as one")
+            elif kind == "weld":
+                raise self._refused(f"{name} holds {one} and {two} rigidly; expected connect")
+            else:
+                points = [np.where(np.abs(point) < 10 * EXACT, 0.0, point) for point in points]
+                yield Meeting(name, one, points[0], two, points[1])
+
+    def _carrier(self, body: int) -> int:
+        """The body that has the joint which moves that one; 0 if none does."""
+        model = self._model
+        while body and not np.any(self._single[model.jnt_bodyid == body]):
+            body = int(model.body_parentid[body])
+        return body
+
+    def _home(self) -> dict[str, float]:
+        """Positions of the keyframe `home`; without one, where the file draws the robot."""
+        model = self._model
+        keys = {model.key(k).name: model.key_qpos[k] for k in range(model.nkey)}
+        posture = keys.get("home", model.qpos0)[model.jnt_qposadr]
+        return {self._joints[j]: float(posture[j]) for j in self._kept if self._single[j]}
+
+    # What is told.
+
+    def _refused(self, what: str) -> RobotError:
+        return RobotError(on_one_line(f"{self._path}: {what}"))
+
+    def _tell(self) -> None:
+        model = self._model
+        if model.nplugin:
+            raise self._refused("plugins are not read; take them out")
+        idle = model.neq - int(np.sum(model.eq_active0))
+        lifted = [n for n, share in zip(self._bodies, model.body_gravcomp, strict=True) if share]
+        fluid = model.opt.density or model.opt.viscosity or np.any(model.opt.wind)
+        passive = ("stiffness", "damping", "frictionloss", "armature")
+        curved = np.any(model.jnt_stiffnesspoly) or np.any(model.dof_dampingpoly)
+        driven = [i for j in self._kept for i in self._motors(j)]
+        gear = np.any(model.actuator_gear[driven, 0] != 1) and np.any(model.dof_armature)
+        inner = np.any(model.actuator_armature[driven]) or np.any(model.actuator_damping[driven])
+        for is_so, what in (
+            (idle, f"{idle} inactive equalities are left out"),
+            (lifted, f"gravcomp of {_some(lifted)} is left out: torques here carry gravity"),
+            (fluid, "forces of the fluid (density, viscosity, wind) are left out"),
+            (
+                any(np.any(getattr(model, f"tendon_{p}")) for p in passive),
+                "springs, damping, friction and armature of tendons are left out",
+            ),
+            (curved, "of polynomial springs and damping the linear term is taken"),
+            (inner, "armature and damping of actuators are the motor's: gear^2 as much at a joint"),
+            (gear, "armature of joints is taken at the joint; gear scales commands alone"),
+        ):
+            if is_so:
+                self._notes.append(what)
+
+
+def _named(kind: str, names: list[str]) -> list[str]:
+    """The names, with `body3`, `joint2` for those that there are not."""
+    taken = set(names)
+    return [name or _other(f"{kind}{i}", taken) for i, name in enumerate(names)]
+
+
+def _other(name: str, taken: set[str]) -> str:
+    """The name, or one like it, that nothing has; taken from then on."""
+    while name in taken:
+        name += "_"
+    taken.add(name)
+    return name
+
+
+def _matrix(quaternion: np.ndarray) -> np.ndarray:
+    """(3, 3) the rotation; what ought to be 0 is."""
+    w, x, y, z = quaternion
+    axis = np.array([x, y, z])
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    turn = np.eye(3) * (w * w - axis @ axis) + 2 * np.outer(axis, axis) + 2 * w * cross
+    turn[np.abs(turn) < EXACT] = 0.0
+    return np.asarray(turn)

@@ -1,0 +1,328 @@
+"""A tree of bodies as the text of a robot file, with what had to be decided or left out."""
+
+import json
+import math
+from fractions import Fraction
+from pathlib import PurePath
+
+import numpy as np
+
+from modeler.core.errors import RobotError
+from modeler.core.toml_cells import listed
+from modeler.robot.angles import pi_multiple
+from modeler.robot.body_tree import (
+    BodyTree,
+    Inertial,
+    MovingLink,
+    TreeJoint,
+    about_origin,
+    moving_links,
+)
+from modeler.robot.cells import robot_name
+from modeler.robot.conventions import ANGLES
+from modeler.robot.mdh_rows import MdhRow, exact_length, mdh_table, roll_pitch_yaw, towards
+from modeler.robot.par_table import LETTER, Symbols, gravity
+from modeler.robot.robot import INERTIAL, JointKind, Place
+from modeler.robot.robot_text import (
+    LINKS,
+    PARAMETERS,
+    Converted,
+    TextRow,
+    columns_and_rows,
+    effect_lines,
+    head_lines,
+    joined,
+    loop_lines,
+    mdh_lines,
+    number,
+    section,
+    symbol_lines,
+)
+from modeler.robot.sections import FRAME_COLUMNS
+
+UNCERTAINTY = 0.3
+"""How sure masses, centres and inertias of another program's file are, over their scale."""
+_SPEED = {JointKind.REVOLUTE: 2.0, JointKind.PRISMATIC: 0.5}
+"""rad/s, m/s where a file states none."""
+_ACCELERATION = 4.0
+"""Over the speed, 1/s: no such file states it."""
+_LIMITS = "[limits]                              # lower, upper, speed, acceleration"
+
+
+def tree_to_toml(tree: BodyTree, where: str) -> Converted:
+    """The robot file that says what the tree says.
+
+    Rows 1, 2, ... are the joints that move, in their order; q_j is the position of the file, frame
+    0 that of its root.
+
+    Args:
+        tree: of a file.
+        where: its name, for messages and the name of a robot that has none.
+
+    Raises:
+        RobotError: nothing of it moves.
+    """
+    if all(joint.kind is JointKind.FIXED for joint in tree.joints):
+        raise RobotError(
+            f"{where}: no joint of the robot moves; expected at least one that turns or slides"
+        )
+    made = _Writing(tree, where)
+    parts = [
+        *section("[symbols]", symbol_lines(made.symbols.values, made.symbols.comments)),
+        *mdh_lines(made.rows),
+        *section("[relations]", made.relations()),
+        *loop_lines(made.loops),
+        *section("[home]", made.home()),
+        *made.frames(),
+        *section(LINKS, made.without_mass()),
+        *section("[effects]", made.effects()),
+        *made.parameters(),
+        *section(_LIMITS, made.limits()),
+    ]
+    name = robot_name(tree.name, PurePath(where).stem)[:40]
+    source = f"{tree.format} {PurePath(where).name}"
+    notes = made.symbols.notes
+    head = head_lines(name, tree.name, source, notes, made.gravity)
+    return Converted(joined([*head, *parts]), tuple(notes))
+
+
+class _Writing:
+    """The parts of a robot file; symbols and notes grow with them."""
+
+    def __init__(self, tree: BodyTree, where: str) -> None:
+        self.tree, self.links = tree, moving_links(tree)
+        self.table = mdh_table(self.links)
+        self.symbols = Symbols(notes=list(tree.notes))
+        self._equal: dict[float, str] = {}
+        self.joints = {f"{k}": joint for k, joint in enumerate(self._joints(), start=1)}
+        self.row_of = {joint.name: name for name, joint in self.joints.items()}
+        free = [name for name, joint in self.joints.items() if not joint.leader]
+        self.driven = [name for name in free if self.joints[name].actuated]
+        if not self.driven and not tree.meetings:
+            self.driven = free
+            self.symbols.notes.append("the file states no motor: all joints are taken as actuated")
+        self.free = self.driven if tree.meetings else free
+        self.rows = [self._row(row) for row in self.table.rows]
+        self.loops = self._loops()
+        entries = tuple(repr(float(entry)) for entry in tree.gravity)
+        self.gravity = gravity(entries, self.symbols, Place(where))
+
+    def _joints(self) -> list[TreeJoint]:
+        return [link.joint for link in self.links if link.joint is not None]
+
+    def _row(self, row: MdhRow) -> TextRow:
+        cells = {c: self._cell(c, worth, row.name) for c, worth in row.cells.items()}
+        if row.joint is None:
+            tilted = row.name.removesuffix("f")
+            self.symbols.notes.append(
+                f"the axis of joint {tilted} is parallel to that before but for a little: the "
+                f"fixed row {row.name} stands between them, and no frame is far away"
+            )
+            return TextRow(row.name, row.antecedent, 0, int(row.kind), cells)
+        home = "theta" if row.kind is JointKind.REVOLUTE else "r"
+        cells[home] = _sum(f"q{row.name}", cells.get(home, "0"))
+        mu = int(row.name in self.driven)
+        return TextRow(row.name, row.antecedent, mu, int(row.kind), cells, row.joint.name)
+
+    def _cell(self, column: str, worth: float, row: str) -> str:
+        """A constant: a multiple of pi, or a symbol with its value, and its sign in the cell."""
+        angle = column in ANGLES
+        text = _angle(worth) if angle else "0" if worth == 0.0 else ""
+        if text:
+            return text
+        shared = self._equal.get(abs(worth)) if self.tree.meetings and not angle else None
+        name = shared or self.symbols.add(
+            f"{LETTER[column]}{row}", abs(worth), "rad" if angle else "m"
+        )
+        self._equal[abs(worth)] = name
+        return f"-{name}" if worth < 0.0 else name
+
+    def _loops(self) -> list[tuple[str, str, str, str]]:
+        """Where points meet; the rows that carry them are added."""
+        places = {body: k for k, link in enumerate(self.links) for body in link.bodies}
+        found = []
+        for i, meeting in enumerate(self.tree.meetings, start=1):
+            ends = []
+            for body, point, side in (
+                (meeting.body, meeting.point, "a"),
+                (meeting.other, meeting.other_point, "b"),
+            ):
+                k = places[body]
+                at = (self.table.places[k] @ self.links[k].bodies[body]).place(point)
+                cells = {c: self._cell(c, worth, f"P{i}{side}") for c, worth in towards(at).items()}
+                ends.append(TextRow(f"P{i}{side}", f"{k}", 0, 2, cells, meeting.name))
+            self.rows += ends
+            found.append((f"P{i}", ends[0].name, ends[1].name, "spherical"))
+        return found
+
+    def home(self) -> list[str]:
+        """The posture of the file, near which its loops are closed."""
+        if not self.loops:
+            return []
+        places = {joint.name: joint.zero for joint in self.joints.values()} | dict(self.tree.home)
+        return [f"q{name} = {number(places[j.name])}" for name, j in self.joints.items()]
+
+    def relations(self) -> list[str]:
+        """Joints that follow others."""
+        lines = []
+        for name, joint in self.joints.items():
+            if joint.leader:
+                factor = {1.0: "", -1.0: "-"}.get(joint.ratio, f"{joint.ratio!r}*")
+                angle = joint.kind is JointKind.REVOLUTE and _angle(joint.offset)
+                offset = angle or ("0" if joint.offset == 0.0 else repr(joint.offset))
+                lines.append(f'q{name} = "{_sum(f"{factor}q{self.row_of[joint.leader]}", offset)}"')
+        return lines
+
+    def frames(self) -> list[str]:
+        """`[frames]`: every body of the file on its row."""
+        cells = []
+        for k, link in enumerate(self.links):
+            moved = link.joint.child if link.joint else ""
+            for body, pose in link.bodies.items():
+                place = self.table.places[k] @ pose
+                joint = link.joint.name if link.joint and body == moved else ""
+                numbers = [_number(exact_length(float(x))) for x in place.position]
+                angles = [_quoted_angle(angle) for angle in roll_pitch_yaw(place.rotation)]
+                names = [json.dumps(text, ensure_ascii=False) for text in (body, f"{k}", joint)]
+                cells.append([*names, *numbers, *angles])
+        head = "[frames]                              # links of the file on their rows: m, rad"
+        return [head, *columns_and_rows(FRAME_COLUMNS, cells)]
+
+    def without_mass(self) -> list[str]:
+        """Links between the joints of one body: they are nothing."""
+        return [f"{k} = []" for k, link in self._moved() if link.bodies.keys() <= self.tree.hidden]
+
+    def _moved(self) -> list[tuple[int, MovingLink]]:
+        return list(enumerate(self.links))[1:]
+
+    def effects(self) -> list[str]:
+        """Friction of every joint, and what else the file states."""
+
+        def those(key: str, everywhere: bool = False) -> list[str]:
+            return [
+                name
+                for name, joint in self.joints.items()
+                if getattr(joint, key) or (everywhere and name in self.free)
+            ]
+
+        rubbing = {"viscous": those("damping", True), "coulomb": those("friction", True)}
+        silent = [
+            effect
+            for effect, key in (("viscous", "damping"), ("coulomb", "friction"))
+            if not those(key)
+        ]
+        if silent:
+            self.symbols.notes.append(
+                f"{' and '.join(silent)} friction of the joints is added, of which the file says "
+                "nothing: a fit without it would be wrong"
+            )
+        rotors = {"rotor_inertia": those("armature")}
+        lines = effect_lines({k: v for k, v in (rotors | rubbing).items() if v}, self.driven)
+        springs = [
+            f'{{joint = "{name}", q0 = {number(self.joints[name].rest)}, h = 0}}'
+            for name in those("stiffness")
+        ]
+        return lines + ([f"spring = [{', '.join(springs)}]"] if springs else [])
+
+    def parameters(self) -> list[str]:
+        """Nominal values, and how sure those of the links are."""
+        lines, missing, doubted = list[str](), list[str](), list[str]()
+        for k, link in self._moved():
+            if link.bodies.keys() <= self.tree.hidden:
+                continue
+            whole = link.inertial
+            if whole is None or not (whole.mass or whole.inertia.any()):
+                missing.append(f"{k}")
+            elif not self._is_body(link, whole):
+                doubted.append(f"{k}")
+            else:
+                ten = about_origin(whole.seen_from(self.table.places[k]))
+                small = 1e-15 * np.abs(ten).max()
+                lines += [
+                    f"{prefix}{k} = {number(worth if abs(worth) > small else 0.0)}"
+                    for prefix, worth in zip(INERTIAL, ten, strict=True)
+                ]
+        bodies = bool(lines)
+        lines += self._of_joints()
+        notes = self.symbols.notes
+        if missing:
+            notes.append(f"the file states no mass of the links of rows {listed(missing)}")
+        if doubted:
+            notes.append(
+                f"the links of rows {listed(doubted)} have no values, for a body of theirs can not "
+                "be what the file says"
+            )
+        prior = [f"inertial = {UNCERTAINTY}"] if bodies else []
+        if bodies:
+            notes.append(
+                f"masses, centres and inertias are a prior, sure to {UNCERTAINTY:.0%} of their "
+                "scale; all other values are nominal only"
+            )
+        return [
+            *section(PARAMETERS, lines),
+            *section("[parameters.uncertainty]              # over the scale of a body", prior),
+        ]
+
+    def _is_body(self, link: MovingLink, whole: Inertial) -> bool:
+        """False for values that nobody has weighed; a frame without mass does no harm."""
+        odd = [name for name in link.bodies if name in self.tree.doubted]
+        stated = [body for name in odd if (body := self.tree.bodies[name]) is not None]
+        harmless = all(body.mass >= 0.0 and not body.inertia.any() for body in stated)
+        return harmless and whole.mass > 0.0 and bool(whole.inertia.any())
+
+    def _of_joints(self) -> list[str]:
+        """Friction, rotors and springs of the joints that have them."""
+        lines = []
+        for name, joint in self.joints.items():
+            free = name in self.free
+            for prefix, worth, always in (
+                ("Ia", joint.armature, False),
+                ("Fv", joint.damping, free),
+                ("Fs", joint.friction, free),
+                ("Ks", joint.stiffness, False),
+            ):
+                if worth is not None and (worth or always):
+                    lines.append(f"{prefix}{name} = {number(worth)}")
+        return lines
+
+    def limits(self) -> list[str]:
+        """Ranges of motion of the joints for which the file states some."""
+        lines = []
+        for name in self.free:
+            joint = self.joints[name]
+            lower, upper, speed = joint.lower, joint.upper, joint.speed
+            if lower is None or upper is None or lower >= upper:
+                if joint.kind is not JointKind.REVOLUTE or speed is None:
+                    continue
+                lower, upper = -math.pi, math.pi
+            speed = speed or _SPEED[joint.kind]
+            cells = [number(x) for x in (lower, upper, speed, _ACCELERATION * speed)]
+            lines.append(f"{name} = [{', '.join(cells)}]")
+        if lines:
+            self.symbols.notes.append(
+                f"accelerations in [limits] are {_ACCELERATION:g} times the speeds, for the file "
+                "states none"
+            )
+        return lines
+
+
+def _sum(head: str, constant: str) -> str:
+    """`q1 + pi/2`, `q1 - D1`, `q1`."""
+    if constant == "0":
+        return head
+    return f"{head} - {constant[1:]}" if constant.startswith("-") else f"{head} + {constant}"
+
+
+def _angle(worth: float) -> str:
+    """`pi/2`; nothing for an angle that is no multiple of pi/12."""
+    twelfths = round(worth / (math.pi / 12))
+    return pi_multiple(Fraction(twelfths, 12)) if worth == twelfths * (math.pi / 12) else ""
+
+
+def _quoted_angle(worth: float) -> str:
+    text = _angle(worth)
+    return "0" if text == "0" else f'"{text}"' if text else repr(worth)
+
+
+def _number(worth: float) -> str:
+    return "0" if worth == 0.0 else repr(worth)

@@ -1,0 +1,276 @@
+"""MJCFs that others publish, through table and derivation, against MuJoCo on the same file.
+
+MuJoCo reads the file by itself, moves it, and gives masses and inertias; from those, and from where
+`[frames]` says that the links are, the standard parameters follow here. Nothing of the reader's
+lumping, and nothing of MuJoCo's dynamics, is in what is compared.
+"""
+
+import warnings
+from contextlib import contextmanager
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.codegen.emit import emit
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.numeric_rank import regressor_values
+from modeler.robot.mjcf import mjcf_tree
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import INERTIAL, JointKind
+from modeler.robot.tree_cuts import cut
+from modeler.robot.tree_text import tree_to_toml
+from tests.elementary_motions import frames, shift, turn
+from tests.modules import loaded
+
+mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not installed")
+
+GYM, DM, SUITE = "gymnasium_robotics/envs", "dm_control", "robosuite/models/assets"
+FILES = [
+    *(f"{GYM}/mujoco/assets/{n}.xml" for n in (
+        "ant", "half_cheetah", "humanoid", "pusher", "reacher", "swimmer", "walker2d")),
+    f"{GYM}/assets/fetch/reach.xml",
+    f"{GYM}/assets/hand/reach.xml",
+    f"{GYM}/assets/adroit_hand/adroit_pen.xml",
+    f"{GYM}/assets/kitchen_franka/kitchen_assets/kitchen_env_model.xml",
+    *(f"{DM}/suite/{n}.xml" for n in ("manipulator", "fish", "hopper", "humanoid_CMU", "finger")),
+    f"{DM}/third_party/kinova/jaco_arm.xml",
+    *(f"{SUITE}/robots/{n}/robot.xml" for n in (
+        "panda", "sawyer", "ur5e", "iiwa", "kinova3", "baxter")),
+    f"{SUITE}/grippers/robotiq_gripper_s.xml",
+]  # fmt: skip
+
+
+def public(file):
+    """A file of a package, which is not imported for it."""
+    package, _, inside = file.partition("/")
+    spec = find_spec(package)
+    if spec is None or not spec.submodule_search_locations:
+        pytest.skip(f"NOT CHECKED: {file}, for {package.replace('_', '-')} is not installed")
+    return Path(spec.submodule_search_locations[0]) / inside
+
+
+@contextmanager
+def quiet():
+    """MuJoCo's own words about others' files are not ours to judge."""
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda _text: None)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+    mujoco.set_mju_user_warning(before)
+
+
+def rigid_model(path):
+    """The file as MuJoCo has it, with nothing but rigid bodies, rotors and gravity."""
+    with quiet():
+        model = mujoco.MjModel.from_xml_path(str(path))
+    off = mujoco.mjtDisableBit
+    model.opt.disableflags |= int(off.mjDSBL_CONSTRAINT | off.mjDSBL_SPRING | off.mjDSBL_DAMPER)
+    model.opt.density = model.opt.viscosity = 0.0
+    model.body_gravcomp[:] = 0.0
+    model.tendon_armature[:] = 0.0
+    return model
+
+
+def link_pose(frame):
+    """Of a link's frame on its row, as `[frames]` states it."""
+    roll, pitch, yaw = (angle.number({}) for angle in frame.angles)
+    shifts = [shift(k, x.number({})) for k, x in enumerate(frame.position)]
+    return np.linalg.multi_dot([*shifts, turn(2, yaw), turn(1, pitch), turn(0, roll)])
+
+
+class Both:
+    """A file as MuJoCo and as we have it."""
+
+    def __init__(self, path, exact=False):
+        self.tree = cut(mjcf_tree(path, exact_decimals=exact))
+        self.robot = robot_from_text(tree_to_toml(self.tree, str(path)).text, "robot.toml")
+        self.model = m = rigid_model(path)
+        self.data = mujoco.MjData(m)
+        self.names = [m.joint(i).name or f"joint{i}" for i in range(m.njnt)]
+        self.bodies = [m.body(i).name or f"body{i}" for i in range(m.nbody)]
+        self.moving = [j for j in self.tree.joints if j.kind is not JointKind.FIXED]
+        numbers = [self.names.index(j.name) for j in self.moving]
+        self.places, self.dofs = m.jnt_qposadr[numbers], m.jnt_dofadr[numbers]
+        # q = G q_free + offset, so tau_free = G' tau.
+        free = [j.name for j in self.moving if not j.leader]
+        self.G, self.offset = np.zeros((len(self.moving), len(free))), np.zeros(len(self.moving))
+        for k, joint in enumerate(self.moving):
+            self.G[k, free.index(joint.leader or joint.name)] = joint.ratio
+            self.offset[k] = joint.offset
+        if not exact:
+            self.put_our_decimals()
+
+    def put_our_decimals(self):
+        """Give MuJoCo's bodies the poses and axes that ours have, where roundings are made good."""
+        below = {joint.parent: joint.child for joint in self.tree.joints}
+        for joint in self.tree.joints:
+            child = joint.child
+            while child in self.tree.hidden:
+                child = below[child]
+            body = self.bodies.index(child)
+            if joint.parent not in self.tree.hidden:
+                self.model.body_pos[body] = joint.pose.position
+                mujoco.mju_mat2Quat(self.model.body_quat[body], joint.pose.rotation.ravel())
+            if joint.kind is not JointKind.FIXED:
+                place = self.names.index(joint.name)
+                self.model.jnt_axis[place], self.model.jnt_pos[place] = joint.axis, joint.point
+                self.model.qpos0[self.model.jnt_qposadr[place]] = joint.zero
+
+    def states(self, count):
+        rng, n = np.random.default_rng(), self.G.shape[1]
+        return rng.uniform(-2, 2, (count, n)), *rng.normal(0, 1.5, (2, count, n))
+
+    def torques(self, states):
+        """(samples, free joints) of MuJoCo."""
+        d, found = self.data, []
+        for q, qd, qdd in zip(*states, strict=True):
+            d.qpos[:] = self.model.qpos0
+            d.qvel[:], d.qacc[:] = 0.0, 0.0
+            d.qpos[self.places] = self.G @ q + self.offset
+            d.qvel[self.dofs], d.qacc[self.dofs] = self.G @ qd, self.G @ qdd
+            mujoco.mj_inverse(self.model, d)
+            found.append(self.G.T @ d.qfrc_inverse[self.dofs])
+        return np.array(found)
+
+    def links(self):
+        """MuJoCo's number of every body on a row, with its row and its place there."""
+        for link, frame in self.robot.frames.items():
+            if link in self.bodies:
+                yield self.bodies.index(link), frame.row, link_pose(frame)
+            else:
+                assert link in self.tree.hidden
+
+    def standard(self):
+        """Standard parameters of MuJoCo's bodies, and the rotors of the file."""
+        rows = [joint.name for joint in self.robot.moving]
+        found = {f"{prefix}{row}": 0.0 for row in rows for prefix in INERTIAL}
+        for i, row, pose in self.links():
+            if row == "0":
+                continue
+            own = np.zeros(9)
+            mujoco.mju_quat2Mat(own, self.model.body_iquat[i])
+            rotation = pose[:3, :3] @ own.reshape(3, 3)
+            mass, c = self.model.body_mass[i], pose[:3, :3] @ self.model.body_ipos[i] + pose[:3, 3]
+            tensor = rotation @ np.diag(self.model.body_inertia[i]) @ rotation.T
+            tensor += mass * (c @ c * np.eye(3) - np.outer(c, c))
+            ten = [*tensor[np.triu_indices(3)], *(mass * c), mass]
+            for prefix, worth in zip(INERTIAL, ten, strict=True):
+                found[f"{prefix}{row}"] += worth
+        rotors = self.model.dof_armature[self.dofs]
+        return found | {f"Ia{row}": worth for row, worth in zip(rows, rotors, strict=True)}
+
+
+def alike(ours, theirs, tolerance):
+    """Relative to what each joint has to give."""
+    size = np.sqrt(np.mean(theirs**2, axis=0)) + 1e-9 * np.max(np.abs(theirs))
+    return np.max(np.abs(ours - theirs) / size) < tolerance
+
+
+each_file = pytest.mark.parametrize(
+    "file", FILES, ids=lambda file: "-".join(file.removesuffix("/robot.xml").split("/")[-2:])
+)
+
+
+def check_places(both, found):
+    """That bodies are where MuJoCo has them, at ten postures; found: q -> body -> 4x4 pose."""
+    states = both.states(10)
+    for k in range(10):
+        both.torques([part[k : k + 1] for part in states])
+        poses = found(both.G @ states[0][k] + both.offset)
+        assert len(poses) > both.model.nbody / 2
+        for i, pose in poses.items():
+            size = max(1.0, np.abs(both.data.xpos[i]).max())
+            assert np.abs(pose[:3, 3] - both.data.xpos[i]).max() < 1e-12 * size, both.bodies[i]
+            assert np.abs(pose[:3, :3].ravel() - both.data.xmat[i]).max() < 1e-12, both.bodies[i]
+
+
+@each_file
+def test_every_body_is_where_mujoco_has_it(file):
+    """From the rows of the table and `[frames]`, where roundings are made good."""
+    both = Both(public(file))
+    names = [joint.name for joint in both.robot.moving]
+
+    def found(q):
+        rows = frames(both.robot, dict(zip(names, q, strict=True)))
+        return {i: rows[row] @ place for i, row, place in both.links()}
+
+    check_places(both, found)
+
+
+@each_file
+def test_every_body_is_there_as_printed(file):
+    """Along the joints of the tree, with the decimals that the file prints."""
+    both = Both(public(file), exact=True)
+    names = [joint.name for joint in both.moving]
+
+    def found(q):
+        at, poses = dict(zip(names, q, strict=True)), {both.tree.root: np.eye(4)}
+        for joint in both.tree.joints:
+            step = joint.at(at.get(joint.name, 0.0))
+            pose = np.eye(4)
+            pose[:3, :3], pose[:3, 3] = step.rotation, step.position
+            poses[joint.child] = poses[joint.parent] @ pose
+        return {both.bodies.index(n): p for n, p in poses.items() if n not in both.tree.hidden}
+
+    check_places(both, found)
+
+
+@each_file
+def test_torques_are_mujocos(file):
+    both = Both(public(file))
+    model, chi = derive_model(both.robot), both.standard()
+    states = both.states(50)
+    values = np.array([chi.get(name, 0.0) for name in model.names])
+    assert alike(regressor_values(model, states) @ values, both.torques(states), 1e-9)
+    for name, worth in both.robot.parameters.items():  # as the robot file states them
+        if name in chi:
+            assert abs(worth - chi[name]) < 1e-12 * max(abs(x) for x in chi.values()), name
+
+
+@pytest.mark.parametrize("file", FILES[3:4] + FILES[-2:], ids=["pusher", "ur5e", "hand"])
+def test_torques_of_the_c_are_mujocos(file):
+    both = Both(public(file))
+    model, chi = derive_model(both.robot), both.standard()
+    c = loaded(emit(model, base_parameters(model)))
+    beta = c.base_parameters(np.array([chi.get(name, 0.0) for name in model.names]))
+    states = both.states(50)
+    assert alike(c.inverse_dynamics(*states, beta), both.torques(states), 1e-9)
+
+
+@each_file
+def test_there_are_as_many_base_parameters_as_mujoco_feels(file):
+    """Rank of MuJoCo's torques with one body at a time, of ten different sets of values."""
+    both = Both(public(file))
+    base = base_parameters(derive_model(both.robot)).counts()
+    m, states = both.model, both.states(30)
+    m.body_mass[:], m.body_inertia[:], rotors = 0.0, 0.0, m.dof_armature.copy()
+    m.dof_armature[:] = 0.0
+    m.actuator_armature[:] = 0.0
+    m.body_sameframe[:], m.body_simple[:], m.dof_simplenum[:] = 0, 0, 0  # values may be any
+    last = {row: i for i, row, _ in both.links() if row != "0"}
+    half = np.sqrt(0.5)
+    turns = [(1, 0, 0, 0), (half, 0, 0, half), (half, 0, half, 0), (half, half, 0, 0)]
+    eighths = [(np.cos(np.pi / 8), *(np.sin(np.pi / 8) * np.eye(3)[k])) for k in range(3)]
+    sets = [(0, (0, 0, 0), e, turns[0]) for e in np.eye(3)]
+    sets += [(0, (0, 0, 0), e, t) for e, t in zip(np.eye(3)[[1, 2, 0]], eighths, strict=True)]
+    sets += [(1, p, (0, 0, 0), turns[0]) for p in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))]
+    columns = []
+    with quiet():  # about inertia matrices that are singular, as they are meant to be
+        for i in last.values():
+            for m.body_mass[i], m.body_ipos[i], m.body_inertia[i], m.body_iquat[i] in sets:
+                columns.append(both.torques(states).ravel())
+            m.body_mass[i], m.body_inertia[i] = 0.0, 0.0
+        for dof in both.dofs[rotors[both.dofs] > 0]:
+            m.dof_armature[dof] = 1.0
+            columns.append(both.torques(states).ravel())
+            m.dof_armature[dof] = 0.0
+    matrix = np.array(columns).T
+    lengths = np.linalg.norm(matrix, axis=0)
+    matrix = matrix[:, lengths > 1e-9] / lengths[lengths > 1e-9]
+    singular = np.linalg.svd(matrix, compute_uv=False)
+    rank = int(np.sum(singular > 1e-9 * singular[0]))
+    assert rank == base["inertial"] + base["rotor_inertia"]
