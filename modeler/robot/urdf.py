@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
+from modeler.core.errors import RobotError
 from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 from modeler.robot.angles import pi_multiple, told_angles, twelfths
 from modeler.robot.body_tree import BodyTree, Inertial, Pose, TreeJoint, doubt, turned
@@ -70,8 +71,9 @@ def _check_format(root: "_Spot", where: str) -> None:
         for element in child.walk():
             variable = ours and any("${" in value for value in element.attributes.values())
             if macros or variable or element.tag.startswith("xacro:"):
-                raise _Spot(element, where, f"<{element.tag}>").place.error(
-                    f"is of xacro, not of URDF; expand it first: {_expansion(where)}"
+                raise RobotError(  # whole, however long the path is
+                    f"{where}: line {element.line}: <{element.tag[:60]}> is of xacro, not of URDF; "
+                    f"expand it first: {_expansion(where)}"
                 )
 
 

@@ -70,10 +70,13 @@ BROKEN = {
     ),
     "xacro": (
         (('<mass value="0.5"/>', '<mass value="${m}"/>'),),
-        r"<mass>: is of xacro, not of URDF; expand it first: xacro \S*arm.urdf > \S*_expanded.urdf",
+        r"<mass> is of xacro, not of URDF; expand it first: xacro \S*arm.urdf > \S*_expanded.urdf",
     ),
-    "macro": ((("</robot>", "<xacro:gripper/></robot>"),), "<xacro:gripper>: is of xacro"),
-    "no link": ((("<link", "<lnk"),) * 6, "has no link|there is no link"),
+    "macro": ((("</robot>", "<xacro:gripper/></robot>"),), "<xacro:gripper> is of xacro"),
+    "no base": (
+        (('<link name="base"/>', ""),),
+        'joint "shoulder" <parent>: there is no link "base"',
+    ),
     "not closed": ((("</robot>", ""),), "no element found; <robot> of line 2 is open"),
     "entities": (
         (('<?xml version="1.0"?>', '<!DOCTYPE robot [<!ENTITY x SYSTEM "/etc/hostname">]>'),),
@@ -105,6 +108,7 @@ def test_other_formats_are_named(tmp_path: Path):
     for text, told in (
         ("<sdf version='1.7'><model name='a'/></sdf>", "SDF"),
         ("<html><body/></html>", "URDF"),
+        ("<robot name='a'><!-- <link name='b'/> --></robot>", "line 1: <robot> has no link"),
         ('<robot xmlns:xacro="x"><xacro:include filename="a"/></robot>', "> .*/arm.urdf$"),
     ):
         path = tmp_path / ("arm.urdf.xacro" if "xacro" in text else "arm.urdf")
