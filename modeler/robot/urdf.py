@@ -155,7 +155,7 @@ class _Reading:
             raise self._root.place.error('<robot> has no link; expected <link name="...">')
         bodies = {name: self._body(name, link) for name, link in links.items()}
         joints = {name: self._joint(name, spot, links) for name, spot in spots.items()}
-        root = _first_link(bodies, joints, spots)
+        root = _first_link(self._root.place, bodies, joints, spots)
         self._follow(joints, spots)
         self._add_armatures(joints)
         return BodyTree(
@@ -344,7 +344,7 @@ class _Reading:
 
 
 def _first_link(
-    bodies: Iterable[str], joints: Mapping[str, TreeJoint], spots: Mapping[str, _Spot]
+    place: Place, bodies: Iterable[str], joints: Mapping[str, TreeJoint], spots: Mapping[str, _Spot]
 ) -> str:
     """The link that no joint moves; refuses what is no tree."""
     above: dict[str, TreeJoint] = {}
@@ -355,8 +355,7 @@ def _first_link(
             raise spots[joint.name].place.error(f"{told}; expected one parent: a URDF is a tree")
     first = [name for name in bodies if name not in above]
     if len(first) > 1:
-        file = next(iter(spots.values())).place.file if spots else ""
-        raise Place(file).error(
+        raise place.error(
             f"no joint leads to {len(first)} links, {several(first)}; expected one first link: "
             "join the others to it by fixed joints, or take them out"
         )

@@ -108,6 +108,10 @@ def test_other_formats_are_named(tmp_path: Path):
     for text, told in (
         ("<sdf version='1.7'><model name='a'/></sdf>", "SDF"),
         ("<html><body/></html>", "URDF"),
+        (
+            "<robot><link name='a'/><link name='b'/></robot>",
+            'line 1: no joint leads to 2 links, "a"',
+        ),
         ("<robot name='a'><!-- <link name='b'/> --></robot>", "line 1: <robot> has no link"),
         ('<robot xmlns:xacro="x"><xacro:include filename="a"/></robot>', "> .*/arm.urdf$"),
     ):
