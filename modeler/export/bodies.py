@@ -112,8 +112,9 @@ class Physics:
 
     def drive(self, row: str, to: str) -> Terms:
         """What the joint of a row gets in a file of that format, of what has a value."""
-        found = {}
-        for quantity, terms in held_by_joint(self.robot, row).items():
+        found: dict[str, Mapping[str, float]] = {}
+        own = {} if row in self.robot.motors else held_by_joint(self.robot, row)
+        for quantity, terms in own.items():
             known = {name: c for name, c in terms.items() if name in self.place}
             if quantity in HELD[to] and known and self.value(known)[0] >= 0.0:
                 found[quantity] = known
@@ -377,10 +378,11 @@ def _settled(
     first = impossible(machine, found.chi, size, {link: np.zeros(10) for link in machine.links})
     notes = []
     whole, stated = buildable(machine, found, beta, C, size, {}), C
-    for loose in _LOOSE if whole is None else ():  # values that are stated of no body
-        C = stated + loose**2 * machine.K @ before.S @ machine.K.T
-        found = conditioned(machine.K, before, beta, C)
-        whole = whole or buildable(machine, found, beta, C, size, {})
+    for loose in _LOOSE:  # values that are stated of no body
+        if whole is None:
+            C = stated + loose**2 * machine.K @ before.S @ machine.K.T
+            found = conditioned(machine.K, before, beta, C)
+            whole = buildable(machine, found, beta, C, size, {})
     if whole is None:
         raise DataError(
             f"{robot.name}: nothing near these values could be built, because of "

@@ -245,9 +245,7 @@ class _Mjcf:
     def __init__(self, edited: Edited) -> None:
         self.edited, self.bodies, self.joints = edited, dict[str, Element](), dict[str, Element]()
         root = edited.source.root
-        for element in root.walk():
-            if element.tag == "compiler":
-                self._check(element)
+        self.compilers = [element for element in root.walk() if element.tag == "compiler"]
         bodies = [e for world in root.named("worldbody") for e in world.walk() if e.tag == "body"]
         joints = [joint for body in bodies for joint in _joints_of(body)]
         for k, body in enumerate(bodies, start=1):
@@ -289,6 +287,8 @@ class _Mjcf:
 
     def body(self, body: Body, axes: np.ndarray | None) -> None:
         """Puts the numbers of a body."""
+        for compiler in self.compilers:
+            self._check(compiler)
         new = written(body.ten)
         element = self._element(self.bodies, "body", body.name)
         full = numbers(new[[4, 7, 9, 5, 6, 8]])

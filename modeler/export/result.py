@@ -144,7 +144,7 @@ def with_comment(data: bytes, found: Exported) -> bytes:
     """The file with what it holds as one comment at its head, in place of an earlier one."""
     data = _OURS.sub(b"", data, count=1)
     lines = [f"{found.robot}: value, was, standard deviation"]
-    shown = [value for value in found.values if value.changed]
+    shown = [value for value in found.values if value.changed or not found.like]
     lines += [_line(value) for value in shown]
     lines += [f"not held by {found.format.upper()}: {lost.line}" for lost in found.not_held]
     lines += found.notes
@@ -164,10 +164,10 @@ def _line(value: Value) -> str:
 
 
 def _summary(found: Exported) -> str:
-    changed = [value for value in found.values if value.changed]
-    like = f" like {found.like}" if found.like else ""
-    first = f"{found.robot} as {found.format.upper()}{like}: {len(changed)} numbers "
-    first += "changed" if found.like else "written"
+    changed = sum(value.changed for value in found.values)
+    told = f" like {found.like}: {changed} of {len(found.values)} numbers changed"
+    first = f"{found.robot} as {found.format.upper()}"
+    first += told if found.like else f": {len(found.values)} numbers"
     lost = [f"{found.format.upper()} cannot hold {one.line}" for one in found.not_held]
     return "\n".join([first, *found.notes, *lost])
 
