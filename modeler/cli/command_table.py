@@ -189,6 +189,26 @@ _GENERATE = Command(
     "write the manifest for machines",
 )  # fmt: skip
 
+_EXPORT = Command(
+    "export", "export:run_export",
+    "the identified robot for another program: URDF, MJCF, SDF",
+    "Writes the masses, mass centres, inertias, friction and rotor inertias of MODEL as a machine "
+    "that could be built: into the bytes of an ORIGINAL, of which nothing else changes, or into a "
+    "file of its own whose links are capsules. Says what every number was and is, and which effects "
+    "the format cannot hold.",
+    "modeler export arm.model.json --like arm.urdf --out better.urdf",
+    (
+        value("source", "MODEL|ROBOT", places.RobotOrModel, _ROBOT_OR_MODEL),
+        choice("--to", ("urdf", "mjcf", "sdf"),
+               "format; by --like, or by the ending of --out (.xml is MJCF)"),
+        value("--like", "ORIGINAL", places.OriginalFile,
+              "a file of the same robot: only its numbers are replaced"),
+        value("--out", "FILE", places.OtherProgramsFile, "file to write", **_REQUIRED),
+        flag("--force", "write over a file that is there"),
+    ),
+    "write the numbers for machines",
+)  # fmt: skip
+
 _PHYSICAL = Command(
     "physical", "physical:run_physical",
     "masses, mass centres and inertias that follow from a fit and from known ones",
@@ -654,7 +674,7 @@ FAMILIES: dict[str, tuple[Command, ...]] = {
     "measure": (_EXCITE, _SIMULATE, _LOG),
     "identify": (_FIT, _COMPARE),
     "understand": (_DIAGNOSE, _ADD, _PHYSICAL, _FLEET),
-    "use": (_GENERATE,),
+    "use": (_GENERATE, _EXPORT),
     "about": (_ROBOTS, _CATALOGUE, _ESTIMATORS, _REPRODUCE, _DEMO, _COMPLETION),
 }
 """What belongs together, in the order of `modeler --help`."""

@@ -152,6 +152,19 @@ class NewRobot(Output):
     """A robot file that is written: what its command is about."""
 
 
+class OtherProgramsFile(Output):
+    """A robot file of another program that is written."""
+
+    endings = (".urdf", ".xml", ".sdf")
+
+
+class OriginalFile(Input):
+    """A robot file of another program that is written anew with other numbers."""
+
+    what = "the original that is read"
+    endings = (".urdf", ".xml", ".mjcf", ".sdf")
+
+
 class NewLog(Output):
     """A log that is written."""
 
@@ -269,7 +282,8 @@ def _checked(
             what = LogFile.what
         if what is not None:
             raise DataError(f"{given}: this is {what}; expected a name of its own")
-        if (ending := path.suffix.lower()) in OTHER_PROGRAMS:
+        ending = path.suffix.lower()
+        if ending in OTHER_PROGRAMS and not isinstance(place, OtherProgramsFile):
             raise DataError(
                 f"{given}: got {ending}, which is another program's robot file; expected another "
                 "ending, .toml for a robot file"

@@ -26,15 +26,14 @@ from modeler.export.completion import (
     distance,
     impossible,
 )
-from modeler.robot import Robot, robot_from_text
-from modeler.robot.body_tree import Pose
+from modeler.robot import Pose, Robot, robot_from_text
 
 SHARE = 0.3
 """How sure the values of a file are that says nothing of it, over the scale of a body."""
 
 _UNKNOWN = 1.0  # the same of a capsule
 _WIDE = 100.0  # how sure a value is of which nothing is known, over what the torques allow
-_LOOSE = 1e-2  # of what is known beforehand: by how much stated values of no body may move
+_LOOSE = (1e-2, 0.1, 1.0)  # of what is known beforehand: by how much values of no body may move
 _DENSITIES = (1e-3, 1e3)  # what a fit may say of a capsule's
 
 HELD = {
@@ -113,8 +112,9 @@ class Physics:
 
     def drive(self, row: str, to: str) -> Terms:
         """What the joint of a row gets in a file of that format, of what has a value."""
-        found = {}
-        for quantity, terms in held_by_joint(self.robot, row).items():
+        found: dict[str, Mapping[str, float]] = {}
+        own = {} if row in self.robot.motors else held_by_joint(self.robot, row)
+        for quantity, terms in own.items():
             known = {name: c for name, c in terms.items() if name in self.place}
             if quantity in HELD[to] and known and self.value(known)[0] >= 0.0:
                 found[quantity] = known
@@ -267,8 +267,9 @@ def _of_robot(robot: Robot, original: Original) -> Physics:
     C = np.zeros((len(given), len(given)))
     before, stated, notes = beforehand(machine, robot, original, beta, C)
     found = conditioned(K, before, beta, C)
+    if original.whole:  # what the original states stays as it is, whatever it is
+        return Physics(robot, machine, found, stated, values)
     settled, released, more = _settled(robot, machine, before, found, (beta, C), original)
-    settled = dataclasses.replace(settled, covariance=np.zeros_like(settled.covariance))
     return Physics(robot, machine, settled, stated, values, None, released, (*notes, *more))
 
 
@@ -376,16 +377,18 @@ def _settled(
     size = {link: _round(before.mean[own]) for link, own in machine.links.items()}
     first = impossible(machine, found.chi, size, {link: np.zeros(10) for link in machine.links})
     notes = []
-    whole = buildable(machine, found, beta, C, size, {})
-    if whole is None:  # values that are stated of no body
-        C = C + _LOOSE**2 * machine.K @ before.S @ machine.K.T
-        found = conditioned(machine.K, before, beta, C)
-        whole = buildable(machine, found, beta, C, size, {})
+    whole, stated = buildable(machine, found, beta, C, size, {}), C
+    for loose in _LOOSE:  # values that are stated of no body
         if whole is None:
-            raise DataError(
-                f"{robot.name}: nothing near these values could be built, because of "
-                f"{', '.join(first)}; correct [parameters] there"
-            )
+            C = stated + loose**2 * machine.K @ before.S @ machine.K.T
+            found = conditioned(machine.K, before, beta, C)
+            whole = buildable(machine, found, beta, C, size, {})
+    if whole is None:
+        raise DataError(
+            f"{robot.name}: nothing near these values could be built, because of "
+            f"{', '.join(first)}; correct [parameters] there"
+        )
+    if C is not stated:
         notes.append(
             f"{', '.join(first)}: stated as no machine could be built; the nearest that could "
             "is written"

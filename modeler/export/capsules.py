@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.export.linkage import BASE, poses
-from modeler.robot import Robot
-from modeler.robot.body_tree import Inertial, about_origin, together
+from modeler.robot import Inertial, Robot, about_origin, together
 
 DENSITY = 1000.0
 """kg/m3 of a link of which nothing is known."""

@@ -20,12 +20,9 @@ from modeler.export.linkage import (
     row_pose,
     sense,
     to_quaternion,
-    to_rpy,
-    turn,
     variables,
 )
-from modeler.robot import Joint, JointKind, linear_form
-from modeler.robot.body_tree import Pose
+from modeler.robot import Joint, JointKind, Pose, linear_form, roll_pitch_yaw, turned
 
 LINK, JOINT = "link_", "joint_"
 """Before the name of a row."""
@@ -150,8 +147,8 @@ def _upright(gravity: np.ndarray) -> np.ndarray:
     axis = np.cross(down, [0.0, 0.0, -1.0])
     sine = float(np.linalg.norm(axis))
     if sine < 1e-12:
-        return np.eye(3) if down[2] < 0.0 else turn(np.array([1.0, 0.0, 0.0]), np.pi)
-    return turn(axis / sine, float(np.arctan2(sine, -down[2])))
+        return np.eye(3) if down[2] < 0.0 else turned(np.array([1.0, 0.0, 0.0]), np.pi)
+    return turned(axis / sine, float(np.arctan2(sine, -down[2])))
 
 
 def gravity_of(physics: Physics) -> np.ndarray:
@@ -206,7 +203,7 @@ def _urdf(physics: Physics, parts: list[Part]) -> ET.Element:
 
 
 def _origin(parent: ET.Element, pose: Pose) -> None:
-    _add(parent, "origin", xyz=pose.position, rpy=to_rpy(pose.rotation))
+    _add(parent, "origin", xyz=pose.position, rpy=roll_pitch_yaw(pose.rotation))
 
 
 def _along(capsule: Capsule) -> Pose:
@@ -362,7 +359,7 @@ def _sdf(physics: Physics, parts: list[Part]) -> ET.Element:
 
 
 def _pose(parent: ET.Element, pose: Pose, **attributes: str) -> None:
-    place = [*pose.position, *to_rpy(pose.rotation)]
+    place = [*pose.position, *roll_pitch_yaw(pose.rotation)]
     _add(parent, "pose", **attributes).text = numbers(place)
 
 

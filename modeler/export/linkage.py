@@ -1,45 +1,28 @@
 """Rows of a table as numbers: where their frames are, what their variables follow."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from modeler.core.errors import DataError
-from modeler.robot import Joint, JointKind, LinkFrame, Loop, Robot, linear_form
-from modeler.robot.body_tree import Pose
+from modeler.robot import (
+    Joint,
+    JointKind,
+    LinkFrame,
+    Loop,
+    Pose,
+    Robot,
+    linear_form,
+    turned,
+)
 
 BASE = "0"
 """Name of the frame that stands still."""
 
 _X, _Y, _Z = np.eye(3)
 _CLOSED = 1e-9  # m, rad: what may be left of a loop
-
-
-def turn(axis: np.ndarray, angle: float) -> np.ndarray:
-    """(3, 3) rotation about an axis of length one (Rodrigues); quarter turns are exact."""
-    c, s = np.cos(angle), np.sin(angle)
-    c, s = (round(x) if abs(x - round(x)) < 1e-15 else x for x in (c, s))
-    x, y, z = axis
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(c * np.eye(3) + s * cross + (1.0 - c) * np.outer(axis, axis))
-
-
-def from_rpy(angles: np.ndarray) -> np.ndarray:
-    """(3, 3) Rz(yaw) Ry(pitch) Rx(roll)."""
-    roll, pitch, yaw = angles
-    return turn(_Z, yaw) @ turn(_Y, pitch) @ turn(_X, roll)
-
-
-def to_rpy(rotation: np.ndarray) -> np.ndarray:
-    """roll, pitch, yaw of a rotation; roll 0 where pitch is a quarter turn."""
-    R = rotation
-    level = float(np.hypot(R[0, 0], R[1, 0]))
-    pitch = np.arctan2(-R[2, 0], level)
-    if level < 1e-9:
-        return np.array([0.0, pitch, np.arctan2(-R[0, 1], R[1, 1])])
-    return np.array([np.arctan2(R[2, 1], R[2, 2]), pitch, np.arctan2(R[1, 0], R[0, 0])])
 
 
 def to_quaternion(rotation: np.ndarray) -> np.ndarray:
@@ -58,7 +41,13 @@ def to_quaternion(rotation: np.ndarray) -> np.ndarray:
 def frame_pose(frame: LinkFrame, symbols: Mapping[str, float]) -> Pose:
     """Pose of a link's frame on its row."""
     position = np.array([cell.number(symbols) for cell in frame.position])
-    return Pose(position, from_rpy(np.array([cell.number(symbols) for cell in frame.angles])))
+    return Pose(position, from_rpy([cell.number(symbols) for cell in frame.angles]))
+
+
+def from_rpy(angles: Sequence[float]) -> np.ndarray:
+    """(3, 3) Rz(yaw) Ry(pitch) Rx(roll)."""
+    roll, pitch, yaw = angles
+    return turned(_Z, yaw) @ turned(_Y, pitch) @ turned(_X, roll)
 
 
 def row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
@@ -72,8 +61,8 @@ def row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
         cell.number(values)
         for cell in (joint.gamma, joint.b, joint.alpha, joint.d, joint.theta, joint.r)
     )
-    foot = Pose(b * _Z, turn(_Z, gamma))
-    return foot @ Pose(d * (turn(_X, alpha) @ _X), turn(_X, alpha)) @ Pose(r * _Z, turn(_Z, theta))
+    foot = Pose(b * _Z, turned(_Z, gamma))
+    return foot @ Pose(d * (turned(_X, alpha) @ _X), turned(_X, alpha)) @ Pose(r * _Z, turned(_Z, theta))
 
 
 def sense(joint: Joint, symbols: Mapping[str, float]) -> float:

@@ -218,17 +218,15 @@ class _Writing:
             ]
 
         rubbing = {"viscous": those("damping", True), "coulomb": those("friction", True)}
-        silent = [
-            effect
-            for effect, key in (("viscous", "damping"), ("coulomb", "friction"))
-            if not those(key)
-        ]
+        turning = {*those("armature"), *self.driven}
+        rotors = {"rotor_inertia": [name for name in self.joints if name in turning]}
+        names = {"viscous": "damping", "coulomb": "friction", "rotor_inertia": "armature"}
+        silent = [effect for effect, key in names.items() if not those(key)]
         if silent:
             self.symbols.notes.append(
-                f"{' and '.join(silent)} friction of the joints is added, of which the file says "
-                "nothing: a fit without it would be wrong"
+                f"{', '.join(silent)} of the joints is added, of which the file says nothing: a "
+                "fit without it would be wrong"
             )
-        rotors = {"rotor_inertia": those("armature")}
         lines = effect_lines({k: v for k, v in (rotors | rubbing).items() if v}, self.driven)
         springs = [
             f'{{joint = "{name}", q0 = {number(self.joints[name].rest)}, h = 0}}'
@@ -288,7 +286,7 @@ class _Writing:
         for name, joint in self.joints.items():
             free = name in self.free
             for prefix, worth, always in (
-                ("Ia", joint.armature, False),
+                ("Ia", joint.armature, name in self.driven),
                 ("Fv", joint.damping, free),
                 ("Fs", joint.friction, free),
                 ("Ks", joint.stiffness, False),
