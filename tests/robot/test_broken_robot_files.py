@@ -145,6 +145,7 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "long value": lambda: b'<robot name="' + b"a" * 40_000_000 + b'"/>',
     "long number": lambda: edited(('"0 0 0.4"', f'"0 0 {"9" * 5_000_000}"')).encode(),
     "comment": lambda: b"<robot><!--" + b"a" * 40_000_000,
+    "comments": lambda: b"<!---->" * 5000 + b"<robot>",
     "large": lambda: b"<robot>" + b" " * 70_000_000 + b"</robot>",
 }
 CHILD = """
