@@ -33,7 +33,6 @@ _KINDS = {
     "fixed": JointKind.FIXED,
 }
 _UNREAD = ("floating", "planar", "ball", "spherical", "universal", "screw")
-_OTHERS = {"sdf": "SDF; convert it to URDF", "mujoco": "MJCF; call the file .xml"}
 _DECIMAL = re.compile(r"[+-]?(?:\d+\.?(\d*)|\.(\d+))(?:[eE]([+-]?\d{1,4}))?", re.ASCII)
 _ZERO = 1e-6
 """m, rad, and of a unit axis: smaller is what an exporter's arithmetic left of 0."""
@@ -60,10 +59,8 @@ def urdf_tree(data: bytes, where: str, exact_decimals: bool = False) -> BodyTree
 
 
 def _check_format(root: "_Spot", where: str) -> None:
-    tag = root.element.tag
-    if tag != "robot":
-        told = _OTHERS.get(tag, "no URDF")
-        raise root.place.error(f"<{tag}> is {told}; a URDF begins with <robot>")
+    if root.element.tag != "robot":
+        raise root.place.error(f"<{root.element.tag}> is no URDF, which begins with <robot>")
     for child in root.element.children:
         macros = child.tag in ("include", "macro", "property")
         ours = child.tag in ("link", "joint")
