@@ -150,7 +150,7 @@ class Reader:
     def do(self, block: Block) -> None:
         """One block."""
         where = f"{self.page}, line {block.line}"
-        if block.kind in ("toml", "c", "par"):
+        if block.kind in ("toml", "c", "par", "xml"):
             self._save(block, where)
         elif block.kind == "console":
             self._commands(block, where)
@@ -166,11 +166,12 @@ class Reader:
 
     def _save(self, block: Block, where: str) -> None:
         suffix = f".{block.kind}"
-        named = re.match(r"(?:#|/\*|\(\*) ([\w-]+\.\w+)", block.lines[0])
+        named = re.match(r"(?:#|/\*|\(\*|<!--) ([\w-]+\.\w+)", block.lines[0])
         saved = re.search(r"Save it as `([\w.-]+)`", block.after)
         found = named or saved
         name = found[1] if found else "snippet.c"
-        assert name.endswith(suffix) and (found or suffix == ".c"), f"{where}: how is it called?"
+        suffixes = (".urdf", ".xml") if suffix == ".xml" else suffix
+        assert name.endswith(suffixes) and (found or suffix == ".c"), f"{where}: how is it called?"
         Path(name).write_text("\n".join(block.lines) + "\n", encoding="utf-8")
         if suffix == ".c" and not any("main(" in line for line in block.lines):
             folders = sorted({f"-I{path.parent}" for path in Path().glob("*/*.h")})

@@ -1,4 +1,5 @@
 from .checks import compare as compare, contest as contest, free_run as free_run
+from .exporting import export as export
 from .fitting import (
     Load as Load,
     fit as fit,
@@ -39,6 +40,7 @@ from .reexports import (
     Derivation as Derivation,
     Diagnosis as Diagnosis,
     Emitted as Emitted,
+    Exported as Exported,
     FitResult as FitResult,
     Fleet as Fleet,
     FreeRunSettings as FreeRunSettings,

@@ -67,7 +67,9 @@ def log_maps(compiled: CompiledModel, logs: Sequence[Any], mapping: Mapped = ())
         if isinstance(log, observation.Log | SimulatedLog):
             found.append(dataclasses.replace(names, auto=False))
             continue
-        seen = look_at(log, compiled, LogMap(topic=names.topic, files=names.files))
+        seen = look_at(
+            log, compiled, LogMap(names=names.names, topic=names.topic, files=names.files)
+        )
         clock = next((part for part in seen.streams if part.clock), None)
         if clock and not names.topic and [p.kind for p in seen.streams].count(clock.kind) > 1:
             names = dataclasses.replace(names, topic=clock.name)

@@ -189,6 +189,26 @@ _GENERATE = Command(
     "write the manifest for machines",
 )  # fmt: skip
 
+_EXPORT = Command(
+    "export", "export:run_export",
+    "the identified robot for another program: URDF, MJCF, SDF",
+    "Writes the masses, mass centres, inertias, friction and rotor inertias of MODEL as a machine "
+    "that could be built: into the bytes of an ORIGINAL, of which nothing else changes, or into a "
+    "file of its own whose links are capsules. Says what every number was and is, and which effects "
+    "the format cannot hold.",
+    "modeler export arm.model.json --like arm.urdf --out better.urdf",
+    (
+        value("source", "MODEL|ROBOT", places.RobotOrModel, _ROBOT_OR_MODEL),
+        choice("--to", ("urdf", "mjcf", "sdf"),
+               "format; by --like, or by the ending of --out (.xml is MJCF)"),
+        value("--like", "ORIGINAL", places.OriginalFile,
+              "a file of the same robot: only its numbers are replaced"),
+        value("--out", "FILE", places.OtherProgramsFile, "file to write", **_REQUIRED),
+        flag("--force", "write over a file that is there"),
+    ),
+    "write the numbers for machines",
+)  # fmt: skip
+
 _PHYSICAL = Command(
     "physical", "physical:run_physical",
     "masses, mass centres and inertias that follow from a fit and from known ones",
@@ -238,12 +258,20 @@ _NEW = Command(
 _CONVERT = Command(
     "convert", "new:run_convert",
     "another program's robot file as ours",
-    "Writes the robot of a SYMORO file (.par) as a robot file, and says what was decided and what "
-    "has no place there. Every command reads a .par as well; converted, it can be edited.",
-    "modeler convert rx90.par --out rx90.toml",
+    "Writes the robot of a URDF, MJCF or SYMORO file (.par) as a robot file, and says what was "
+    "decided and what has no place there. Every command reads such files as well; converted, they "
+    "can be edited.",
+    "modeler convert arm.urdf --tip tool0 --out arm.toml",
     (
-        value("file", "FILE", places.RobotFile, "a SYMORO file (.par)"),
+        value("file", "FILE", places.RobotFile, "a URDF, MJCF or SYMORO file"),
         value("--out", "ROBOT.toml", places.Output, "robot file to write", **_REQUIRED),
+        value("--base", "LINK", places.Word, "link that stands still; default: the first",
+              default=""),
+        value("--tip", "LINK", places.Word, "last link of the chain that is meant; default: all",
+              default=""),
+        repeated("--lock", "JOINT=POSITION", places.Word,
+                 "hold a joint, as elbow=0.3 or 'elbow=30 deg'; may be given several times"),
+        flag("--exact-decimals", "take 1.5708 as it is, not as pi/2, and lengths below 1 um"),
         flag("--force", "write over a file that is there"),
     ),
     "write what was converted for machines",
@@ -646,7 +674,7 @@ FAMILIES: dict[str, tuple[Command, ...]] = {
     "measure": (_EXCITE, _SIMULATE, _LOG),
     "identify": (_FIT, _COMPARE),
     "understand": (_DIAGNOSE, _ADD, _PHYSICAL, _FLEET),
-    "use": (_GENERATE,),
+    "use": (_GENERATE, _EXPORT),
     "about": (_ROBOTS, _CATALOGUE, _ESTIMATORS, _REPRODUCE, _DEMO, _COMPLETION),
 }
 """What belongs together, in the order of `modeler --help`."""

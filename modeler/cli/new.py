@@ -12,14 +12,14 @@ from modeler.robot import (
     Robot,
     check_new_robot,
     converted,
+    lock_values,
     new_robot,
     robot_from_text,
     template_robot,
 )
 
-_URDF = (
-    "a SYMORO file needs no new one: `modeler convert`; URDF is to follow: docs/converting.md has "
-    "its joints as rows"
+_FILES = (
+    "a URDF, MJCF or SYMORO file needs no new one: every command reads it, or `modeler convert`"
 )
 
 
@@ -37,7 +37,7 @@ def run_new(args: argparse.Namespace) -> Json:
     say(f"{robot.title}: {len(robot.moving)} joints{loops}, written to {out}; write your lengths")
     show_next([f"modeler derive {out}"])
     if asked:
-        print_error(_URDF)
+        print_error(_FILES)
     return _about(robot, out)
 
 
@@ -72,7 +72,9 @@ def _asked(question: str, usual: str, key: str) -> str:
 
 def run_convert(args: argparse.Namespace) -> Json:
     """Writes the robot file, when it has been read as one; prints the notes."""
-    found = converted(Path(args.file))
+    found = converted(
+        Path(args.file), args.base, args.tip, lock_values(args.lock), args.exact_decimals
+    )
     out = Path(args.out)
     robot = robot_from_text(found.text, f"{args.file}, as a robot file")
     there = destination(out).kind is Kind.FILE

@@ -72,7 +72,7 @@ class RobotFile(Input):
     """A robot file, or the name of a built-in robot."""
 
     what = "the robot file that is read"
-    endings = (".toml", *OTHER_PROGRAMS)
+    endings: tuple[str, ...] = (".toml", *OTHER_PROGRAMS)
     names = staticmethod(builtin_names)
 
     @property
@@ -150,6 +150,19 @@ class Output(FilePlace):
 
 class NewRobot(Output):
     """A robot file that is written: what its command is about."""
+
+
+class OtherProgramsFile(Output):
+    """A robot file of another program that is written."""
+
+    endings = (".urdf", ".xml", ".sdf")
+
+
+class OriginalFile(Input):
+    """A robot file of another program that is written anew with other numbers."""
+
+    what = "the original that is read"
+    endings = (".urdf", ".xml", ".mjcf", ".sdf")
 
 
 class NewLog(Output):
@@ -269,7 +282,8 @@ def _checked(
             what = LogFile.what
         if what is not None:
             raise DataError(f"{given}: this is {what}; expected a name of its own")
-        if (ending := path.suffix.lower()) in OTHER_PROGRAMS:
+        ending = path.suffix.lower()
+        if ending in OTHER_PROGRAMS and not isinstance(place, OtherProgramsFile):
             raise DataError(
                 f"{given}: got {ending}, which is another program's robot file; expected another "
                 "ending, .toml for a robot file"

@@ -57,6 +57,7 @@ def module_spec(
             **entries(joint, "name unit effort_unit actuated"),
             kind="revolute" if joint.angular else "prismatic",
             drive_gain=robot.drive_gains.get(joint.name),
+            drive=robot.drives.get(joint.name),
         )
         for joint in robot.coordinates
     )

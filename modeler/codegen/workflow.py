@@ -111,7 +111,7 @@ def generate(
     from modeler.codegen.package import write_emitted
 
     emitted = emit(derivation.model, derivation.base, fitted, precision, cuda)
-    emitted = dataclasses.replace(emitted, log=derivation.robot.log)
+    emitted = dataclasses.replace(emitted, log=derivation.robot.log_words)
     if folder is not None:
         write_emitted(emitted, Path(folder), force)
     return emitted

@@ -12,13 +12,8 @@ TEMPLATES = ("serial", "parallelogram", "parallel")
 CONVENTIONS = ("khalil", "craig", "classical")
 """Whose table that of a robot file may be."""
 
-NOT_READ = MappingProxyType(
-    {".urdf": "URDF", ".xacro": "xacro", ".sdf": "SDF", ".mjcf": "MJCF", ".xml": "XML"}
-)
-"""Endings of robot files of other programs that are not read, and what they are."""
-
-OTHER_PROGRAMS = (".par", *NOT_READ)
-"""Endings of their robot files: nothing of ours is ever written into one."""
+OTHER_PROGRAMS = (".par", ".urdf", ".xml", ".mjcf", ".xacro", ".sdf")
+"""Endings of robot files of other programs: nothing of ours is ever written into one."""
 
 MOTIONS = ("exciting", "point-to-point", "one-joint")
 """What the commanded motion of a simulation may be."""

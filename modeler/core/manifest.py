@@ -79,6 +79,15 @@ class ClosureSpec:
 
 
 @dataclass(frozen=True)
+class DriveSpec:
+    """A motor on a bridge: current = (duty voltage - k_e qd) / resistance."""
+
+    voltage: float  # V, of the supply; a column voltage<j> of a log goes before
+    resistance: float  # ohm
+    k_e: float = 0.0  # V s/rad or V s/m, of the speed of the joint
+
+
+@dataclass(frozen=True)
 class JointSpec:
     """One joint variable; the order of the list is the order of q, qd, qdd, tau."""
 
@@ -88,6 +97,7 @@ class JointSpec:
     effort_unit: str  # "N m" | "N"
     actuated: bool
     drive_gain: float | None  # joint torque per unit of logged current
+    drive: DriveSpec | None = None  # what makes a current of a logged duty
 
 
 @dataclass(frozen=True)
@@ -242,6 +252,7 @@ class ModuleSpec(Brief):
         for entry, name in [
             (entries, "inertial_uncertainty"),
             *((parameter, "deviation") for parameter in entries["standard"]),
+            *((joint, "drive") for joint in entries["joints"]),
         ]:
             if entry[name] is None:
                 del entry[name]

@@ -36,14 +36,27 @@ from .model_file import (
     save_model as save_model,
     with_essential_only as with_essential_only,
 )
-from .nearest_body import body as body, nearest_possible as nearest_possible
+from .nearest_body import (
+    PREFIXES as PREFIXES,
+    Machine as Machine,
+    body as body,
+    machine_of as machine_of,
+    nearest_possible as nearest_possible,
+    parameters_of as parameters_of,
+    pseudo_inertia_of as pseudo_inertia_of,
+)
 from .parameter import prior_text as prior_text, spread_text as spread_text
 from .payload import (
     Payload as Payload,
     identify_with_payloads as identify_with_payloads,
     loaded_equations as loaded_equations,
 )
-from .prior import Prior as Prior, prior_of as prior_of, refuse_prior as refuse_prior
+from .prior import (
+    Prior as Prior,
+    body_covariance as body_covariance,
+    prior_of as prior_of,
+    refuse_prior as refuse_prior,
+)
 from .result import (
     FitResult as FitResult,
     ParameterEstimate as ParameterEstimate,

@@ -229,14 +229,14 @@ def in_drive_units(spec: ModuleSpec) -> ModuleSpec:
 
 
 def check_currents(logs: Sequence[Log], joints: Sequence[JointSpec]) -> None:
-    """Nothing, if every motor's current is logged.
+    """Nothing, if every motor's current is logged, or the duty that makes it.
 
     Raises:
         DataError: a log gives a torque instead; names it.
     """
     for log in logs:
         for joint, source in zip(joints, log.torque_source, strict=True):
-            if joint.actuated and not source.startswith("current"):
+            if joint.actuated and not source.startswith(("current", "duty")):
                 raise DataError(
                     f"{log.name}: got {source}, a torque; --method tls finds the gain of each "
                     f"drive and expects its current in drive units; log current{joint.name}, or "

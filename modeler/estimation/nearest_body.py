@@ -64,10 +64,12 @@ class Machine:
 def machine_of(spec: ModuleSpec) -> Machine:
     """The unknowns of a robot; a link has all ten parameters, whichever the torques feel."""
     place = {parameter.name: i for i, parameter in enumerate(spec.standard)}
-    links = {}
-    for link in dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"):
-        own = [place.setdefault(f"{prefix}{link}", len(place)) for prefix in PREFIXES]
-        links[link] = np.array(own)
+    links: dict[str, np.ndarray] = {}
+    inertial = [p for p in spec.standard if p.effect == "rigid_body"]
+    for link in dict.fromkeys(p.joint for p in inertial):
+        felt = {_prefix(p): p.name for p in inertial if p.joint == link}
+        names = [felt.get(prefix, f"{prefix}{link}") for prefix in PREFIXES]
+        links[link] = np.array([place.setdefault(name, len(place)) for name in names])
     K = np.zeros((len(spec.base), len(place)))
     for row, base in zip(K, spec.base, strict=True):
         for term in base.terms:
@@ -76,6 +78,12 @@ def machine_of(spec: ModuleSpec) -> Machine:
         p.name: place[p.name] for p in spec.standard if p.nonnegative and p.effect != "rigid_body"
     }
     return Machine(tuple(place), K, links, positive)
+
+
+def _prefix(parameter: ParameterSpec) -> str:
+    """"XX" of XX21, and of XX2 that similar legs share."""
+    own = parameter.name.removesuffix(parameter.joint)
+    return own if own in PREFIXES else next(p for p in PREFIXES if parameter.name.startswith(p))
 
 
 def body(felt: Sequence[ParameterSpec]) -> Machine:

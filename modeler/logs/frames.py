@@ -15,7 +15,7 @@ from modeler.logs.clock_times import is_moment, origins_of
 from modeler.logs.columns import Columns, Wanted
 from modeler.logs.datasets import flattened
 
-_PER_JOINT = ("q", "qd", "qdd", "qc", "tau", "current")
+_PER_JOINT = ("q", "qd", "qdd", "qc", "tau", "current", "duty", "voltage")
 
 
 @runtime_checkable

@@ -5,6 +5,7 @@ import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
@@ -16,6 +17,7 @@ _WORDS: Mapping[str, str] = {
     "time": "t time timestamp stamp clock zeit temps sec seconds",
     "temperature": "temp temperature temperatures heat",
     "current": "strom current currents cur i iq amp amps",
+    "duty": "duty pwm",
     "tau": "tau torque torques drehmoment kraft trq effort moment moments load force f",
     "qdd": "qdd ddq acc accel acceleration accelerations",
     "qd": "qd dq qdot geschwindigkeit drehzahl vel velocity velocities speed speeds omega",
@@ -25,7 +27,8 @@ _KINDS: Mapping[Powers, str] = {
     TIME: "time", ANGLE: "q", LENGTH: "q", (0, 0, -1, 1, 0, 0): "qd", (1, 0, -1, 0, 0, 0): "qd",
     TORQUE: "tau", FORCE: "tau", CURRENT: "current",
 }  # fmt: skip
-_ASKED = "qc cmd command commanded desired des target ref reference set setpoint"
+_ASKED = "qc cmd command commanded desired des target ref reference set setpoint action"
+_BESIDE = re.compile(r"\[([^\[\]]*)\{\}([^\[\]]*)\]")  # what stands beside a joint: `[{}.load]`
 _LABEL = re.compile(r"\[([^\[\]]+)\]$|(\d+)(?!.*\d)|(?<=[ _.])([A-Z])$")
 _UNIT = re.compile(r"\s+[\[(]([^\[\]()]+)[\])]$")
 _SPLIT = re.compile(r"[^A-Za-zµ°]+|(?<=[a-z])(?=[A-Z])")
@@ -34,6 +37,7 @@ _TURNS = 7.0  # rad; a joint that goes further in either way is likely in degree
 _LONG = 3.0  # m; an axis that is longer is likely in mm
 _FAR = 30.0  # rad; with a speed that agrees: nearly five turns
 _STRONG = 200.0  # A
+_SHARES = 2.5  # span of a duty from -1 to 1, and a little more
 _HEAVY = 1e4  # N m
 _MIGHTY = 1e6  # N
 
@@ -69,25 +73,30 @@ class Guess:
 
 
 def guesses(
-    columns: Mapping[str, np.ndarray], stated: Mapping[str, str], joints: Sequence[JointSpec] = ()
-) -> list[Guess]:
+    columns: Mapping[str, np.ndarray], stated: Mapping[str, str],
+    joints: Sequence[JointSpec] = (), names: Mapping[str, str] = MappingProxyType({}),
+) -> list[Guess]:  # fmt: skip
     """What the columns of a file look like; each of ours once.
 
     Args:
         columns: (n,) each, as in the file.
         stated: units that the file states, by column.
         joints: of the robot, if it is known.
+        names: joint -> its name in logs, where that is known.
     """
     groups: dict[str, list[str]] = {}
     for name in columns:
-        template, label = template_of(name)
+        template, label = template_of(name, names.values())
         groups.setdefault(template, []).append(label)
     found: dict[str, Guess] = {}
+    by_duty = bool(joints) and any(joint.drive for joint in joints)
     for template, labels in groups.items():
-        names = [template.replace("{}", label) for label in labels]
-        unit = find_unit(stated.get(names[0]) or _named(names[0]) or "?")
+        own_columns = [template.replace("{}", label) for label in labels]
+        unit = find_unit(stated.get(own_columns[0]) or _named(own_columns[0]) or "?")
         own = _role(template) or ("" if unit is None else _KINDS.get(unit.powers, ""))
-        if own == "time" and not all(_rises(columns[name]) for name in names):
+        if by_duty and own == "tau" and re.search(r"load(?![a-z])", template.lower()):
+            own = "duty"  # what such drives call their load is a share of the voltage
+        if own == "time" and not all(_rises(columns[name]) for name in own_columns):
             own = "tau" if template.lower().split()[:1] == ["t"] else ""
         better = own in found and len(labels) > len(found[own].labels)
         if own and (own not in found or better):
@@ -100,17 +109,23 @@ def guesses(
             if len(steps) and np.isfinite(steps).all() and 0 < steps.max() < 3 * steps.min():
                 found["time"] = Guess("time", name, ("",), ("",))
                 break
-    order = ("time", "q", "qd", "qdd", "qc", "tau", "current", "temperature")
+    order = ("time", "q", "qd", "qdd", "qc", "tau", "current", "duty", "voltage", "temperature")
     known = [found[own] for own in order if own in found]
     rates = _rates(found, columns, stated)
     return [
-        _with_units(one, columns, stated, slides_of(one.labels, joints), rates) for one in known
+        _with_units(one, columns, stated, slides_of(one.labels, joints, names), rates)
+        for one in known
     ]
 
 
-def slides_of(labels: Sequence[str], joints: Sequence[JointSpec]) -> list[bool]:
+def slides_of(
+    labels: Sequence[str], joints: Sequence[JointSpec],
+    names: Mapping[str, str] = MappingProxyType({}),
+) -> list[bool]:  # fmt: skip
     """Whether each column is of a prismatic joint; by name, else by its place."""
-    by = {joint.name: joint.unit == "m" for joint in joints}
+    named = bool(names) and {*names.values()} <= {*labels}
+    by = {names[j.name] if named else j.name: j.unit == "m" for j in joints
+          if not named or j.name in names}  # fmt: skip
     if not set(by) <= set(labels):
         by = {label: joint.unit == "m" for label, joint in zip(labels, joints, strict=False)}
     return [by.get(label, False) for label in labels]
@@ -140,8 +155,15 @@ def speeds_by_position(found: Iterable[Guess]) -> list[tuple[str, str]]:
     return [(q, speeds[label]) for label, q in positions.items() if label in speeds]
 
 
-def template_of(name: str) -> tuple[str, str]:
-    """`pos[elbow]` -> `pos[{}]`, `elbow`; `joint3_pos` -> `joint{}_pos`, `3`."""
+def template_of(name: str, joints: Iterable[str] = ()) -> tuple[str, str]:
+    """`pos[elbow]` -> `pos[{}]`, `elbow`; `joint3_pos` -> `joint{}_pos`, `3`.
+
+    Names of joints that are known go before, the longest first: `elbow_effort` -> `{}_effort`.
+    """
+    for joint in sorted(joints, key=len, reverse=True):
+        own = re.search(rf"(?<![A-Za-z0-9]){re.escape(joint)}(?![A-Za-z0-9])", name)
+        if own is not None:
+            return f"{name[: own.start()]}{{}}{name[own.end() :]}", joint
     end = _UNIT.search(name)
     head = name[: end.start()] if end is not None and find_unit(end[1]) is not None else name
     match = _LABEL.search(head)
@@ -152,8 +174,15 @@ def template_of(name: str) -> tuple[str, str]:
 
 
 def _role(template: str) -> str:
-    """What a template looks like, "" for nothing of ours; the last words say most."""
-    words = [word.lower() for word in _SPLIT.split(template.split("[")[0]) if word]
+    """What a template looks like, "" for nothing of ours; the last words say most.
+
+    The bare name of a joint is its position.
+    """
+    if template == "{}":
+        return "q"
+    beside = _BESIDE.search(template)
+    text = f"{template.split('[')[0]} {' '.join(beside.groups()) if beside else ''}"
+    words = [word.lower() for word in _SPLIT.split(text) if word]
     asked = any(word in _ASKED.split() for word in words)
     for word in reversed(words):
         for own, names in _WORDS.items():
@@ -243,6 +272,8 @@ def _ranged(own: str, values: np.ndarray, slides: bool) -> str:
         return "deg" if float(np.abs(values).max()) > _TURNS else ""
     if own == "tau":
         return ("mN" if slides else "mN m") if span > (_MIGHTY if slides else _HEAVY) else ""
+    if own == "duty":
+        return "" if span <= _SHARES else "%" if span <= 100.0 * _SHARES else "0.1 %"
     return "mA" if own == "current" and span > _STRONG else ""
 
 
@@ -255,7 +286,7 @@ _MISSING = {"q": "positions", "tau": "torques"}
 
 def absent_roles(found: Sequence[Guess]) -> list[str]:
     """Quantities that every fit needs and that no column looks like."""
-    there = {"tau" if one.own == "current" else one.own for one in found}
+    there = {"tau" if one.own in ("current", "duty") else one.own for one in found}
     lacking = [words for own, words in _MISSING.items() if own not in there]
     if not lacking:
         return []
@@ -282,26 +313,28 @@ def unlike_si(found: Sequence[Guess]) -> list[str]:
 
 
 def log_text(
-    found: Sequence[Guess], joints: Sequence[JointSpec] = (), columns: Sequence[str] = ()
-) -> str:
+    found: Sequence[Guess], joints: Sequence[JointSpec] = (), columns: Sequence[str] = (),
+    names: Mapping[str, str] = MappingProxyType({}),
+) -> str:  # fmt: skip
     """The guesses as a table [log] to paste; "" if there are none, or all is ours already.
 
     Args:
         found: the guesses.
         joints: of the robot, if it is known.
         columns: of the file; listed if positions or torques are not among the guesses.
+        names: joint -> its name in logs, where that is known.
     """
     count = max(len(one.labels) for one in found) if found else 0
     own = [joint.name for joint in joints] or [str(k + 1) for k in range(count)]
     lines: list[str] = []
     for one in found:
-        lines += _lines_of(one, own, any(line.startswith("names =") for line in lines))
+        lines += _lines_of(one, own, any(line.startswith("names =") for line in lines), names)
     if absent_roles(found):
         there = {one.own for one in found}
         lines.append(f"# columns of the file: {', '.join(map(_quoted, columns[:_SHOWN]))}")
         if "q" not in there:
             lines.append('# "q<j>" = "?"  # the position of each joint, such as "COLUMN{n} [deg]"')
-        if not there & {"tau", "current"}:
+        if not there & {"tau", "current", "duty"}:
             lines.append(
                 '# "tau<j>" = "?"  # its torque, such as "COLUMN{n} [N m]"; or "current<j>"'
             )
@@ -309,7 +342,7 @@ def log_text(
     return "\n".join([head, *lines]) + "\n" if lines else ""
 
 
-def _lines_of(one: Guess, own: Sequence[str], named: bool) -> list[str]:
+def _lines_of(one: Guess, own: Sequence[str], named: bool, names: Mapping[str, str]) -> list[str]:
     """The lines of one quantity: a pattern, and joints of another unit by themselves."""
     ours = all(c in (one.own, *(one.own + j for j in own)) for c in one.columns)
     unit = one.units[0] if len(set(one.units)) == 1 else ""
@@ -320,20 +353,22 @@ def _lines_of(one: Guess, own: Sequence[str], named: bool) -> list[str]:
         if not ours or unit:
             lines.append(f"{_key(key)} = {_column(one.columns[0], unit)}{told}")
         return lines
-    mark = _mark(one.labels, own)
+    known = bool(names) and {*names.values()} <= {*one.labels}
+    mark = "{name}" if known else _mark(one.labels, own)
     if not ours or unit:
         if mark == "{name}" and not named:
-            pairs = ", ".join(
-                f"{_key(j)} = {_quoted(n)}" for j, n in zip(own, one.labels, strict=False)
-            )
-            lines.append(f"names = {{{pairs}}}  # in the order of the log: which joint is which?")
+            ordered = names.items() if known else zip(own, one.labels, strict=False)
+            pairs = ", ".join(f"{_key(j)} = {_quoted(n)}" for j, n in ordered)
+            told = "" if known else "  # in the order of the log: which joint is which?"
+            lines.append(f"names = {{{pairs}}}{told}")
         pattern = one.template.replace("{}", mark)
         written = _quoted(f"{pattern}{_once(one.columns[0], unit)}")
         lines.append(f'"{one.own}<j>" = {written}{told * bool(unit)}')
     if unit:
         return lines
     counted = [str(k + (mark == "{n}")) for k in range(len(own))]
-    labels = {"{j}": own, "{name}": one.labels}.get(mark, counted)
+    called = [names.get(j, j) for j in own] if known else one.labels
+    labels = {"{j}": own, "{name}": called}.get(mark, counted)
     by = dict(zip(one.labels, zip(one.columns, one.units, strict=True), strict=True))
     for joint, label in zip(own, labels, strict=False):
         column, own_unit = by.get(label, ("", ""))

@@ -182,6 +182,7 @@ def inspect_log(
         DataError: no rows in that span, or a time column without values.
     """
     values = {name: table.measured(name) for name in table.names if table.is_numeric(name)}
+    names = {j.name: mapping.names[j.name] for j in joints if j.name in mapping.names}
 
     def numbers(block: LogTable) -> dict[str, np.ndarray]:  # what turns out to be text has none
         none = np.full(block.rows, np.nan)
@@ -189,10 +190,10 @@ def inspect_log(
 
     blocks: Iterable[dict[str, np.ndarray]] = [values] if every is None else map(numbers, every)
     if span != (None, None):
-        found = guesses(values, {}, joints)
+        found = guesses(values, {}, joints, names)
         values, every = _within(table, found, blocks, span), None
         blocks = [values]
-    found = guesses(values, {n: table.unit(n) for n in values if table.unit(n)}, joints)
+    found = guesses(values, {n: table.unit(n) for n in values if table.unit(n)}, joints, names)
     units = {n: u for one in found for n, u in zip(one.columns, one.units, strict=True) if u}
     time, clock = _clock(table, values, found)
     shown = {name: table.in_unit(name, v) for name, v in values.items()}
@@ -230,25 +231,25 @@ def inspect_log(
         if channel.constant and not (name in rest and channel.low == 0.0)
     ]
     bare = [one.without_range() if one.own in ("q", "qc") else one for one in found]
-    suggested, plain = ("" if mapping.layers else log_text(f, joints, tuple(values))
+    suggested, plain = ("" if mapping.layers else log_text(f, joints, tuple(values), names)
                         for f in (found, bare))  # fmt: skip
     ranged = tuple(line for line in unlike_si(found) if line not in unlike_si(bare))
     return LogInspection(
         table.path.name, rows, clock, tuple(channels), table.found.streams, notes, tuple(doubts),
         suggested, plain, ranged, *drawn,
-        None if clock is None else _positions(table, values, found, joints, time),
+        None if clock is None else _positions(table, values, found, joints, names, time),
     )  # fmt: skip
 
 
 def _positions(
     table: LogTable, values: Mapping[str, np.ndarray], found: Sequence[Guess],
-    joints: Sequence[JointSpec], time: np.ndarray,
+    joints: Sequence[JointSpec], names: Mapping[str, str], time: np.ndarray,
 ) -> Positions | None:  # fmt: skip
     one = next((one for one in found if one.own == "q"), None)
     if one is None:
         return None
     units, columns = list[str](), list[np.ndarray]()
-    linear = slides_of(one.labels, joints)
+    linear = slides_of(one.labels, joints, names)
     for name, guessed, slides in zip(one.columns, one.units, linear, strict=True):
         text = table.unit(name) or guessed
         known = find_unit(text) if text else None
@@ -256,8 +257,8 @@ def _positions(
         units.append("counts" if text and known is None else "m" if slides else "rad")
         factor = 1.0 if known is None or table.unit(name) else known.factor  # else it is SI already
         columns.append(values[name] * factor)
-    names = tuple(map(table.called, one.columns))
-    return Positions(names, tuple(units), time, np.column_stack(columns))
+    called = tuple(map(table.called, one.columns))
+    return Positions(called, tuple(units), time, np.column_stack(columns))
 
 
 def _repeats(

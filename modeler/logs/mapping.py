@@ -222,6 +222,8 @@ def _wanted(own: str, joints: Sequence[JointSpec]) -> tuple[Powers | None, str, 
     for joint in joints:
         of_joint = {
             "current": (CURRENT, "a current", "mA, A, V, %"),
+            "duty": (NONE, "a share of the supply voltage", "%, 0.1 %"),
+            "voltage": (VOLTAGE, "a voltage", "V, mV"),
             "tau": _EFFORTS[joint.effort_unit],
             **_MOTION[joint.unit],
         }

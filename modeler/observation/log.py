@@ -43,7 +43,8 @@ class Log(Presented):
         joints: joint names, the order of the columns below.
         time: (n,) s, strictly increasing.
         q: (n, joints) rad or m.
-        tau: (n, joints) N m or N; 0 for passive joints without a column.
+        tau: (n, joints) N m or N; 0 for passive joints without a column. Where it comes of a duty,
+            what the motor induces is not taken from it yet: that needs the filtered speed.
         qd: (n, joints) logged velocities, or None.
         qdd: (n, joints) logged accelerations, or None.
         commanded: (n, joints) commanded positions, or None.
@@ -56,6 +57,7 @@ class Log(Presented):
             log keeps it. Empty if the log came from no file.
         robot_steps: usual and longest step, s, of the rows that are left where a recorder wrote
             some again; else None.
+        induced: (joints,) torque per speed that is still to be taken from tau; empty for none.
         path: of its file as it was given, `@START:END` of a piece of it too; "" if none was.
     """
 
@@ -73,6 +75,7 @@ class Log(Presented):
     notes: tuple[str, ...] = ()
     content: str = ""
     robot_steps: tuple[float, float] | None = None
+    induced: tuple[float, ...] = ()
     path: str = ""
     told: tuple[str, ...] = ()
 

@@ -24,6 +24,7 @@ from modeler.observation.log import MOST_WHOLE, Log, fingerprint
 
 _SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms
 _SHORTEST_STEP, _LONGEST_STEP = 1e-7, 1e7  # s; beyond, squares of it say nothing any more
+_WHOLE_DUTY = 1.2  # share of the supply; a little more is noise of a converter
 _FAR = 30.0  # rad; nearly five turns: more likely degrees
 
 
@@ -31,7 +32,7 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
     """The `Log` of one file; columns `time`, `q<j>`, optional `qd<j> qdd<j> qc<j>`, `tau<j>`.
 
     The torque of a joint is `tau<j>` if the log has it, else `current<j>` times the drive gain of
-    the robot file. A passive joint without `tau<j>` has torque 0.
+    the robot file, else that of the current that `duty<j>` makes, (duty voltage - k_e qd) / R. A passive joint without `tau<j>` has torque 0.
 
     Args:
         path: a file of any format of `modeler.logs`.
@@ -115,23 +116,25 @@ def log_of(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
                 "closed loops before; add the column"
             )
         positions.append(table.measured(f"q{joint.name}"))
-    none = np.full(table.rows, np.nan), "not read"
+    none = np.full(table.rows, np.nan), "not read", 0.0
     torques = [_torque(table, joint, spec) if measured else none for joint in spec.joints]
+    notes += _duty_doubts(table, spec)
     return Log(
         name=table.path.name,
         joints=tuple(joint.name for joint in spec.joints),
         time=time,
         q=np.column_stack(positions),
-        tau=np.column_stack([values for values, _ in torques]),
+        tau=np.column_stack([values for values, _, _ in torques]),
         qd=_optional(table, "qd", spec, notes),
         qdd=_optional(table, "qdd", spec, notes),
         commanded=_optional(table, "qc", spec, notes),
         segment=_segment(table),
         extra=_extra(table, spec, notes),
-        torque_source=tuple(source for _, source in torques),
+        torque_source=tuple(source for _, source, _ in torques),
         notes=tuple(notes),
+        induced=tuple(k for *_, k in torques) if any(k for *_, k in torques) else (),
         path=str(table.path),
-        told=table.told,
+        told=(*table.told, *_untold_speeds(table, spec)),
     )
 
 
@@ -177,10 +180,11 @@ def backwards(table: LogTable, row: int, before: float, time: float) -> DataErro
     )
 
 
-def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str]:
-    tau, current = f"tau{joint.name}", f"current{joint.name}"
+def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str, float]:
+    """Its torque, where that comes from, and the torque per speed that is to be taken from it."""
+    tau, current, duty = (f"{kind}{joint.name}" for kind in ("tau", "current", "duty"))
     if tau in table:
-        return table.measured(tau), table.source(tau)
+        return table.measured(tau), table.source(tau), 0.0
     if current in table:
         if joint.drive_gain is None:
             raise DataError(
@@ -189,14 +193,64 @@ def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.nda
                 f"unit in the robot file, log {tau}, or let `modeler fit --method tls` find it"
             )
         source = f"{table.source(current)} x {joint.drive_gain:g}"
-        return joint.drive_gain * table.measured(current), source
+        return joint.drive_gain * table.measured(current), source, 0.0
+    if duty in table:
+        return _by_duty(table, joint, spec)
     if not joint.actuated:
-        return np.zeros(table.rows), "0 (passive)"
-    called = " or ".join(map(table.called, (tau, current)))
+        return np.zeros(table.rows), "0 (passive)", 0.0
+    called = " or ".join(map(table.called, (tau, current, *([duty] if joint.drive else []))))
     raise DataError(
         f"{table.path}: no column {called}: joint {joint.name} of "
         f"{spec.robot} is actuated; log its torque, or its current and give the drive gain"
     )
+
+
+def _by_duty(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str, float]:
+    """The torque gain (duty voltage - k_e qd) / R of a joint, its last term apart."""
+    duty, voltage, drive = f"duty{joint.name}", f"voltage{joint.name}", joint.drive
+    if drive is None or joint.drive_gain is None:
+        raise DataError(
+            f"{table.path}: {table.called(duty)} is a share of a voltage, and {spec.robot} has no "
+            f"voltage model for joint {joint.name}; write [drives] {joint.name} = {{voltage = 12, "
+            "resistance = 4.4, gain = 1.1} with the numbers of its motor in the robot file"
+        )
+    per_volt = joint.drive_gain / drive.resistance
+    supply = table.measured(voltage) if voltage in table else drive.voltage
+    by = table.source(voltage) if voltage in table else f"{drive.voltage:g} V"
+    induced = per_volt * drive.k_e
+    lost = f" - {induced:.4g} qd{joint.name}" if induced else ""
+    source = f"{table.source(duty)} x {by} x {per_volt:.4g}{lost}"
+    return per_volt * supply * table.measured(duty), source, induced
+
+
+def _duties(table: LogTable, spec: ModuleSpec) -> list[JointSpec]:
+    """Joints whose torque comes of a duty."""
+    return [
+        joint for joint in spec.joints
+        if joint.drive and f"duty{joint.name}" in table
+        and not {f"tau{joint.name}", f"current{joint.name}"} & {*table.names}
+    ]  # fmt: skip
+
+
+def _duty_doubts(table: LogTable, spec: ModuleSpec) -> list[str]:
+    """Sentences on duties that are no shares of 1."""
+    names = [f"duty{joint.name}" for joint in _duties(table, spec)]
+    largest = {n: float(np.nanmax(np.abs(table.measured(n)), initial=0.0)) for n in names}
+    return [
+        f"{table.called(name)} reaches {value:.4g}: expected a share from -1 to 1; is it in %? "
+        f"say so in [log] or with --map"
+        for name, value in largest.items() if value > _WHOLE_DUTY
+    ]  # fmt: skip
+
+
+def _untold_speeds(table: LogTable, spec: ModuleSpec) -> list[str]:
+    """What is told where a voltage model has no k_e."""
+    names = [joint.name for joint in _duties(table, spec) if joint.drive and not joint.drive.k_e]
+    what = f"joint{'s' * (len(names) > 1)} {', '.join(names)}"
+    return [
+        f"{what}: without k_e in [drives], what the motor induces is part of the viscous friction "
+        "(from duties alone both cannot be told apart)"
+    ] if names else []  # fmt: skip
 
 
 def _optional(
@@ -228,7 +282,8 @@ def _segment(table: LogTable) -> np.ndarray | None:
 
 def _used_names(spec: ModuleSpec) -> set[str]:
     prefixes = ("q", "qd", "qdd", "qc", "tau", "current")
-    return {f"{prefix}{joint.name}" for prefix in prefixes for joint in spec.joints}
+    by_duty = {f"{kind}{j.name}" for kind in ("duty", "voltage") for j in spec.joints if j.drive}
+    return by_duty | {f"{prefix}{joint.name}" for prefix in prefixes for joint in spec.joints}
 
 
 def _extra(table: LogTable, spec: ModuleSpec, notes: list[str]) -> dict[str, np.ndarray]:

@@ -37,6 +37,7 @@ class Piece:
         clipped: (n, joints) True where the torque was at the drive's limit.
         resampled: True if the rows were moved to the grid.
         commanded: (n, joints) positions, or None.
+        induced: (joints,) as of the log.
     """
 
     run: int
@@ -53,6 +54,7 @@ class Piece:
     clipped: np.ndarray
     resampled: bool
     commanded: np.ndarray | None = None
+    induced: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,6 +153,7 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
         clipped=clipped[rows][near],
         resampled=not uniform,
         commanded=smooth(asked, asked is not None and bool(np.isfinite(asked[rows]).all())),
+        induced=log.induced,
     )
 
 

@@ -1,3 +1,12 @@
+from .body_tree import (
+    BodyTree as BodyTree,
+    Inertial as Inertial,
+    Pose as Pose,
+    about_origin as about_origin,
+    moving_links as moving_links,
+    together as together,
+    turned as turned,
+)
 from .cells import linear_form as linear_form
 from .conventions import (
     written_cell as written_cell,
@@ -20,6 +29,8 @@ from .edit import (
     with_reference as with_reference,
 )
 from .loops import read_home as read_home
+from .mdh_rows import roll_pitch_yaw as roll_pitch_yaw
+from .mjcf import mjcf_tree as mjcf_tree
 from .motors import joint_directions as joint_directions
 from .read import read_robot as read_robot, robot_from_text as robot_from_text
 from .robot import (
@@ -43,3 +54,6 @@ from .start import (
     new_robot as new_robot,
     template_robot as template_robot,
 )
+from .tree_cuts import lock_values as lock_values
+from .urdf import urdf_tree as urdf_tree
+from .xml_source import Element as Element, parse_xml as parse_xml, replaced as replaced

@@ -1,39 +1,87 @@
-"""Robot files of other programs: which are read, as what, and which are refused by name."""
+"""Robot files of other programs: what a file is, by what stands in it, and who reads it."""
 
+import re
+from collections.abc import Mapping
 from pathlib import Path
 
-from modeler.core.builtin import NOT_READ
+from modeler.core.builtin import OTHER_PROGRAMS
 from modeler.core.errors import RobotError
 from modeler.core.files import read_file
 from modeler.robot.par_convert import par_to_toml
 from modeler.robot.robot_text import Converted
 
+_PROLOG = 65536
+_FIRST = re.compile(rb"(?:\s|<\?.*?\?>|<!--.*?-->)*<(?:robot|mujoco|sdf)\b", re.DOTALL)
 
-def converted(path: Path) -> Converted:
+
+def converted(
+    path: str | Path,
+    base: str = "",
+    tip: str = "",
+    lock: Mapping[str, str | float] | None = None,
+    exact_decimals: bool = False,
+) -> Converted:
     """Another program's robot file as the text of ours.
+
+    What begins with `<robot>` is a URDF, with `<mujoco>` an MJCF, whatever the file is called.
+
+    Args:
+        path: the file.
+        base: link that stands still; by default the first.
+        tip: last link of the chain that is meant; by default all branches are.
+        lock: joint -> position at which it is held.
+        exact_decimals: take printed angles and lengths as they are: 1.5708 is no pi/2.
 
     Raises:
         RobotError: no such file, a format that is not read, or a mistake in it.
     """
-    check_known_format(path)
+    path = Path(path)
     try:
         data = read_file(path)
     except OSError as error:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-    if path.suffix.lower() == ".toml":
-        raise RobotError(f"{path}: is a robot file already; expected a SYMORO file, such as x.par")
+    if path.suffix.lower() == ".toml" and not is_robot_xml(data):
+        raise RobotError(
+            f"{path}: is a robot file already; expected one of another program, such as x.urdf, "
+            "x.xml or x.par"
+        )
+    if path.suffix.lower() in OTHER_PROGRAMS[1:] or is_robot_xml(data):
+        return _tree_text(path, data, base, tip, lock, exact_decimals)
+    if base or tip or lock or exact_decimals:
+        raise RobotError(
+            f"{path}: --base, --tip, --lock and --exact-decimals are for URDF and MJCF; leave them "
+            "out"
+        )
     return par_to_toml(data, str(path))
 
 
-def check_known_format(path: Path) -> None:
-    """Refuse a format that is not read, by its name.
+def is_robot_xml(data: bytes) -> bool:
+    """True if the first element is that of a robot of another program."""
+    return bool(_FIRST.match(data.removeprefix(b"\xef\xbb\xbf")[:_PROLOG]))
 
-    Raises:
-        RobotError: says what to do instead.
-    """
-    name = NOT_READ.get(path.suffix.lower())
-    if name is not None:
+
+def _tree_text(
+    path: Path,
+    data: bytes,
+    base: str,
+    tip: str,
+    lock: Mapping[str, str | float] | None,
+    exact_decimals: bool,
+) -> Converted:
+    from modeler.robot.tree_cuts import cut
+    from modeler.robot.tree_text import tree_to_toml
+    from modeler.robot.urdf import urdf_tree
+    from modeler.robot.xml_source import parse_xml
+
+    root = parse_xml(data, str(path)).tag
+    if root == "sdf":
         raise RobotError(
-            f"{path}: {name} is not read yet; expected a robot file (TOML) or a SYMORO file "
-            "(.par); docs/converting.md tells how to write the table of a URDF by hand"
+            f"{path}: is SDF, which is not read; give the URDF that it was made from, or an MJCF"
         )
+    if root in ("mujoco", "mujocoinclude"):
+        from modeler.robot.mjcf import mjcf_tree
+
+        tree = mjcf_tree(path, exact_decimals)
+    else:
+        tree = urdf_tree(data, str(path), exact_decimals)
+    return tree_to_toml(cut(tree, base, tip, lock), str(path))

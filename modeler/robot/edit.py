@@ -93,13 +93,22 @@ def with_reference(text: str, values: Mapping[str, float]) -> str:
 
 
 def with_drive_gains(text: str, gains: Mapping[str, float]) -> str:
-    """The robot file with another table [drive_gains].
+    """The robot file with other gains: in [drives] where they stand there, else in [drive_gains].
 
     Raises:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
-    changed = _with_numbers(text, "drive_gains", gains)
-    return _checked(changed, text, "drive_gains", dict(gains), "one joint a line")
+    drives = tomllib.loads(text).get("drives", {})
+    known = {
+        name: drive | {"gain": gains.get(name, drive["gain"])} for name, drive in drives.items()
+    }
+    if known != drives:
+        text = _with_table(text, "drives", known, "one joint a line")
+    others = {name: gain for name, gain in gains.items() if name not in drives}
+    if not others and "drive_gains" not in tomllib.loads(text):
+        return text
+    changed = _with_numbers(text, "drive_gains", others)
+    return _checked(changed, text, "drive_gains", others, "one joint a line")
 
 
 def with_log(text: str, table: Mapping[str, Any]) -> str:
@@ -108,14 +117,20 @@ def with_log(text: str, table: Mapping[str, Any]) -> str:
     Raises:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
-    own = [k for k, (head, _) in enumerate(_lines(text)) if re.match(r"\[\s*log\s*[].]", head)]
+    return _with_table(text, "log", table, "one entry a line")
+
+
+def _with_table(text: str, name: str, table: Mapping[str, Any], how: str) -> str:
+    """The text with another table, where the old one stood, or at the end; `how` to write it."""
+    head = rf"\[\s*{name}\s*[].]"
+    own = [k for k, (line, _) in enumerate(_lines(text)) if re.match(head, line)]
     lines = text.rstrip("\n").split("\n")
-    new = ["[log]", *(f"{_toml_key(key)} = {_toml(entry)}" for key, entry in table.items()), ""]
+    new = [f"[{name}]", *(f"{_toml_key(key)} = {_toml(entry)}" for key, entry in table.items()), ""]
     kept = [line for k, line in enumerate(lines) if k not in own]
     at = own[0] if own else len(kept)
     before = kept[:at] if own else [*kept, ""]
     changed = "\n".join([*before, *new, *kept[at:]]).rstrip("\n") + "\n"
-    return _checked(changed, text, "log", dict(table), "one entry a line")
+    return _checked(changed, text, name, dict(table), how)
 
 
 def _checked(changed: str, text: str, table: str, entries: dict[str, Any], how: str) -> str:

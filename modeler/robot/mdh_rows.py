@@ -16,7 +16,7 @@ Source: W. Khalil, J.-F. Kleinfinger, A new geometric notation for open and clos
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -204,23 +204,28 @@ class _Rows:
         links: of the tree.
         reach: distance of neighbouring joints, m.
         axes: of every link's joint, in its file frame.
+        points: of links, in their file frames, that close loops.
         frames: pose of every link's row, in its file frame.
     """
 
     links: Sequence[MovingLink]
     reach: float
     axes: list[_Axis]
+    points: Mapping[int, Sequence[np.ndarray]]
     frames: list[Pose] = field(default_factory=lambda: [Pose()])
     rows: list[MdhRow] = field(default_factory=list)
 
-    def carried(self, link: int, frame: Pose) -> list[_Axis]:
-        """The axes of the joints that a link carries, seen in a frame on it."""
+    def normals(self, link: int, frame: Pose) -> list[_Normal]:
+        """To the axes and points that a link carries, from a frame on it."""
         back = frame.inverse()
-        return [
+        axes = [
             self.axes[k].seen_in(back @ other.pose)
             for k, other in enumerate(self.links)
             if other.parent == link
         ]
+        points = [back.place(point) for point in self.points.get(link, ())]
+        found = [_normal(axis, self.reach) for axis in axes]
+        return found + [replace(_towards(p[:2]), b=float(p[2])) for p in points]
 
     def add(self, k: int) -> None:
         """The row of link k, and the fixed one before it where that is needed."""
@@ -258,7 +263,7 @@ class _Rows:
             placed: its axis, as the row has it before theta and r, in its file frame.
             plain: turn and shift from there that make both 0.
         """
-        normals = [_normal(axis, self.reach) for axis in self.carried(k, placed)]
+        normals = self.normals(k, placed)
         feet = [n.b for n in normals if n.b is not None]
 
         def of_shift(h: float) -> float:
@@ -267,7 +272,7 @@ class _Rows:
 
         r = exact_length(min([plain[1], *feet], key=of_shift) - plain[1])
         at = placed @ _screw(0.0, r + plain[1])
-        normals = [_normal(axis, self.reach) for axis in self.carried(k, at)]
+        normals = self.normals(k, at)
         ways = [n.gamma for n in normals if n.gamma is not None]
 
         def of_turn(phi: float) -> float:
@@ -286,7 +291,7 @@ def _sign(folded: float, angle: float | None) -> int:
 def _axes(links: Sequence[MovingLink]) -> list[_Axis]:
     """The axes of the joints; that of a sliding joint where it makes the table simplest.
 
-    On the axis of the first joint that the link carries, if they are parallel; else it may be
+    On the axis of the only joint that the link carries, if they are parallel; else it may be
     anywhere, and goes through the origin of the frame before.
     """
     axes = [_Axis(np.array([0.0, 0.0, 1.0]), np.zeros(3)) for _ in links]
@@ -295,23 +300,26 @@ def _axes(links: Sequence[MovingLink]) -> list[_Axis]:
         assert joint is not None
         through = joint.point if joint.kind is JointKind.REVOLUTE else None
         if through is None:
-            first = next((i for i in range(k + 1, len(links)) if links[i].parent == k), None)
-            if first is not None:
-                other = axes[first].seen_in(links[first].pose)
+            carried = [i for i, link in enumerate(links) if link.parent == k]
+            if len(carried) == 1:
+                other = axes[carried[0]].seen_in(links[carried[0]].pose)
                 if np.linalg.norm(np.cross(other.along, joint.axis)) < PARALLEL:
                     through = other.through
         axes[k] = _Axis(joint.axis, through)
     return axes
 
 
-def mdh_table(links: Sequence[MovingLink]) -> MdhTable:
+def mdh_table(
+    links: Sequence[MovingLink], points: Mapping[int, Sequence[np.ndarray]] | None = None
+) -> MdhTable:
     """The rows of a tree; row j, counted from 1, moves link j, and q_j is the file's position.
 
     Args:
         links: as `moving_links` gives them.
+        points: place of a link -> points of it, in its frame, that close loops.
     """
     ways = [float(np.linalg.norm(link.pose.position)) for link in links]
-    made = _Rows(links, max(ways) or 1.0, _axes(links))
+    made = _Rows(links, max(ways) or 1.0, _axes(links), points or {})
     for k in range(1, len(links)):
         made.add(k)
     names = tuple(f"{k}" for k in range(len(links)))

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeler.core.builtin import builtin_names, builtin_text
+from modeler.core.builtin import OTHER_PROGRAMS, builtin_names, builtin_text
 from modeler.core.errors import RobotError
 from modeler.core.files import read_text
 from modeler.core.json import TomlError, parse_toml
@@ -19,7 +19,7 @@ from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.angles import told_angles
 from modeler.robot.cells import check_name_length, read_gravity, read_symbols
 from modeler.robot.conventions import read_convention
-from modeler.robot.convert import check_known_format, converted
+from modeler.robot.convert import converted, is_robot_xml
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.loops import (
     expanded,
@@ -42,6 +42,7 @@ from modeler.robot.sections import (
     read_coupling,
     read_diagnose,
     read_drive_gains,
+    read_drives,
     read_fit,
     read_frames,
     read_limits,
@@ -53,9 +54,9 @@ from modeler.robot.table import Rows, check_units, table_joints, table_rows
 
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
-    "relations", "platform", "loops", "home", "frames", "links", "effects", "own_effects", "coupling",
-    "motors", "parameters", "reference", "drive_gains", "limits", "physical", "terms", "log",
-    "fit", "diagnose",
+    "relations", "platform", "loops", "home", "frames", "links", "effects", "own_effects",
+    "coupling", "motors", "parameters", "reference", "drive_gains", "drives", "limits",
+    "physical", "terms", "log", "fit", "diagnose",
 )  # fmt: skip
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
@@ -82,10 +83,8 @@ def read_robot(robot: str | Path) -> Robot:
             f'robot: got ""; expected a robot file or a built-in robot ({listed(builtin_names())})'
         )
     path = Path(robot)
-    if path.suffix.lower() == ".par":
-        found = converted(path)
-        read = robot_from_text(found.text, f"{path}, as a robot file")
-        return dataclasses.replace(read, readings=(*found.notes, *read.readings))
+    if path.suffix.lower() in OTHER_PROGRAMS:
+        return _of_other_program(path)
     try:
         is_file = path.exists() and not path.is_dir()
         text = read_text(path) if is_file else ""
@@ -97,7 +96,8 @@ def read_robot(robot: str | Path) -> Robot:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     if not is_file:
         raise RobotError(_not_found(path))
-    check_known_format(path)
+    if is_robot_xml(text.encode()):  # under another name
+        return _of_other_program(path)
     if text.lstrip().startswith("{"):  # as JSON does and a robot file never
         what = "a model file" if '"modeler model"' in text else "JSON"
         raise RobotError(
@@ -105,6 +105,12 @@ def read_robot(robot: str | Path) -> Robot:
             "built-in one; models are taken by `modeler compare`, `add` and others"
         )
     return robot_from_text(text, str(path))
+
+
+def _of_other_program(path: Path) -> Robot:
+    found = converted(path)
+    read = robot_from_text(found.text, f"{path}, as a robot file")
+    return dataclasses.replace(read, readings=(*found.notes, *read.readings))
 
 
 def robot_from_text(text: str, where: str) -> Robot:
@@ -196,8 +202,11 @@ def _with_tables(
         f"names such as {listed(known[:12])} (friction and rotors only where [effects] has them)"
     )
     parameters, uncertainty = read_parameters(section("parameters"), known, names)
+    readings, drive_gains = [*robot.readings], read_drive_gains(section("drive_gains"), moving)
+    drive_gains, drives = read_drives(section("drives"), moving, drive_gains, readings)
     return dataclasses.replace(
         robot,
+        readings=tuple(readings),
         loops=loops,
         home=home,
         shared=shared,
@@ -206,7 +215,8 @@ def _with_tables(
         priority=_priority(place.at("priority", document.get("priority", [])), known, robot),
         parameters=parameters,
         uncertainty=uncertainty,
-        drive_gains=read_drive_gains(section("drive_gains"), moving),
+        drive_gains=drive_gains,
+        drives=drives,
         limits=read_limits(section("limits"), moving, values),
         physical=read_physical(section("physical"), moving),
         terms=section("terms").table("[terms]"),

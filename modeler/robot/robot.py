@@ -7,6 +7,7 @@ from typing import Any
 
 from modeler.core.brief import Brief
 from modeler.core.expression import Expression
+from modeler.core.manifest import DriveSpec
 from modeler.core.result import Presented
 from modeler.core.toml_cells import Place as Place, listed as listed, near as near
 from modeler.effects import CATALOGUE, Effect, Form, effect_named
@@ -217,6 +218,7 @@ class Robot(Presented):
         uncertainty: their standard deviations by name, 0 of those that are held; "inertial": of
             every body, over its scale. Empty: they are nominal values only.
         drive_gains: joint torque per unit of the logged drive current, by joint.
+        drives: what makes a current of a logged duty, by joint.
         limits: range of motion for simulation, by joint.
         physical: the letters of a paper for the links, by joint.
         terms: how a paper prints its coefficients (see `modeler.formulas`).
@@ -252,6 +254,7 @@ class Robot(Presented):
     parameters: Mapping[str, float] = field(default_factory=dict)
     uncertainty: Mapping[str, float] = field(default_factory=dict)
     drive_gains: Mapping[str, float] = field(default_factory=dict)
+    drives: Mapping[str, DriveSpec] = field(default_factory=dict)
     limits: Mapping[str, Limits] = field(default_factory=dict)
     physical: Mapping[str, PhysicalLink] = field(default_factory=dict)
     terms: Mapping[str, object] = field(default_factory=dict)
@@ -298,6 +301,12 @@ class Robot(Presented):
         The free rows of a tree; the actuated ones among them once loops tie the others to them.
         """
         return tuple(joint for joint in self.free if joint.actuated or not self.loops)
+
+    @property
+    def log_words(self) -> Mapping[str, object]:
+        """[log]; where it is silent on names, logs call joints as the file that they are from."""
+        names = {frame.row: frame.joint for frame in self.frames.values() if frame.joint}
+        return {"names": names, **self.log} if names else self.log
 
     @property
     def halves(self) -> bool:

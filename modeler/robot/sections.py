@@ -6,8 +6,9 @@ from typing import Any, get_args
 
 from modeler.core.errors import GAIN_METHOD, TWO_STEPS, Derivatives, Method
 from modeler.core.expression import Expression
+from modeler.core.manifest import DriveSpec
 from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.robot.cells import check_declared, form_at, joint_sum, name_of, number_at
+from modeler.robot.cells import joint_sum, name_of, number_at
 from modeler.robot.robot import Joint, Limits, LinkFrame, PhysicalLink
 
 Coupling = dict[str, dict[str, float]]
@@ -165,13 +166,77 @@ def read_drive_gains(place: Place, moving: Mapping[str, Joint]) -> dict[str, flo
     """
     gains = {}
     for joint, here in _by_joint(place, moving, '[drive_gains] "1" = 12.5'):
-        gains[joint.name] = here.number("12.5")
-        if gains[joint.name] == 0.0:
-            raise here.error(
-                "got 0; expected joint torque per unit of logged current, not zero; leave the "
-                "joint out if its gain is unknown"
-            )
+        gains[joint.name] = _gain(here)
     return gains
+
+
+def _gain(place: Place) -> float:
+    gain = place.number("12.5")
+    if gain == 0.0:
+        raise place.error(
+            "got 0; expected joint torque per unit of logged current, not zero; leave the "
+            "joint out if its gain is unknown"
+        )
+    return gain
+
+
+_DRIVE = "1 = {voltage = 12, resistance = 4.4, k_e = 2.4, gain = 1.1}"
+_EFFICIENT = 1.1  # gain over k_e; the same number of a motor without losses
+
+
+def read_drives(
+    place: Place, moving: Mapping[str, Joint], gains: Mapping[str, float], readings: list[str]
+) -> tuple[dict[str, float], dict[str, DriveSpec]]:
+    """Gains and voltage models: `[drives]`.
+
+    Args:
+        place: the table.
+        moving: joints.
+        gains: of `[drive_gains]`.
+        readings: grows by what is told of gains that no motor has.
+
+    Returns:
+        All gains, those given too, and the voltage models, by joint.
+
+    Raises:
+        RobotError: unknown joint or key, a gain that is missing, zero, or stated twice, a voltage
+            without a resistance or the other way round, or numbers that no motor has.
+    """
+    found, drives = dict(gains), dict[str, DriveSpec]()
+    for joint, here in _by_joint(place, moving, f"[drives] {_DRIVE}"):
+        table = here.checked_table(("voltage", "resistance", "k_e", "gain"), f"[drives] {_DRIVE}")
+        numbers = {key: here.at(key, value).number("1.1") for key, value in table.items()}
+        if joint.name in gains:
+            raise here.error(
+                f"joint {joint.name} stands in [drive_gains] too; expected one of both: move its "
+                "number here, as gain"
+            )
+        if "gain" not in numbers:
+            raise here.error(
+                f"gain is missing; write joint torque per unit of current, as in {_DRIVE}; 1 if it "
+                "is unknown: torques are in units of the drive then"
+            )
+        gain = found[joint.name] = _gain(here.at("gain", table["gain"]))
+        if set(numbers) == {"gain"}:
+            continue
+        for key in ("voltage", "resistance"):
+            if numbers.get(key, 0.0) <= 0.0:
+                raise here.at(key, table.get(key, 0)).mismatch(
+                    f"a number above 0, as in {_DRIVE}; a drive that logs currents has gain alone"
+                )
+        drive = drives[joint.name] = DriveSpec(
+            numbers["voltage"], numbers["resistance"], numbers.get("k_e", 0.0)
+        )
+        if drive.k_e * gain < 0.0:
+            raise here.at("k_e", table["k_e"]).mismatch(
+                f"the sign of gain ({gain:g}): what a motor induces brakes it"
+            )
+        if abs(gain) > _EFFICIENT * abs(drive.k_e) > 0.0:
+            readings.append(
+                f"{here.spot}: a gain of {gain:g} is {gain / drive.k_e:.3g} times k_e; without "
+                "losses both are one number: is k_e that of the joint (times the gear ratio)?"
+            )
+    return found, drives
 
 
 _SHARE, _POSITIVE = "a share from 0 to 1, such as 0.05", "a number of 0 or more, such as 20"
@@ -320,15 +385,11 @@ def read_frames(
         joint = cells.get("joint", "")
         if not isinstance(joint, str):
             raise spot.at("column joint", joint).mismatch('a name, or "" for none')
-        x, y, z, roll, pitch, yaw = (
-            _constant(spot.at(f"column {c}", cells.get(c, 0)), symbols) for c in FRAME_COLUMNS[3:]
-        )
+        numbers = []
+        for column in FRAME_COLUMNS[3:]:
+            here = spot.at(f"column {column}", cells.get(column, 0))
+            number_at(here, symbols, "m" if len(column) == 1 else "rad")
+            numbers.append(here.expression())
+        x, y, z, roll, pitch, yaw = numbers
         found[link] = LinkFrame(row, joint, (x, y, z), (roll, pitch, yaw))
     return found
-
-
-def _constant(place: Place, symbols: Mapping[str, float]) -> Expression:
-    expression = place.expression()
-    check_declared(expression, symbols, place)
-    form_at(expression, symbols, place)
-    return expression

@@ -1,5 +1,6 @@
 """A tree of bodies as the text of a robot file, with what had to be decided or left out."""
 
+import itertools
 import json
 import math
 from fractions import Fraction
@@ -7,6 +8,7 @@ from pathlib import PurePath
 
 import numpy as np
 
+from modeler.core.errors import RobotError
 from modeler.core.toml_cells import listed
 from modeler.robot.angles import pi_multiple
 from modeler.robot.body_tree import (
@@ -57,7 +59,14 @@ def tree_to_toml(tree: BodyTree, where: str) -> Converted:
     Args:
         tree: of a file.
         where: its name, for messages and the name of a robot that has none.
+
+    Raises:
+        RobotError: nothing of it moves.
     """
+    if all(joint.kind is JointKind.FIXED for joint in tree.joints):
+        raise RobotError(
+            f"{where}: no joint of the robot moves; expected at least one that turns or slides"
+        )
     made = _Writing(tree, where)
     parts = [
         *section("[symbols]", symbol_lines(made.symbols.values, made.symbols.comments)),
@@ -83,7 +92,11 @@ class _Writing:
 
     def __init__(self, tree: BodyTree, where: str) -> None:
         self.tree, self.links = tree, moving_links(tree)
-        self.table = mdh_table(self.links)
+        self.meetings = self._meetings()
+        points: dict[int, list[np.ndarray]] = {}
+        for k, point in itertools.chain(*self.meetings):
+            points.setdefault(k, []).append(point)
+        self.table = mdh_table(self.links, points)
         self.symbols = Symbols(notes=list(tree.notes))
         self._equal: dict[float, str] = {}
         self.joints = {f"{k}": joint for k, joint in enumerate(self._joints(), start=1)}
@@ -129,22 +142,29 @@ class _Writing:
         self._equal[abs(worth)] = name
         return f"-{name}" if worth < 0.0 else name
 
+    def _meetings(self) -> list[list[tuple[int, np.ndarray]]]:
+        """Of every loop the two links that meet, and the point in the frame of each."""
+        places = {body: k for k, link in enumerate(self.links) for body in link.bodies}
+        return [
+            [
+                (places[body], self.links[places[body]].bodies[body].place(point))
+                for body, point in ((m.body, m.point), (m.other, m.other_point))
+            ]
+            for m in self.tree.meetings
+        ]
+
     def _loops(self) -> list[tuple[str, str, str, str]]:
         """Where points meet; the rows that carry them are added."""
-        places = {body: k for k, link in enumerate(self.links) for body in link.bodies}
         found = []
-        for i, meeting in enumerate(self.tree.meetings, start=1):
-            ends = []
-            for body, point, side in (
-                (meeting.body, meeting.point, "a"),
-                (meeting.other, meeting.other_point, "b"),
-            ):
-                k = places[body]
-                at = (self.table.places[k] @ self.links[k].bodies[body]).place(point)
-                cells = {c: self._cell(c, worth, f"P{i}{side}") for c, worth in towards(at).items()}
-                ends.append(TextRow(f"P{i}{side}", f"{k}", 0, 2, cells, meeting.name))
-            self.rows += ends
-            found.append((f"P{i}", ends[0].name, ends[1].name, "spherical"))
+        for i, (meeting, ends) in enumerate(
+            zip(self.tree.meetings, self.meetings, strict=True), start=1
+        ):
+            for side, (k, point) in zip("ab", ends, strict=True):
+                at = towards(self.table.places[k].place(point))
+                cells = {c: self._cell(c, worth, f"P{i}{side}") for c, worth in at.items()}
+                row = TextRow(f"P{i}{side}", f"{k}", 0, JointKind.FIXED, cells, meeting.name)
+                self.rows.append(row)
+            found.append((f"P{i}", f"P{i}a", f"P{i}b", "spherical"))
         return found
 
     def home(self) -> list[str]:
@@ -198,17 +218,15 @@ class _Writing:
             ]
 
         rubbing = {"viscous": those("damping", True), "coulomb": those("friction", True)}
-        silent = [
-            effect
-            for effect, key in (("viscous", "damping"), ("coulomb", "friction"))
-            if not those(key)
-        ]
+        turning = {*those("armature"), *self.driven}
+        rotors = {"rotor_inertia": [name for name in self.joints if name in turning]}
+        names = {"viscous": "damping", "coulomb": "friction", "rotor_inertia": "armature"}
+        silent = [effect for effect, key in names.items() if not those(key)]
         if silent:
             self.symbols.notes.append(
-                f"{' and '.join(silent)} friction of the joints is added, of which the file says "
-                "nothing: a fit without it would be wrong"
+                f"{', '.join(silent)} of the joints is added, of which the file says nothing: a "
+                "fit without it would be wrong"
             )
-        rotors = {"rotor_inertia": those("armature")}
         lines = effect_lines({k: v for k, v in (rotors | rubbing).items() if v}, self.driven)
         springs = [
             f'{{joint = "{name}", q0 = {number(self.joints[name].rest)}, h = 0}}'
@@ -218,19 +236,17 @@ class _Writing:
 
     def parameters(self) -> list[str]:
         """Nominal values, and how sure those of the links are."""
-        lines, missing, refused = list[str](), list[str](), list[str]()
+        lines, missing, doubted = list[str](), list[str](), list[str]()
         for k, link in self._moved():
             if link.bodies.keys() <= self.tree.hidden:
                 continue
-            whole = [self.tree.bodies[body] for body in link.bodies]
-            stated = [body for body in whole if body is not None and not _is_nothing(body)]
-            odd = [name for name in link.bodies if _placeholder(self.tree.bodies[name])]
-            if odd:
-                refused += odd
-            elif not stated:
-                missing.append(next(iter(link.bodies)))
-            elif link.inertial is not None:
-                ten = about_origin(link.inertial.seen_from(self.table.places[k]))
+            whole = link.inertial
+            if whole is None or not (whole.mass or whole.inertia.any()):
+                missing.append(f"{k}")
+            elif not self._is_body(link, whole):
+                doubted.append(f"{k}")
+            else:
+                ten = about_origin(whole.seen_from(self.table.places[k]))
                 small = 1e-15 * np.abs(ten).max()
                 lines += [
                     f"{prefix}{k} = {number(worth if abs(worth) > small else 0.0)}"
@@ -240,11 +256,11 @@ class _Writing:
         lines += self._of_joints()
         notes = self.symbols.notes
         if missing:
-            notes.append(f"the file states no mass of {listed(missing)}: no prior")
-        if refused:
+            notes.append(f"the file states no mass of the links of rows {listed(missing)}")
+        if doubted:
             notes.append(
-                f"{listed(refused)}: mass or inertia is a placeholder, or that of no body; the link "
-                "has no prior"
+                f"the links of rows {listed(doubted)} have no values, for a body of theirs can not "
+                "be what the file says"
             )
         prior = [f"inertial = {UNCERTAINTY}"] if bodies else []
         if bodies:
@@ -257,13 +273,20 @@ class _Writing:
             *section("[parameters.uncertainty]              # over the scale of a body", prior),
         ]
 
+    def _is_body(self, link: MovingLink, whole: Inertial) -> bool:
+        """False for values that nobody has weighed; a frame without mass does no harm."""
+        odd = [name for name in link.bodies if name in self.tree.doubted]
+        stated = [body for name in odd if (body := self.tree.bodies[name]) is not None]
+        harmless = all(body.mass >= 0.0 and not body.inertia.any() for body in stated)
+        return harmless and whole.mass > 0.0 and bool(whole.inertia.any())
+
     def _of_joints(self) -> list[str]:
         """Friction, rotors and springs of the joints that have them."""
         lines = []
         for name, joint in self.joints.items():
             free = name in self.free
             for prefix, worth, always in (
-                ("Ia", joint.armature, False),
+                ("Ia", joint.armature, name in self.driven),
                 ("Fv", joint.damping, free),
                 ("Fs", joint.friction, free),
                 ("Ks", joint.stiffness, False),
@@ -278,23 +301,17 @@ class _Writing:
         for name in self.free:
             joint = self.joints[name]
             lower, upper, speed = joint.lower, joint.upper, joint.speed
-            if lower is None or upper is None:
+            if lower is None or upper is None or lower >= upper:
                 if joint.kind is not JointKind.REVOLUTE or speed is None:
                     continue
                 lower, upper = -math.pi, math.pi
-            if lower >= upper:
-                self.symbols.notes.append(
-                    f"joint {joint.name} has the range {lower:g} to {upper:g}, which is none: left "
-                    "out of [limits]"
-                )
-                continue
             speed = speed or _SPEED[joint.kind]
             cells = [number(x) for x in (lower, upper, speed, _ACCELERATION * speed)]
             lines.append(f"{name} = [{', '.join(cells)}]")
         if lines:
             self.symbols.notes.append(
-                f"accelerations in [limits] are {_ACCELERATION:g} times the speeds: the file states "
-                "none"
+                f"accelerations in [limits] are {_ACCELERATION:g} times the speeds, for the file "
+                "states none"
             )
         return lines
 
@@ -319,18 +336,3 @@ def _quoted_angle(worth: float) -> str:
 
 def _number(worth: float) -> str:
     return "0" if worth == 0.0 else repr(worth)
-
-
-def _is_nothing(body: Inertial) -> bool:
-    return body.mass == 0.0 and not body.inertia.any()
-
-
-def _placeholder(body: Inertial | None) -> bool:
-    """True for values that nobody has measured or drawn: of no mass, the identity, of no body."""
-    if body is None or _is_nothing(body):
-        return False
-    if body.mass <= 0.0 or np.allclose(body.inertia, np.eye(3), atol=1e-9):
-        return True
-    half = float(np.trace(body.inertia)) / 2
-    second = half * np.eye(3) - body.inertia
-    return bool(np.linalg.eigvalsh(second)[0] < -UNCERTAINTY * abs(half))

@@ -17,12 +17,13 @@ from pathlib import Path
 
 import numpy as np
 
+from modeler.core.errors import RobotError
 from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 from modeler.robot.angles import pi_multiple, told_angles, twelfths
 from modeler.robot.body_tree import BodyTree, Inertial, Pose, TreeJoint, doubt, turned
 from modeler.robot.cells import LARGEST_LENGTH
 from modeler.robot.robot import JointKind
-from modeler.robot.tree_cuts import held
+from modeler.robot.tree_cuts import MOST_NAMED, held, rest, several
 from modeler.robot.xml_source import Element, parse_xml
 
 _KINDS = {
@@ -32,10 +33,11 @@ _KINDS = {
     "fixed": JointKind.FIXED,
 }
 _UNREAD = ("floating", "planar", "ball", "spherical", "universal", "screw")
+_OTHERS = {"sdf": "SDF; convert it to URDF", "mujoco": "MJCF; call the file .xml"}
 _DECIMAL = re.compile(r"[+-]?(?:\d+\.?(\d*)|\.(\d+))(?:[eE]([+-]?\d{1,4}))?", re.ASCII)
 _ZERO = 1e-6
 """m, rad, and of a unit axis: smaller is what an exporter's arithmetic left of 0."""
-_MOST_NAMED = 6
+_MOST_LINKS = 5000
 
 
 def urdf_tree(data: bytes, where: str, exact_decimals: bool = False) -> BodyTree:
@@ -52,28 +54,25 @@ def urdf_tree(data: bytes, where: str, exact_decimals: bool = False) -> BodyTree
     Raises:
         RobotError: not a URDF, or a mistake in it: line, element, what was got and expected.
     """
-    root = parse_xml(data, where)
+    root = _Spot(parse_xml(data, where), where, "")
     _check_format(root, where)
     return _Reading(root, where, exact_decimals).tree()
 
 
-def _check_format(root: Element, where: str) -> None:
-    place = Place(f"{where}: line {root.line}")
-    if root.tag in ("sdf", "mujoco", "mujocoinclude"):
-        told = "SDF; convert it to URDF" if root.tag == "sdf" else "MJCF; call it .xml"
-        raise place.error(f"<{root.tag}> is {told}; a URDF begins with <robot>")
-    if root.tag != "robot":
-        raise place.error(f"got <{root.tag[:40]}>; expected a URDF, which begins with <robot>")
-    for child in root.children:
+def _check_format(root: "_Spot", where: str) -> None:
+    tag = root.element.tag
+    if tag != "robot":
+        told = _OTHERS.get(tag, "no URDF")
+        raise root.place.error(f"<{tag}> is {told}; a URDF begins with <robot>")
+    for child in root.element.children:
         macros = child.tag in ("include", "macro", "property")
+        ours = child.tag in ("link", "joint")
         for element in child.walk():
-            read = child.tag in ("link", "joint") and any(
-                "${" in value or "$(arg" in value for value in element.attributes.values()
-            )
-            if macros or read or element.tag.startswith("xacro:"):
-                raise Place(f"{where}: line {element.line}").error(
-                    f"<{element.tag[:40]}> is of xacro, not URDF; expand it first: "
-                    f"{_expansion(where)}"
+            variable = ours and any("${" in value for value in element.attributes.values())
+            if macros or variable or element.tag.startswith("xacro:"):
+                raise RobotError(  # whole, however long the path is
+                    f"{where}: line {element.line}: <{element.tag[:60]}> is of xacro, not of URDF; "
+                    f"expand it first: {_expansion(where)}"
                 )
 
 
@@ -85,81 +84,85 @@ def _expansion(where: str) -> str:
 
 
 class _Spot:
-    """An element, and its place for messages."""
+    """An element, or one that is not given, and its place for messages."""
 
-    def __init__(self, element: Element, where: str, spot: str) -> None:
-        self.element = element
+    def __init__(self, element: Element, where: str, spot: str, given: bool = True) -> None:
+        self.element, self.given, self._where = element, given, where
         self.place = Place(f"{where}: line {element.line}", spot)
-        self._where = where
 
-    def only(self, tag: str) -> "_Spot | None":
+    def only(self, tag: str) -> "_Spot":
         """Its child of that tag, of which it may have one."""
-        found = list(self.element.named(tag))
+        found = self.element.named(tag)
         if len(found) > 1:
-            spot = _Spot(found[1], self._where, self.place.spot)
-            raise spot.place.error(f"a second <{tag}>; expected one: take out what is not meant")
-        return _Spot(found[0], self._where, f"{self.place.spot} <{tag}>") if found else None
+            self.place = Place(f"{self._where}: line {found[1].line}", self.place.spot)
+            raise self.place.error(f"a second <{tag}>; expected one: take out what is not meant")
+        inner = found[0] if found else Element(tag, {}, self.element.line, {}, (0, 0))
+        return _Spot(inner, self._where, f"{self.place.spot} <{tag}>", bool(found))
+
+    def must(self, tag: str, example: str) -> "_Spot":
+        """Its child of that tag, which it must have."""
+        if not (found := self.only(tag)).given:
+            raise self.place.error(f"<{tag}> is missing; write <{tag} {example}/>")
+        return found
 
     def needed(self, attribute: str, example: str) -> str:
         """An attribute that must be there."""
-        value = self.element.attributes.get(attribute, "").strip()
-        if not value:
+        if not (value := self.element.attributes.get(attribute, "").strip()):
             raise self.place.error(f'{attribute} is missing; write {attribute}="{example}"')
         return value
 
     def digits(self, attribute: str, default: str, most: float = LARGEST) -> list[str]:
         """The numbers of an attribute as printed, as many as those of the default."""
         text = self.element.attributes.get(attribute, default)
-        words, count = text.split(), len(default.split())
-        numbers = "a number" if count == 1 else f"{count} numbers"
-        place = self.place.at(attribute, text)
+        place, words, count = self.place.at(attribute, text), text.split(), len(default.split())
+        expected = f'{"a number" if count == 1 else f"{count} numbers"} such as "{default}"'
         if len(words) != count:
-            raise place.mismatch(f'{numbers} such as "{default}"')
+            raise place.mismatch(expected)
         for word in words:
             if len(word) > 100 or not _DECIMAL.fullmatch(word):
-                raise place.holding(word).mismatch(f'{numbers} such as "{default}"')
+                raise place.holding(word).mismatch(expected)
             if abs(float(word)) > most:
                 raise place.holding(word).mismatch(f"at most {most:g} in SI units")
         return words
 
-    def value(self, attribute: str, default: str = "0") -> float:
-        return float(self.digits(attribute, default)[0])
+    def numbers(self, attribute: str, default: str, most: float = LARGEST) -> np.ndarray:
+        """The same as numbers."""
+        return np.array([float(word) for word in self.digits(attribute, default, most)])
 
     def stated(self, attribute: str) -> float | None:
         """A number that may be missing; what is infinite, or as good as that, sets no limit."""
         text = self.element.attributes.get(attribute, "").strip()
         if not text or text.lower().lstrip("+-") in ("inf", "infinity", ".inf"):
             return None
-        value = float(self.digits(attribute, "0", most=math.inf)[0])
+        value = float(self.digits(attribute, "0", math.inf)[0])
         return value if abs(value) <= LARGEST else None
 
 
 class _Reading:
     """One pass over the elements of a file."""
 
-    def __init__(self, root: Element, where: str, exact: bool) -> None:
+    def __init__(self, root: _Spot, where: str, exact: bool) -> None:
         self._root, self._where, self._exact = root, where, exact
         self._rounded: dict[str, str] = {}
         self._zeros = 0
         self._told: dict[str, list[str]] = {}  # what -> of which links and joints
-        self._bodies: dict[str, Inertial | None] = {}
         self._doubted: dict[str, str] = {}
         self._unread: dict[str, str] = {}
 
     def tree(self) -> BodyTree:
-        links = self._named("link")
-        for name, link in links.items():
-            self._bodies[name] = self._body(name, link)
-        spots = self._named("joint")
-        joints = {name: self._joint(name, spot) for name, spot in spots.items()}
-        root = self._first_link(joints, spots)
-        joints = self._followers(joints, spots)
-        joints = self._motors(joints)
+        links, spots = self._named("link"), self._named("joint")
+        if not links:
+            raise self._root.place.error('<robot> has no link; expected <link name="...">')
+        bodies = {name: self._body(name, link) for name, link in links.items()}
+        joints = {name: self._joint(name, spot, links) for name, spot in spots.items()}
+        root = _first_link(bodies, joints, spots)
+        self._follow(joints, spots)
+        self._add_armatures(joints)
         return BodyTree(
-            name=self._root.attributes.get("name", "").strip() or Path(self._where).stem,
+            name=self._root.element.attributes.get("name", "").strip() or Path(self._where).stem,
             format="URDF",
             root=root,
-            bodies=self._bodies,
+            bodies=bodies,
             joints=tuple(_in_order(joints, root)),
             doubted=self._doubted,
             unread=self._unread,
@@ -168,271 +171,203 @@ class _Reading:
 
     def _named(self, tag: str) -> dict[str, _Spot]:
         found: dict[str, _Spot] = {}
-        for element in self._root.named(tag):
+        for element in self._root.element.named(tag):
             name = _Spot(element, self._where, f"<{tag}>").needed("name", f"{tag}1")
             spot = _Spot(element, self._where, f"{tag} {shown(name)}")
             if name in found:
-                raise spot.place.error(
-                    f"a second {tag} of that name; the first is in line "
-                    f"{found[name].element.line}: rename one"
-                )
+                first = f"the first is in line {found[name].element.line}"
+                raise spot.place.error(f"a second {tag} of that name; {first}: rename one")
             found[name] = spot
-        if tag == "link" and not found:
-            raise Place(f"{self._where}: line {self._root.line}").error(
-                '<robot> has no link; expected <link name="..."> and <joint name="...">'
-            )
+            if len(found) > _MOST_LINKS:
+                raise spot.place.error(f"more than {_MOST_LINKS} of them; is this a robot?")
         return found
 
     def _tell(self, what: str, name: str) -> None:
         self._told.setdefault(what, []).append(name)
 
-    # Numbers.
-
-    def _lengths(self, spot: _Spot, attribute: str, default: str, most: float) -> np.ndarray:
-        values = np.array([float(word) for word in spot.digits(attribute, default, most)])
-        small = (values != 0.0) & (abs(values) < _ZERO)
-        if not self._exact and small.any():
-            self._zeros += int(small.sum())
-            values[small] = 0.0
-        return values
+    def _without_dust(self, values: np.ndarray) -> np.ndarray:
+        dust = (values != 0.0) & (abs(values) < _ZERO)
+        if self._exact:
+            return values
+        self._zeros += int(dust.sum())
+        return np.where(dust, 0.0, values)
 
     def _angle(self, digits: str) -> float:
         value = float(digits)
-        if self._exact or value == 0.0:
+        if self._exact:
             return value
-        if abs(value) < _ZERO:
-            self._zeros += 1
-            return 0.0
         count = twelfths(digits) if 0.2 < abs(value) < 7.0 else None
-        if count is None:  # what an exporter's arithmetic left beside a multiple
-            count = round(value * 12 / math.pi)
-            if count == 0 or abs(value - count * math.pi / 12) > _ZERO:
-                return value
-        exact = count * math.pi / 12
-        if value != exact:
+        nearest = round(value * 12 / math.pi)
+        if count is None and abs(value - nearest * math.pi / 12) <= _ZERO:
+            count = nearest
+        if count is None or value == count * math.pi / 12:
+            return value
+        if count:
             self._rounded[digits] = pi_multiple(Fraction(count, 12))
-        return exact
+        self._zeros += not count
+        return count * math.pi / 12
 
     def _origin(self, spot: _Spot) -> Pose:
         origin = spot.only("origin")
-        if origin is None:
-            return Pose()
-        xyz = self._lengths(origin, "xyz", "0 0 0", LARGEST_LENGTH)
+        xyz = self._without_dust(origin.numbers("xyz", "0 0 0", LARGEST_LENGTH))
         return Pose(xyz, _turn(self._angle(word) for word in origin.digits("rpy", "0 0 0")))
-
-    # Links.
 
     def _body(self, name: str, link: _Spot) -> Inertial | None:
         inertial = link.only("inertial")
-        if inertial is None:
-            self._tell("no <inertial>: {}; they weigh nothing here", name)
+        if not inertial.given:
             return None
-        mass, tensor = inertial.only("mass"), inertial.only("inertia")
-        if mass is None or tensor is None:
-            missing = "mass" if mass is None else "inertia"
-            raise inertial.place.error(f"<{missing}> is missing; write it, or no <inertial>")
-        mass.needed("value", "1.0")
-        printed = {}
-        for entry in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"):
-            tensor.needed(entry, "0.01")
-            printed[entry] = tensor.digits(entry, "0.01")[0]
-        xx, xy, xz, yy, yz, zz = (float(word) for word in printed.values())
-        matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-        body = Inertial(mass.value("value"), np.zeros(3), matrix)
-        reason = doubt(body, sum(_half_unit(word) for word in printed.values() if float(word)))
+        mass, tensor = inertial.must("mass", 'value="1"'), inertial.must("inertia", 'ixx="0.01" ..')
+        mass.needed("value", "1")
+        entries = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+        printed = [tensor.needed(e, "0.01") and tensor.digits(e, "0.01")[0] for e in entries]
+        matrix = np.zeros((3, 3))
+        matrix[np.triu_indices(3)] = [float(word) for word in printed]
+        matrix = np.triu(matrix) + np.triu(matrix, 1).T
+        body = Inertial(float(mass.digits("value", "1")[0]), np.zeros(3), matrix)
+        reason = doubt(body, sum(_half_unit(word) for word in printed if float(word)))
         if reason:
             self._doubted[name] = reason
-            self._tell(f"{reason}: {{}}; no prior is made of it", name)
-        origin = inertial.only("origin")
-        if origin is None:
-            return body
-        # Measured, and no part of the geometry: as printed.
-        centre = [float(word) for word in origin.digits("xyz", "0 0 0", LARGEST_LENGTH)]
-        turn = _turn(float(word) for word in origin.digits("rpy", "0 0 0"))
-        return body.seen_from(Pose(np.array(centre), turn))
+        origin = inertial.only("origin")  # measured, and no part of the geometry: as printed
+        turn = _turn(origin.numbers("rpy", "0 0 0"))
+        return body.seen_from(Pose(origin.numbers("xyz", "0 0 0", LARGEST_LENGTH), turn))
 
-    # Joints.
-
-    def _joint(self, name: str, spot: _Spot) -> TreeJoint:
+    def _joint(self, name: str, spot: _Spot, links: Mapping[str, _Spot]) -> TreeJoint:
         kind = spot.needed("type", "revolute").lower()
         if kind in _UNREAD:
             self._unread[name] = f"{spot.place.file}: joint {shown(name)}: {kind}"
         elif kind not in _KINDS:
             raise spot.place.at("type", kind).mismatch(f"{listed(_KINDS)}{near(kind, _KINDS)}")
-        joint = TreeJoint(
-            name=name,
-            kind=_KINDS.get(kind, JointKind.FIXED),
-            parent=self._end(spot, "parent"),
-            child=self._end(spot, "child"),
-            pose=self._origin(spot),
-        )
+        parent, child = (spot.must(end, 'link="..."') for end in ("parent", "child"))
+        for inner in (parent, child):
+            if (link := inner.needed("link", "link1")) not in links:
+                raise inner.place.error(f"there is no link {shown(link)}{near(link, links)}")
+        ends = parent.needed("link", ""), child.needed("link", "")
+        sort = _KINDS.get(kind, JointKind.FIXED)
+        joint = TreeJoint(name, sort, ends[0], ends[1], self._origin(spot))
         if joint.kind is JointKind.FIXED:
             return joint
-        return self._moving(joint, spot, bounded=kind != "continuous")
-
-    def _end(self, spot: _Spot, end: str) -> str:
-        """The link at the end of a joint."""
-        inner = spot.only(end)
-        if inner is None:
-            raise spot.place.error(f'<{end}> is missing; write <{end} link="..."/>')
-        link = inner.needed("link", "link1")
-        if link not in self._bodies:
-            raise inner.place.error(
-                f"there is no link {shown(link)}{near(link, self._bodies)}; expected one of the "
-                f"{len(self._bodies)} links of the file"
-            )
-        return link
-
-    def _moving(self, joint: TreeJoint, spot: _Spot, bounded: bool) -> TreeJoint:
         limit, dynamics = spot.only("limit"), spot.only("dynamics")
-        lower = upper = speed = effort = None
-        if limit is not None:
-            lower, upper, speed, effort = (
-                limit.stated(key) for key in ("lower", "upper", "velocity", "effort")
-            )
-            if lower is not None or upper is not None:  # the schema: what is left out is 0
-                lower, upper = lower or 0.0, upper or 0.0
-        if not bounded:
+        lower, upper = limit.stated("lower"), limit.stated("upper")
+        if kind == "continuous" or (lower is None and upper is None):
             lower = upper = None
-        elif lower is not None and upper is not None and lower >= upper:
-            self._tell("limits that leave no range are not taken: {}", joint.name)
+        elif (lower := lower or 0.0) >= (upper := upper or 0.0):  # the schema: left out is 0
+            self._tell("limits that leave no range are not taken: {}", name)
             lower = upper = None
         return replace(
             joint,
-            axis=self._axis(joint.name, spot),
+            axis=self._axis(name, spot.only("axis")),
             lower=lower,
             upper=upper,
-            speed=abs(speed) if speed else None,
-            effort=abs(effort) if effort else None,
-            damping=self._loss(joint.name, dynamics, "damping"),
-            friction=self._loss(joint.name, dynamics, "friction"),
+            speed=abs(limit.stated("velocity") or 0.0) or None,
+            effort=abs(limit.stated("effort") or 0.0) or None,
+            damping=self._loss(name, dynamics, "damping"),
+            friction=self._loss(name, dynamics, "friction"),
         )
 
-    def _loss(self, name: str, dynamics: _Spot | None, key: str) -> float | None:
-        value = None if dynamics is None else dynamics.stated(key)
+    def _loss(self, name: str, dynamics: _Spot, key: str) -> float | None:
+        value = dynamics.stated(key)
         if value is not None and value < 0.0:
             self._tell(f"negative {key} is not taken: {{}}", name)
             return None
         return value
 
     def _axis(self, name: str, spot: _Spot) -> np.ndarray:
-        inner = spot.only("axis")
-        if inner is None:
-            return np.array([1.0, 0.0, 0.0])
-        inner.needed("xyz", "0 0 1")
-        axis = np.array([float(word) for word in inner.digits("xyz", "1 0 0")])
+        axis = spot.numbers("xyz", "1 0 0")
         length = float(np.linalg.norm(axis))
         if length < _ZERO:
-            raise inner.place.at("xyz", inner.element.attributes["xyz"]).mismatch(
-                'a direction such as "0 0 1"'
-            )
+            place = spot.place.at("xyz", spot.element.attributes["xyz"])
+            raise place.mismatch('a direction such as "0 0 1"')
         if abs(length - 1.0) > 1e-3:
             self._tell("axes that are not of length 1 are taken as directions: {}", name)
-        axis /= length
-        small = (axis != 0.0) & (abs(axis) < _ZERO)
-        if not self._exact and small.any():
-            self._zeros += int(small.sum())
-            axis[small] = 0.0
+        axis = self._without_dust(axis / length)
         return np.asarray(axis / np.linalg.norm(axis) + 0.0)
 
-    def _first_link(self, joints: Mapping[str, TreeJoint], spots: Mapping[str, _Spot]) -> str:
-        """The link that no joint moves; the only one, or it is told what is wrong."""
-        above: dict[str, TreeJoint] = {}
-        for joint in joints.values():
-            other = above.setdefault(joint.child, joint)
-            if other is not joint:
-                raise spots[joint.name].place.error(
-                    f"link {shown(joint.child)} is the child of joint {shown(other.name)} too; "
-                    "expected one parent: a URDF is a tree, close loops in the robot file"
-                )
-        first = [name for name in self._bodies if name not in above]
-        if len(first) > 1:
-            line = self._root.line
-            raise Place(f"{self._where}: line {line}").error(
-                f"no joint leads to {len(first)} links, {_several(first)}; expected one first "
-                "link: join the others to it by fixed joints, or take them out"
-            )
-        reached = set(first)
-        for joint in _in_order(joints, first[0]) if first else ():
-            reached.add(joint.child)
-        if len(reached) < len(self._bodies):
-            link = next(name for name in self._bodies if name not in reached)
-            way: list[str] = []
-            while link not in way:
-                way.append(link)
-                link = above[link].parent
-            circle = way[way.index(link) :]
-            raise spots[above[circle[0]].name].place.error(
-                f"links are parents of each other in a circle: {_several(circle)}; mend the parent "
-                "of one"
-            )
-        return first[0]
-
-    def _followers(
-        self, joints: Mapping[str, TreeJoint], spots: Mapping[str, _Spot]
-    ) -> dict[str, TreeJoint]:
-        """With the mimic joints following one that is not led itself."""
+    def _follow(self, joints: dict[str, TreeJoint], spots: Mapping[str, _Spot]) -> None:
+        """Let the mimic joints follow a joint that leads."""
         direct: dict[str, tuple[str, float, float]] = {}
         for name, joint in joints.items():
             mimic = spots[name].only("mimic")
-            if mimic is None or (joint.kind is JointKind.FIXED and name not in self._unread):
+            if not mimic.given or joint.kind is JointKind.FIXED:
                 continue
-            leader = mimic.needed("joint", "joint1")
-            if leader not in joints:
+            ratio, offset = mimic.numbers("multiplier", "1")[0], mimic.numbers("offset", "0")[0]
+            direct[name] = mimic.needed("joint", "joint1"), float(ratio), float(offset)
+            if direct[name][0] not in joints:
                 told = "the file lacks the joint to mimic, it moves freely: {}"
-                self._tell(told, f"{name} of {leader}")
-                continue
-            direct[name] = leader, mimic.value("multiplier", "1"), mimic.value("offset")
-        found = dict(joints)
+                self._tell(told, f"{name} of {direct.pop(name)[0]}")
+        fixed = {name for name, joint in joints.items() if joint.kind is JointKind.FIXED}
         for name in direct:
-            leader, ratio, offset, seen = name, 1.0, 0.0, {name}
+            leader, ratio, offset, steps = name, 1.0, 0.0, 0
             while leader in direct:
-                above, times, plus = direct[leader]
-                ratio, offset, leader = ratio * times, ratio * plus + offset, above
-                if leader in seen:
+                leader, times, plus = direct[leader]
+                ratio, offset, steps = ratio * times, ratio * plus + offset, steps + 1
+                if steps > len(direct):
                     raise spots[name].place.error(
-                        "follows itself by <mimic>; let one of the joints lead"
+                        "follows itself by <mimic>; one of them must lead"
                     )
-                seen.add(leader)
-            if ratio == 0.0 or joints[leader].kind is JointKind.FIXED:
-                found[name] = held(joints[name], offset)
+            if ratio == 0.0 or leader in fixed:
                 self._tell("what they mimic does not move, so they are fixed: {}", name)
+                joints[name] = held(joints[name], offset)
             else:
-                found[name] = replace(
+                joints[name] = replace(
                     joints[name], leader=leader, ratio=ratio, offset=offset, actuated=False
                 )
-        return found
 
-    def _motors(self, joints: dict[str, TreeJoint]) -> dict[str, TreeJoint]:
-        """With armature = gear ratio squared times rotor inertia, where transmissions state both.
+    def _add_armatures(self, joints: dict[str, TreeJoint]) -> None:
+        """Gear ratio squared times rotor inertia, where a transmission states it.
 
-        The gear ratio is `mechanicalReduction`; the inertia Drake's `drake:rotor_inertia` with
-        `drake:gear_ratio` (drake.mit.edu, "Reflected inertia"), or a `motorInertia`.
+        As `drake:rotor_inertia` and `drake:gear_ratio` (drake.mit.edu, "Reflected inertia"), or as
+        `motorInertia` and `mechanicalReduction`.
         """
-        for element in self._root.named("transmission"):
-            spot = _Spot(element, self._where, "<transmission>")
-            tags = {inner.tag: inner for inner in element.walk()}
-            rotor = tags.get("drake:rotor_inertia") or tags.get("motorInertia")
+        for element in self._root.element.named("transmission"):
+            stated = {e.tag: e.attributes.get("value", e.text) for e in element.walk()}
+            rotor = stated.get("drake:rotor_inertia", stated.get("motorInertia"))
+            gear = stated.get("drake:gear_ratio", stated.get("mechanicalReduction", "1"))
             names = [inner.attributes.get("name", "") for inner in element.named("joint")]
             if rotor is None or len(names) != 1 or names[0] not in joints:
                 continue
-            gear = tags.get("drake:gear_ratio") or tags.get("mechanicalReduction")
-            inertia = _transmitted(spot, rotor)
-            armature = inertia * (1.0 if gear is None else _transmitted(spot, gear)) ** 2
-            joint = joints[names[0]]
-            joints[joint.name] = replace(joint, armature=armature + (joint.armature or 0.0))
-            self._tell("armature is gear ratio squared times rotor inertia: {}", joint.name)
-        return joints
+            for text in (rotor, gear):
+                if len(text) > 100 or not _DECIMAL.fullmatch(text):
+                    place = _Spot(element, self._where, "<transmission>").place
+                    raise place.holding(text).mismatch("a number such as 100")
+            armature = float(gear) ** 2 * float(rotor)
+            joints[names[0]] = replace(joints[names[0]], armature=armature)
+            self._tell("armature is gear ratio squared times rotor inertia: {}", names[0])
 
     def _notes(self) -> Iterable[str]:
         if self._rounded:
-            most = dict(list(self._rounded.items())[:_MOST_NAMED])
-            rest = len(self._rounded) - len(most)
-            yield told_angles(most) + (f" and {rest} more" if rest else "")
+            most = dict(list(self._rounded.items())[:MOST_NAMED])
+            yield told_angles(most) + rest(len(self._rounded))
         if self._zeros:
             yield f"{self._zeros} lengths, angles and parts of axes below {_ZERO:g} are 0 here"
         for what, names in self._told.items():
-            yield what.format(_several(names))
+            yield what.format(several(names))
+
+
+def _first_link(
+    bodies: Iterable[str], joints: Mapping[str, TreeJoint], spots: Mapping[str, _Spot]
+) -> str:
+    """The link that no joint moves; refuses what is no tree."""
+    above: dict[str, TreeJoint] = {}
+    for joint in joints.values():
+        other = above.setdefault(joint.child, joint)
+        if other is not joint:
+            told = f"link {shown(joint.child)} is the child of joint {shown(other.name)} too"
+            raise spots[joint.name].place.error(f"{told}; expected one parent: a URDF is a tree")
+    first = [name for name in bodies if name not in above]
+    if len(first) > 1:
+        file = next(iter(spots.values())).place.file if spots else ""
+        raise Place(file).error(
+            f"no joint leads to {len(first)} links, {several(first)}; expected one first link: "
+            "join the others to it by fixed joints, or take them out"
+        )
+    reached = {*first, *(joint.child for name in first for joint in _in_order(joints, name))}
+    for link in bodies:
+        if link not in reached:
+            for _ in bodies:  # so far up that it is in the circle
+                link = above[link].parent
+            told = f"link {shown(link)} is the parent of its own parents"
+            raise spots[above[link].name].place.error(f"{told}; mend <parent> or <child>")
+    return first[0]
 
 
 def _turn(angles: Iterable[float]) -> np.ndarray:
@@ -450,13 +385,6 @@ def _half_unit(digits: str) -> float:
     return 0.5 * 10.0 ** (max(int(found[3] or 0), -300) - len(found[1] or found[2] or ""))
 
 
-def _transmitted(spot: _Spot, element: Element) -> float:
-    text = element.attributes.get("value", element.text)
-    if not _DECIMAL.fullmatch(text):
-        raise spot.place.at(f"<{element.tag}>", text).mismatch("a number such as 100")
-    return float(text)
-
-
 def _in_order(joints: Mapping[str, TreeJoint], root: str) -> list[TreeJoint]:
     """Every joint after that which moves its parent, else as they come; only what root leads to."""
     after: dict[str, list[int]] = {}
@@ -465,15 +393,7 @@ def _in_order(joints: Mapping[str, TreeJoint], root: str) -> list[TreeJoint]:
         after.setdefault(joint.parent, []).append(place)
     waiting, found = list(after.get(root, ())), []
     while waiting:
-        joint = every[heapq.heappop(waiting)]
-        found.append(joint)
+        found.append(joint := every[heapq.heappop(waiting)])
         for place in after.get(joint.child, ()):
             heapq.heappush(waiting, place)
     return found
-
-
-def _several(names: Iterable[str]) -> str:
-    """`"a", "b" and 12 more`: each once, and not more than anybody reads."""
-    each = list(dict.fromkeys(names))
-    rest = f" and {len(each) - _MOST_NAMED} more" if len(each) > _MOST_NAMED else ""
-    return ", ".join(shown(name) for name in each[:_MOST_NAMED]) + rest

@@ -32,6 +32,7 @@ READING = {  # what each command reads; outputs come after it
     "derive": "derive arm.toml",
     "home": "home arm.toml",
     "generate": "generate arm.toml --out new_c",
+    "export": "export arm.toml --out new.urdf",
     "convert": "convert arm.par --out new.toml",
     "new": "new new.toml",
     "simulate": "simulate arm.toml --out new.csv",

@@ -83,6 +83,7 @@ COMMANDS = {
     "new": ("begun.toml", "--joints", "RPR"),
     "convert": ("old.par", "--out", "new.toml"),
     "generate": ("m.json", "--out", "c"),
+    "export": ("m.json", "--out", "arm.urdf"),
     "add": (
         "m.json",
         "asymmetric_viscous",

@@ -1,0 +1,78 @@
+"""A robot or a model as a file for another program: URDF, MJCF, SDF."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from modeler.api.model import Model
+from modeler.api.workflow import observe, recompile
+from modeler.core.errors import DataError, ModelerError
+from modeler.core.files import Kind, destination, write_atomically
+from modeler.derivation import with_home
+from modeler.estimation import IdentifiedModel
+from modeler.export import Exported, Torques, exported, format_of
+from modeler.robot import Robot
+
+
+def export(
+    thing: Robot | IdentifiedModel,
+    out: str | Path | None = None,
+    to: str | None = None,
+    like: str | Path | None = None,
+    force: bool = False,
+) -> Exported:
+    """A robot or a model as URDF, MJCF or SDF; its `table()` lists the numbers.
+
+    >>> export(model, to="urdf").table("not held").column("effect")
+    []
+
+    Args:
+        thing: a robot with values, or a model.
+        out: the file that is written; None: none.
+        to: "urdf", "mjcf", "sdf"; None: by the original, or the ending of `out`.
+        like: a file of the same robot, of which only the numbers are replaced.
+        force: write also over a file with another content.
+
+    Raises:
+        DataError: no values, no format, or what the format cannot state.
+        RobotError: a mistake in the original.
+        ModelerError: there is such a file, or it cannot be written.
+    """
+    kind = format_of(to, str(like or ""), str(out or ""))
+    if isinstance(thing, Robot) and thing.loops:
+        thing = with_home(thing).in_text(thing)
+    torques = _torques(thing) if isinstance(thing, IdentifiedModel) else None
+    found = exported(thing, kind, None if like is None else Path(like), torques)
+    if out is not None:
+        _write(Path(out), found.data, force)
+    return found
+
+
+def _write(out: Path, data: bytes, force: bool) -> None:
+    there = destination(out).kind is Kind.FILE
+    if not force and there and out.read_bytes() != data:
+        raise ModelerError(
+            f"--out {out}: there is such a file with another content; choose another name, or "
+            "write over it with --force"
+        )
+    write_atomically(out, data)
+
+
+def _torques(model: IdentifiedModel) -> Torques | None:
+    """Torques of base parameters on the rows of the fit; None where its logs are not there."""
+    known = model if isinstance(model, Model) else Model.of(model)
+    try:
+        logs = known.its_logs(None, "export")
+    except DataError:
+        return None
+    rows: list[Callable[[np.ndarray], np.ndarray]] = []
+    names = tuple(joint.name for joint in model.spec.joints)
+
+    def torques(beta: np.ndarray) -> tuple[np.ndarray, tuple[str, ...]]:
+        if not rows:  # read when they are first asked for
+            seen = observe(recompile(known), logs, known.processing)
+            rows.append(lambda each: np.where(seen.used, seen.predicted(each), 0.0))
+        return rows[0](beta), names
+
+    return torques

@@ -1,0 +1,26 @@
+"""`modeler export MODEL or ROBOT --out FILE`: URDF, MJCF, SDF."""
+
+import argparse
+from pathlib import Path
+
+from modeler.api.exporting import export
+from modeler.api.model import open_model
+from modeler.cli.console import Json, note, say, say_lines, working
+from modeler.cli.lists import read_robot_with_notes
+
+
+def run_export(args: argparse.Namespace) -> Json:
+    """Writes the file; prints its numbers and what it cannot hold."""
+    model = open_model(args.source) if Path(args.source).suffix.lower() == ".json" else None
+    thing = read_robot_with_notes(args.source) if model is None else model
+    for line in () if model is None else model.warning:
+        note(line)
+    with working(f"exporting {args.source}"):
+        found = export(thing, args.out, args.to, args.like, args.force)
+    first, *lines = found.summary().splitlines()
+    say(f"{first}, written to {args.out}")
+    changed = [value for value in found.values if value.changed]
+    if found.like and changed:
+        say_lines(["", *found.table().text().splitlines()[1:], ""])
+    say_lines(lines, "* ")
+    return {**found.to_dict(), "out": str(args.out)}

@@ -1,0 +1,3 @@
+from .held import NotHeld as NotHeld, Torques as Torques
+from .result import Exported as Exported, Value as Value
+from .write import ENDINGS as ENDINGS, exported as exported, format_of as format_of

@@ -1,0 +1,421 @@
+"""Which body and which joint gets which numbers."""
+
+import dataclasses
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.estimation import (
+    PREFIXES,
+    IdentifiedModel,
+    Machine,
+    body_covariance,
+    machine_of,
+    parameters_of,
+    pseudo_inertia_of,
+)
+from modeler.export.capsules import weights
+from modeler.export.completion import (
+    Beforehand,
+    Completed,
+    buildable,
+    conditioned,
+    distance,
+    impossible,
+)
+from modeler.robot import Pose, Robot, robot_from_text
+
+SHARE = 0.3
+"""How sure the values of a file are that says nothing of it, over the scale of a body."""
+
+_UNKNOWN = 1.0  # the same of a capsule
+_WIDE = 100.0  # how sure a value is of which nothing is known, over what the torques allow
+_LOOSE = (1e-2, 0.1, 1.0)  # of what is known beforehand: by how much values of no body may move
+_DENSITIES = (1e-3, 1e3)  # what a fit may say of a capsule's
+
+HELD = {
+    "urdf": ("damping", "friction"),
+    "sdf": ("damping", "friction", "stiffness"),
+    "mjcf": ("damping", "friction", "armature", "stiffness"),
+}
+"""What a joint of these formats has."""
+
+_HELD_AS = {
+    ("viscous", "Fv"): "damping", ("passive_friction", "Fvp"): "damping",
+    ("coulomb", "Fs"): "friction", ("passive_friction", "Fsp"): "friction",
+    ("rotor_inertia", "Ia"): "armature", ("spring", "Ks"): "stiffness",
+}  # fmt: skip
+
+Terms = Mapping[str, Mapping[str, float]]
+"""quantity -> {standard parameter: coefficient}."""
+
+
+@dataclass(frozen=True, eq=False)
+class Physics:
+    """Standard parameters of a machine that could be built, and where they came from.
+
+    Attributes:
+        robot: its table.
+        machine: unknowns.
+        now: their values.
+        stated: links whose values were stated or fitted; the others got those of capsules.
+        nominal: what the robot file says, by name.
+        fit: beta and its covariance; None of a robot.
+        released: links on which what hangs must change too.
+        notes: what was decided, a line each.
+    """
+
+    robot: Robot
+    machine: Machine
+    now: Completed
+    stated: frozenset[str]
+    nominal: Mapping[str, float]
+    fit: tuple[np.ndarray, np.ndarray] | None = None
+    released: frozenset[str] = frozenset()
+    notes: tuple[str, ...] = ()
+
+    @cached_property
+    def place(self) -> dict[str, int]:
+        """Of every parameter in chi; of those that similar legs share under every name."""
+        found = {name: i for i, name in enumerate(self.machine.names)}
+        for shared in self.robot.shared:
+            if shared.name in found:
+                found |= dict.fromkeys(shared.members, found[shared.name])
+        return found
+
+    def ten_places(self, row: str) -> list[int]:
+        """Places in chi of the ten parameters of the link of a row; none if it has no body."""
+        if not self.robot.inertial(row) or not self.robot.joint(row).moves:
+            return []
+        found = [self.place.get(f"{prefix}{row}") for prefix in PREFIXES]
+        return [i for i in found if i is not None] if None not in found else []
+
+    def ten(self, row: str) -> np.ndarray | None:
+        """(10,) standard parameters of the link of a row; None if it has no body."""
+        places = self.ten_places(row)
+        return self.now.chi[places] if places else None
+
+    def stated_before(self, row: str) -> np.ndarray | None:
+        """(10,) what the robot file says of them; None unless it says all."""
+        found = [self.nominal.get(f"{prefix}{row}") for prefix in PREFIXES]
+        return None if None in found else np.array(found, dtype=float)
+
+    def value(self, terms: Mapping[str, float]) -> tuple[float, float]:
+        """A sum of parameters, and its standard deviation."""
+        at = [self.place[name] for name in terms]
+        c = np.array(list(terms.values()))
+        variance = float(c @ self.now.covariance[np.ix_(at, at)] @ c)
+        return float(c @ self.now.chi[at]), max(variance, 0.0) ** 0.5
+
+    def drive(self, row: str, to: str) -> Terms:
+        """What the joint of a row gets in a file of that format, of what has a value."""
+        found: dict[str, Mapping[str, float]] = {}
+        own = {} if row in self.robot.motors else held_by_joint(self.robot, row)
+        for quantity, terms in own.items():
+            known = {name: c for name, c in terms.items() if name in self.place}
+            if quantity in HELD[to] and known and self.value(known)[0] >= 0.0:
+                found[quantity] = known
+        return found
+
+
+def held_by_joint(robot: Robot, row: str) -> dict[str, dict[str, float]]:
+    """Damping, friction, armature and stiffness of a joint, as sums of parameters.
+
+    Those of a motor of its own, too, that turns c times as fast: c^2 Fv, |c| Fs, c^2 Ia.
+    """
+    found: dict[str, dict[str, float]] = {}
+    for name, quantity in _held_names(robot, row):
+        found.setdefault(quantity, {})[name] = 1.0
+    for motor, ratios in robot.motors.items():
+        own = robot.relations.get(row)
+        if set(ratios) == {row} and own is not None and own.names == {f"q{motor}"}:
+            c = ratios[row]
+            for name, quantity in _held_names(robot, motor):
+                found.setdefault(quantity, {})[name] = abs(c) if quantity == "friction" else c * c
+    return found
+
+
+def _held_names(robot: Robot, row: str) -> Iterator[tuple[str, str]]:
+    for effect, form, instance in robot.effects_on(row):
+        for column in form.columns:
+            quantity = _HELD_AS.get((effect.id, column.prefix))
+            if quantity and not (quantity == "stiffness" and instance.shapes.get("h")):
+                yield f"{column.prefix}{row}{instance.label}", quantity
+
+
+def rest_of(robot: Robot, row: str) -> float:
+    """Where the spring of a joint is at rest."""
+    springs = [i.shapes for effect, _, i in robot.effects_on(row) if effect.id == "spring"]
+    return float(springs[0].get("q0", 0.0)) if springs else 0.0
+
+
+# Ten parameters of a body in other frames, and as files write them.
+
+
+def carried(ten: np.ndarray, pose: Pose) -> np.ndarray:
+    """(10, ...) parameters in a frame a of a body given in b, whose pose in a that is."""
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = pose.rotation, pose.position
+    P = pseudo_inertia_of(ten)
+    return np.asarray(parameters_of(np.einsum("ai,ij...,bj->ab...", T, P, T)))
+
+
+def written(ten: np.ndarray, axes: np.ndarray | None = None) -> np.ndarray:
+    """(10,) mass, centre, and XX XY XZ YY YZ ZZ about the centre along some axes.
+
+    A body without mass has its centre in the origin.
+
+    Args:
+        ten: at the origin of the frame.
+        axes: (3, 3) as columns; None: those of the frame.
+    """
+    mass = ten[9]
+    centre = ten[6:9] / mass if mass else 0.0 * ten[6:9]
+    XX, XY, XZ, YY, YZ, ZZ = ten[:6]
+    tensor = np.array([[XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ]])
+    about = tensor - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
+    if axes is not None:
+        about = axes.T @ about @ axes
+    return np.concatenate([[mass], centre, about[np.triu_indices(3)]])
+
+
+def deviations(
+    function: Callable[[np.ndarray], np.ndarray], at: np.ndarray, covariance: np.ndarray
+) -> np.ndarray:
+    """Standard deviations of a function of what has that covariance, to first order.
+
+    The slopes are exact: Im f(x + i h) / h with a tiny h (Squire and Trapp 1998).
+    """
+    step = 1e-30
+    slopes = [function(at + 1j * step * e).imag / step for e in np.eye(len(at))]
+    J = np.column_stack(slopes)
+    return np.asarray(np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", J, covariance, J), 0.0)))
+
+
+# From a robot or a model to its physics.
+
+
+@dataclass(frozen=True, eq=False)
+class Original:
+    """What a file that is to be written anew says of the links.
+
+    Attributes:
+        whole: by row, (10,) of all its bodies together, in the frame of the row.
+        hung: by row, (10,) of those that keep their numbers.
+    """
+
+    whole: Mapping[str, np.ndarray] = field(default_factory=dict)
+    hung: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+
+def physics_of(thing: Robot | IdentifiedModel, original: Original) -> Physics:
+    """The numbers of a robot, or of a model.
+
+    Raises:
+        DataError: a robot without values; nothing near the values could be built.
+    """
+    if isinstance(thing, Robot):
+        return _of_robot(thing, original)
+    robot = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
+    machine, fit = machine_of(thing.spec), thing.fit
+    beta, C = fit.beta, fit.covariance
+    before, stated, notes = beforehand(machine, robot, original, beta, C)
+    found = conditioned(machine.K, before, beta, C)
+    if fit.standard:
+        chi = np.array([fit.standard.get(n, x) for n, x in zip(machine.names, found.chi)])
+        found = dataclasses.replace(found, chi=chi)
+    aside = [p.name for p in fit.parameters if p.sigma is None]
+    if aside:
+        notes.append(
+            f"the fit set {', '.join(aside)} aside, at 0: other motion, or a prior "
+            "([parameters.uncertainty]), would tell more"
+        )
+    settled, released, more = _settled(robot, machine, before, found, (beta, C), original)
+    return Physics(
+        robot, machine, settled, stated, values_of(robot), (beta, C), released, (*notes, *more)
+    )
+
+
+def _of_robot(robot: Robot, original: Original) -> Physics:
+    values = values_of(robot)
+    links = [j.name for j in robot.moving if robot.inertial(j.name)]
+    names = [f"{prefix}{link}" for link in links for prefix in PREFIXES]
+    own = [name for row in robot.moving for terms in _every_name(robot, row.name) for name in terms]
+    names += [name for name in own if name in values]
+    if not any(f"M{link}" in values or f"ZZ{link}" in values for link in links):
+        if not original.whole or not any(name in values for name in own):
+            raise DataError(
+                f"{robot.name}: a robot without values; write [parameters] into its file, or "
+                "export a model of `modeler fit`"
+            )
+    place = {name: i for i, name in enumerate(names)}
+    given = [name for name in names if name in values]
+    K = np.eye(len(names))[[place[name] for name in given]]
+    tens = {link: np.array([place[f"{p}{link}"] for p in PREFIXES]) for link in links}
+    positive = {
+        name: place[name]
+        for row in robot.moving
+        for terms in held_by_joint(robot, row.name).values()
+        for name in terms
+        if name in place and not name.startswith("Ks")
+    }
+    machine = Machine(tuple(names), K, tens, positive)
+    beta = np.array([values[name] for name in given])
+    C = np.zeros((len(given), len(given)))
+    before, stated, notes = beforehand(machine, robot, original, beta, C)
+    found = conditioned(K, before, beta, C)
+    if original.whole:  # what the original states stays as it is, whatever it is
+        return Physics(robot, machine, found, stated, values)
+    settled, released, more = _settled(robot, machine, before, found, (beta, C), original)
+    return Physics(robot, machine, settled, stated, values, None, released, (*notes, *more))
+
+
+def _every_name(robot: Robot, row: str) -> Iterator[list[str]]:
+    """Names of the parameters of each effect of a row."""
+    for _, form, instance in robot.effects_on(row):
+        yield [f"{column.prefix}{row}{instance.label}" for column in form.columns]
+
+
+def values_of(robot: Robot) -> dict[str, float]:
+    """Nominal values by name, those that legs share under the name of every leg too."""
+    found = dict(robot.parameters)
+    for shared in robot.shared:
+        if shared.name in found:
+            found |= dict.fromkeys(shared.members, found[shared.name])
+    return found
+
+
+def beforehand(
+    machine: Machine, robot: Robot, original: Original, beta: np.ndarray, C: np.ndarray
+) -> tuple[Beforehand, frozenset[str], list[str]]:
+    """What is known without torques; links of which something is; what is to be told."""
+    values, count = values_of(robot), len(machine.names)
+    mean, S = np.zeros(count), np.zeros((count, count))
+    share = robot.uncertainty.get("inertial") or SHARE
+    unknown, stated = {}, set()
+    drawn = weights(robot, robot.home)
+    for link, own in machine.links.items():
+        ten = [values.get(f"{prefix}{link}") for prefix in PREFIXES]
+        if None not in ten:
+            given = np.array(ten, dtype=float)
+        else:
+            given = original.whole.get(link, np.zeros(10))
+        why, block = body_covariance(given, share)
+        if any(x is not None for x in ten):
+            stated.add(link)
+        if why or not block[0, 0]:
+            unknown[link] = own
+        else:
+            mean[own], S[np.ix_(own, own)] = given, block
+            stated.add(link)
+    notes = []
+    if unknown:
+        density, told = _density(machine, unknown, drawn, mean, (beta, C))
+        for link, own in unknown.items():
+            mass = values.get(f"M{link}") or density * drawn[link][9]
+            mean[own] = drawn[link] * (mass / drawn[link][9])
+            S[np.ix_(own, own)] = body_covariance(mean[own], _UNKNOWN)[1]
+        notes.append(
+            f"link {', '.join(unknown)}: no body is stated in the robot file; what no torque feels "
+            f"of it is that of a capsule{told}"
+        )
+    of_links = {i for own in machine.links.values() for i in own}
+    most = np.abs(beta) + np.abs(machine.K @ mean) + np.sqrt(np.maximum(np.diag(C), 0.0))
+    for i, name in enumerate(machine.names):
+        deviation = robot.uncertainty.get(name)
+        if i not in of_links and deviation is None:
+            felt = np.flatnonzero(machine.K[:, i])
+            deviation = _WIDE * float(max(most[felt] / np.abs(machine.K[felt, i]), default=0.0))
+        if deviation is not None:
+            S[i], S[:, i] = 0.0, 0.0
+            S[i, i], mean[i] = deviation**2, values.get(name, 0.0)
+    return Beforehand(mean, S), frozenset(stated), notes
+
+
+def _density(
+    machine: Machine,
+    unknown: Mapping[str, np.ndarray],
+    drawn: Mapping[str, np.ndarray],
+    mean: np.ndarray,
+    fit: tuple[np.ndarray, np.ndarray],
+) -> tuple[float, str]:
+    """Of capsules, over that of water; what is to be told of it."""
+    known = [link for link in machine.links if link not in unknown]
+    if known:
+        heavy = sum(mean[machine.links[link][9]] for link in known)
+        return float(heavy / sum(drawn[link][9] for link in known)), ", as dense as the others"
+    beta, C = fit
+    whole = mean.copy()
+    for link, own in unknown.items():
+        whole[own] = drawn[link]
+    a, size = machine.K @ whole, np.sqrt(np.diag(C))
+    weight = np.where(size > 0.0, 1.0 / np.where(size > 0.0, size, 1.0), 0.0)
+    felt = float(np.sum((weight * a) ** 2))
+    density = float(np.sum(weight**2 * a * beta) / felt) if felt else 0.0
+    if _DENSITIES[0] < density < _DENSITIES[1]:
+        return density, ", as dense as the torques allow: a mass that no torque feels is arbitrary"
+    return 1.0, " as dense as water: its mass is arbitrary"
+
+
+def _settled(
+    robot: Robot,
+    machine: Machine,
+    before: Beforehand,
+    found: Completed,
+    fit: tuple[np.ndarray, np.ndarray],
+    original: Original,
+) -> tuple[Completed, frozenset[str], list[str]]:
+    """What can be built; links on which what hangs must change; what is to be told.
+
+    Raises:
+        DataError: nothing near the values can be built.
+    """
+    beta, C = fit
+    size = {link: _round(before.mean[own]) for link, own in machine.links.items()}
+    first = impossible(machine, found.chi, size, {link: np.zeros(10) for link in machine.links})
+    notes = []
+    whole, stated = buildable(machine, found, beta, C, size, {}), C
+    for loose in _LOOSE:  # values that are stated of no body
+        if whole is None:
+            C = stated + loose**2 * machine.K @ before.S @ machine.K.T
+            found = conditioned(machine.K, before, beta, C)
+            whole = buildable(machine, found, beta, C, size, {})
+    if whole is None:
+        raise DataError(
+            f"{robot.name}: nothing near these values could be built, because of "
+            f"{', '.join(first)}; correct [parameters] there"
+        )
+    if C is not stated:
+        notes.append(
+            f"{', '.join(first)}: stated as no machine could be built; the nearest that could "
+            "is written"
+        )
+    elif first:
+        notes.append(
+            f"{', '.join(first)}: no body of these base parameters could be built; they moved by "
+            f"{whole.moved:.2g} sigmas to the nearest that could"
+            if whole.moved > 0.01 else
+            f"{', '.join(first)}: what no torque feels was moved so that it could be built"
+        )  # fmt: skip
+    if not original.hung:
+        return whole, frozenset(), notes
+    floors = {link: original.hung.get(link, np.zeros(10)) for link in machine.links}
+    tight = impossible(machine, whole.chi, size, floors)
+    own = buildable(machine, found, beta, C, size, original.hung)
+    if own is not None and own.moved <= whole.moved + 1.0:
+        return own, frozenset(), notes
+    loose = {link: ten for link, ten in original.hung.items() if link not in tight}
+    return buildable(machine, found, beta, C, size, loose) or whole, frozenset(tight), notes
+
+
+def _round(ten: np.ndarray) -> np.ndarray:
+    """(4, 4) W of the round body of that mass, centre and size, W P W^T = 1."""
+    mass, centre = abs(ten[9]) or 1.0, ten[6:9] / (ten[9] or 1.0)
+    second = np.trace(pseudo_inertia_of(ten)[:3, :3]) - mass * centre @ centre
+    radius = max(second / (3.0 * mass), 1e-12) ** 0.5
+    W = np.diag([1.0 / radius, 1.0 / radius, 1.0 / radius, 1.0])
+    W[:3, 3] = -centre / radius
+    return np.asarray(W / mass**0.5)

@@ -1,0 +1,168 @@
+"""Standard parameters of a machine that could be built, from base parameters.
+
+Torques tell beta = K chi alone, N(beta, C). Of chi the rest is known beforehand, chi ~ N(chi_0, S);
+what was known of beta by it does not count again: the distribution of chi is conditioned on K chi
+= beta, and beta is then what the fit says (Jeffrey's rule),
+
+    chi = chi_0 + G (beta - K chi_0),   G = S K^T (K S K^T)^-1,
+    covariance (1 - G K) S (1 - G K)^T + G C G^T,
+
+so that K chi = beta exactly, K G being 1. Where a body of these is none (pseudo-inertia P_j, less
+what hangs on it and keeps its numbers, not positive definite; negative friction), the nearest that
+could be built takes its place,
+
+    minimise ||z||^2,  chi = that + L z,  L L^T its covariance,  P_j - P_hung,j >= 0,
+
+a semidefinite problem (Sousa and Cortesao 2014, IJRR 33(6); Wensing, Kim and Slotine 2018, IEEE
+RA-L 3(1)).
+"""
+
+import contextlib
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.estimation import Machine, pseudo_inertia_of
+
+INSIDE = 1e-7
+"""Least eigenvalue of a body that could be built, a round one of its size being 1."""
+
+_WELL_INSIDE = 1e-6  # that which is asked of the solver
+
+_NONE = 1e-13  # relative: an eigenvalue that is rounding
+
+
+@dataclass(frozen=True, eq=False)
+class Beforehand:
+    """What is known of chi without torques.
+
+    Attributes:
+        mean: (m,) chi_0.
+        S: (m, m).
+    """
+
+    mean: np.ndarray
+    S: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Completed:
+    """Standard parameters.
+
+    Attributes:
+        chi: (m,).
+        covariance: (m, m).
+        moved: by how many standard deviations of the fit beta moved so that it can be built.
+    """
+
+    chi: np.ndarray
+    covariance: np.ndarray
+    moved: float
+
+
+def conditioned(
+    K: np.ndarray, before: Beforehand, beta: np.ndarray, C: np.ndarray
+) -> Completed:
+    """The Gaussian completion; K chi = beta wherever what is known beforehand lets chi move."""
+    mean, S = before.mean, before.S
+    G = S @ K.T @ _inverse(K @ S @ K.T)
+    chi = mean + G @ (beta - K @ mean)
+    chi += G @ (beta - K @ chi)  # the rounding of the first step
+    rest = np.eye(len(mean)) - G @ K
+    return Completed(chi, rest @ S @ rest.T + G @ C @ G.T, 0.0)
+
+
+def buildable(
+    machine: Machine,
+    found: Completed,
+    beta: np.ndarray,
+    C: np.ndarray,
+    size: Mapping[str, np.ndarray],
+    hung: Mapping[str, np.ndarray],
+) -> Completed | None:
+    """The nearest that could be built: itself where it can; None if nothing near can.
+
+    Args:
+        machine: unknowns and bounds.
+        found: completion.
+        beta: (c,) of the fit.
+        C: (c, c) its covariance.
+        size: by link, (4, 4) W of a round body P of its size, W P W^T = 1.
+        hung: by link, (10,) what hangs on it and keeps its numbers.
+    """
+    floors = {link: hung.get(link, np.zeros(10)) for link in machine.links}
+    if not impossible(machine, found.chi, size, floors):
+        return found
+    import cvxpy as cp  # only here: most fits can be built as they are
+
+    deviation = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
+    safe = np.where(deviation > 0.0, deviation, 1.0)
+    values, vectors = np.linalg.eigh(found.covariance / np.outer(safe, safe))
+    kept = values > _NONE * max(1.0, float(values[-1]))
+    L = safe[:, None] * vectors[:, kept] * np.sqrt(values[kept])
+    if not L.size:
+        return None
+    z = cp.Variable(L.shape[1])
+    bounds = []
+    for name, place in machine.positive.items():
+        scale = max(abs(found.chi[place]), deviation[place]) or 1.0
+        if L[place].any():
+            bounds.append((found.chi[place] + L[place] @ z) / scale >= 0.0)
+        elif found.chi[place] < 0.0:
+            return None
+    for link, own in machine.links.items():
+        W = size[link]
+        now = W @ pseudo_inertia_of(found.chi[own] - floors[link]) @ W.T
+        moves = np.einsum("ai,ijk,bj->abk", W, pseudo_inertia_of(L[own]), W).reshape(16, -1)
+        matrix = cp.reshape(now.ravel() + moves @ z, (4, 4), order="C")
+        bounds.append(matrix - _WELL_INSIDE * np.eye(4) >> 0)
+    problem = cp.Problem(cp.Minimize(cp.sum_squares(z)), bounds)
+    with contextlib.suppress(cp.SolverError), warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # what comes is looked at below
+        problem.solve(solver=cp.CLARABEL)
+    if z.value is None:
+        return None
+    chi = found.chi + L @ z.value
+    places = list(machine.positive.values())
+    chi[places] = np.maximum(chi[places], 0.0)
+    if impossible(machine, chi, size, floors):
+        return None
+    return Completed(chi, found.covariance, distance(machine.K @ chi - beta, C))
+
+
+def impossible(
+    machine: Machine,
+    chi: np.ndarray,
+    size: Mapping[str, np.ndarray],
+    floors: Mapping[str, np.ndarray],
+) -> list[str]:
+    """Links that could not be built, and parameters that are negative and must not."""
+    found = [
+        link
+        for link, own in machine.links.items()
+        if least(chi[own] - floors[link], size[link]) < INSIDE
+    ]
+    return found + [name for name, place in machine.positive.items() if chi[place] < 0.0]
+
+
+def least(ten: np.ndarray, size: np.ndarray) -> float:
+    """Least eigenvalue of the scaled pseudo-inertia."""
+    return float(np.linalg.eigvalsh(size @ pseudo_inertia_of(ten) @ size.T)[0])
+
+
+def distance(apart: np.ndarray, C: np.ndarray) -> float:
+    """sqrt(d^T C^-1 d): standard deviations; of what has none nothing is counted."""
+    return float(max(apart @ _inverse(C) @ apart, 0.0)) ** 0.5
+
+
+def _inverse(V: np.ndarray) -> np.ndarray:
+    """Pseudo-inverse of a covariance, its rows scaled alike."""
+    size = np.sqrt(np.maximum(np.diag(V), 0.0))
+    safe = np.where(size > 0.0, size, 1.0)
+    values, vectors = np.linalg.eigh(V / np.outer(safe, safe))
+    kept = (values > _NONE * max(1.0, float(values[-1]))) if values.size else values > 0.0
+    half = vectors[:, kept] / np.sqrt(values[kept])
+    half = half * (size > 0.0)[:, None] / safe[:, None]
+    return np.asarray(half @ half.T)

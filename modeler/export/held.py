@@ -1,0 +1,90 @@
+"""What a format cannot hold, and how much of the torque that is.
+
+The parameters chi_e of an effect put K chi_e into beta, and W K chi_e into the torques of a motion.
+Where the logs of the fit are at hand, its share is that of the root mean squares over their rows, at
+its joint. Without them about what it was in the fit is told by beta and its covariance C, for
+W^T W is C^-1 but for the noise: sqrt((K chi_e)^T C^-1 K chi_e / beta^T C^-1 beta), of all torques.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.core.table import percent
+from modeler.export.bodies import Physics
+from modeler.export.completion import distance
+
+Torques = Callable[[np.ndarray], tuple[np.ndarray, tuple[str, ...]]]
+"""From base parameters to the (rows, n) torques of the fit, and the names of their joints."""
+
+
+@dataclass(frozen=True)
+class NotHeld(Brief):
+    """An effect of a joint that the format has no place for.
+
+    Attributes:
+        effect: id; "" of a parameter of no effect.
+        joint: row.
+        values: by name, SI.
+        share: of the torque; None of a robot, or where it is not told.
+        of: "joint 2", or "all torques" of shares that C tells.
+    """
+
+    effect: str
+    joint: str
+    values: dict[str, float]
+    share: float | None = None
+    of: str = ""
+
+    @property
+    def line(self) -> str:
+        """For people."""
+        values = ", ".join(f"{name} = {value:.4g}" for name, value in self.values.items())
+        told = "" if self.share is None else f", about {percent(self.share, 2)} of {self.of}"
+        return f"{self.effect or 'parameter'} of joint {self.joint} ({values}){told}"
+
+
+def not_held(physics: Physics, to: str, torques: Torques | None = None) -> tuple[NotHeld, ...]:
+    """Effects that the format cannot hold, those that carry most first.
+
+    Args:
+        physics: all numbers.
+        to: the format.
+        torques: of the logs of the fit, if they are there.
+    """
+    robot, kept = physics.robot, set[str]()
+    for joint in robot.moving:
+        kept |= {name for terms in physics.drive(joint.name, to).values() for name in terms}
+    found = []
+    for joint in robot.moving:
+        for effect, form, instance in robot.effects_on(joint.name):
+            names = [f"{column.prefix}{joint.name}{instance.label}" for column in form.columns]
+            values = {n: float(physics.now.chi[physics.place[n]]) for n in names
+                      if n in physics.place and n not in kept}  # fmt: skip
+            if any(values.values()):
+                share, of = _share(physics, list(values), joint.name, torques)
+                found.append(NotHeld(effect.id, joint.name, values, share, of))
+    return tuple(sorted(found, key=lambda one: -(one.share or 0.0)))
+
+
+def _share(
+    physics: Physics, names: list[str], joint: str, torques: Torques | None
+) -> tuple[float | None, str]:
+    if physics.fit is None:
+        return None, ""
+    at = [physics.place[name] for name in names]
+    own = physics.machine.K[:, at] @ physics.now.chi[at]
+    beta, C = physics.fit
+    if torques is None:
+        whole = distance(beta, C)
+        return (distance(own, C) / whole if whole else None), "all torques"
+    part, joints = torques(own)
+    every, _ = torques(beta)
+    place, of = slice(None), "all torques"
+    if joint in joints:
+        place, of = joints.index(joint), f"the torque of joint {joint}"
+    size = float(np.linalg.norm(every[:, place]))
+    return (float(np.linalg.norm(part[:, place])) / size if size else None), of
+

@@ -1,0 +1,146 @@
+"""Rows of a table as numbers: where their frames are, what their variables follow."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from modeler.core.errors import DataError
+from modeler.robot import (
+    Joint,
+    JointKind,
+    LinkFrame,
+    Loop,
+    Pose,
+    Robot,
+    linear_form,
+    turned,
+)
+
+BASE = "0"
+"""Name of the frame that stands still."""
+
+_X, _Y, _Z = np.eye(3)
+_CLOSED = 1e-9  # m, rad: what may be left of a loop
+
+
+def to_quaternion(rotation: np.ndarray) -> np.ndarray:
+    """(4,) w, x, y, z of a rotation, w >= 0: eigenvector of Bar-Itzhack's symmetric matrix (2000)."""
+    R = rotation
+    skew = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    K = np.empty((4, 4))
+    K[1:, 1:] = R + R.T - np.trace(R) * np.eye(3)
+    K[0, 1:] = K[1:, 0] = skew
+    K[0, 0] = np.trace(R)
+    best = np.linalg.eigh(K)[1][:, -1]
+    best[np.abs(best) < 1e-16] = 0.0
+    return np.asarray(best * (np.sign(best[np.flatnonzero(best)[0]])))
+
+
+def frame_pose(frame: LinkFrame, symbols: Mapping[str, float]) -> Pose:
+    """Pose of a link's frame on its row."""
+    position = np.array([cell.number(symbols) for cell in frame.position])
+    return Pose(position, from_rpy([cell.number(symbols) for cell in frame.angles]))
+
+
+def from_rpy(angles: Sequence[float]) -> np.ndarray:
+    """(3, 3) Rz(yaw) Ry(pitch) Rx(roll)."""
+    roll, pitch, yaw = angles
+    return turned(_Z, yaw) @ turned(_Y, pitch) @ turned(_X, roll)
+
+
+def row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
+    """T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r).
+
+    Args:
+        joint: the row.
+        values: of the symbols, and of its variable if it has one.
+    """
+    gamma, b, alpha, d, theta, r = (
+        cell.number(values)
+        for cell in (joint.gamma, joint.b, joint.alpha, joint.d, joint.theta, joint.r)
+    )
+    foot = Pose(b * _Z, turned(_Z, gamma))
+    return foot @ Pose(d * (turned(_X, alpha) @ _X), turned(_X, alpha)) @ Pose(r * _Z, turned(_Z, theta))
+
+
+def sense(joint: Joint, symbols: Mapping[str, float]) -> float:
+    """1.0, or -1.0 where the table has the variable of the row with a minus."""
+    cell = joint.theta if joint.kind is JointKind.REVOLUTE else joint.r
+    return float(np.sign(linear_form(cell, symbols).coefficients[joint.variable]))
+
+
+def variables(robot: Robot, q: Mapping[str, float]) -> dict[str, float]:
+    """Values of the symbols and of all joint variables, those that follow others included.
+
+    Args:
+        robot: its relations.
+        q: by row; rows that are left out, and follow no other, stand at 0.
+    """
+    values = robot.symbol_values()
+    free = [joint for joint in robot.moving if joint.name not in robot.relations]
+    values |= {joint.variable: float(q.get(joint.name, 0.0)) for joint in free}
+    waiting = dict(robot.relations)
+    while waiting:
+        ready = [row for row, cell in waiting.items() if cell.names <= values.keys()]
+        for row in ready or list(waiting):
+            values[f"q{row}"] = waiting.pop(row).number(values)
+    return values
+
+
+def poses(robot: Robot, q: Mapping[str, float]) -> dict[str, Pose]:
+    """Pose of every row's frame in frame 0, and of frame 0, by row."""
+    values, found = variables(robot, q), {BASE: Pose()}
+    for joint in robot.joints:
+        found[joint.name] = found[joint.antecedent] @ row_pose(joint, values)
+    return found
+
+
+# Loops.
+
+CLOSED_BY = ("spherical", "position", "revolute", "rigid")
+"""Kinds of loops that points which meet can state."""
+
+
+def closed(robot: Robot) -> dict[str, float]:
+    """Every joint variable at [home], by row, the passive ones moved until the loops close.
+
+    Raises:
+        DataError: a loop of another kind; the loops do not close near [home].
+    """
+    names = [joint.name for joint in robot.moving]
+    if robot.loops:
+        for loop in robot.loops:
+            if loop.kind not in CLOSED_BY:
+                raise DataError(
+                    f"{robot.name}: loop {loop.name} is {loop.kind}, which is not written; "
+                    f"expected one of {', '.join(CLOSED_BY)}, or cut the loops"
+                )
+        given = {joint.name for joint in robot.coordinates} | set(robot.relations)
+        passive = [name for name in names if name not in given]
+
+        def gaps(x: np.ndarray) -> np.ndarray:
+            at = poses(robot, {**robot.home, **dict(zip(passive, x, strict=True))})
+            return np.concatenate([_gap(loop, at) for loop in robot.loops])
+
+        start = np.array([robot.home.get(name, 0.0) for name in passive])
+        found = least_squares(gaps, start, xtol=1e-15, ftol=1e-15, gtol=1e-15)
+        if np.abs(found.fun).max() > _CLOSED:
+            raise DataError(
+                f"{robot.name}: its loops do not close near [home]; find it with `modeler home`"
+            )
+        robot = replace(robot, home={**robot.home, **dict(zip(passive, found.x, strict=True))})
+    values = variables(robot, robot.home)
+    return {name: values[f"q{name}"] for name in names}
+
+
+def _gap(loop: Loop, at: Mapping[str, Pose]) -> np.ndarray:
+    """What is left of a loop: the points apart, and the axes, m and rad."""
+    apart = at[loop.frame].inverse() @ at[loop.meets]
+    R = apart.rotation
+    if loop.kind == "revolute":
+        return np.array([*apart.position, R[0, 2], R[1, 2]])
+    if loop.kind == "rigid":
+        return np.array([*apart.position, R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    return apart.position

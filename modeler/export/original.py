@@ -1,0 +1,301 @@
+"""The file that is written anew: its links on the rows of the robot, and that it is that robot."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.core.files import read_file
+from modeler.estimation import parameters_of, pseudo_inertia_of
+from modeler.export.bodies import Original, carried
+from modeler.export.linkage import BASE, frame_pose, from_rpy, poses, variables
+from modeler.robot import (
+    BodyTree,
+    Element,
+    Inertial,
+    JointKind,
+    Pose,
+    Robot,
+    about_origin,
+    mjcf_tree,
+    moving_links,
+    near,
+    parse_xml,
+    urdf_tree,
+)
+
+FORMATS = {"robot": "urdf", "mujoco": "mjcf", "sdf": "sdf"}
+"""Of a file, by its outermost element."""
+
+_SAME = 1e-4  # m, rad: rounded angles of a file are exact in the robot file
+_POSTURES = 5
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A file.
+
+    Attributes:
+        path: where it is.
+        data: its bytes.
+        root: its outermost element.
+        format: "urdf", "mjcf" or "sdf".
+        tree: its robot; None of SDF.
+        links: bodies by name, in their frames; None for those that state nothing.
+    """
+
+    path: Path
+    data: bytes
+    root: Element
+    format: str
+    tree: BodyTree | None
+    links: Mapping[str, Inertial | None]
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """Links of a file that move with one row.
+
+    Attributes:
+        poses: of their frames on the row, by name.
+        carrier: that which gets the change.
+    """
+
+    poses: Mapping[str, Pose]
+    carrier: str
+
+
+def source_of(path: Path) -> Source:
+    """Read the original.
+
+    Raises:
+        DataError: no such file, or none of the formats.
+        RobotError: a mistake in it.
+    """
+    try:
+        data = read_file(path)
+    except OSError as error:
+        raise DataError(f"--like {path}: cannot be read ({error.strerror})") from None
+    root = parse_xml(data, str(path))
+    if root.tag not in FORMATS:
+        raise DataError(
+            f"--like {path}: got <{root.tag[:40]}>; expected <robot> (URDF), <mujoco> (MJCF) or <sdf>"
+        )
+    kind = FORMATS[root.tag]
+    if kind == "sdf":
+        return Source(path, data, root, kind, None, _sdf_links(root))
+    tree = urdf_tree(data, str(path)) if kind == "urdf" else mjcf_tree(path)
+    return Source(path, data, root, kind, tree, tree.bodies)
+
+
+def sdf_pose(element: Element | None) -> Pose:
+    """`<pose>` of an element: x y z roll pitch yaw, rad or `degrees`."""
+    pose = element.first("pose") if element else None
+    if pose is None or not pose.text:
+        return Pose()
+    numbers = np.array([float(word) for word in pose.text.split()])
+    turn = numbers[3:] * (np.pi / 180 if pose.attributes.get("degrees") == "true" else 1.0)
+    return Pose(numbers[:3], from_rpy(turn.tolist()))
+
+
+def _sdf_links(root: Element) -> dict[str, Inertial | None]:
+    found: dict[str, Inertial | None] = {}
+    for link in (element for element in root.walk() if element.tag == "link"):
+        inertial = link.first("inertial")
+        mass = inertial.first("mass") if inertial else None
+        tensor = inertial.first("inertia") if inertial else None
+        body = None
+        if mass is not None and tensor is not None:
+            entry = {child.tag: float(child.text) for child in tensor.children if child.text}
+            xx, xy, xz, yy, yz, zz = (
+                entry.get(key, 1.0 if key[1] == key[2] else 0.0)
+                for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+            )
+            matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            body = Inertial(float(mass.text), np.zeros(3), matrix).seen_from(sdf_pose(inertial))
+        found[link.attributes.get("name", "")] = body
+    return found
+
+
+def placed(source: Source, robot: Robot) -> dict[str, Placed]:
+    """The links of the file by row.
+
+    Raises:
+        DataError: it is not the same robot: names the first link that differs.
+    """
+    if robot.frames:
+        symbols = robot.symbol_values()
+        on = {name: (frame.row, frame_pose(frame, symbols)) for name, frame in robot.frames.items()}
+        moved = {frame.row: name for name, frame in robot.frames.items() if frame.joint}
+        _check_names(source, robot, on)
+        if source.tree is not None:
+            _check_tree(source, source.tree, robot, on)
+        else:
+            _check_sdf(source, robot, on)
+    else:
+        on, moved = _matched(source, robot)
+    found: dict[str, dict[str, Pose]] = {}
+    for name, (row, pose) in on.items():
+        if name in source.links:
+            found.setdefault(row, {})[name] = pose
+    return {
+        row: Placed(own, _carrier(source, own, moved.get(row, "")))
+        for row, own in found.items()
+        if row != BASE
+    }
+
+
+def joint_rows(source: Source, robot: Robot) -> dict[str, str]:
+    """Row by the name of the joint in the file."""
+    if robot.frames:
+        return {frame.joint: frame.row for frame in robot.frames.values() if frame.joint}
+    names = [link.joint.name for link in moving_links(source.tree) if link.joint] if source.tree else []
+    return dict(zip(names, _rows(robot), strict=False))
+
+
+def _rows(robot: Robot) -> list[str]:
+    return [joint.name for joint in robot.moving if joint.name not in robot.motors]
+
+
+def _carrier(source: Source, own: Mapping[str, Pose], moved: str) -> str:
+    """The link that the joint moves, or the heaviest that moves with it where that has no mass."""
+    mass = {name: body.mass for name in own if (body := source.links[name]) is not None}
+    if moved in own and (mass.get(moved, 0.0) > 0.0 or not any(mass.values())):
+        return moved
+    return max(mass, key=lambda name: mass[name]) if mass else next(iter(own))
+
+
+def original_of(source: Source, links: Mapping[str, Placed]) -> Original:
+    """What the file says of the links, on their rows."""
+    whole, hung = {}, {}
+    for row, own in links.items():
+        tens = {
+            name: carried(about_origin(body), pose)
+            for name, pose in own.poses.items()
+            if (body := source.links[name]) is not None
+        }
+        if tens:
+            whole[row] = np.sum(list(tens.values()), axis=0)
+        others = [ten for name, ten in tens.items() if name != own.carrier]
+        if others:
+            hung[row] = np.sum(others, axis=0)
+    return Original(whole, hung)
+
+
+def _differs(source: Source, robot: Robot, what: str) -> DataError:
+    return DataError(
+        f"--like {source.path}: is not the robot {robot.name}: {what}; give the file that it was "
+        "converted from, or leave out --like"
+    )
+
+
+def _check_names(source: Source, robot: Robot, on: Mapping[str, tuple[str, Pose]]) -> None:
+    missing = [name for name in on if name not in source.links]
+    if source.format in ("sdf", "mjcf"):  # fixed joints may be lumped there, the first be the world
+        moved = {name for name, frame in robot.frames.items() if frame.joint}
+        missing = [name for name in missing if name in moved]
+    if missing:
+        raise _differs(
+            source, robot, f"it has no link {missing[0]}{near(missing[0], list(source.links))}"
+        )
+
+
+def _check_tree(
+    source: Source, tree: BodyTree, robot: Robot, on: Mapping[str, tuple[str, Pose]]
+) -> None:
+    """Every joint places its child as the table does, at random postures."""
+    rng = np.random.default_rng(0)
+    for _ in range(_POSTURES):
+        q = {joint.name: rng.uniform(-1.0, 1.0) for joint in robot.moving}
+        at, values = poses(robot, q), variables(robot, q)
+        for joint in tree.joints:
+            if joint.parent not in on or joint.child not in on:
+                continue
+            row, own = on[joint.child]
+            frame = robot.frames[joint.child]
+            if joint.kind is not JointKind.FIXED and frame.joint != joint.name:
+                continue  # one that was locked
+            (before, there) = on[joint.parent]
+            ours = (at[before] @ there).inverse() @ at[row] @ own
+            theirs = joint.at(values[f"q{row}"] if joint.kind is not JointKind.FIXED else 0.0)
+            if not _alike(ours, theirs):
+                raise _differs(source, robot, f"link {joint.child} is placed otherwise on {joint.parent}")
+
+
+def _check_sdf(source: Source, robot: Robot, on: Mapping[str, tuple[str, Pose]]) -> None:
+    """Links are placed on the first as the table has them at 0, as far as their poses are plain."""
+    at, first = poses(robot, {}), None
+    for link in (element for element in source.root.walk() if element.tag == "link"):
+        name, pose = link.attributes.get("name", ""), link.first("pose")
+        if name not in on or (pose is not None and pose.attributes.get("relative_to")):
+            continue
+        row, own = on[name]
+        base = sdf_pose(link) @ (at[row] @ own).inverse()
+        first = first or base
+        if not _alike(first, base):
+            raise _differs(source, robot, f"link {name} stands elsewhere at 0")
+
+
+def _matched(source: Source, robot: Robot) -> tuple[dict[str, tuple[str, Pose]], dict[str, str]]:
+    """Links of a file on the rows of a table that does not name them: joint for joint, in order."""
+    if source.tree is None:
+        raise _differs(source, robot, "the robot file has no [frames], and SDF is matched by names")
+    links, rows = moving_links(source.tree), _rows(robot)
+    if len(links) - 1 != len(rows):
+        raise _differs(source, robot, f"it has {len(links) - 1} moving joints, and the table {len(rows)}")
+    rng, seen = np.random.default_rng(0), dict[int, Pose]()
+    for _ in range(_POSTURES):
+        q = {row: rng.uniform(-1.0, 1.0) for row in rows}
+        at, values, own = poses(robot, q), variables(robot, q), [Pose()]
+        for k, link in enumerate(links[1:]):
+            assert link.joint is not None
+            step = link.joint.pose.inverse() @ link.joint.at(values[f"q{rows[k]}"])
+            own.append(own[link.parent] @ link.pose @ step)
+            there = at[rows[k]].inverse() @ own[-1]
+            if not _alike(seen.setdefault(k, there), there):
+                raise _differs(
+                    source, robot, f"joint {link.joint.name} moves otherwise than row {rows[k]}"
+                )
+    on = {name: (BASE, pose) for name, pose in links[0].bodies.items()}
+    moved = {}
+    for k, link in enumerate(links[1:]):
+        assert link.joint is not None
+        on |= {name: (rows[k], seen[k] @ pose) for name, pose in link.bodies.items()}
+        moved[rows[k]] = link.joint.child
+    return on, moved
+
+
+def _alike(one: Pose, other: Pose) -> bool:
+    apart = np.abs(one.position - other.position).max()
+    return max(float(apart), float(np.abs(one.rotation - other.rotation).max())) < _SAME
+
+
+def shared_out(
+    bodies: Mapping[str, np.ndarray], whole: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Bodies that hang together, changed alike so that they come to a given whole.
+
+    With P' = A P A^T of the wholes, every part becomes A P_k A^T: they add up, and what could be
+    built can be built. A is the symmetric one (optimal transport of normal distributions).
+
+    Args:
+        bodies: by name, (10,) in one frame.
+        whole: (10,) that they shall be together.
+    """
+    size = np.sqrt(np.maximum(np.diag(pseudo_inertia_of(whole)), 1e-300))
+    across = np.outer(size, size)
+    old = pseudo_inertia_of(np.sum(list(bodies.values()), axis=0)) / across
+    root = _root(old)
+    inverse = np.linalg.inv(root)
+    A = inverse @ _root(root @ (pseudo_inertia_of(whole) / across) @ root) @ inverse
+    return {
+        name: parameters_of((A @ (pseudo_inertia_of(ten) / across) @ A.T) * across)
+        for name, ten in bodies.items()
+    }
+
+
+def _root(matrix: np.ndarray) -> np.ndarray:
+    values, vectors = np.linalg.eigh(matrix)
+    return np.asarray((vectors * np.sqrt(np.maximum(values, 1e-14 * values[-1]))) @ vectors.T)

@@ -1,0 +1,195 @@
+"""What was written: every number as it was and is, and what the file cannot hold."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.core.result import Presentation, Presented, present
+from modeler.core.table import Table
+from modeler.export.bodies import Physics, carried, deviations, written
+from modeler.export.held import NotHeld
+from modeler.robot import Joint, Pose
+
+_HEAD = b"<!-- modeler export: "
+_OURS = re.compile(re.escape(_HEAD) + rb".*?-->\r?\n?", re.DOTALL)
+_DECLARATION = re.compile(rb"\A(?:\xef\xbb\xbf)?(?:<\?xml[^>]*\?>[ \t]*(?:\r?\n)?)?")
+
+QUANTITIES = (
+    "mass", "centre x", "centre y", "centre z", "ixx", "ixy", "ixz", "iyy", "iyz", "izz",
+)  # fmt: skip
+"""Of a body, as `written` orders them: centre in the link's frame, inertia about it along the axes
+of the file."""
+
+_UNITS = ("kg", *3 * ("m",), *6 * ("kg m2",))
+_DRIVE_UNITS = {
+    "damping": ("N m s/rad", "N s/m"), "friction": ("N m", "N"), "armature": ("kg m2", "kg"),
+    "stiffness": ("N m/rad", "N/m"),
+}  # fmt: skip
+_SAME = 1e-9  # of the largest of its kind: what is nearer has not changed
+
+
+@dataclass(frozen=True)
+class Value(Brief):
+    """A number of the file.
+
+    Attributes:
+        part: link or joint.
+        quantity: one of `QUANTITIES`, or damping, friction, armature, stiffness.
+        unit: SI.
+        was: in the original, or in the robot file; None if nowhere.
+        now: written.
+        sigma: its standard deviation; None of a robot.
+    """
+
+    part: str
+    quantity: str
+    unit: str
+    was: float | None
+    now: float
+    sigma: float | None
+
+    @property
+    def changed(self) -> bool:
+        """False where the number is the one that was there."""
+        return self.was is None or abs(self.now - self.was) > _SAME * max(abs(self.was), 1e-12)
+
+
+@dataclass(frozen=True, eq=False)
+class Exported(Presented):
+    """A file for another program.
+
+    Attributes:
+        robot: name.
+        format: "urdf", "mjcf" or "sdf".
+        like: the original whose numbers were replaced; "" of a file of its own.
+        data: the file.
+        values: its numbers.
+        not_held: effects that it has no place for.
+        moved: by how many sigmas of the fit the base parameters moved so that they can be built.
+        notes: what was decided.
+    """
+
+    robot: str
+    format: str
+    like: str
+    data: bytes
+    values: tuple[Value, ...]
+    not_held: tuple[NotHeld, ...]
+    moved: float
+    notes: tuple[str, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """What `--json` writes."""
+        return {
+            "robot": self.robot,
+            "format": self.format,
+            "like": self.like or None,
+            "moved_sigmas": self.moved,
+            "values": [{**vars(value), "changed": value.changed} for value in self.values],
+            "not_held": [vars(lost) for lost in self.not_held],
+            "notes": list(self.notes),
+        }
+
+
+def body_values(
+    physics: Physics,
+    row: str,
+    part: str,
+    was: np.ndarray | None,
+    pose: Pose | None = None,
+    hung: np.ndarray | None = None,
+    axes: np.ndarray | None = None,
+) -> Iterator[Value]:
+    """The numbers of a body.
+
+    Args:
+        physics: all numbers.
+        row: whose link it is.
+        part: its name in the file.
+        was: (10,) as `written`; None if it had none.
+        pose: of its frame on the row.
+        hung: (10,) what hangs on it and keeps its numbers, in the frame of the row.
+        axes: (3, 3) along which its inertia is written, in its frame.
+    """
+    places = physics.ten_places(row)
+
+    def numbers(ten: np.ndarray) -> np.ndarray:
+        own = ten if hung is None else ten - hung
+        return written(own if pose is None else carried(own, pose.inverse()), axes)
+
+    now = numbers(physics.now.chi[places])
+    spread = physics.now.covariance[np.ix_(places, places)]
+    sigma = deviations(numbers, physics.now.chi[places], spread) if physics.fit else None
+    for k, (quantity, unit) in enumerate(zip(QUANTITIES, _UNITS, strict=True)):
+        before = None if was is None else float(was[k])
+        deviation = None if sigma is None else float(sigma[k])
+        yield Value(part, quantity, unit, before, float(now[k]), deviation)
+
+
+def drive_values(
+    physics: Physics, joint: Joint, part: str, to: str, was: dict[str, float]
+) -> Iterator[Value]:
+    """Damping, friction and the like of a joint."""
+    for quantity, terms in physics.drive(joint.name, to).items():
+        value, sigma = physics.value(terms)
+        unit = _DRIVE_UNITS[quantity][0 if joint.angular else 1]
+        yield Value(part, quantity, unit, was.get(quantity), value, sigma if physics.fit else None)
+
+
+def with_comment(data: bytes, found: Exported) -> bytes:
+    """The file with what it holds as one comment at its head, in place of an earlier one."""
+    data = _OURS.sub(b"", data, count=1)
+    lines = [f"{found.robot}: value, was, standard deviation"]
+    shown = [value for value in found.values if value.changed or not found.like]
+    lines += [_line(value) for value in shown]
+    lines += [f"not held by {found.format.upper()}: {lost.line}" for lost in found.not_held]
+    lines += found.notes
+    text = "\n  ".join(lines).replace("--", "- -")
+    head = _DECLARATION.match(data)
+    at = head.end() if head else 0
+    end = b"\r\n" if b"\r\n" in data[:4096] else b"\n"
+    comment = (_HEAD + text.encode() + b"\n-->\n").replace(b"\n", end)
+    broken = b"" if not at or data[at - 1 : at] == b"\n" or data[:at] == b"\xef\xbb\xbf" else end
+    return data[:at] + broken + comment + data[at:]
+
+
+def _line(value: Value) -> str:
+    was = "none" if value.was is None else f"{value.was:.6g}"
+    sigma = "" if value.sigma is None else f" +- {value.sigma:.2g}"
+    return f"{value.part} {value.quantity}: {value.now:.6g}{sigma} {value.unit}, was {was}"
+
+
+def _summary(found: Exported) -> str:
+    changed = sum(value.changed for value in found.values)
+    told = f" like {found.like}: {changed} of {len(found.values)} numbers changed"
+    first = f"{found.robot} as {found.format.upper()}"
+    first += told if found.like else f": {len(found.values)} numbers"
+    lost = [f"{found.format.upper()} cannot hold {one.line}" for one in found.not_held]
+    return "\n".join([first, *found.notes, *lost])
+
+
+def _values_table(found: Exported) -> Table:
+    rows = [(v.part, v.quantity, v.was, v.now, v.sigma, v.unit) for v in found.values]
+    head = "part, quantity, was, is, sigma, unit"
+    return Table.of(f"{found.robot}: numbers of the file", head, rows)
+
+
+def _lost_table(found: Exported) -> Table:
+    rows = [
+        (one.effect, one.joint, ", ".join(f"{n} = {x:.4g}" for n, x in one.values.items()),
+         one.share, one.of)
+        for one in found.not_held
+    ]  # fmt: skip
+    head = "effect, joint, values, share, of"
+    return Table.of(f"{found.robot}: what {found.format.upper()} cannot hold", head, rows)
+
+
+present({
+    Exported: Presentation("a file for another program", _summary, lambda found: {
+        "values": lambda: _values_table(found), "not held": lambda: _lost_table(found),
+    }, page=("values", "not held")),
+})  # fmt: skip

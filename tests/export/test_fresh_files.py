@@ -1,0 +1,216 @@
+"""Self-standing files in other programs: their inverse dynamics are those of our model."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from modeler.api import compile_model, derive, export, generate, load
+from modeler.core.errors import DataError
+from modeler.robot import Robot, robot_from_text
+
+pin = pytest.importorskip("pinocchio", reason="NOT CHECKED: no Pinocchio")
+mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: no MuJoCo")
+
+STATES = 50
+
+TREE = """
+name = "tree"
+gravity = [0.5, "-g", 2]
+[symbols]
+g = 9.0
+D2 = 0.3
+R3 = 0.2
+[mdh]
+columns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]
+rows = [["1", "0", 0, 0, 0.1, 0, 0, "-q1 + 0.3", 0],
+        ["2", "1", 1, 0, 0, "pi/2", "D2", 0.4, "0.2 - q2"],
+        ["f", "2", 2, 0.3, 0.1, 0.2, 0.05, 0.7, 0],
+        ["3", "f", 0, 0, 0, "-pi/2", 0, "q3", "R3"],
+        ["4", "1", 0, 0.7, 0, 1.1, 0.15, "-q4", 0],
+        ["5", "4", 0, 0, 0, 0, 0.2, "q5", 0]]
+[relations]
+q5 = "-2*q4 + 0.1"
+[effects]
+viscous = "all"
+rotor_inertia = "all"
+spring = [{joint = "3", q0 = 0.2, h = 0}]
+[parameters]
+"""
+"""Branches, a fixed row, a slide, variables with a minus, a joint that follows, tilted gravity."""
+
+
+def a_body(rng: np.random.Generator) -> np.ndarray:
+    """Ten parameters of points of mass."""
+    points, mass = rng.normal(scale=0.1, size=(12, 3)), rng.uniform(0.05, 0.5, 12)
+    tensor = sum(m * (p @ p * np.eye(3) - np.outer(p, p)) for m, p in zip(mass, points, strict=True))
+    return np.array([*tensor[np.triu_indices(3)], *(mass @ points), mass.sum()])
+
+
+@pytest.fixture(scope="module")
+def tree() -> Robot:
+    rng = np.random.default_rng()
+    prefixes = "XX XY XZ YY YZ ZZ MX MY MZ M".split()
+    lines = [f"{p}{row} = {x!r}" for row in "12345"
+             for p, x in zip(prefixes, a_body(rng).tolist(), strict=True)]  # fmt: skip
+    lines += [f"{p}{row} = {rng.uniform(0.1, 2.0)!r}" for row in "1234" for p in ("Fv", "Ia")]
+    return robot_from_text(TREE + "\n".join([*lines, "Ks3 = 7.5"]), "tree.toml")
+
+
+def whole_tree(robot: Robot) -> Robot:
+    """The same with every joint free."""
+    return dataclasses.replace(robot, relations={})
+
+
+def torques(robot: Robot, q, qd, qdd, without=()) -> np.ndarray:
+    """Of our C, with nominal values; parameters that begin with one of `without` left out."""
+    model = compile_model(generate(derive(robot)))
+    chi = [0.0 if p.name.startswith(tuple(without)) or p.nominal is None else p.nominal
+           for p in model.spec.standard]  # fmt: skip
+    return model.inverse_dynamics(q, qd, qdd, model.base_parameters(np.array(chi)))
+
+
+def states(robot: Robot):
+    rng = np.random.default_rng()
+    return (rng.uniform(-1.2, 1.2, (STATES, len(robot.moving))) for _ in range(3))
+
+
+def pinocchio_torques(text: bytes, joints: list[str], q, qd, qdd, g=9.81) -> np.ndarray:
+    model = pin.buildModelFromXML(text.decode())
+    model.gravity.linear = np.array([0.0, 0.0, -g])  # a URDF states none
+    data, found = model.createData(), []
+    order = [model.getJointId(name) for name in joints]
+    for row in zip(q, qd, qdd, strict=True):
+        full, v, a = pin.neutral(model), np.zeros(model.nv), np.zeros(model.nv)
+        for k, i in enumerate(order):
+            joint = model.joints[i]
+            v[joint.idx_v], a[joint.idx_v] = row[1][k], row[2][k]
+            at = joint.idx_q
+            full[at : at + joint.nq] = (
+                [row[0][k]] if joint.nq == 1 else [np.cos(row[0][k]), np.sin(row[0][k])]
+            )
+        tau = pin.rnea(model, data, full, v, a)
+        found.append([tau[model.joints[i].idx_v] for i in order])
+    return np.array(found)
+
+
+def mujoco_torques(text: bytes, joints: list[str], q, qd, qdd) -> np.ndarray:
+    """Without constraints and dry friction; with armature, damping, springs."""
+    model = mujoco.MjModel.from_xml_string(text.decode())
+    model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
+    data = mujoco.MjData(model)
+    at = [model.joint(name) for name in joints]
+    found = []
+    for row in zip(q, qd, qdd, strict=True):
+        for k, joint in enumerate(at):
+            data.qpos[joint.qposadr] = row[0][k]
+            data.qvel[joint.dofadr], data.qacc[joint.dofadr] = row[1][k], row[2][k]
+        mujoco.mj_inverse(model, data)
+        found.append([data.qfrc_inverse[joint.dofadr][0] for joint in at])
+    return np.array(found)
+
+
+def close(one: np.ndarray, other: np.ndarray, share: float = 1e-9) -> bool:
+    return bool(np.abs(one - other).max() <= share * np.abs(other).max())
+
+
+def test_urdf_of_a_table_is_the_model_in_pinocchio(tree) -> None:
+    robot, (q, qd, qdd) = whole_tree(tree), states(tree)
+    text = export(tree, to="urdf").data
+    names = [f"joint_{joint.name}" for joint in robot.moving]
+    got = pinocchio_torques(text, names, q, qd, qdd, np.linalg.norm([0.5, 9.0, 2.0]))
+    assert close(got, torques(robot, q, qd, qdd, ("Fv", "Ia", "Ks")))
+
+
+def test_mjcf_of_a_table_is_the_model_in_mujoco(tree) -> None:
+    """With damping, armature and spring."""
+    robot, (q, qd, qdd) = whole_tree(tree), states(tree)
+    names = [f"joint_{joint.name}" for joint in robot.moving]
+    text = export(tree, to="mjcf").data
+    assert close(mujoco_torques(text, names, q, qd, qdd), torques(robot, q, qd, qdd))
+
+
+def test_joints_that_follow_are_held_there_by_mujoco(tree) -> None:
+    text = export(tree, to="mjcf").data
+    model = mujoco.MjModel.from_xml_string(text.decode())
+    data = mujoco.MjData(model)
+    data.qpos[model.joint("joint_4").qposadr] = 0.3
+    data.qpos[model.joint("joint_5").qposadr] = -0.5
+    mujoco.mj_forward(model, data)
+    assert data.nefc == 1 and abs(data.efc_pos[0]) < 1e-12
+    mimic = pin.buildModelFromXML(export(tree, to="urdf").data.decode(), mimic=True)
+    assert mimic.nq < pin.buildModelFromXML(export(tree, to="urdf").data.decode()).nq
+
+
+@pytest.mark.parametrize("name", ["demo-arm", "puma560", "two-link", "wrist-coupled"])
+def test_built_in_robots_weigh_in_both_what_they_state(name) -> None:
+    robot = load(name)
+    rigid = dataclasses.replace(robot, effects=(), motors={}, relations={}, parameters={
+        k: v for k, v in robot.parameters.items() if not k.startswith(("Ia", "Fv", "Fs", "Off"))})  # fmt: skip
+    if robot.motors:
+        rigid = dataclasses.replace(rigid, joints=tuple(
+            dataclasses.replace(j, actuated=True) for j in robot.joints if j.name not in robot.motors))  # fmt: skip
+    q, qd, qdd = states(rigid)
+    ours = torques(rigid, q, qd, qdd)
+    names = [f"joint_{joint.name}" for joint in rigid.moving]
+    assert close(pinocchio_torques(export(robot, to="urdf").data, names, q, qd, qdd), ours)
+    theirs = mujoco_torques(export(rigid, to="mjcf").data, names, q, qd, qdd)
+    assert close(theirs, ours)
+
+
+@pytest.mark.parametrize("name", ["five-bar", "stewart", "delta", "3rrr"])
+def test_loops_in_mujoco_need_the_torques_of_our_loop_model(name) -> None:
+    """tau = G^T tau_tree with the velocities that MuJoCo's own constraints allow."""
+    robot = load(name)
+    found = export(robot, to="mjcf")
+    model = mujoco.MjModel.from_xml_string(found.data.decode())
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert np.abs(data.efc_pos).max() < 1e-9
+    J = np.zeros((data.nefc, model.nv))
+    for k in range(model.nv):
+        column, unit = np.zeros(data.nefc), np.eye(model.nv)[k]
+        mujoco.mj_mulJacVec(model, data, column, unit)
+        J[:, k] = column
+    kept = [model.joint(f"joint_{j.name}").dofadr[0] for j in robot.coordinates]
+    U, s, Vt = np.linalg.svd(J)
+    free = Vt[np.sum(s > 1e-9 * s[0]) :].T
+    G = free @ np.linalg.inv(free[kept])
+    compiled = compile_model(generate(derive(robot)))
+    q = np.array([[model.joint(f"joint_{j.name}").qpos0[0] for j in robot.coordinates]])
+    M = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, M)
+    values = physics_values(robot)
+    beta = np.array([sum(t.value * values[t.parameter] for t in b.terms) for b in compiled.spec.base])
+    assert close(G.T @ M @ G, compiled.inertia_matrix(q, beta)[0], 1e-6)
+    data.qvel[:] = 0.0
+    mujoco.mj_forward(model, data)
+    assert np.abs(G.T @ data.qfrc_bias - compiled.gravity(q, beta)[0]).max() < 1e-6 * max(
+        1.0, np.abs(data.qfrc_bias).max()
+    )
+
+
+def physics_values(robot: Robot) -> dict[str, float]:
+    """The standard parameters that were written: stated ones, and what was chosen beside them."""
+    from modeler.export.bodies import Original, physics_of
+
+    physics = physics_of(robot, Original())
+    return {name: float(physics.now.chi[i]) for name, i in physics.place.items()}
+
+
+def test_every_file_has_bodies_that_could_be_built(tree) -> None:
+    model = mujoco.MjModel.from_xml_string(export(tree, to="mjcf").data.decode())
+    for moments in np.sort(model.body_inertia[model.body_mass > 0.0]):
+        assert moments[0] > 0.0 and moments[0] + moments[1] >= moments[2]
+
+
+def test_what_cannot_be_written_is_refused_in_one_line(tree) -> None:
+    for call, word in (
+        (lambda: export(load("five-bar"), to="urdf"), "URDF has no loops"),
+        (lambda: export(load("emps"), to="urdf"), "a robot without values"),
+        (lambda: export(tree, out="x.step"), "does not say the format"),
+        (lambda: export(tree), "does not say the format"),
+    ):
+        with pytest.raises(DataError, match=word) as told:
+            call()
+        assert "\n" not in str(told.value)
