@@ -31,7 +31,7 @@ RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "d
        "docs/logs.md", "docs/motion-noise.md",
        "docs/emitted-c.md", "docs/fitted-c.md", "docs/parallel-robots.md",
        "docs/orthoglide.md", "docs/evra.md", "docs/sr400.md", "docs/parallel-examples.md",
-       "docs/diagnosis.md", "docs/converting.md",
+       "docs/diagnosis.md", "docs/converting.md", "docs/better-urdf.md", "docs/servo-arms.md",
        "docs/closed-forms.md",
        "docs/drive-gains.md",
        "docs/motor-side.md",
@@ -150,7 +150,7 @@ class Reader:
     def do(self, block: Block) -> None:
         """One block."""
         where = f"{self.page}, line {block.line}"
-        if block.kind in ("toml", "c", "par"):
+        if block.kind in ("toml", "c", "par", "xml"):
             self._save(block, where)
         elif block.kind == "console":
             self._commands(block, where)
@@ -165,8 +165,8 @@ class Reader:
             pytest.fail(f"{where}: blocks of kind {block.kind!r} are not run; use another")
 
     def _save(self, block: Block, where: str) -> None:
-        suffix = f".{block.kind}"
-        named = re.match(r"(?:#|/\*|\(\*) ([\w-]+\.\w+)", block.lines[0])
+        suffix = (".xml", ".urdf") if block.kind == "xml" else f".{block.kind}"
+        named = re.match(r"(?:#|/\*|\(\*|<!--) ([\w-]+\.\w+)", block.lines[0])
         saved = re.search(r"Save it as `([\w.-]+)`", block.after)
         found = named or saved
         name = found[1] if found else "snippet.c"
