@@ -165,7 +165,7 @@ class Reader:
             pytest.fail(f"{where}: blocks of kind {block.kind!r} are not run; use another")
 
     def _save(self, block: Block, where: str) -> None:
-        suffix = (".xml", ".urdf") if block.kind == "xml" else f".{block.kind}"
+        suffix = f".{block.kind}"
         named = re.match(r"(?:#|/\*|\(\*|<!--) ([\w-]+\.\w+)", block.lines[0])
         saved = re.search(r"Save it as `([\w.-]+)`", block.after)
         found = named or saved
