@@ -31,7 +31,7 @@ RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "d
        "docs/logs.md", "docs/motion-noise.md",
        "docs/emitted-c.md", "docs/fitted-c.md", "docs/parallel-robots.md",
        "docs/orthoglide.md", "docs/evra.md", "docs/sr400.md", "docs/parallel-examples.md",
-       "docs/diagnosis.md", "docs/converting.md",
+       "docs/diagnosis.md", "docs/converting.md", "docs/better-urdf.md", "docs/servo-arms.md",
        "docs/closed-forms.md",
        "docs/drive-gains.md",
        "docs/motor-side.md",
@@ -165,7 +165,7 @@ class Reader:
             pytest.fail(f"{where}: blocks of kind {block.kind!r} are not run; use another")
 
     def _save(self, block: Block, where: str) -> None:
-        suffix = f".{block.kind}"
+        suffix = (".xml", ".urdf") if block.kind == "xml" else f".{block.kind}"
         named = re.match(r"(?:#|/\*|\(\*|<!--) ([\w-]+\.\w+)", block.lines[0])
         saved = re.search(r"Save it as `([\w.-]+)`", block.after)
         found = named or saved
