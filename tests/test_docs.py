@@ -165,12 +165,13 @@ class Reader:
             pytest.fail(f"{where}: blocks of kind {block.kind!r} are not run; use another")
 
     def _save(self, block: Block, where: str) -> None:
-        suffix = (".xml", ".urdf") if block.kind == "xml" else f".{block.kind}"
+        suffix = f".{block.kind}"
         named = re.match(r"(?:#|/\*|\(\*|<!--) ([\w-]+\.\w+)", block.lines[0])
         saved = re.search(r"Save it as `([\w.-]+)`", block.after)
         found = named or saved
         name = found[1] if found else "snippet.c"
-        assert name.endswith(suffix) and (found or suffix == ".c"), f"{where}: how is it called?"
+        suffixes = (".urdf", ".xml") if suffix == ".xml" else suffix
+        assert name.endswith(suffixes) and (found or suffix == ".c"), f"{where}: how is it called?"
         Path(name).write_text("\n".join(block.lines) + "\n", encoding="utf-8")
         if suffix == ".c" and not any("main(" in line for line in block.lines):
             folders = sorted({f"-I{path.parent}" for path in Path().glob("*/*.h")})
