@@ -224,7 +224,7 @@ def _labels(picture: Path) -> list[str]:
 
 
 # Pages that take ten seconds and more: of their subjects, the README and the tutorial run some.
-LONG = ("docs/drive-gains.md", "docs/diagnosis.md", "docs/excitation.md", "docs/motor-side.md")
+LONG = ("docs/servo-arms.md", "docs/drive-gains.md", "docs/diagnosis.md", "docs/excitation.md", "docs/motor-side.md")
 
 
 @pytest.mark.parametrize(
