@@ -31,7 +31,7 @@ RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "d
        "docs/logs.md", "docs/motion-noise.md",
        "docs/emitted-c.md", "docs/fitted-c.md", "docs/parallel-robots.md",
        "docs/orthoglide.md", "docs/evra.md", "docs/sr400.md", "docs/parallel-examples.md",
-       "docs/diagnosis.md", "docs/converting.md",
+       "docs/diagnosis.md", "docs/converting.md", "docs/better-urdf.md", "docs/servo-arms.md",
        "docs/closed-forms.md",
        "docs/drive-gains.md",
        "docs/motor-side.md",
@@ -150,7 +150,7 @@ class Reader:
     def do(self, block: Block) -> None:
         """One block."""
         where = f"{self.page}, line {block.line}"
-        if block.kind in ("toml", "c", "par"):
+        if block.kind in ("toml", "c", "par", "xml"):
             self._save(block, where)
         elif block.kind == "console":
             self._commands(block, where)
@@ -166,11 +166,12 @@ class Reader:
 
     def _save(self, block: Block, where: str) -> None:
         suffix = f".{block.kind}"
-        named = re.match(r"(?:#|/\*|\(\*) ([\w-]+\.\w+)", block.lines[0])
+        named = re.match(r"(?:#|/\*|\(\*|<!--) ([\w-]+\.\w+)", block.lines[0])
         saved = re.search(r"Save it as `([\w.-]+)`", block.after)
         found = named or saved
         name = found[1] if found else "snippet.c"
-        assert name.endswith(suffix) and (found or suffix == ".c"), f"{where}: how is it called?"
+        suffixes = (".urdf", ".xml") if suffix == ".xml" else suffix
+        assert name.endswith(suffixes) and (found or suffix == ".c"), f"{where}: how is it called?"
         Path(name).write_text("\n".join(block.lines) + "\n", encoding="utf-8")
         if suffix == ".c" and not any("main(" in line for line in block.lines):
             folders = sorted({f"-I{path.parent}" for path in Path().glob("*/*.h")})
@@ -223,7 +224,7 @@ def _labels(picture: Path) -> list[str]:
 
 
 # Pages that take ten seconds and more: of their subjects, the README and the tutorial run some.
-LONG = ("docs/drive-gains.md", "docs/diagnosis.md", "docs/excitation.md", "docs/motor-side.md")
+LONG = ("docs/servo-arms.md", "docs/drive-gains.md", "docs/diagnosis.md", "docs/excitation.md", "docs/motor-side.md")
 
 
 @pytest.mark.parametrize(

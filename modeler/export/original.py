@@ -216,7 +216,7 @@ def _differs(source: Source, robot: Robot, what: str) -> DataError:
 
 def _check_names(source: Source, robot: Robot, on: Mapping[str, tuple[str, Pose]]) -> None:
     missing = [name for name in on if name not in source.links]
-    if source.format == "sdf":  # fixed joints may be lumped there
+    if source.format in ("sdf", "mjcf"):  # fixed joints may be lumped there, the first be the world
         moved = {name for name, frame in robot.frames.items() if frame.joint}
         missing = [name for name in missing if name in moved]
     if missing:

@@ -106,7 +106,8 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
         earlier = piece.time - processing.delay
         tau = np.column_stack([np.interp(earlier, piece.time, own) for own in tau.T])
     if any(piece.induced):
-        tau = tau - np.multiply(piece.induced, qd)
+        speed = qd if piece.qd is not None else _steep(q, piece.step)
+        tau = tau - np.multiply(piece.induced, speed)
     if wanted is not None:
         wanted = low_pass(wanted, piece.step, cutoff)
     return Segment(
@@ -160,6 +161,17 @@ def differentiated(q: np.ndarray, step: float) -> np.ndarray:
     qdd = np.zeros_like(q)
     qdd[1:-1] = (q[2:] - 2.0 * q[1:-1] + q[:-2]) / step**2
     return np.stack([q, np.gradient(q, step, axis=0), qdd])
+
+
+def _steep(q: np.ndarray, step: float) -> np.ndarray:
+    """Velocities (n, joints) by differences over five samples, of error (omega step)^4 / 30.
+
+    What a motor induces is many times the friction that is asked for: at 30 Hz, the half percent
+    that differences over three samples lose of a motion of 1 Hz would be a tenth of it.
+    """
+    qd = np.gradient(q, step, axis=0)
+    qd[2:-2] = (8.0 * (q[3:-1] - q[1:-3]) - (q[4:] - q[:-4])) / (12.0 * step)
+    return np.asarray(qd)
 
 
 def low_pass(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:

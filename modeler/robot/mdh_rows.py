@@ -16,7 +16,7 @@ Source: W. Khalil, J.-F. Kleinfinger, A new geometric notation for open and clos
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -204,23 +204,28 @@ class _Rows:
         links: of the tree.
         reach: distance of neighbouring joints, m.
         axes: of every link's joint, in its file frame.
+        points: of links, in their file frames, that close loops.
         frames: pose of every link's row, in its file frame.
     """
 
     links: Sequence[MovingLink]
     reach: float
     axes: list[_Axis]
+    points: Mapping[int, Sequence[np.ndarray]]
     frames: list[Pose] = field(default_factory=lambda: [Pose()])
     rows: list[MdhRow] = field(default_factory=list)
 
-    def carried(self, link: int, frame: Pose) -> list[_Axis]:
-        """The axes of the joints that a link carries, seen in a frame on it."""
+    def normals(self, link: int, frame: Pose) -> list[_Normal]:
+        """To the axes and points that a link carries, from a frame on it."""
         back = frame.inverse()
-        return [
+        axes = [
             self.axes[k].seen_in(back @ other.pose)
             for k, other in enumerate(self.links)
             if other.parent == link
         ]
+        points = [back.place(point) for point in self.points.get(link, ())]
+        found = [_normal(axis, self.reach) for axis in axes]
+        return found + [replace(_towards(p[:2]), b=float(p[2])) for p in points]
 
     def add(self, k: int) -> None:
         """The row of link k, and the fixed one before it where that is needed."""
@@ -258,7 +263,7 @@ class _Rows:
             placed: its axis, as the row has it before theta and r, in its file frame.
             plain: turn and shift from there that make both 0.
         """
-        normals = [_normal(axis, self.reach) for axis in self.carried(k, placed)]
+        normals = self.normals(k, placed)
         feet = [n.b for n in normals if n.b is not None]
 
         def of_shift(h: float) -> float:
@@ -267,7 +272,7 @@ class _Rows:
 
         r = exact_length(min([plain[1], *feet], key=of_shift) - plain[1])
         at = placed @ _screw(0.0, r + plain[1])
-        normals = [_normal(axis, self.reach) for axis in self.carried(k, at)]
+        normals = self.normals(k, at)
         ways = [n.gamma for n in normals if n.gamma is not None]
 
         def of_turn(phi: float) -> float:
@@ -304,14 +309,17 @@ def _axes(links: Sequence[MovingLink]) -> list[_Axis]:
     return axes
 
 
-def mdh_table(links: Sequence[MovingLink]) -> MdhTable:
+def mdh_table(
+    links: Sequence[MovingLink], points: Mapping[int, Sequence[np.ndarray]] | None = None
+) -> MdhTable:
     """The rows of a tree; row j, counted from 1, moves link j, and q_j is the file's position.
 
     Args:
         links: as `moving_links` gives them.
+        points: place of a link -> points of it, in its frame, that close loops.
     """
     ways = [float(np.linalg.norm(link.pose.position)) for link in links]
-    made = _Rows(links, max(ways) or 1.0, _axes(links))
+    made = _Rows(links, max(ways) or 1.0, _axes(links), points or {})
     for k in range(1, len(links)):
         made.add(k)
     names = tuple(f"{k}" for k in range(len(links)))

@@ -19,7 +19,7 @@ from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.angles import told_angles
 from modeler.robot.cells import check_name_length, read_gravity, read_symbols
 from modeler.robot.conventions import read_convention
-from modeler.robot.convert import converted, is_xml
+from modeler.robot.conversion import converted, is_robot_xml
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.loops import (
     expanded,
@@ -96,7 +96,7 @@ def read_robot(robot: str | Path) -> Robot:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     if not is_file:
         raise RobotError(_not_found(path))
-    if is_xml(text.encode()):  # under another name
+    if is_robot_xml(text.encode()):  # under another name
         return _of_other_program(path)
     if text.lstrip().startswith("{"):  # as JSON does and a robot file never
         what = "a model file" if '"modeler model"' in text else "JSON"

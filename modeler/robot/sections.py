@@ -8,7 +8,7 @@ from modeler.core.errors import GAIN_METHOD, TWO_STEPS, Derivatives, Method
 from modeler.core.expression import Expression
 from modeler.core.manifest import DriveSpec
 from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.robot.cells import check_declared, form_at, joint_sum, name_of, number_at
+from modeler.robot.cells import joint_sum, name_of, number_at
 from modeler.robot.robot import Joint, Limits, LinkFrame, PhysicalLink
 
 Coupling = dict[str, dict[str, float]]
@@ -385,15 +385,11 @@ def read_frames(
         joint = cells.get("joint", "")
         if not isinstance(joint, str):
             raise spot.at("column joint", joint).mismatch('a name, or "" for none')
-        x, y, z, roll, pitch, yaw = (
-            _constant(spot.at(f"column {c}", cells.get(c, 0)), symbols) for c in FRAME_COLUMNS[3:]
-        )
+        numbers = []
+        for column in FRAME_COLUMNS[3:]:
+            here = spot.at(f"column {column}", cells.get(column, 0))
+            number_at(here, symbols, "m" if len(column) == 1 else "rad")
+            numbers.append(here.expression())
+        x, y, z, roll, pitch, yaw = numbers
         found[link] = LinkFrame(row, joint, (x, y, z), (roll, pitch, yaw))
     return found
-
-
-def _constant(place: Place, symbols: Mapping[str, float]) -> Expression:
-    expression = place.expression()
-    check_declared(expression, symbols, place)
-    form_at(expression, symbols, place)
-    return expression

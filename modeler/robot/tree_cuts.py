@@ -5,10 +5,8 @@ gone with its weight; bodies that hang on by fixed joints stay. A joint that is 
 bodies, on what moves before it.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
-
-import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import ExpressionError, parse
@@ -16,6 +14,9 @@ from modeler.core.toml_cells import Place, near, shown
 from modeler.robot.body_tree import BodyTree, Pose, TreeJoint
 from modeler.robot.cells import LARGEST_LENGTH
 from modeler.robot.robot import JointKind
+
+MOST_NAMED = 6
+"""Links and joints that a note names: more nobody reads."""
 
 
 def cut(
@@ -82,7 +83,9 @@ def _locked(tree: BodyTree, name: str, value: str | float) -> BodyTree:
         kind = tree.unread.get(name, ": fixed").rsplit(": ", 1)[1]
         raise place.holding(value).mismatch(f"0: a {kind} joint is held where the file has it")
     notes = list(tree.notes)
-    if not _within(joint, position):
+    if (joint.lower is not None and position < joint.lower - 1e-9) or (
+        joint.upper is not None and position > joint.upper + 1e-9
+    ):
         notes.append(f"joint {shown(name)} is locked at {position:g}, outside of its limits")
     stops = {name: position} | {
         other.name: other.ratio * position + other.offset
@@ -109,12 +112,6 @@ def _position(place: Place, joint: TreeJoint) -> float:
     return position
 
 
-def _within(joint: TreeJoint, position: float) -> bool:
-    lower = -np.inf if joint.lower is None else joint.lower
-    upper = np.inf if joint.upper is None else joint.upper
-    return bool(lower - 1e-9 <= position <= upper + 1e-9)
-
-
 def _link(tree: BodyTree, option: str, name: str) -> str:
     if name not in tree.bodies or name in tree.hidden:
         known = [body for body in tree.bodies if body not in tree.hidden]
@@ -139,16 +136,11 @@ def _from_base(tree: BodyTree, name: str) -> BodyTree:
 def _to_tip(tree: BodyTree, name: str) -> BodyTree:
     tip = _link(tree, "--tip", name)
     above = {joint.child: joint for joint in tree.joints}
-    way, link = {tip}, tip
-    while link != tree.root:
-        link = above[link].parent
-        way.add(link)
-    return _kept(
-        tree,
-        tree.root,
-        lambda joint: joint.child in way or _fixed(tree, joint),
-        "off the way to --tip",
-    )
+    way = {tip}
+    while tip != tree.root:
+        way.add(tip := above[tip].parent)
+    where = "off the way to --tip"
+    return _kept(tree, tree.root, lambda j: j.child in way or _fixed(tree, j), where)
 
 
 def _fixed(tree: BodyTree, joint: TreeJoint) -> bool:
@@ -168,17 +160,13 @@ def _kept(tree: BodyTree, root: str, keep: Callable[[TreeJoint], bool], where: s
     gone = [name for name in tree.bodies if name not in bodies and name not in tree.hidden]
     weight = sum(body.mass for name in gone if (body := tree.bodies[name]) is not None)
     if gone:
-        notes.append(
-            f"left out, {where}: {len(gone)} links of {weight:.4g} kg"
-            + ("; --lock their joints to keep their weight" if weight and "tip" in where else "")
-        )
+        advice = "; --lock their joints to keep their weight" if weight and "tip" in where else ""
+        notes.append(f"left out, {where}: {len(gone)} links of {weight:.4g} kg{advice}")
     for place, joint in enumerate(joints):
         if joint.leader and joint.leader not in names:
             joints[place] = held(joint, joint.offset)
-            notes.append(
-                f"joint {shown(joint.name)} follows {shown(joint.leader)}, which is left out: "
-                f"it is held at {joint.offset:g}"
-            )
+            told = f"follows {shown(joint.leader)}, which is left out: held at {joint.offset:g}"
+            notes.append(f"joint {shown(joint.name)} {told}")
     meetings = tuple(m for m in tree.meetings if m.body in bodies and m.other in bodies)
     notes += [f"left out with its body: {m.name}" for m in tree.meetings if m not in meetings]
     return replace(
@@ -187,8 +175,6 @@ def _kept(tree: BodyTree, root: str, keep: Callable[[TreeJoint], bool], where: s
         bodies={name: body for name, body in tree.bodies.items() if name in bodies},
         joints=tuple(joints),
         meetings=meetings,
-        hidden=tree.hidden & bodies,
-        doubted={name: why for name, why in tree.doubted.items() if name in bodies},
         unread={name: told for name, told in tree.unread.items() if name in names},
         notes=tuple(notes),
     )
@@ -203,17 +189,36 @@ def _all_read(tree: BodyTree) -> BodyTree:
     moving = [j for j in tree.joints if j.parent in still and not _fixed(tree, j)]
     notes, unread = list(tree.notes), dict(tree.unread)
     if len(moving) == 1 and moving[0].name in unread:
-        kind = unread.pop(moving[0].name).rsplit(": ", 1)[1]
-        notes.append(
-            f"joint {shown(moving[0].name)} ({kind}) is held: link {shown(moving[0].child)} stands "
-            "still"
-        )
+        first = moving[0]
+        kind = unread.pop(first.name).rsplit(": ", 1)[1]
+        told = f"({kind}) is held: link {shown(first.child)} stands still"
+        notes.append(f"joint {shown(first.name)} {told}")
     for name, told in unread.items():
-        raise RobotError(
-            f"{told} joints are not read; cut it off with --base LINK or --tip LINK, or hold it "
-            f"with --lock {name}=0"
-        )
-    return replace(tree, unread=unread, notes=tuple(notes))
+        instead = f"cut it off with --base LINK or --tip LINK, or hold it with --lock {name}=0"
+        raise RobotError(f"{told} joints are not read; {instead}")
+    return replace(tree, unread=unread, notes=(*notes, *_weights(tree)))
+
+
+def _weights(tree: BodyTree) -> Iterator[str]:
+    """What to tell of bodies that were not weighed."""
+    named: dict[str, list[str]] = {}
+    for name, body in tree.bodies.items():
+        if name in tree.doubted:
+            named.setdefault(f"{tree.doubted[name]}: {{}}; no prior is made of it", []).append(name)
+        elif body is None and name not in {tree.root, *tree.hidden}:
+            named.setdefault("no inertia is stated of {}; they weigh nothing", []).append(name)
+    return (told.format(several(names)) for told, names in named.items())
+
+
+def several(names: Iterable[str]) -> str:
+    """`"a", "b" and 12 more`."""
+    each = list(dict.fromkeys(names))
+    return ", ".join(shown(name) for name in each[:MOST_NAMED]) + rest(len(each))
+
+
+def rest(count: int) -> str:
+    """` and 12 more`; nothing where all are named."""
+    return f" and {count - MOST_NAMED} more" if count > MOST_NAMED else ""
 
 
 def _at_zero(tree: BodyTree) -> dict[str, Pose]:

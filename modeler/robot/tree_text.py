@@ -1,5 +1,6 @@
 """A tree of bodies as the text of a robot file, with what had to be decided or left out."""
 
+import itertools
 import json
 import math
 from fractions import Fraction
@@ -91,7 +92,11 @@ class _Writing:
 
     def __init__(self, tree: BodyTree, where: str) -> None:
         self.tree, self.links = tree, moving_links(tree)
-        self.table = mdh_table(self.links)
+        self.meetings = self._meetings()
+        points: dict[int, list[np.ndarray]] = {}
+        for k, point in itertools.chain(*self.meetings):
+            points.setdefault(k, []).append(point)
+        self.table = mdh_table(self.links, points)
         self.symbols = Symbols(notes=list(tree.notes))
         self._equal: dict[float, str] = {}
         self.joints = {f"{k}": joint for k, joint in enumerate(self._joints(), start=1)}
@@ -137,22 +142,29 @@ class _Writing:
         self._equal[abs(worth)] = name
         return f"-{name}" if worth < 0.0 else name
 
+    def _meetings(self) -> list[list[tuple[int, np.ndarray]]]:
+        """Of every loop the two links that meet, and the point in the frame of each."""
+        places = {body: k for k, link in enumerate(self.links) for body in link.bodies}
+        return [
+            [
+                (places[body], self.links[places[body]].bodies[body].place(point))
+                for body, point in ((m.body, m.point), (m.other, m.other_point))
+            ]
+            for m in self.tree.meetings
+        ]
+
     def _loops(self) -> list[tuple[str, str, str, str]]:
         """Where points meet; the rows that carry them are added."""
-        places = {body: k for k, link in enumerate(self.links) for body in link.bodies}
         found = []
-        for i, meeting in enumerate(self.tree.meetings, start=1):
-            ends = []
-            for body, point, side in (
-                (meeting.body, meeting.point, "a"),
-                (meeting.other, meeting.other_point, "b"),
-            ):
-                k = places[body]
-                at = (self.table.places[k] @ self.links[k].bodies[body]).place(point)
-                cells = {c: self._cell(c, worth, f"P{i}{side}") for c, worth in towards(at).items()}
-                ends.append(TextRow(f"P{i}{side}", f"{k}", 0, 2, cells, meeting.name))
-            self.rows += ends
-            found.append((f"P{i}", ends[0].name, ends[1].name, "spherical"))
+        for i, (meeting, ends) in enumerate(
+            zip(self.tree.meetings, self.meetings, strict=True), start=1
+        ):
+            for side, (k, point) in zip("ab", ends, strict=True):
+                at = towards(self.table.places[k].place(point))
+                cells = {c: self._cell(c, worth, f"P{i}{side}") for c, worth in at.items()}
+                row = TextRow(f"P{i}{side}", f"{k}", 0, JointKind.FIXED, cells, meeting.name)
+                self.rows.append(row)
+            found.append((f"P{i}", f"P{i}a", f"P{i}b", "spherical"))
         return found
 
     def home(self) -> list[str]:
@@ -206,17 +218,15 @@ class _Writing:
             ]
 
         rubbing = {"viscous": those("damping", True), "coulomb": those("friction", True)}
-        silent = [
-            effect
-            for effect, key in (("viscous", "damping"), ("coulomb", "friction"))
-            if not those(key)
-        ]
+        turning = {*those("armature"), *self.driven}
+        rotors = {"rotor_inertia": [name for name in self.joints if name in turning]}
+        names = {"viscous": "damping", "coulomb": "friction", "rotor_inertia": "armature"}
+        silent = [effect for effect, key in names.items() if not those(key)]
         if silent:
             self.symbols.notes.append(
-                f"{' and '.join(silent)} friction of the joints is added, of which the file says "
-                "nothing: a fit without it would be wrong"
+                f"added to the joints: {', '.join(silent)}, of which the file says nothing; a fit "
+                "without would be wrong"
             )
-        rotors = {"rotor_inertia": those("armature")}
         lines = effect_lines({k: v for k, v in (rotors | rubbing).items() if v}, self.driven)
         springs = [
             f'{{joint = "{name}", q0 = {number(self.joints[name].rest)}, h = 0}}'
@@ -276,7 +286,7 @@ class _Writing:
         for name, joint in self.joints.items():
             free = name in self.free
             for prefix, worth, always in (
-                ("Ia", joint.armature, False),
+                ("Ia", joint.armature, name in self.driven),
                 ("Fv", joint.damping, free),
                 ("Fs", joint.friction, free),
                 ("Ks", joint.stiffness, False),

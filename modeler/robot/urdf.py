@@ -17,12 +17,13 @@ from pathlib import Path
 
 import numpy as np
 
+from modeler.core.errors import RobotError
 from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 from modeler.robot.angles import pi_multiple, told_angles, twelfths
 from modeler.robot.body_tree import BodyTree, Inertial, Pose, TreeJoint, doubt, turned
 from modeler.robot.cells import LARGEST_LENGTH
 from modeler.robot.robot import JointKind
-from modeler.robot.tree_cuts import held
+from modeler.robot.tree_cuts import MOST_NAMED, held, rest, several
 from modeler.robot.xml_source import Element, parse_xml
 
 _KINDS = {
@@ -32,11 +33,9 @@ _KINDS = {
     "fixed": JointKind.FIXED,
 }
 _UNREAD = ("floating", "planar", "ball", "spherical", "universal", "screw")
-_OTHERS = {"sdf": "SDF; convert it to URDF", "mujoco": "MJCF; call the file .xml"}
 _DECIMAL = re.compile(r"[+-]?(?:\d+\.?(\d*)|\.(\d+))(?:[eE]([+-]?\d{1,4}))?", re.ASCII)
 _ZERO = 1e-6
 """m, rad, and of a unit axis: smaller is what an exporter's arithmetic left of 0."""
-_MOST_NAMED = 6
 _MOST_LINKS = 5000
 
 
@@ -60,18 +59,17 @@ def urdf_tree(data: bytes, where: str, exact_decimals: bool = False) -> BodyTree
 
 
 def _check_format(root: "_Spot", where: str) -> None:
-    tag = root.element.tag
-    if tag != "robot":
-        told = _OTHERS.get(tag, "no URDF")
-        raise root.place.error(f"<{tag}> is {told}; a URDF begins with <robot>")
+    if root.element.tag != "robot":
+        raise root.place.error(f"<{root.element.tag}> is no URDF, which begins with <robot>")
     for child in root.element.children:
         macros = child.tag in ("include", "macro", "property")
         ours = child.tag in ("link", "joint")
         for element in child.walk():
             variable = ours and any("${" in value for value in element.attributes.values())
             if macros or variable or element.tag.startswith("xacro:"):
-                raise _Spot(element, where, f"<{element.tag}>").place.error(
-                    f"is of xacro, not of URDF; expand it first: {_expansion(where)}"
+                raise RobotError(  # whole, however long the path is
+                    f"{where}: line {element.line}: <{element.tag[:60]}> is of xacro, not of URDF; "
+                    f"expand it first: {_expansion(where)}"
                 )
 
 
@@ -154,7 +152,7 @@ class _Reading:
             raise self._root.place.error('<robot> has no link; expected <link name="...">')
         bodies = {name: self._body(name, link) for name, link in links.items()}
         joints = {name: self._joint(name, spot, links) for name, spot in spots.items()}
-        root = _first_link(bodies, joints, spots)
+        root = _first_link(self._root.place, bodies, joints, spots)
         self._follow(joints, spots)
         self._add_armatures(joints)
         return BodyTree(
@@ -214,7 +212,6 @@ class _Reading:
     def _body(self, name: str, link: _Spot) -> Inertial | None:
         inertial = link.only("inertial")
         if not inertial.given:
-            self._tell("no <inertial>: {}; they weigh nothing here", name)
             return None
         mass, tensor = inertial.must("mass", 'value="1"'), inertial.must("inertia", 'ixx="0.01" ..')
         mass.needed("value", "1")
@@ -227,7 +224,6 @@ class _Reading:
         reason = doubt(body, sum(_half_unit(word) for word in printed if float(word)))
         if reason:
             self._doubted[name] = reason
-            self._tell(f"{reason}: {{}}; no prior is made of it", name)
         origin = inertial.only("origin")  # measured, and no part of the geometry: as printed
         turn = _turn(origin.numbers("rpy", "0 0 0"))
         return body.seen_from(Pose(origin.numbers("xyz", "0 0 0", LARGEST_LENGTH), turn))
@@ -336,16 +332,16 @@ class _Reading:
 
     def _notes(self) -> Iterable[str]:
         if self._rounded:
-            most = dict(list(self._rounded.items())[:_MOST_NAMED])
-            yield told_angles(most) + _rest(len(self._rounded))
+            most = dict(list(self._rounded.items())[:MOST_NAMED])
+            yield told_angles(most) + rest(len(self._rounded))
         if self._zeros:
             yield f"{self._zeros} lengths, angles and parts of axes below {_ZERO:g} are 0 here"
         for what, names in self._told.items():
-            yield what.format(_several(names))
+            yield what.format(several(names))
 
 
 def _first_link(
-    bodies: Iterable[str], joints: Mapping[str, TreeJoint], spots: Mapping[str, _Spot]
+    place: Place, bodies: Iterable[str], joints: Mapping[str, TreeJoint], spots: Mapping[str, _Spot]
 ) -> str:
     """The link that no joint moves; refuses what is no tree."""
     above: dict[str, TreeJoint] = {}
@@ -356,9 +352,8 @@ def _first_link(
             raise spots[joint.name].place.error(f"{told}; expected one parent: a URDF is a tree")
     first = [name for name in bodies if name not in above]
     if len(first) > 1:
-        file = next(iter(spots.values())).place.file if spots else ""
-        raise Place(file).error(
-            f"no joint leads to {len(first)} links, {_several(first)}; expected one first link: "
+        raise place.error(
+            f"no joint leads to {len(first)} links, {several(first)}; expected one first link: "
             "join the others to it by fixed joints, or take them out"
         )
     reached = {*first, *(joint.child for name in first for joint in _in_order(joints, name))}
@@ -398,13 +393,3 @@ def _in_order(joints: Mapping[str, TreeJoint], root: str) -> list[TreeJoint]:
         for place in after.get(joint.child, ()):
             heapq.heappush(waiting, place)
     return found
-
-
-def _several(names: Iterable[str]) -> str:
-    """`"a", "b" and 12 more`: not more than anybody reads."""
-    each = list(dict.fromkeys(names))
-    return ", ".join(shown(name) for name in each[:_MOST_NAMED]) + _rest(len(each))
-
-
-def _rest(count: int) -> str:
-    return f" and {count - _MOST_NAMED} more" if count > _MOST_NAMED else ""

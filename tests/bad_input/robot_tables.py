@@ -40,7 +40,7 @@ FILES = [
     row("toml: a page", "refused", "derive page.html", "page.html", "toml|table"),
     row("toml: a SYMORO file", "refused", "derive arm.par", "arm.par", ".par",
         make=writes("arm.par", "(* Robotname = 'arm' *)\nNL = 3\n")),
-    row("toml: a URDF", "refused", "derive arm.urdf", "arm.urdf", ".urdf",
+    row("toml: a URDF without links", "refused", "derive arm.urdf", "arm.urdf", "no link",
         make=writes("arm.urdf", "<robot name='arm'/>")),
     row("toml: no such file", "refused", "derive nowhere.toml", "nowhere.toml"),
     row("toml: built-in misspelt", "refused", "derive wirst", "wirst", "did you mean", "wrist"),

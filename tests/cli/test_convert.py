@@ -1,4 +1,4 @@
-"""`modeler convert`, and `.par` files wherever a command reads a robot."""
+"""`modeler convert`, and files of other programs wherever a command reads a robot."""
 
 import json
 import shutil
@@ -11,6 +11,16 @@ from modeler.robot.read import read_robot
 from tests.robot.par_files import par_text
 
 TWO = par_text({"Ant": "0,1", "d": "0,L", "Theta": "t1,t2", "G": "-9.81,0,0"}, "arm")
+
+TURN = """<robot name="turn"><link name="base"/>
+<link name="mid"><inertial><mass value="2"/><origin xyz="0.1 0 0"/>
+<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
+<link name="tip"><inertial><mass value="1"/>
+<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
+<joint name="j" type="continuous"><parent link="base"/><child link="mid"/>
+<axis xyz="0 0 1"/></joint>
+<joint name="k" type="continuous"><parent link="mid"/><child link="tip"/>
+<origin xyz="0.3 0 0" rpy="1.5708 0 0"/><axis xyz="0 0 1"/></joint></robot>"""
 
 
 @pytest.fixture
@@ -53,9 +63,15 @@ def test_a_file_is_written_over_only_by_force(capsys, par, tmp_path):
 @pytest.mark.parametrize(
     ("name", "out", "told"),
     [
-        ("arm.urdf", "arm.toml", "URDF is not read yet"),
-        ("arm.xacro", "arm.toml", "docs/converting.md"),
+        ("arm.urdf", "new.toml", "<robot> has no link"),
+        ("macro.xacro", "new.toml", "xacro macro.xacro > macro.urdf"),
+        ("world.sdf", "new.toml", "is SDF, which is not read; give the URDF"),
+        ("still.urdf", "new.toml", "no joint of the robot moves"),
+        ("page.xml", "new.toml", "<html> is no URDF"),
         ("arm.toml", "new.toml", "is a robot file already"),
+        ("arm.par --tip hand", "new.toml", "--lock and --exact-decimals are for URDF and MJCF"),
+        ("turn.urdf --tip hand", "new.toml", '--tip: "hand": no link of that name'),
+        ("turn.urdf --lock j", "new.toml", 'expected joint=position such as "elbow=0.3"'),
         ("none.par", "new.toml", "cannot be read"),
         ("arm.par", "other.par", "got .par, which is another program's robot file"),
         ("arm.par", "arm.par", "this is the robot file that is read"),
@@ -64,11 +80,16 @@ def test_a_file_is_written_over_only_by_force(capsys, par, tmp_path):
 )
 def test_what_is_refused(capsys, par, monkeypatch, name, out, told):
     monkeypatch.chdir(par.parent)
-    for other in ("arm.urdf", "arm.xacro", "arm.toml"):
-        (par.parent / other).write_text("<robot/>\n")
+    texts = {
+        "arm.urdf": "<robot/>\n", "macro.xacro": "<robot><xacro:include/></robot>",
+        "world.sdf": "<sdf/>", "still.urdf": "<robot><link name='a'/></robot>",
+        "page.xml": "<html/>", "arm.toml": "name = 'arm'", "turn.urdf": TURN,
+    }  # fmt: skip
+    for other, text in texts.items():
+        (par.parent / other).write_text(text)
     (par.parent / "bad.par").write_text(TWO.replace("0,L", "0,L,0"))
     before = {path.name: path.read_bytes() for path in par.parent.iterdir()}
-    status, printed, err = run(capsys, "convert", name, "--out", out)
+    status, printed, err = run(capsys, "convert", *name.split(), "--out", out)
     assert (status, printed) == (1, "") and told in err and err.count("\n") == 1
     assert before == {path.name: path.read_bytes() for path in par.parent.iterdir()}
 
@@ -77,7 +98,9 @@ def test_every_command_reads_a_par(capsys, par, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     status, out, err = run(capsys, "derive", par, "--no-terms")
     assert status == 0 and "ZZ1R = ZZ1 + L**2*M2" in out
-    assert all(line.startswith(f"modeler: {par}: ") for line in err.splitlines())
+    first, *others = err.splitlines()
+    assert first == f"modeler: {par}, read as a robot file:"
+    assert others and all(line.startswith("  * ") for line in others)
     assert "no values in the file: L" in err
     assert run(capsys, "simulate", par, "--duration", "6", "--out", "a.parquet")[0] == 0
     assert run(capsys, "fit", par, "a.parquet", "--out", "m.json")[0] == 0
@@ -108,8 +131,37 @@ def test_a_suffix_in_capitals_is_the_same(capsys, par, tmp_path):
     assert run(capsys, "derive", loud, "--no-terms")[0] == 0
 
 
-def test_urdf_is_refused_by_every_command(capsys, tmp_path):
+@pytest.mark.parametrize("name", ["arm.urdf", "arm.xml", "arm", "arm.txt", "ARM.URDF", "arm.toml"])
+def test_a_urdf_is_known_by_its_first_element(capsys, tmp_path, name):
+    path = tmp_path / name
+    path.write_text("<?xml version='1.0'?>\n<!-- made by hand -->\n" + TURN)
+    status, out, err = run(capsys, "derive", path, "--no-terms")
+    assert status == 0 and out.startswith("turn\n") and "ZZ1R = ZZ1 + Ia1 + YY2 + D2**2*M2" in out
+    first, *others = err.splitlines()
+    assert first == f"modeler: {path}, read as a robot file:"
+    assert others and all(line.startswith("  * ") for line in others)
+
+
+def test_another_program_s_ending_with_our_text_is_no_urdf(capsys, tmp_path):
     path = tmp_path / "arm.urdf"
     path.write_text(builtin_file("rx90").read_text())
     status, out, err = run(capsys, "derive", path)
-    assert (status, out) == (1, "") and "URDF is not read yet" in err
+    assert (status, out) == (1, "") and "arm.urdf: line 1" in err and err.count("\n") == 1
+
+
+def test_a_urdf_is_cut_and_its_decimals_kept(capsys, tmp_path):
+    path, out = tmp_path / "turn.urdf", tmp_path / "turn.toml"
+    path.write_text(TURN)
+    rows = {}
+    for words in ("", "--tip mid", "--base mid", "--lock k=90deg", "--exact-decimals"):
+        assert run(capsys, "convert", path, "--out", out, "--force", *words.split())[0] == 0
+        rows[words] = read_robot(out)
+    one = rows[""]
+    assert [j.name for j in one.moving] == ["1", "2"] and one.joints[1].alpha.text == "pi/2"
+    assert one.frames["tip"].joint == "k" and one.frames["mid"].row == "1"
+    assert [f.joint for f in rows["--tip mid"].frames.values()] == ["", "j"]
+    assert len(rows["--tip mid"].moving) == len(rows["--base mid"].moving) == 1
+    assert rows["--lock k=90deg"].frames["tip"].row == "1"
+    measured = rows["--exact-decimals"]
+    angle = measured.joints[1].alpha.number(measured.symbol_values())
+    assert angle == pytest.approx(1.5708, abs=1e-15) and angle != one.joints[1].alpha.number({})

@@ -115,7 +115,7 @@ def test_questions_are_asked_on_a_terminal_only(capsys, tmp_path, monkeypatch):
     path = tmp_path / "arm.toml"
     status, _, err = run(capsys, "new", path)
     assert status == 0
-    assert "URDF is to follow" in err and "got delta" in err and "got 'RPX'" in err
+    assert "every command reads it" in err and "got delta" in err and "got 'RPX'" in err
     robot = read_robot(path)
     assert robot.convention == "classical"
     assert [joint.kind for joint in robot.moving] == [0, 1, 0]

@@ -247,7 +247,7 @@ def test_there_are_as_many_base_parameters_as_mujoco_feels(file):
     both = Both(public(file))
     base = base_parameters(derive_model(both.robot)).counts()
     m, states = both.model, both.states(30)
-    m.body_mass[:], m.body_inertia[:], rotors = 0.0, 0.0, m.dof_armature.copy()
+    m.body_mass[:], m.body_inertia[:] = 0.0, 0.0
     m.dof_armature[:] = 0.0
     m.actuator_armature[:] = 0.0
     m.body_sameframe[:], m.body_simple[:], m.dof_simplenum[:] = 0, 0, 0  # values may be any
@@ -264,7 +264,9 @@ def test_there_are_as_many_base_parameters_as_mujoco_feels(file):
             for m.body_mass[i], m.body_ipos[i], m.body_inertia[i], m.body_iquat[i] in sets:
                 columns.append(both.torques(states).ravel())
             m.body_mass[i], m.body_inertia[i] = 0.0, 0.0
-        for dof in both.dofs[rotors[both.dofs] > 0]:
+        for dof, joint in zip(both.dofs, both.robot.moving, strict=True):
+            if not both.robot.has_effect("rotor_inertia", joint.name):
+                continue
             m.dof_armature[dof] = 1.0
             columns.append(both.torques(states).ravel())
             m.dof_armature[dof] = 0.0

@@ -277,10 +277,6 @@ def test_unreadable_files_are_told(tmp_path):
     latin.write_bytes('name = "Stäubli"'.encode("latin-1"))
     with pytest.raises(RobotError, match=r"latin\.toml: byte 10 is not UTF-8"):
         read_robot(latin)
-    urdf = tmp_path / "arm.urdf"
-    urdf.write_text("<robot/>")
-    with pytest.raises(RobotError, match=r"arm\.urdf: URDF is not read yet"):
-        read_robot(urdf)
     with pytest.raises(RobotError, match=r"cannot be read \(File name too long\); check the path"):
         read_robot("x" * 300 + ".toml")
 

@@ -174,7 +174,9 @@ def test_elements_of_the_schema():
     assert (other.leader, other.ratio, other.offset) == ("finger", -2, 0.01)
     assert (other.actuated, finger.actuated) == (False, True)
     assert tree.bodies["base"] is None
-    assert any("no <inertial>" in note and '"left"' in note for note in tree.notes)
+    told = [note for note in cut(tree).notes if "weigh nothing" in note]
+    assert len(told) == 1 and '"left", "right"' in told[0] and "base" not in told[0]
+    assert not any("weigh nothing" in note for note in cut(tree, tip="flange").notes)
 
 
 def test_joints_are_sorted_only_as_far_as_must_be():
@@ -318,11 +320,13 @@ INERTIA = 'ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"'
     ],
 )
 def test_doubted_bodies_are_told(mass: str, inertia: str, told: str):
-    tree = read(edited((INERTIA, inertia), ('mass value="0.5"', f'mass value="{mass}"')))
+    text = edited((INERTIA, inertia), ('mass value="0.5"', f'mass value="{mass}"'))
+    tree = cut(read(text))
     assert tree.bodies["flange"] is not None
     notes = [note for note in tree.notes if "prior" in note]
     if told:
         assert told in tree.doubted["flange"]
         assert len(notes) == 1 and told in notes[0] and '"flange"' in notes[0]
+        assert not any("prior" in note for note in cut(read(text), base="left").notes)
     else:
         assert not tree.doubted and not notes

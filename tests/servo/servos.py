@@ -80,14 +80,15 @@ class Frames:
 
 
 def recorded(
-    xml: str, servos: list[Servo], goals: np.ndarray, fps: float, inner: float = 1000.0
+    xml: str, servos: list[Servo], goals: np.ndarray, fps: float
 ) -> Frames:
     """Position servos that follow goals (frames, joints), seen through encoders of 12 bits."""
     import mujoco
 
     model = mujoco.MjModel.from_xml_string(xml)
     data = mujoco.MjData(model)
-    every, ticks = round(1.0 / inner / model.opt.timestep), round(inner / fps)
+    every, ticks = 2, round(1000.0 / fps)  # the servo's loop runs at 1 kHz, or nearly
+    model.opt.timestep = 1.0 / (fps * ticks * every)
     step = 2 * np.pi / COUNTS
     stiff, per_duty, induced = (
         np.array([getattr(s, n) if n else s.gain * s.k_e / s.resistance for s in servos])

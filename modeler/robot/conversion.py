@@ -1,12 +1,18 @@
 """Robot files of other programs: what a file is, by what stands in it, and who reads it."""
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from modeler.core.builtin import OTHER_PROGRAMS
 from modeler.core.errors import RobotError
 from modeler.core.files import read_file
 from modeler.robot.par_convert import par_to_toml
 from modeler.robot.robot_text import Converted
+
+_PROLOG = 65536
+# Atomic: comments are not tried in all ways of taking them together.
+_FIRST = re.compile(rb"(?>\s+|<\?.*?\?>|<!--.*?-->)*+<(?:robot|mujoco|sdf)\b", re.DOTALL)
 
 
 def converted(
@@ -18,8 +24,7 @@ def converted(
 ) -> Converted:
     """Another program's robot file as the text of ours.
 
-    A file that begins with `<` is a URDF or an MJCF, as its root element says; any other a SYMORO
-    file.
+    What begins with `<robot>` is a URDF, with `<mujoco>` an MJCF, whatever the file is called.
 
     Args:
         path: the file.
@@ -36,12 +41,12 @@ def converted(
         data = read_file(path)
     except OSError as error:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-    if path.suffix.lower() == ".toml":
+    if path.suffix.lower() == ".toml" and not is_robot_xml(data):
         raise RobotError(
             f"{path}: is a robot file already; expected one of another program, such as x.urdf, "
             "x.xml or x.par"
         )
-    if path.suffix.lower() != ".par" or is_xml(data):
+    if path.suffix.lower() in OTHER_PROGRAMS[1:] or is_robot_xml(data):
         return _tree_text(path, data, base, tip, lock, exact_decimals)
     if base or tip or lock or exact_decimals:
         raise RobotError(
@@ -51,9 +56,9 @@ def converted(
     return par_to_toml(data, str(path))
 
 
-def is_xml(data: bytes) -> bool:
-    """True if it begins as XML does, and no robot file of ours or SYMORO's."""
-    return data.removeprefix(b"\xef\xbb\xbf").lstrip()[:1] == b"<"
+def is_robot_xml(data: bytes) -> bool:
+    """True if the first element is that of a robot of another program."""
+    return bool(_FIRST.match(data.removeprefix(b"\xef\xbb\xbf")[:_PROLOG]))
 
 
 def _tree_text(

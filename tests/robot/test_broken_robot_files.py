@@ -1,0 +1,250 @@
+"""Robot files of other programs that are broken: one clear line, in bounded memory and time."""
+
+import random
+import re
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from modeler.core.errors import LONGEST, ModelerError, RobotError
+from modeler.robot import read_robot
+from tests.robot.public_robots import public_urdf
+from tests.robot.test_urdf import ARM, INERTIA, edited
+
+ELBOW = '<parent link="upper"/><child link="fore"/>'
+BROKEN = {
+    "cycle": (
+        (('<parent link="base"/>', '<parent link="left"/>'),),
+        r'joint "\w+": link "\w+" is the parent of its own parents; mend <parent> or <child>',
+    ),
+    "own parent": ((('<parent link="fore"/>', '<parent link="flange"/>'),), "its own parents"),
+    "two parents": (
+        ((ELBOW, '<parent link="fore"/><child link="upper"/>'),),
+        'joint "elbow": link "upper" is the child of joint "shoulder" too; expected one parent',
+    ),
+    "two first links": (
+        (('<link name="base"/>', '<link name="base"/><link name="camera"/>'),),
+        'no joint leads to 2 links, "base", "camera"; expected one first link',
+    ),
+    "unknown parent": (
+        ((ELBOW, '<parent link="uper"/><child link="fore"/>'),),
+        r'joint "elbow" <parent>: there is no link "uper" \(did you mean "upper"\?\)',
+    ),
+    "no child": (((ELBOW, '<parent link="upper"/>'),), 'joint "elbow": <child> is missing'),
+    "link twice": (
+        (('<link name="left"/>', '<link name="base"/>'),),
+        'link "base": a second link of that name; the first is in line 3: rename one',
+    ),
+    "joint twice": ((('joint name="other"', 'joint name="elbow"'),), "a second joint of that name"),
+    "no name": ((('<link name="left"/>', "<link/>"),), '<link>: name is missing; write name="'),
+    "no type": (((' type="continuous"', ""),), 'joint "elbow": type is missing'),
+    "type": (
+        (('"continuous"', '"continous"'),),
+        r'type: got "continous"; expected .* \(did you mean "continuous"\?\)',
+    ),
+    "axis 0": (
+        (('<axis xyz="0 0 2"/>', '<axis xyz="0 0 0"/>'),),
+        'joint "shoulder" <axis>, xyz: got "0 0 0"; expected a direction such as "0 0 1"',
+    ),
+    "comma": (
+        (('xyz="0 0 0.4"', 'xyz="0 0 0,4"'),),
+        'joint "shoulder" <origin>, xyz: got "0,4"; expected 3 numbers such as "0 0 0"',
+    ),
+    "two numbers": ((('xyz="0 0 0.4"', 'xyz="0 0.4"'),), 'got "0 0.4"; expected 3 numbers'),
+    "nan": ((('rpy="0 0.7854 0.25"', 'rpy="0 nan 0"'),), 'rpy: got "nan"; expected 3 numbers'),
+    "inf": ((('xyz="0 0 0.4"', 'xyz="0 0 inf"'),), 'got "inf"; expected 3 numbers'),
+    "huge": ((('xyz="0 0 0.4"', 'xyz="0 0 1e300"'),), "expected at most 10000 in SI units"),
+    "mass": ((('<mass value="0.5"/>', "<mass/>"),), 'link "flange" .*: value is missing; write'),
+    "no mass": ((('<mass value="0.5"/>', ""),), 'link "flange" <inertial>: <mass> is missing'),
+    "inertia": ((('iyz="0.0005"', ""),), 'link "upper" .*: iyz is missing; write iyz="0.01"'),
+    "two inertials": ((("</inertial>", "</inertial><inertial/>"),), "a second <inertial>"),
+    "mimic itself": ((('mimic joint="finger"', 'mimic joint="other"'),), "follows itself by"),
+    "floating": (
+        (('type="continuous"', 'type="floating"'),),
+        r"elbow.*floating joints are not read; cut it off with --base LINK or --tip LINK, or hold",
+    ),
+    "xacro": (
+        (('<mass value="0.5"/>', '<mass value="${m}"/>'),),
+        r"<mass> is of xacro, not of URDF; expand it first: xacro \S*arm.urdf > \S*_expanded.urdf",
+    ),
+    "macro": ((("</robot>", "<xacro:gripper/></robot>"),), "<xacro:gripper> is of xacro"),
+    "no base": (
+        (('<link name="base"/>', ""),),
+        'joint "shoulder" <parent>: there is no link "base"',
+    ),
+    "not closed": ((("</robot>", ""),), "no element found; <robot> of line 2 is open"),
+    "entities": (
+        (('<?xml version="1.0"?>', '<!DOCTYPE robot [<!ENTITY x SYSTEM "/etc/hostname">]>'),),
+        "line 1: <!DOCTYPE> and its entities are not read",
+    ),
+}
+
+
+def refused(text: bytes | str, path: Path) -> str:
+    """What is told of a file, which is one line and not longer than one reads."""
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(RobotError) as error:
+        read_robot(path)
+    told = str(error.value)
+    assert told.startswith(str(path)), told
+    assert len(told.splitlines()) == 1, told
+    return told
+
+
+@pytest.mark.parametrize("mistake", BROKEN)
+def test_mistakes_are_told_with_their_place(mistake: str, tmp_path: Path):
+    pairs, expected = BROKEN[mistake]
+    told = refused(edited(*pairs), tmp_path / "arm.urdf")
+    assert re.search(expected, told), told
+    assert re.search(r": line \d+: ", told), told
+
+
+def test_other_formats_are_named(tmp_path: Path):
+    for text, told in (
+        ("<sdf version='1.7'><model name='a'/></sdf>", "SDF"),
+        ("<html><body/></html>", "URDF"),
+        (
+            "<robot><link name='a'/><link name='b'/></robot>",
+            'line 1: no joint leads to 2 links, "a"',
+        ),
+        ("<robot name='a'><!-- <link name='b'/> --></robot>", "line 1: <robot> has no link"),
+        ('<robot xmlns:xacro="x"><xacro:include filename="a"/></robot>', "> .*/arm.urdf$"),
+    ):
+        path = tmp_path / ("arm.urdf.xacro" if "xacro" in text else "arm.urdf")
+        assert re.search(told, refused(text, path))
+
+
+def test_what_can_be_read_is_read(tmp_path: Path):
+    """A link without inertial, an axis that is not of length 1, an impossible inertia: told."""
+    path = tmp_path / "arm.urdf"
+    path.write_text(edited((INERTIA, INERTIA.replace('izz="0.001"', 'izz="0.5"'))))
+    told = " ".join(read_robot(path).readings)
+    for words in (
+        "no inertia is stated",
+        "not of length 1",
+        "principal moments 0.001, 0.001, 0.5 kg m2",
+    ):
+        assert words in told
+
+
+LAUGHS = "".join(f'<!ENTITY l{i + 1} "{f"&l{i};" * 10}">' for i in range(12))
+BOMBS: dict[str, Callable[[], bytes]] = {
+    "billion laughs": lambda: f"""<!DOCTYPE robot [<!ENTITY l0 "ha">{LAUGHS}]>
+        <robot name="&l12;"/>""".encode(),
+    "quadratic": lambda: f"""<!DOCTYPE robot [<!ENTITY a "{"a" * 100_000}">]>
+        <robot name="{"&a;" * 100_000}"/>""".encode(),
+    "external": lambda: b"""<!DOCTYPE robot SYSTEM "http://localhost/robot.dtd"><robot/>""",
+    "deep": lambda: b"<robot>" * 3_000_000,
+    "many": lambda: b"<robot>" + b"<link/>" * 3_000_000 + b"</robot>",
+    "attributes": lambda: b"<robot " + b"".join(b'a%d="" ' % i for i in range(2_000_000)) + b"/>",
+    "long value": lambda: b'<robot name="' + b"a" * 40_000_000 + b'"/>',
+    "long number": lambda: edited(('"0 0 0.4"', f'"0 0 {"9" * 5_000_000}"')).encode(),
+    "comment": lambda: b"<robot><!--" + b"a" * 40_000_000,
+    "comments": lambda: b"<!---->" * 5000 + b"<robot>",
+    "large": lambda: b"<robot>" + b" " * 70_000_000 + b"</robot>",
+}
+CHILD = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_AS, (int(sys.argv[2]), int(sys.argv[2])))
+from modeler.core.errors import RobotError
+from modeler.robot import read_robot
+try:
+    read_robot(sys.argv[1])
+except RobotError as error:
+    print(error)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="NOT CHECKED: memory limits are of Linux")
+@pytest.mark.parametrize("bomb", BOMBS)
+def test_bombs_are_refused_in_bounded_memory(bomb: str, tmp_path: Path):
+    """In a process that may take 1 GiB of addresses, the libraries included, and 20 s."""
+    path = tmp_path / "bomb.urdf"
+    path.write_bytes(BOMBS[bomb]())
+    done = subprocess.run(
+        [sys.executable, "-c", CHILD, str(path), str(2**30)],
+        capture_output=True, text=True, timeout=20, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert done.stdout.startswith(str(path)), done.stdout
+    assert len(done.stdout.splitlines()) == 1
+
+
+def _most_memory() -> float:
+    """The most bytes that this process has had."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024.0
+
+
+NUMBERS = (
+    "1e300",
+    "-1e16",
+    "nan",
+    "-inf",
+    "0",
+    "-1",
+    "1e-320",
+    "",
+    "9" * 200,
+    "0x10",
+    "1_0",
+    "1,5",
+)
+
+
+def spoilt(data: bytes, draw: random.Random) -> bytes:
+    """One of what happens to files: bytes, tags, blocks, ends, numbers, names."""
+    place = draw.randrange(len(data))
+    tags = [found.span() for found in re.finditer(rb"<[^>]*>", data)]
+    values = [found.span(1) for found in re.finditer(rb'="([^"]*)"', data)]
+    start, end = draw.choice(tags)
+    way = draw.randrange(7)
+    if way == 0:
+        return data[:place] + bytes([draw.randrange(256)]) + data[place + 1 :]
+    if way == 1:
+        return data[:start] + data[end:]
+    if way == 2:
+        until = draw.choice([e for _, e in tags if e >= end])
+        return data[:until] + data[start:until] + data[until:]
+    if way == 3:
+        return data[:place]
+    if way == 4:
+        until = draw.choice([e for _, e in tags if e >= end])
+        return data[:start] + data[until:]
+    if way == 5:
+        (start, end), other = draw.choice(values), draw.choice(values)
+        return data[:start] + data[slice(*other)] + data[end:]
+    start, end = draw.choice(values)
+    words = data[start:end].split() or [b""]
+    words[draw.randrange(len(words))] = draw.choice(NUMBERS).encode()
+    return data[:start] + b" ".join(words) + data[end:]
+
+
+SPOILT = ("arm", "ur5_robot", "panda", "so101", "allegro_left_hand", "talos_left_arm")
+
+
+@pytest.mark.parametrize("name", SPOILT)
+def test_spoilt_files_are_read_or_told_in_one_line(name: str, tmp_path: Path):
+    """20 mutants each: a robot, or one line that begins with the file; in 200 MB and 20 s."""
+    data = ARM.encode() if name == "arm" else public_urdf(f"{name}.urdf").read_bytes()
+    draw = random.Random(f"{name} 11")
+    path = tmp_path / "spoilt.urdf"
+    told = 0
+    for _ in range(20):
+        path.write_bytes(spoilt(data, draw))
+        before, begun = _most_memory(), time.process_time()
+        try:
+            read_robot(path)
+        except ModelerError as error:
+            told += 1
+            line = str(error)
+            assert line.startswith(str(path)), line
+            assert len(line.splitlines()) == 1, line
+            assert len(line) < LONGEST, line
+        assert _most_memory() - before < 200e6
+        assert time.process_time() - begun < 20
+    assert told > 0

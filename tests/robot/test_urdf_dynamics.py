@@ -1,0 +1,236 @@
+"""URDFs as robot files: against Pinocchio on public robots, from the text to the torques."""
+
+import dataclasses
+import math
+import re
+import zlib
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from modeler.codegen.emit import emit
+from modeler.core.errors import RobotError
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.derivation.numeric_rank import regressor_values
+from modeler.robot.conversion import converted
+from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.robot import INERTIAL, Robot
+from tests.elementary_motions import row_pose
+from tests.modules import loaded
+from tests.robot.public_robots import each_public_urdf, public_urdf
+
+pin = pytest.importorskip("pinocchio", reason="NOT CHECKED: Pinocchio (PyPI: pin) is not installed")
+
+NOT_MOVING = "no joint of the robot moves"
+RANKED = (
+    "ur3_robot", "ur5_robot", "ur10_robot", "panda", "xarm7", "z1", "kinova", "so100", "so101",
+    "talos_left_arm", "tiago_no_hand", "allegro_right_hand", "bolt", "finger_edu", "solo12",
+    "hyq_no_sensors", "TwoDofs", "double_pendulum_continuous", "b1-z1", "anymal-kinova",
+)  # fmt: skip
+# More joints than derive in seconds: two arms, a hand of which three fingers follow others.
+LOCKED = {
+    "baxter": "head_pan",
+    "tiago": "arm_1 arm_2 arm_3 arm_4 arm_5 arm_6 arm_7 torso_lift head_1 head_2 wheel_left "
+    "wheel_right",
+}
+
+
+def snapped(path: Path, to: Path) -> Path:
+    """A copy in which the origins of joints are what their printed digits round.
+
+    Written apart from the reader: a multiple of pi/12 that prints as these digits, rounded or cut
+    off, of which there are three behind the point (two for a right angle), or that is within 1e-6.
+    """
+
+    def angle(digits: str) -> str:
+        worth = float(digits)
+        twelfths = round(worth * 12 / math.pi)
+        exact = twelfths * math.pi / 12
+        if abs(worth) < 1e-6:
+            return "0"
+        plain = re.fullmatch(r"[-+]?\d*\.?(\d*)", digits)
+        places = [len(plain[1]), len(plain[1].rstrip("0"))] if plain else []
+        for count in places:
+            if count < (2 if twelfths % 6 == 0 else 3) or twelfths == 0:
+                continue
+            cut = math.trunc(exact * 10**count) / 10**count
+            if any(abs(worth - x) < 1e-12 for x in (round(exact, count), cut)):
+                return repr(exact)
+        return repr(exact) if abs(worth - exact) < 1e-6 and twelfths else digits
+
+    def length(digits: str) -> str:
+        return "0" if abs(float(digits)) < 1e-6 else digits
+
+    tree = ElementTree.parse(path)
+    for joint in tree.getroot().iter("joint"):
+        for tag, name, change in (
+            ("origin", "rpy", angle), ("origin", "xyz", length), ("axis", "xyz", length)
+        ):  # fmt: skip
+            for element in joint.findall(tag):
+                if name in element.attrib:
+                    words = element.attrib[name].split()
+                    element.set(name, " ".join(map(change, words)))
+    tree.write(to / path.name)
+    return to / path.name
+
+
+class Peer:
+    """Pinocchio's model of a file, and which of its joints are the rows of a robot of ours."""
+
+    def __init__(self, robot: Robot, file: Path, locked: tuple[str, ...] = ()):
+        model = pin.buildModelFromUrdf(str(file))
+        if locked:
+            held = [model.getJointId(name) for name in locked]
+            model = pin.buildReducedModel(model, held, pin.neutral(model))
+        self.joints = {f.row: f.joint for f in robot.frames.values() if f.joint}
+        self.rows = [joint.name for joint in robot.moving]
+        assert {self.joints[row] for row in self.rows} == set(model.names) - {"universe"}
+        self.ids = [model.getJointId(self.joints[row]) for row in self.rows]
+        self.at = [model.joints[i].idx_v for i in self.ids]
+        self.model, self.data = model, model.createData()
+        # By hand: q = A q_free + o, tau_free = A^T tau.
+        names = [joint.name for joint in robot.coordinates]
+        self.A, self.o = np.zeros((len(self.rows), len(names))), np.zeros(len(self.rows))
+        for i, row in enumerate(self.rows):
+            if row in names:
+                self.A[i, names.index(row)] = 1.0
+                continue
+            mimic = (
+                ElementTree.parse(file).getroot().find(f"joint[@name='{self.joints[row]}']/mimic")
+            )
+            leader = next(r for r in self.rows if self.joints[r] == mimic.get("joint"))
+            self.A[i, names.index(leader)] = float(mimic.get("multiplier", 1))
+            self.o[i] = float(mimic.get("offset", 0))
+
+    def state(self, q, *others):
+        full = [np.zeros(self.model.nv) for _ in range(1 + len(others))]
+        full[0][self.at] = self.A @ q + self.o
+        for x, given in zip(full[1:], others, strict=True):
+            x[self.at] = self.A @ given
+        return pin.integrate(self.model, pin.neutral(self.model), full[0]), *full[1:]
+
+    def torque(self, q, qd, qdd):
+        return self.A.T @ pin.rnea(self.model, self.data, *self.state(q, qd, qdd))[self.at]
+
+    def regressor(self, q, qd, qdd):
+        """(joints, 10 bodies that move)."""
+        Y = pin.computeJointTorqueRegressor(self.model, self.data, *self.state(q, qd, qdd))
+        return self.A.T @ np.atleast_2d(Y)[self.at]
+
+    def weightless(self, rows):
+        """Without the bodies of which our file states nothing."""
+        for i, row in zip(self.ids, self.rows, strict=True):
+            if row in rows:
+                self.model.inertias[i] = pin.Inertia.Zero()
+
+
+def motion(robot: Robot, samples: int, name: str) -> np.ndarray:
+    rng = np.random.default_rng(zlib.crc32(name.encode()))
+    return rng.uniform(-2, 2, (3, samples, len(robot.coordinates)))
+
+
+def chi_of(robot: Robot) -> np.ndarray:
+    names = [f"{p}{row.name}" for row in robot.moving for p in robot.inertial(row.name)]
+    return np.array([robot.parameters.get(name, 0.0) for name in names])
+
+
+def frame_poses(robot: Robot, q) -> dict[str, np.ndarray]:
+    """Every link of the file, from the table and `[frames]` by their definitions."""
+    values = robot.symbol_values()
+    values |= {joint.variable: x for joint, x in zip(robot.moving, q, strict=True)}
+    at = {"0": np.eye(4)}
+    for row in robot.joints:
+        cells = ("gamma", "b", "alpha", "d", "theta", "r")
+        own = row_pose(**{c: getattr(row, c).number(values) for c in cells})
+        at[row.name] = at[row.antecedent] @ own
+    found = {}
+    for link, frame in robot.frames.items():
+        pose = np.eye(4)
+        pose[:3, 3] = [x.number(values) for x in frame.position]
+        pose[:3, :3] = pin.rpy.rpyToMatrix(*(x.number(values) for x in frame.angles))
+        found[link] = at[frame.row] @ pose
+    return found
+
+
+def read(path: Path, locked: tuple[str, ...] = ()) -> Robot:
+    text = converted(path, lock=dict.fromkeys(locked, 0.0)).text
+    return dataclasses.replace(robot_from_text(text, path.name), effects=())
+
+
+@each_public_urdf()
+def test_torques_and_frames_of_every_public_robot(path: Path, tmp_path: Path):
+    """tau to 1e-9 and the frame of every link to 1e-12, on the same numbers."""
+    if b"<link" not in path.read_bytes():
+        pytest.skip("has no link")
+    try:
+        robot = read(path)
+    except RobotError as error:
+        assert NOT_MOVING in str(error)
+        return
+    peer = Peer(robot, snapped(path, tmp_path))
+    stated = {row.name for row in robot.moving if f"M{row.name}" in robot.parameters}
+    peer.weightless({row.name for row in robot.moving} - stated)
+    samples = 50 if len(robot.moving) < 40 else 5
+    q, qd, qdd = motion(robot, samples, path.stem)
+    theirs = np.array([peer.torque(*one) for one in zip(q, qd, qdd, strict=True)])
+    ours = regressor_values(derive_model(robot), (q, qd, qdd)) @ chi_of(robot)
+    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-9 * (abs(theirs).max() or 1.0))
+    pin.framesForwardKinematics(peer.model, peer.data, peer.state(q[0])[0])
+    for link, pose in frame_poses(robot, peer.A @ q[0] + peer.o).items():
+        there = peer.data.oMf[peer.model.getFrameId(link, pin.FrameType.BODY)]
+        np.testing.assert_allclose(pose, there.homogeneous, rtol=0, atol=1e-12, err_msg=link)
+
+
+@pytest.mark.parametrize("name", [*RANKED, *LOCKED])
+def test_base_parameters_are_as_many_as_the_rank(name: str, tmp_path: Path):
+    """The rank of Pinocchio's regressor on random motion, joints that follow taken out by hand."""
+    path = public_urdf(f"{name}.urdf")
+    locked = tuple(j if j == "head_pan" else f"{j}_joint" for j in LOCKED.get(name, "").split())
+    robot = read(path, locked)
+    peer = Peer(robot, snapped(path, tmp_path), locked)
+    states = zip(*motion(robot, 12 * len(robot.coordinates) + 20, name), strict=True)
+    W = np.vstack([peer.regressor(*one) for one in states])
+    size = np.linalg.norm(W, axis=0)
+    felt = size > 1e-10 * size.max()  # the others are rounding
+    R = np.linalg.qr(W[:, felt] / size[felt], mode="r")
+    sizes = np.linalg.svd(R, compute_uv=False)
+    rank = int(np.sum(sizes > 1e-9 * sizes[0]))
+    assert sizes[rank - 1] > 1e3 * (sizes[rank] if rank < len(sizes) else 0.0)
+    base = base_parameters(derive_model(robot))
+    assert base.rank == rank
+    assert base.proof.kind == "exact"
+
+
+@pytest.mark.parametrize("name", ["so101", "panda"])
+def test_emitted_c_of_a_urdf(name: str, tmp_path: Path):
+    path = public_urdf(f"{name}.urdf")
+    robot = read(path)
+    model = derive_model(robot)
+    c, peer = loaded(emit(model, base_parameters(model))), Peer(robot, snapped(path, tmp_path))
+    q, qd, qdd = motion(robot, 50, name)
+    theirs = np.array([peer.torque(*one) for one in zip(q, qd, qdd, strict=True)])
+    ours = c.inverse_dynamics(q, qd, qdd, c.base_parameters(chi_of(robot)))
+    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-9 * abs(theirs).max())
+
+
+def test_the_table_of_a_panda_is_the_makers(tmp_path: Path):
+    """The built-in table is the manufacturer's: the same cells, lengths and limits."""
+    path = public_urdf("panda.urdf")
+    text = converted(path, tip="panda_link8").text
+    ours, maker = robot_from_text(text, path.name), read_robot("panda")
+    one, other = (r.symbol_values() for r in (ours, maker))
+    for a, b in zip(ours.joints, maker.joints, strict=True):
+        for cell in ("gamma", "b", "alpha", "d", "theta", "r"):
+            numbers = [
+                getattr(row, cell).number({**values, row.variable: 0.4})
+                for row, values in ((a, one), (b, other))
+            ]
+            assert numbers[0] == pytest.approx(numbers[1], abs=1e-15)
+    for name, limits in maker.limits.items():
+        assert ours.limits[name].lower == limits.lower
+        assert ours.limits[name].upper == limits.upper
+    assert ours.uncertainty == {"inertial": 0.3}
+    assert {f"{p}{k}" for p in INERTIAL for k in range(1, 8)} <= ours.parameters.keys()

@@ -1,0 +1,121 @@
+"""Bytes of attributes and texts of an XML file; what is refused."""
+
+import xml.etree.ElementTree as Standard
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import RobotError
+from modeler.robot.xml_source import parse_xml, replaced
+from tests.robot.public_robots import each_public_urdf
+
+ODD = (
+    b'\xef\xbb\xbf<?xml version="1.0" encoding="utf-8"?>\r\n<!-- <mass value="1"/> -->\n'
+    b'<robot xmlns:xacro="x"\n\t name = \'a"b\' >\r\n'
+    b'<xacro:p v="&quot;1&gt;2&quot; >" w=""/> t <b>\n 3.5 </b><c><![CDATA[<mass/>]]></c>'
+    b'<d><!-- c -->4</d><e  value="\xc3\xa9 1"></e >\n</robot >\n<!-- mass -->'
+)
+
+
+def test_spans_are_those_of_the_bytes():
+    root = parse_xml(ODD, "odd.urdf")
+    found = {
+        element.tag: (
+            dict(element.attributes),
+            {name: ODD[start:end] for name, (start, end) in element.spans.items()},
+            element.text,
+            element.text_span and ODD[slice(*element.text_span)],
+            element.line,
+        )
+        for element in root.walk()
+    }
+    assert found == {
+        "robot": (
+            {"xmlns:xacro": "x", "name": 'a"b'},
+            {"xmlns:xacro": b"x", "name": b'a"b'},
+            "t",
+            None,
+            3,
+        ),
+        "xacro:p": (
+            {"v": '"1>2" >', "w": ""},
+            {"v": b"&quot;1&gt;2&quot; >", "w": b""},
+            "",
+            None,
+            5,
+        ),
+        "b": ({}, {}, "3.5", b"3.5", 5),
+        "c": ({}, {}, "<mass/>", None, 6),
+        "d": ({}, {}, "4", None, 6),
+        "e": ({"value": "é 1"}, {"value": b"\xc3\xa9 1"}, "", None, 6),
+    }
+    tags = {element.tag: element for element in root.walk()}
+    assert ODD[slice(*tags["xacro:p"].opening)].endswith(b'w=""/>')
+    assert tags["xacro:p"].closing == (tags["xacro:p"].opening[1],) * 2
+    assert ODD[slice(*tags["e"].closing)] == b"</e >"
+
+
+def test_only_what_is_changed_changes():
+    root = parse_xml(ODD, "odd.urdf")
+    tags = {element.tag: element for element in root.walk()}
+    end = tags["b"].closing[0]
+    text_span = tags["b"].text_span
+    assert text_span is not None
+    made = replaced(
+        ODD, {tags["e"].spans["value"]: "2", text_span: "7.25", (end, end): "<!-- new -->"}
+    )
+    expected = ODD.replace(b"\xc3\xa9 1", b"2").replace(b" 3.5 </b>", b" 7.25 <!-- new --></b>")
+    assert made == expected
+    assert replaced(ODD, {}) == ODD
+
+
+@each_public_urdf()
+def test_public_files_are_read_as_the_standard_library_reads_them(path: Path):
+    """The same elements; and every value replaced by another is read back as that, nothing else."""
+    data = path.read_bytes()
+    ours = list(parse_xml(data, path.name).walk())
+    theirs = list(Standard.fromstring(data).iter())
+    assert len(ours) == len(theirs)
+    for one, other in zip(ours, theirs, strict=True):
+        if ":" not in one.tag:
+            assert one.tag == other.tag
+            assert one.attributes.items() >= {
+                (key, value) for key, value in other.attrib.items() if not key.startswith("{")
+            }
+    rng = np.random.default_rng(len(data))
+    spans = [(e, name) for e in ours for name in e.spans if not name.startswith("xmlns")]
+    chosen = [spans[i] for i in rng.choice(len(spans), min(40, len(spans)), replace=False)] \
+        if spans else []  # fmt: skip
+    made = replaced(data, {element.spans[name]: "0.125" for element, name in chosen})
+    changed = {id(element): {} for element, _ in chosen}
+    for element, name in chosen:
+        changed[id(element)][name] = "0.125"
+    for before, after in zip(ours, parse_xml(made, path.name).walk(), strict=True):
+        assert after.attributes == {**before.attributes, **changed.get(id(before), {})}
+        assert after.text == before.text
+
+
+@pytest.mark.parametrize(
+    ("data", "told"),
+    [
+        (b"  \n", "is empty"),
+        ("<a/>".encode("utf-16"), "UTF-16"),
+        (b'<?xml version="1.0" encoding="latin-1"?><a/>', 'line 1: encoding="latin-1"; save'),
+        (b"<a>\n<b c='\xff'/></a>", "line 2: byte 10 is not UTF-8"),
+        (b"<a>\n<b>\n</a>", "line 3: .*mismatched tag; <b> of line 2 is open"),
+        (b"<a>\n<b>", "line 2: .*no element found; <b> of line 2 is open"),
+        (b"<a b=1/>", "line 1: not well-formed XML, column 6: invalid token"),
+        (b"<a b='1' b='2'/>", "duplicate attribute"),
+        (b"<a/><b/>", "junk after document element"),
+        (b"<a>&b;</a>", "undefined entity"),
+        (b"name = 'arm'", "syntax error"),
+        (b"<!DOCTYPE a>\n<a/>", "line 1: <!DOCTYPE> and its entities are not read"),
+        (b"<a>" * 300, "more than 200000 elements, or than 256 inside each other"),
+    ],
+)
+def test_what_is_refused_is_told_in_one_line(data: bytes, told: str):
+    with pytest.raises(RobotError, match=told) as error:
+        parse_xml(data, "bad.urdf")
+    assert str(error.value).startswith("bad.urdf: ")
+    assert len(str(error.value).splitlines()) == 1
