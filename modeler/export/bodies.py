@@ -172,7 +172,10 @@ def written(ten: np.ndarray, axes: np.ndarray | None = None) -> np.ndarray:
     about = tensor - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
     if axes is not None:
         about = axes.T @ about @ axes
-    return np.concatenate([[mass], centre, about[np.triu_indices(3)]])
+    found = np.concatenate([[mass], centre, about[np.triu_indices(3)]])
+    for own in (found[1:4], found[4:]):  # what differences leave of 0
+        own[np.abs(own) < 1e-15 * np.abs(own).max()] = 0.0
+    return found
 
 
 def deviations(
