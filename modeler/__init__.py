@@ -23,8 +23,8 @@ __version__ = "0.1.0"
 
 _ROOMS = (
     "api", "cli", "codegen", "core", "derivation", "diagnosis", "effects", "estimation",
-    "excitation", "fleet", "formulas", "logs", "numerics", "observation", "papers", "report",
-    "robot", "runtime", "simulation", "validation",
+    "excitation", "exports", "fleet", "formulas", "logs", "numerics", "observation", "papers",
+    "report", "robot", "runtime", "simulation", "validation",
 )  # fmt: skip
 
 

@@ -5,13 +5,12 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.api.model import Model
 from modeler.api.workflow import observe, recompile
 from modeler.core.errors import DataError, ModelerError
 from modeler.core.files import Kind, destination, write_atomically
 from modeler.derivation import with_home
 from modeler.estimation import IdentifiedModel
-from modeler.export import Exported, Torques, exported, format_of
+from modeler.exports import Exported, Torques, exported, format_of
 from modeler.robot import Robot
 
 
@@ -61,17 +60,19 @@ def _write(out: Path, data: bytes, force: bool) -> None:
 
 def _torques(model: IdentifiedModel) -> Torques | None:
     """Torques of base parameters on the rows of the fit; None where its logs are not there."""
-    known = model if isinstance(model, Model) else Model.of(model)
+    find = getattr(model, "its_logs", None)  # of `api.model.Model`
     try:
-        logs = known.its_logs(None, "export")
+        logs = find(None, "export") if find else []
     except DataError:
+        return None
+    if not logs:
         return None
     rows: list[Callable[[np.ndarray], np.ndarray]] = []
     names = tuple(joint.name for joint in model.spec.joints)
 
     def torques(beta: np.ndarray) -> tuple[np.ndarray, tuple[str, ...]]:
         if not rows:  # read when they are first asked for
-            seen = observe(recompile(known), logs, known.processing)
+            seen = observe(recompile(model), logs, model.processing)
             rows.append(lambda each: np.where(seen.used, seen.predicted(each), 0.0))
         return rows[0](beta), names
 

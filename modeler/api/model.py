@@ -15,6 +15,7 @@ import numpy as np
 from modeler import diagnosis, report, validation
 from modeler.api import checks, improve
 from modeler.api.arguments import checked
+from modeler.api.exporting import export
 from modeler.api.log_maps import Mapped
 from modeler.api.predicting import predicted_torque
 from modeler.api.workflow import AnyLog, Logs, generate, listed, observe, recompile
@@ -23,6 +24,7 @@ from modeler.core.files import read_file
 from modeler.core.manifest import Emitted
 from modeler.core.table import labelled
 from modeler.estimation import IdentifiedModel, ParameterEstimate, model_file
+from modeler.exports import Exported
 from modeler.observation import Log, Observation
 from modeler.robot import Robot, near, read_robot
 
@@ -396,6 +398,21 @@ class Model(IdentifiedModel):
         'two_link'
         """
         return generate(self, folder, force)
+
+    @checked
+    def export(
+        self,
+        out: str | Path | None = None,
+        to: str | None = None,
+        like: str | Path | None = None,
+        force: bool = False,
+    ) -> Exported:
+        """It as URDF, MJCF or SDF; as the function `export`.
+
+        >>> model.export("two-link.urdf").format
+        'urdf'
+        """
+        return export(self, out, to, like, force)
 
     def __getstate__(self) -> dict[str, Any]:
         """Without what can be computed again."""

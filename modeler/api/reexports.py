@@ -8,7 +8,7 @@ from modeler.estimation import (
     IdentifiedModel as IdentifiedModel,
     Payload as Payload,
 )
-from modeler.export import Exported as Exported
+from modeler.exports import Exported as Exported
 from modeler.fleet import Fleet as Fleet
 from modeler.observation import Log as Log, Observation as Observation, Processing as Processing
 from modeler.report import show as show

@@ -198,7 +198,7 @@ def test_loops_in_mujoco_need_the_torques_of_our_loop_model(name) -> None:
 
 def physics_values(robot: Robot) -> dict[str, float]:
     """The standard parameters that were written: stated ones, and what was chosen beside them."""
-    from modeler.export.bodies import Original, physics_of
+    from modeler.exports.bodies import Original, physics_of
 
     physics = physics_of(robot, Original())
     return {name: float(physics.now.chi[i]) for name, i in physics.place.items()}

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.export.bodies import Physics, carried, written
-from modeler.export.original import (
+from modeler.exports.bodies import Physics, carried, written
+from modeler.exports.original import (
     TENSOR,
     Placed,
     Source,
@@ -23,7 +23,7 @@ from modeler.export.original import (
     shared_out,
     text_at,
 )
-from modeler.export.result import Value, body_values, drive_values, numbers, plain_values
+from modeler.exports.result import Value, body_values, drive_values, numbers, plain_values
 from modeler.robot import Element, about_origin, replaced
 
 _SAME = 1e-10  # of a body's scale: what is nearer has not changed

@@ -10,8 +10,8 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.result import Presentation, Presented, present
 from modeler.core.table import Table
-from modeler.export.bodies import Physics, carried, deviations, written
-from modeler.export.held import NotHeld
+from modeler.exports.bodies import Physics, carried, deviations, written
+from modeler.exports.held import NotHeld
 from modeler.robot import Joint, Pose
 
 _HEAD = b"<!-- modeler export: "

@@ -13,8 +13,8 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.table import percent
-from modeler.export.bodies import Physics
-from modeler.export.completion import distance
+from modeler.exports.bodies import Physics
+from modeler.exports.completion import distance
 
 Torques = Callable[[np.ndarray], tuple[np.ndarray, tuple[str, ...]]]
 """From base parameters to the (rows, n) torques of the fit, and the names of their joints."""

@@ -17,8 +17,8 @@ from modeler.estimation import (
     parameters_of,
     pseudo_inertia_of,
 )
-from modeler.export.capsules import weights
-from modeler.export.completion import Beforehand, Completed, buildable, conditioned, impossible
+from modeler.exports.capsules import weights
+from modeler.exports.completion import Beforehand, Completed, buildable, conditioned, impossible
 from modeler.robot import Pose, Robot, robot_from_text
 
 SHARE = 0.3
@@ -277,7 +277,7 @@ def values_of(robot: Robot) -> dict[str, float]:
 
 
 def beforehand(
-    machine: Machine, robot: Robot, original: Original, beta: np.ndarray, C: np.ndarray
+    machine: Machine, robot: Robot, original: Original, fit: tuple[np.ndarray, np.ndarray], to: str
 ) -> tuple[Beforehand, frozenset[str], list[str]]:
     """What is known without torques; links of which something is; what is to be told."""
     values, count = values_of(robot), len(machine.names)

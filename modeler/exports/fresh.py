@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.export.bodies import Physics, rest_of, written
-from modeler.export.capsules import Capsule, capsules
-from modeler.export.linkage import BASE, closed, row_pose, sense, to_quaternion, variables
-from modeler.export.original import TENSOR
-from modeler.export.result import numbers
+from modeler.exports.bodies import Physics, rest_of, written
+from modeler.exports.capsules import Capsule, capsules
+from modeler.exports.linkage import BASE, closed, row_pose, sense, to_quaternion, variables
+from modeler.exports.original import TENSOR
+from modeler.exports.result import numbers
 from modeler.robot import Joint, JointKind, Pose, linear_form, roll_pitch_yaw, turned
 
 LINK, JOINT = "link_", "joint_"

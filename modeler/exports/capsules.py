@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.export.linkage import BASE, poses
+from modeler.exports.linkage import BASE, poses
 from modeler.robot import Inertial, Robot, about_origin, together
 
 DENSITY = 1000.0

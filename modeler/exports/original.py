@@ -9,8 +9,8 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.files import read_file
 from modeler.estimation import parameters_of, pseudo_inertia_of
-from modeler.export.bodies import Original, carried
-from modeler.export.linkage import BASE, frame_pose, from_rpy, poses, variables
+from modeler.exports.bodies import Original, carried
+from modeler.exports.linkage import BASE, frame_pose, from_rpy, poses, variables
 from modeler.robot import (
     BodyTree,
     Element,

@@ -5,12 +5,12 @@ from pathlib import Path
 
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
-from modeler.export.bodies import Original, physics_of, written
-from modeler.export.fresh import JOINT, LINK, fresh
-from modeler.export.held import Torques, not_held
-from modeler.export.like import rewritten
-from modeler.export.original import original_of, placed, source_of
-from modeler.export.result import Exported, Value, body_values, drive_values, with_comment
+from modeler.exports.bodies import Original, physics_of, written
+from modeler.exports.fresh import JOINT, LINK, fresh
+from modeler.exports.held import Torques, not_held
+from modeler.exports.like import rewritten
+from modeler.exports.original import original_of, placed, source_of
+from modeler.exports.result import Exported, Value, body_values, drive_values, with_comment
 from modeler.robot import Robot, robot_from_text
 
 ENDINGS = {".urdf": "urdf", ".xml": "mjcf", ".mjcf": "mjcf", ".sdf": "sdf"}
