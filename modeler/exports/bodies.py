@@ -277,7 +277,7 @@ def values_of(robot: Robot) -> dict[str, float]:
 
 
 def beforehand(
-    machine: Machine, robot: Robot, original: Original, fit: tuple[np.ndarray, np.ndarray], to: str
+    machine: Machine, robot: Robot, original: Original, beta: np.ndarray, C: np.ndarray
 ) -> tuple[Beforehand, frozenset[str], list[str]]:
     """What is known without torques; links of which something is; what is to be told."""
     values, count = values_of(robot), len(machine.names)
