@@ -93,7 +93,10 @@ def test_what_is_imported_is_what_is_declared() -> None:
 
 def _names(lines: list[str]) -> set[str]:
     names = {re.split("[<>=!~; ]", line)[0] for line in lines}
-    bare = {name.replace("python-flint", "flint").removesuffix("-cuda12x") for name in names}
+    bare = {
+        name.replace("python-flint", "flint").removesuffix("-cuda12x").removesuffix("-core")
+        for name in names
+    }
     return {name.replace("-", "_").replace("scikit_learn", "sklearn") for name in bare}
 
 

@@ -28,7 +28,8 @@ from modeler.robot.tree_cuts import held
 from modeler.robot.xml_source import LARGEST_FILE, Element, parse_xml
 
 MOST_FILES = 200
-MOST_REPLICAS = 1000
+_COUNTS = {"replicate": ("count", 1e3), "hfield": ("nrow ncol", 1e6), "mesh": ("params", 1e3)}
+"""Element -> attributes whose product makes bodies or numbers, and how many at most."""
 NOUGHT = 1e-6
 """A length of less, m, or an angle, rad, is 0."""
 HIDDEN = 4e-6
@@ -40,6 +41,12 @@ NOTHING = 1e-9
 ALIKE, EXACT = 1e-9, 1e-15
 _FREE, _BALL, _SLIDE, _HINGE = range(4)  # mjtJoint
 _WRAP_JOINT = 1  # mjtWrap
+_LEFT_OUT = ("sensors", "pairs", "excludes", "skins", "tuples", "numerics", "texts", "materials",
+             "textures")  # fmt: skip
+_NUMBERS = ("body_pos", "body_mass", "body_ipos", "body_inertia", "jnt_pos", "qpos0", "eq_data",
+            "dof_damping", "dof_armature", "actuator_gear", "actuator_damping", "actuator_armature",
+            )  # fmt: skip
+LARGEST = 1e12
 _ALWAYS = 1  # inertiafromgeom="true"
 
 
@@ -58,10 +65,12 @@ def mjcf_tree(path: Path, exact_decimals: bool = False) -> BodyTree:
     """
     mujoco = _mujoco(path)
     root = _sources(path)
-    with _silent(mujoco), _clear(mujoco, path):
-        spec = mujoco.MjSpec.from_file(str(path))
-        notes = _lighten(spec) + ([] if exact_decimals else _unround(spec))
-        reading = _Reading(mujoco, path, spec.compile(), notes)
+    with _silent(mujoco):
+        with _clear(mujoco, path):
+            spec = mujoco.MjSpec.from_file(str(path))
+            notes = _lighten(spec) + ([] if exact_decimals else _unround(spec))
+            model = spec.compile()
+        reading = _Reading(mujoco, path, model, notes)
         return reading.tree(root.attributes.get("model") or path.stem)
 
 
@@ -94,7 +103,9 @@ def _clear(mujoco: Any, path: Path) -> Iterator[None]:
     """MuJoCo's refusals as one line."""
     try:
         yield
-    except (ValueError, TypeError, mujoco.FatalError, mujoco.UnexpectedError) as error:
+    except (
+        ValueError, TypeError, RuntimeError, MemoryError, mujoco.FatalError, mujoco.UnexpectedError,
+    ) as error:  # fmt: skip
         said = " ".join(line.strip() for line in str(error).splitlines())
         for word in ("XML Error: ", "Error: "):
             said = said.replace(word, "")
@@ -143,21 +154,28 @@ def _parsed(path: Path, included: str) -> Element:
 
 
 def _check_counts(path: Path, root: Element) -> None:
-    """Refuse what makes many bodies of few letters, and what is soft."""
-    waiting = [(root, 1)]
+    """Refuse what makes many bodies or numbers of few letters, and what is soft."""
+    waiting = [(root, 1.0)]
     while waiting:
         element, times = waiting.pop()
         where = f"{path}: line {element.line}: <{element.tag[:20]}>"
         if element.tag in ("composite", "flexcomp", "flex"):
             raise RobotError(f"{where} is soft; expected rigid bodies; take it out")
+        key, most = _COUNTS.get(element.tag, ("", math.inf))
+        told = " ".join(element.attributes.get(name, "") for name in key.split())
+        count = math.prod(max(_number(word), 1.0) for word in told.split())
         if element.tag == "replicate":
-            count = element.attributes.get("count", "1").strip()
-            times *= int(count) if count.isdecimal() and len(count) < 10 else MOST_REPLICAS + 1
-            if times > MOST_REPLICAS:
-                raise RobotError(
-                    f"{where} makes {shown(count)} copies; expected at most {MOST_REPLICAS}"
-                )
+            count = times = times * count
+        if count > most:
+            raise RobotError(f"{where}: {key}: got {shown(told)}; expected at most {most:g} in all")
         waiting += [(child, times) for child in element.children]
+
+
+def _number(word: str) -> float:
+    try:
+        return float(word)
+    except ValueError:  # MuJoCo will say so
+        return 1.0
 
 
 # What is taken out before MuJoCo compiles.
@@ -166,6 +184,10 @@ def _check_counts(path: Path, root: Element) -> None:
 def _lighten(spec: Any) -> list[str]:
     """Take out what neither moves nor weighs; bodies that state nothing get next to nothing."""
     spec.compiler.discardvisual = spec.compiler.fusestatic = False
+    spec.memory, spec.nkey, spec.nuserdata = -1, 0, 0  # as much as MuJoCo finds necessary
+    for name in dir(spec):
+        if name.startswith("nuser_"):
+            setattr(spec, name, -1)
     without, used = [], set()
     for body in spec.bodies:
         shapes = [geom for geom in body.geoms if geom.meshname or geom.hfieldname]
@@ -187,7 +209,7 @@ def _lighten(spec: Any) -> list[str]:
             body.explicitinertial, body.mass, body.inertia = True, LIGHT, [LIGHT] * 3
     for part in [*spec.geoms, *spec.sites]:
         part.material = ""
-    for name in ("sensors", "pairs", "excludes", "skins", "tuples", "materials", "textures"):
+    for name in _LEFT_OUT:
         for part in list(getattr(spec, name)):
             spec.delete(part)
     for part in [*spec.hfields, *(mesh for mesh in spec.meshes if mesh.name not in used)]:
@@ -308,6 +330,9 @@ class _Reading:
     def tree(self, name: str) -> BodyTree:
         """All of it."""
         model, hidden, unread = self._model, set[str](), dict[str, str]()
+        for numbers in _NUMBERS:
+            if not np.all(np.abs(getattr(model, numbers)) < LARGEST):
+                raise self._refused(f"{numbers}: got more than {LARGEST:g}; expected SI units")
         if all(model.jnt_type[j] == _FREE for j in self._kept):
             raise self._refused("no hinge or slide moves anything; expected a robot")
         joints = tuple(self._tree_joints(hidden, unread))
