@@ -232,7 +232,11 @@ class _Writing:
             f'{{joint = "{name}", q0 = {number(self.joints[name].rest)}, h = 0}}'
             for name in those("stiffness")
         ]
-        return lines + ([f"spring = [{', '.join(springs)}]"] if springs else [])
+        if springs and self.loops:
+            self.symbols.notes.append("springs are left out: a robot with loops has none here")
+        elif springs:
+            lines.append(f"spring = [{', '.join(springs)}]")
+        return lines
 
     def parameters(self) -> list[str]:
         """Nominal values, and how sure those of the links are."""
@@ -289,7 +293,7 @@ class _Writing:
                 ("Ia", joint.armature, name in self.driven),
                 ("Fv", joint.damping, free),
                 ("Fs", joint.friction, free),
-                ("Ks", joint.stiffness, False),
+                ("Ks", None if self.loops else joint.stiffness, False),
             ):
                 if worth is not None and (worth or always):
                     lines.append(f"{prefix}{name} = {number(worth)}")
