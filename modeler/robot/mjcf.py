@@ -192,18 +192,18 @@ def _lighten(spec: Any) -> list[str]:
     for body in spec.bodies:
         shapes = [geom for geom in body.geoms if geom.meshname or geom.hfieldname]
         stated = body.explicitinertial and body.compiler.inertiafromgeom != _ALWAYS
-        bare = not (body.geoms or stated)
+        absent = False
         for geom in shapes:
             mesh = spec.mesh(geom.meshname) if geom.meshname else None
             if stated or mesh is None or not _weighs(body, geom):
                 spec.delete(geom)
             elif mesh.file and not (_folder(spec, mesh) / mesh.file).is_file():
                 without.append(f"{body.name} ({Path(mesh.file).name})")
-                bare = True
+                absent = True
             else:
                 used.add(mesh.name)
                 geom.contype = geom.conaffinity = 0  # it needs no hull then
-        if bare and body.name != "world":
+        if body.name != "world" and (absent or not (stated or body.geoms)):
             for geom in body.geoms:
                 spec.delete(geom)
             body.explicitinertial, body.mass, body.inertia = True, LIGHT, [LIGHT] * 3
@@ -608,10 +608,10 @@ def _other(name: str, taken: set[str]) -> str:
 
 
 def _matrix(quaternion: np.ndarray) -> np.ndarray:
-    """(3, 3) the rotation; what ought to be 0 is."""
+    """(3, 3) the rotation; what ought to be 0 or 1 is."""
     w, x, y, z = quaternion
     axis = np.array([x, y, z])
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     turn = np.eye(3) * (w * w - axis @ axis) + 2 * np.outer(axis, axis) + 2 * w * cross
-    turn[np.abs(turn) < EXACT] = 0.0
-    return np.asarray(turn)
+    whole = np.round(turn)
+    return np.where(np.abs(turn - whole) < EXACT, whole, turn) + 0.0
