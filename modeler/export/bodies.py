@@ -377,12 +377,14 @@ def _settled(
     size = {link: _round(before.mean[own]) for link, own in machine.links.items()}
     first = impossible(machine, found.chi, size, {link: np.zeros(10) for link in machine.links})
     notes = []
-    whole, stated = buildable(machine, found, beta, C, size, {}), C
+    nearest = _Nearest(machine, before, found, beta, C, size)
+    whole, stated = nearest({}), C
     for loose in _LOOSE:  # values that are stated of no body
         if whole is None:
             C = stated + loose**2 * machine.K @ before.S @ machine.K.T
             found = conditioned(machine.K, before, beta, C)
-            whole = buildable(machine, found, beta, C, size, {})
+            nearest = _Nearest(machine, before, found, beta, C, size)
+            whole = nearest({})
     if whole is None:
         raise DataError(
             f"{robot.name}: nothing near these values could be built, because of "
@@ -404,11 +406,36 @@ def _settled(
         return whole, frozenset(), notes
     floors = {link: original.hung.get(link, np.zeros(10)) for link in machine.links}
     tight = impossible(machine, whole.chi, size, floors)
-    own = buildable(machine, found, beta, C, size, original.hung)
+    own = nearest(original.hung)
     if own is not None and own.moved <= whole.moved + 1.0:
         return own, frozenset(), notes
     loose = {link: ten for link, ten in original.hung.items() if link not in tight}
-    return buildable(machine, found, beta, C, size, loose) or whole, frozenset(tight), notes
+    return nearest(loose) or whole, frozenset(tight), notes
+
+
+@dataclass(frozen=True, eq=False)
+class _Nearest:
+    """The nearest that can be built: with the base parameters as they are, if it is hardly farther."""
+
+    machine: Machine
+    before: Beforehand
+    found: Completed
+    beta: np.ndarray
+    C: np.ndarray
+    size: Mapping[str, np.ndarray]
+
+    def __call__(self, hung: Mapping[str, np.ndarray]) -> Completed | None:
+        """With what hangs on the links."""
+        rest = (self.beta, self.C, self.size, hung)
+        best = buildable(self.machine, self.found, *rest)
+        if best is None or not best.moved:
+            return best
+        exact = conditioned(self.machine.K, self.before, self.beta, 0.0 * self.C)
+        exact = dataclasses.replace(exact, chi=self.found.chi)
+        other = buildable(self.machine, exact, *rest)
+        if other is None or other.far > best.far + 1.0:
+            return best
+        return dataclasses.replace(other, root=best.root, moved=0.0)
 
 
 def _round(ten: np.ndarray) -> np.ndarray:

@@ -21,6 +21,7 @@ import contextlib
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -53,13 +54,20 @@ class Completed:
 
     Attributes:
         chi: (m,).
-        covariance: (m, m).
+        root: (m, r) of their covariance root root^T.
         moved: by how many standard deviations of the fit beta moved so that it can be built.
+        far: ||z||, by how many in all chi moved.
     """
 
     chi: np.ndarray
-    covariance: np.ndarray
-    moved: float
+    root: np.ndarray
+    moved: float = 0.0
+    far: float = 0.0
+
+    @cached_property
+    def covariance(self) -> np.ndarray:
+        """(m, m)."""
+        return np.asarray(self.root @ self.root.T)
 
 
 def conditioned(
@@ -68,10 +76,13 @@ def conditioned(
     """The Gaussian completion; K chi = beta wherever what is known beforehand lets chi move."""
     mean, S = before.mean, before.S
     G = S @ K.T @ _inverse(K @ S @ K.T)
+    for _ in range(2):  # K G = 1 to the last digits (Newton)
+        G = 2.0 * G - G @ (K @ G)
     chi = mean + G @ (beta - K @ mean)
     chi += G @ (beta - K @ chi)  # the rounding of the first step
     rest = np.eye(len(mean)) - G @ K
-    return Completed(chi, rest @ S @ rest.T + G @ C @ G.T, 0.0)
+    # No difference of covariances: what beta tells is not lost in what was known of it.
+    return Completed(chi, np.hstack([rest @ _half(S), G @ _half(C)]))
 
 
 def buildable(
@@ -97,13 +108,10 @@ def buildable(
         return found
     import cvxpy as cp  # only here: most fits can be built as they are
 
-    deviation = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
-    safe = np.where(deviation > 0.0, deviation, 1.0)
-    values, vectors = np.linalg.eigh(found.covariance / np.outer(safe, safe))
-    kept = values > _NONE * max(1.0, float(values[-1]))
-    L = safe[:, None] * vectors[:, kept] * np.sqrt(values[kept])
+    L = found.root[:, np.abs(found.root).any(axis=0)]
     if not L.size:
         return None
+    deviation = np.linalg.norm(L, axis=1)
     z = cp.Variable(L.shape[1])
     bounds = []
     for name, place in machine.positive.items():
@@ -129,7 +137,8 @@ def buildable(
     chi[places] = np.maximum(chi[places], 0.0)
     if impossible(machine, chi, size, floors):
         return None
-    return Completed(chi, found.covariance, distance(machine.K @ chi - beta, C))
+    far = float(np.linalg.norm(z.value))
+    return Completed(chi, found.root, distance(machine.K @ chi - beta, C), far)
 
 
 def impossible(
@@ -159,10 +168,21 @@ def distance(apart: np.ndarray, C: np.ndarray) -> float:
 
 def _inverse(V: np.ndarray) -> np.ndarray:
     """Pseudo-inverse of a covariance, its rows scaled alike."""
+    safe, values, vectors = _scaled(V)
+    half = vectors / (safe[:, None] * np.sqrt(values))
+    return np.asarray(half @ half.T)
+
+
+def _half(V: np.ndarray) -> np.ndarray:
+    """(m, r) root of a covariance, V = root root^T."""
+    safe, values, vectors = _scaled(V)
+    return np.asarray(safe[:, None] * vectors * np.sqrt(values))
+
+
+def _scaled(V: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Deviations, and eigenvalues with vectors of the correlation, those of rounding left out."""
     size = np.sqrt(np.maximum(np.diag(V), 0.0))
     safe = np.where(size > 0.0, size, 1.0)
     values, vectors = np.linalg.eigh(V / np.outer(safe, safe))
-    kept = (values > _NONE * max(1.0, float(values[-1]))) if values.size else values > 0.0
-    half = vectors[:, kept] / np.sqrt(values[kept])
-    half = half * (size > 0.0)[:, None] / safe[:, None]
-    return np.asarray(half @ half.T)
+    kept = values > _NONE * max(1.0, float(values.max(initial=0.0)))
+    return safe, values[kept], vectors[:, kept]

@@ -14,8 +14,8 @@ from modeler.core.errors import DataError
 from modeler.export.bodies import Physics, carried, rest_of, written
 from modeler.export.fresh import numbers
 from modeler.export.linkage import from_rpy
-from modeler.export.original import Placed, Source, joint_rows, sdf_pose, shared_out
-from modeler.export.result import Value, body_values, drive_values
+from modeler.export.original import Placed, Source, first, joint_rows, sdf_pose, shared_out
+from modeler.export.result import Value, body_values, drive_values, plain_values
 from modeler.robot import Element, Inertial, Pose, about_origin, replaced
 
 _SAME = 1e-10  # of a body's scale: what is nearer has not changed
@@ -109,7 +109,7 @@ def rewritten(
     edited, values = Edited(source), list[Value]()
     kind = {"urdf": _Urdf, "mjcf": _Mjcf, "sdf": _Sdf}[source.format](edited)
     for row, own in links.items():
-        ten, places = physics.ten(row), physics.ten_places(row)
+        ten = physics.ten(row)
         if ten is None or (physics.fit is None and row not in physics.stated):
             continue
         tens = {
@@ -141,9 +141,10 @@ def rewritten(
                 kind.body(Body(name, carried(new, pose.inverse()), was), axes)
             elif name != own.carrier:
                 continue
-            held = None if row in physics.released else ten - new
-            if held is not None and places:
-                values += body_values(physics, row, name, before, pose, held, axes)
+            if row in physics.released:  # in part only of the link
+                values += plain_values(name, before, written(carried(new, pose.inverse()), axes))
+            else:
+                values += body_values(physics, row, name, before, pose, ten - new, axes)
     rows = joint_rows(source, physics.robot)
     joints = {joint.name: joint for joint in source.tree.joints} if source.tree else {}
     for name, row in rows.items():
@@ -182,8 +183,8 @@ class _Urdf:
 
     def axes(self, link: str) -> np.ndarray | None:
         """(3, 3) those along which the file states the inertia of a link; None: those of its frame."""
-        inertial = self.elements["link", link].first("inertial")
-        origin = inertial.first("origin") if inertial else None
+        inertial = first(self.elements["link", link], "inertial")
+        origin = first(inertial, "origin") if inertial else None
         angles = origin.attributes.get("rpy") if origin else None
         return from_rpy([float(word) for word in angles.split()]) if angles else None
 
@@ -191,7 +192,7 @@ class _Urdf:
         """Puts the numbers of a link."""
         new = written(body.ten, axes)
         link = self.elements["link", body.name]
-        inertial = link.first("inertial")
+        inertial = first(link, "inertial")
         if inertial is None:
             tensor = " ".join(f'{k}="{numbers([x])}"' for k, x in zip(_TENSOR, new[4:], strict=True))
             self.edited.child(
@@ -203,7 +204,7 @@ class _Urdf:
             return
         assert body.was is not None
         was = written(about_origin(body.was), axes)
-        mass, tensor, origin = (inertial.first(tag) for tag in ("mass", "inertia", "origin"))
+        mass, tensor, origin = (first(inertial, tag) for tag in ("mass", "inertia", "origin"))
         assert mass is not None and tensor is not None
         if _moved(new[:1], was[:1]):
             self.edited.attribute(mass, "value", numbers(new[:1]))
@@ -223,7 +224,7 @@ class _Urdf:
     def drive(self, joint: str, quantity: str, value: float) -> None:
         """Puts damping or friction of a joint."""
         element = self.elements["joint", joint]
-        dynamics = element.first("dynamics")
+        dynamics = first(element, "dynamics")
         if dynamics is not None:
             self.edited.attribute(dynamics, quantity, numbers([value]))
             return
@@ -292,7 +293,7 @@ class _Mjcf:
         new = written(body.ten)
         element = self._element(self.bodies, "body", body.name)
         full = numbers(new[[4, 7, 9, 5, 6, 8]])
-        inertial = element.first("inertial")
+        inertial = first(element, "inertial")
         if inertial is None:
             self.edited.child(
                 element,
@@ -353,14 +354,14 @@ class _Sdf:
 
     def axes(self, link: str) -> np.ndarray | None:
         """(3, 3) of the `<pose>` of the inertial."""
-        inertial = self.elements["link", link].first("inertial")
+        inertial = first(self.elements["link", link], "inertial")
         return sdf_pose(inertial).rotation if inertial else None
 
     def body(self, body: Body, axes: np.ndarray | None) -> None:
         """Puts the numbers of a link."""
         new = written(body.ten, axes)
         link = self.elements["link", body.name]
-        inertial = link.first("inertial")
+        inertial = first(link, "inertial")
         pairs = zip(_TENSOR, new[4:], strict=True)
         if inertial is None or body.was is None:
             tensor = "".join(f"<{key}>{numbers([value])}</{key}>" for key, value in pairs)
@@ -372,18 +373,18 @@ class _Sdf:
             )
             return
         self._put(inertial, "mass", numbers(new[:1]))
-        pose = inertial.first("pose")
+        pose = first(inertial, "pose")
         angles = pose.text.split()[3:] if pose is not None and pose.text else ["0", "0", "0"]
         was = written(about_origin(body.was), axes)
         if _moved(new[1:4], was[1:4]):
             self._put(inertial, "pose", " ".join([numbers(new[1:4]), *angles]))
-        inertia = inertial.first("inertia")
+        inertia = first(inertial, "inertia")
         assert inertia is not None
         for key, value in pairs:
             self._put(inertia, key, numbers([value]))
 
     def _put(self, parent: Element, tag: str, text: str) -> None:
-        element = parent.first(tag)
+        element = first(parent, tag)
         if element is None:
             self.edited.child(parent, f"<{tag}>{text}</{tag}>", first=True)
         else:
@@ -391,8 +392,8 @@ class _Sdf:
 
     def _dynamics(self, joint: str) -> tuple[Element | None, Element | None]:
         element = self.elements.get(("joint", joint))
-        axis = element.first("axis") if element else None
-        return axis, axis.first("dynamics") if axis else None
+        axis = first(element, "axis") if element else None
+        return axis, first(axis, "dynamics") if axis else None
 
     def stated(self, joint: str) -> dict[str, float]:
         """What a joint states."""

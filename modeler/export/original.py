@@ -90,9 +90,14 @@ def source_of(path: Path) -> Source:
     return Source(path, data, root, kind, tree, tree.bodies)
 
 
+def first(element: Element, tag: str) -> Element | None:
+    """Its first child of that tag."""
+    return next(iter(element.named(tag)), None)
+
+
 def sdf_pose(element: Element | None) -> Pose:
     """`<pose>` of an element: x y z roll pitch yaw, rad or `degrees`."""
-    pose = element.first("pose") if element else None
+    pose = first(element, "pose") if element else None
     if pose is None or not pose.text:
         return Pose()
     numbers = np.array([float(word) for word in pose.text.split()])
@@ -103,9 +108,9 @@ def sdf_pose(element: Element | None) -> Pose:
 def _sdf_links(root: Element) -> dict[str, Inertial | None]:
     found: dict[str, Inertial | None] = {}
     for link in (element for element in root.walk() if element.tag == "link"):
-        inertial = link.first("inertial")
-        mass = inertial.first("mass") if inertial else None
-        tensor = inertial.first("inertia") if inertial else None
+        inertial = first(link, "inertial")
+        mass = first(inertial, "mass") if inertial else None
+        tensor = first(inertial, "inertia") if inertial else None
         body = None
         if mass is not None and tensor is not None:
             entry = {child.tag: float(child.text) for child in tensor.children if child.text}
@@ -226,15 +231,15 @@ def _check_tree(
 
 def _check_sdf(source: Source, robot: Robot, on: Mapping[str, tuple[str, Pose]]) -> None:
     """Links are placed on the first as the table has them at 0, as far as their poses are plain."""
-    at, first = poses(robot, {}), None
+    at, reference = poses(robot, {}), None
     for link in (element for element in source.root.walk() if element.tag == "link"):
-        name, pose = link.attributes.get("name", ""), link.first("pose")
+        name, pose = link.attributes.get("name", ""), first(link, "pose")
         if name not in on or (pose is not None and pose.attributes.get("relative_to")):
             continue
         row, own = on[name]
         base = sdf_pose(link) @ (at[row] @ own).inverse()
-        first = first or base
-        if not _alike(first, base):
+        reference = reference or base
+        if not _alike(reference, base):
             raise _differs(source, robot, f"link {name} stands elsewhere at 0")
 
 

@@ -121,9 +121,15 @@ def body_values(
         own = ten if hung is None else ten - hung
         return written(own if pose is None else carried(own, pose.inverse()), axes)
 
-    now = numbers(physics.now.chi[places])
     spread = physics.now.covariance[np.ix_(places, places)]
     sigma = deviations(numbers, physics.now.chi[places], spread) if physics.fit else None
+    yield from plain_values(part, was, numbers(physics.now.chi[places]), sigma)
+
+
+def plain_values(
+    part: str, was: np.ndarray | None, now: np.ndarray, sigma: np.ndarray | None = None
+) -> Iterator[Value]:
+    """The numbers of a body, as `written`."""
     for k, (quantity, unit) in enumerate(zip(QUANTITIES, _UNITS, strict=True)):
         before = None if was is None else float(was[k])
         deviation = None if sigma is None else float(sigma[k])

@@ -33,7 +33,6 @@ _KINDS = {
     "fixed": JointKind.FIXED,
 }
 _UNREAD = ("floating", "planar", "ball", "spherical", "universal", "screw")
-_OTHERS = {"sdf": "SDF; convert it to URDF", "mujoco": "MJCF; call the file .xml"}
 _DECIMAL = re.compile(r"[+-]?(?:\d+\.?(\d*)|\.(\d+))(?:[eE]([+-]?\d{1,4}))?", re.ASCII)
 _ZERO = 1e-6
 """m, rad, and of a unit axis: smaller is what an exporter's arithmetic left of 0."""
@@ -60,10 +59,8 @@ def urdf_tree(data: bytes, where: str, exact_decimals: bool = False) -> BodyTree
 
 
 def _check_format(root: "_Spot", where: str) -> None:
-    tag = root.element.tag
-    if tag != "robot":
-        told = _OTHERS.get(tag, "no URDF")
-        raise root.place.error(f"<{tag}> is {told}; a URDF begins with <robot>")
+    if root.element.tag != "robot":
+        raise root.place.error(f"<{root.element.tag}> is no URDF, which begins with <robot>")
     for child in root.element.children:
         macros = child.tag in ("include", "macro", "property")
         ours = child.tag in ("link", "joint")
@@ -155,7 +152,7 @@ class _Reading:
             raise self._root.place.error('<robot> has no link; expected <link name="...">')
         bodies = {name: self._body(name, link) for name, link in links.items()}
         joints = {name: self._joint(name, spot, links) for name, spot in spots.items()}
-        root = _first_link(bodies, joints, spots)
+        root = _first_link(self._root.place, bodies, joints, spots)
         self._follow(joints, spots)
         self._add_armatures(joints)
         return BodyTree(
@@ -344,7 +341,7 @@ class _Reading:
 
 
 def _first_link(
-    bodies: Iterable[str], joints: Mapping[str, TreeJoint], spots: Mapping[str, _Spot]
+    place: Place, bodies: Iterable[str], joints: Mapping[str, TreeJoint], spots: Mapping[str, _Spot]
 ) -> str:
     """The link that no joint moves; refuses what is no tree."""
     above: dict[str, TreeJoint] = {}
@@ -355,8 +352,7 @@ def _first_link(
             raise spots[joint.name].place.error(f"{told}; expected one parent: a URDF is a tree")
     first = [name for name in bodies if name not in above]
     if len(first) > 1:
-        file = next(iter(spots.values())).place.file if spots else ""
-        raise Place(file).error(
+        raise place.error(
             f"no joint leads to {len(first)} links, {several(first)}; expected one first link: "
             "join the others to it by fixed joints, or take them out"
         )

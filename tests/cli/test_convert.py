@@ -134,7 +134,7 @@ def test_a_urdf_is_known_by_its_first_element(capsys, tmp_path, name):
     path = tmp_path / name
     path.write_text("<?xml version='1.0'?>\n<!-- made by hand -->\n" + TURN)
     status, out, err = run(capsys, "derive", path, "--no-terms")
-    assert status == 0 and out.startswith("turn\n") and "ZZ1R = ZZ1 + YY2 + D2**2*M2" in out
+    assert status == 0 and out.startswith("turn\n") and "ZZ1R = ZZ1 + Ia1 + YY2 + D2**2*M2" in out
     assert all(line.startswith(f"modeler: {path}: ") for line in err.splitlines())
 
 

@@ -2,10 +2,10 @@
 
 import random
 import re
+import resource
 import subprocess
 import sys
 import time
-import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 
@@ -108,6 +108,10 @@ def test_other_formats_are_named(tmp_path: Path):
     for text, told in (
         ("<sdf version='1.7'><model name='a'/></sdf>", "SDF"),
         ("<html><body/></html>", "URDF"),
+        (
+            "<robot><link name='a'/><link name='b'/></robot>",
+            'line 1: no joint leads to 2 links, "a"',
+        ),
         ("<robot name='a'><!-- <link name='b'/> --></robot>", "line 1: <robot> has no link"),
         ('<robot xmlns:xacro="x"><xacro:include filename="a"/></robot>', "> .*/arm.urdf$"),
     ):
@@ -141,6 +145,7 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "long value": lambda: b'<robot name="' + b"a" * 40_000_000 + b'"/>',
     "long number": lambda: edited(('"0 0 0.4"', f'"0 0 {"9" * 5_000_000}"')).encode(),
     "comment": lambda: b"<robot><!--" + b"a" * 40_000_000,
+    "comments": lambda: b"<!---->" * 5000 + b"<robot>",
     "large": lambda: b"<robot>" + b" " * 70_000_000 + b"</robot>",
 }
 CHILD = """
@@ -168,6 +173,11 @@ def test_bombs_are_refused_in_bounded_memory(bomb: str, tmp_path: Path):
     assert done.returncode == 0, done.stderr[-2000:]
     assert done.stdout.startswith(str(path)), done.stdout
     assert len(done.stdout.splitlines()) == 1
+
+
+def _most_memory() -> float:
+    """The most bytes that this process has had."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024.0
 
 
 NUMBERS = (
@@ -214,28 +224,19 @@ def spoilt(data: bytes, draw: random.Random) -> bytes:
     return data[:start] + b" ".join(words) + data[end:]
 
 
-SPOILT = [
-    "arm",
-    "ur5_robot",
-    "panda",
-    "talos_left_arm",
-    "so101",
-    "allegro_left_hand",
-    "tiago_no_hand",
-]
+SPOILT = ("arm", "ur5_robot", "panda", "so101", "allegro_left_hand", "talos_left_arm")
 
 
 @pytest.mark.parametrize("name", SPOILT)
 def test_spoilt_files_are_read_or_told_in_one_line(name: str, tmp_path: Path):
-    """20 mutants each: a robot, or one line that begins with the file; a few MB, a few seconds."""
+    """20 mutants each: a robot, or one line that begins with the file; in 200 MB and 20 s."""
     data = ARM.encode() if name == "arm" else public_urdf(f"{name}.urdf").read_bytes()
     draw = random.Random(f"{name} 11")
     path = tmp_path / "spoilt.urdf"
     told = 0
     for _ in range(20):
         path.write_bytes(spoilt(data, draw))
-        tracemalloc.start()
-        begun = time.process_time()
+        before, begun = _most_memory(), time.process_time()
         try:
             read_robot(path)
         except ModelerError as error:
@@ -244,9 +245,6 @@ def test_spoilt_files_are_read_or_told_in_one_line(name: str, tmp_path: Path):
             assert line.startswith(str(path)), line
             assert len(line.splitlines()) == 1, line
             assert len(line) < LONGEST, line
-        finally:
-            peak = tracemalloc.get_traced_memory()[1]
-            tracemalloc.stop()
-        assert peak < 200e6
+        assert _most_memory() - before < 200e6
         assert time.process_time() - begun < 20
     assert told > 0

@@ -11,7 +11,8 @@ from modeler.robot.par_convert import par_to_toml
 from modeler.robot.robot_text import Converted
 
 _PROLOG = 65536
-_FIRST = re.compile(rb"(?:\s|<\?.*?\?>|<!--.*?-->)*<(?:robot|mujoco|sdf)\b", re.DOTALL)
+# Atomic: comments are not tried in all ways of taking them together.
+_FIRST = re.compile(rb"(?>\s+|<\?.*?\?>|<!--.*?-->)*+<(?:robot|mujoco|sdf)\b", re.DOTALL)
 
 
 def converted(

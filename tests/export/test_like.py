@@ -1,0 +1,190 @@
+"""Originals with other numbers: what is no number stays, what is one is the model's."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from modeler.api import export, fit, generate, derive, compile_model, identify, simulate
+from modeler.core.errors import DataError, ModelerError, RobotError
+from modeler.robot import read_robot, robot_from_text
+from tests.export.arms import (
+    MJCF,
+    SDF,
+    URDF,
+    changed,
+    reread,
+    same_physics,
+    without_comment,
+    without_numbers,
+    written,
+)
+from tests.robot.public_robots import each_public_urdf, public_urdf
+
+pytest.importorskip("mujoco", reason="NOT CHECKED: no MuJoCo")
+ARMS = {"arm.urdf": URDF, "arm.xml": MJCF}
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_without_a_fit_the_file_stays_as_it_is(tmp_path, name) -> None:
+    place = written(tmp_path, name, ARMS[name])
+    found = export(read_robot(place), like=place)
+    assert found.data == ARMS[name] and not any(value.changed for value in found.values)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_other_values_read_back_as_they_are(tmp_path, name) -> None:
+    place = written(tmp_path, name, ARMS[name])
+    robot = changed(read_robot(place), np.random.default_rng())
+    found = export(robot, like=place)
+    again = reread(tmp_path, f"again_{name}", found.data)
+    assert same_physics(robot, again)
+    assert not same_physics(read_robot(place), again)
+    moved = export(again, like=tmp_path / f"again_{name}")
+    assert moved.data == found.data  # and nothing moves any more
+    assert found.data.count(b"modeler export") == 1
+    back = export(read_robot(place), like=tmp_path / f"again_{name}")
+    assert back.data.count(b"modeler export") == 1 and same_physics(
+        read_robot(place), reread(tmp_path, name, back.data)
+    )
+
+
+def test_urdf_outside_the_numbers_is_the_same_text(tmp_path) -> None:
+    place = written(tmp_path, "arm.urdf", URDF.replace(b"\n", b"\r\n"))
+    robot = changed(read_robot(place), np.random.default_rng())
+    robot = dataclasses.replace(robot, parameters=robot.parameters | {"Fv2": 0.25})
+    data = export(robot, like=place).data
+    assert data.startswith(b"<?xml version='1.0'?>\r\n<!-- modeler export: ")
+    assert data.count(b"\r\n") == data.count(b"\n")
+    lines = without_numbers(without_comment(data)).splitlines()
+    before = without_numbers(URDF).splitlines()
+    new = [line for line in lines if line not in before]
+    # one joint had no <dynamics>, one body no <origin>
+    added = [line.strip() for line in lines if b"<dynamics" in line]
+    assert sorted(added) == [b'<dynamics damping="N"/>'] * 2 + [b'<dynamics friction="N" damping="N"/>']
+    gone = [line for line in before if line not in lines]
+    assert len(gone) == len(new) == 1 and b'<origin xyz="N N N"/><mass' in new[0], new
+
+
+def test_lumped_bodies_keep_their_numbers(tmp_path) -> None:
+    place = written(tmp_path, "arm.urdf", URDF)
+    robot = changed(read_robot(place), np.random.default_rng(), "2")
+    found = export(robot, like=place)
+    parts = {value.part for value in found.values if value.changed and value.quantity == "mass"}
+    assert parts == {"fore"} and any("tool as before" in note for note in found.notes)
+    tool = found.data[found.data.index(b'<link name="tool">') :][:300]
+    assert tool == URDF[URDF.index(b'<link name="tool">') :][:300]
+
+
+def test_a_link_without_mass_leaves_the_change_to_what_hangs_on_it(tmp_path) -> None:
+    place = written(tmp_path, "arm.urdf", URDF)
+    robot = read_robot(place)
+    heavier = {"M3": robot.parameters["M3"] + 0.1}
+    found = export(dataclasses.replace(robot, parameters=robot.parameters | heavier), like=place)
+    mass = next(v for v in found.values if v.quantity == "mass" and v.changed)
+    assert (mass.part, mass.was) == ("finger", 0.2) and mass.now == pytest.approx(0.3)
+
+
+def test_mjcf_writes_what_defaults_and_geoms_said(tmp_path) -> None:
+    place = written(tmp_path, "arm.xml", MJCF)
+    robot = changed(read_robot(place), np.random.default_rng())
+    data = export(robot, like=place).data
+    text = data.decode()
+    assert text.count("<inertial") == 3 and text.count("fullinertia") == 3
+    assert "euler=\"5 10 20\"" not in text and "diaginertia" not in text.split("-->", 1)[1]
+    for name in ("shoulder", "roll", "elbow"):
+        line = next(x for x in text.splitlines() if f'joint name="{name}"' in x)
+        assert "damping=" in line and "armature=" in line
+    assert "<default class=\"stiff\"><joint damping=\"2\" frictionloss=\"0.3\"/></default>" in text
+
+
+def test_sdf_is_matched_by_its_links(tmp_path) -> None:
+    urdf, sdf = written(tmp_path, "arm.urdf", URDF), written(tmp_path, "arm.sdf", SDF)
+    robot = read_robot(urdf)
+    values = {k: v for k, v in robot.parameters.items() if k not in ("M2",)}
+    data = export(dataclasses.replace(robot, parameters=values | {"M1": 3.5, "Fv1": 0.5}), like=sdf).data
+    assert b"<mass>3.5</mass>" in data and b"<damping>0.5</damping><friction>0.7" in data
+    other = written(tmp_path, "other.sdf", SDF.replace(b"<pose>0 0 0.3 0 0.4 0", b"<pose>0 0 0.4 0 0.4 0"))
+    with pytest.raises(DataError, match="link upper stands elsewhere at 0"):
+        export(robot, like=other)
+    with pytest.raises(DataError, match="it has no link slider"):
+        export(robot, like=written(tmp_path, "cut.sdf", SDF.replace(b'"slider"', b'"sled"')))
+
+
+def test_a_table_without_frames_is_matched_by_its_geometry(tmp_path) -> None:
+    place = written(tmp_path, "arm.urdf", URDF)
+    robot = dataclasses.replace(changed(read_robot(place), np.random.default_rng()), frames={})
+    assert same_physics(robot, reread(tmp_path, "again.urdf", export(robot, like=place).data))
+    longer = written(tmp_path, "longer.urdf", URDF.replace(b"0.05 0 0.3", b"0.05 0 0.4"))
+    with pytest.raises(DataError, match="joint elbow moves otherwise than row 2"):
+        export(robot, like=longer)
+
+
+@pytest.mark.parametrize(("old", "new", "word"), [
+    (b'xyz="0.05 0 0.3"', b'xyz="0.05 0 0.31"', "link fore is placed otherwise on upper"),
+    (b'axis xyz="0 0 -1"', b'axis xyz="0 0 1"', "link fore is placed otherwise on upper"),
+    (b'"tool"', b'"gripper"', "it has no link tool"),
+])  # fmt: skip
+def test_another_robot_is_refused(tmp_path, old, new, word) -> None:
+    robot = read_robot(written(tmp_path, "arm.urdf", URDF))
+    other = written(tmp_path, "other.urdf", URDF.replace(old, new))
+    with pytest.raises(DataError, match=word) as told:
+        export(robot, like=other)
+    assert "\n" not in str(told.value)
+
+
+@pytest.mark.parametrize(("name", "old", "new", "word"), [
+    ("a.xml", b'angle="degree"', b'angle="degree" inertiafromgeom="true"', 'write "auto" there'),
+    ("a.xml", b'angle="degree"', b'angle="degree" settotalmass="9"', "settotalmass changes"),
+    ("a.xml", b'gear="2"', b'gear="2" armature="0.1"', "actuators state armature or damping"),
+    ("a.txt", MJCF, b"<x/>", r"expected <robot> \(URDF\)"),
+    ("a.urdf", MJCF, URDF, "URDF, and --to says mjcf"),
+])  # fmt: skip
+def test_what_cannot_be_replaced_is_refused(tmp_path, name, old, new, word) -> None:
+    robot = read_robot(written(tmp_path, "arm.xml", MJCF))
+    base = MJCF if new == URDF else MJCF.replace(b'fullinertia="0.0004 0.0004 0.0002 1e-5 0 0"',
+                                                 b'diaginertia="0.0004 0.0004 0.0002"')  # fmt: skip
+    place = written(tmp_path, name, new if old == MJCF else base.replace(old, new))
+    to = "mjcf" if name.endswith("urdf") else None
+    with pytest.raises(DataError, match=word) as told:
+        export(changed(robot, np.random.default_rng()), like=place, to=to)
+    assert "\n" not in str(told.value)
+
+
+def test_a_body_of_an_included_file_is_refused(tmp_path) -> None:
+    start, end = MJCF.index(b'<body name="fore"'), MJCF.index(b"    </body>\n  </worldbody>")
+    part = b"<mujocoinclude>" + MJCF[start:end] + b"</mujocoinclude>"
+    written(tmp_path, "fore.xml", part)
+    place = written(tmp_path, "arm.xml", MJCF[:start] + b'<include file="fore.xml"/>' + MJCF[end:])
+    robot = read_robot(place)
+    assert export(robot, like=place).data == place.read_bytes()
+    with pytest.raises(DataError, match="body fore does not stand in the file itself"):
+        export(changed(robot, np.random.default_rng()), like=place)
+
+
+def test_nothing_is_written_over_unasked(tmp_path) -> None:
+    place = written(tmp_path, "arm.urdf", URDF)
+    robot = changed(read_robot(place), np.random.default_rng())
+    with pytest.raises(ModelerError, match="--force"):
+        export(robot, place, like=place)
+    export(robot, tmp_path / "new.urdf", like=place)
+    with pytest.raises(DataError, match="cannot be read"):
+        export(robot, like=tmp_path / "none.urdf")
+
+
+@pytest.mark.parametrize("name", ["so101.urdf", "panda.urdf", "allegro_left_hand.urdf", "baxter.urdf"])
+def test_public_urdfs_stay_as_they_are(name) -> None:
+    path = public_urdf(name)
+    assert export(read_robot(path), like=path).data == path.read_bytes()
+
+
+@pytest.mark.slow
+@each_public_urdf()
+def test_every_public_urdf_stays_as_it_is(path) -> None:
+    try:
+        robot = read_robot(path)
+    except RobotError as error:
+        pytest.skip(str(error))
+    if not any(name.startswith("M") for name in robot.parameters):
+        pytest.skip("no values")
+    assert export(robot, like=path).data == path.read_bytes()

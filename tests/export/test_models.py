@@ -1,0 +1,186 @@
+"""A fitted model as a file: its torques, what it cannot hold, a machine that could be built."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from modeler.api import export, identify, load, recompile, simulate
+from modeler.export.bodies import Original, physics_of
+from modeler.export.completion import Beforehand, buildable, conditioned
+from modeler.estimation import PREFIXES, Machine, parameters_of, pseudo_inertia_of
+from modeler.robot import read_robot, robot_from_text
+from tests.export.arms import URDF, changed, written
+from tests.export.test_fresh_files import close, mujoco_torques, pinocchio_torques
+
+pytest.importorskip("pinocchio", reason="NOT CHECKED: no Pinocchio")
+pytest.importorskip("mujoco", reason="NOT CHECKED: no MuJoCo")
+
+
+@pytest.fixture(scope="module")
+def fitted(tmp_path_factory):
+    """The arm that the file describes, and another of which a model was fitted."""
+    folder = tmp_path_factory.mktemp("arm")
+    place = written(folder, "arm.urdf", URDF)
+    truth = changed(read_robot(place), np.random.default_rng())
+    log = simulate(truth, duration=8.0, rate=500.0, seed=int(np.random.default_rng().integers(1000)))
+    return place, truth, identify(read_robot(place), log)
+
+
+def torques_without(model, q, qd, qdd, left_out) -> np.ndarray:
+    """Of a fit, without what some parameters add, which stand for themselves."""
+    beta = model.beta.copy()
+    for i, base in enumerate(model.spec.base):
+        if base.name.startswith(left_out):
+            assert len(base.terms) == 1
+            beta[i] = 0.0
+    return recompile(model).inverse_dynamics(q, qd, qdd, beta)
+
+
+def test_the_exported_file_has_the_torques_of_the_fit(fitted) -> None:
+    place, truth, model = fitted
+    found = export(model, like=place)
+    assert found.moved == 0.0 and not found.not_held
+    rng = np.random.default_rng()
+    q, qd, qdd = (rng.uniform(-1.0, 1.0, (50, 3)) for _ in range(3))
+    joints = ["shoulder", "elbow", "slide"]
+    ours = torques_without(model, q, qd, qdd, ("Fv", "Fs"))
+    exact = found.data.replace(b'"1.5708 ', b'"1.5707963267948966 ')  # as it is read
+    assert close(pinocchio_torques(exact, joints, q, qd, qdd), ours)
+    assert not close(pinocchio_torques(URDF, joints, q, qd, qdd), ours, 0.05)
+    whole = torques_without(model, q, qd, qdd, ("Fs",))
+    fresh = export(model, to="mjcf").data
+    assert close(mujoco_torques(fresh, [f"{j}" for j in joints], q, qd, qdd), whole)
+
+
+def test_values_have_the_sigmas_of_the_fit(fitted) -> None:
+    place, truth, model = fitted
+    values = {(v.part, v.quantity): v for v in export(model, like=place).values}
+    friction = values["shoulder", "friction"]
+    assert friction.was == 0.7 and friction.now == pytest.approx(model["Fs1"].value)
+    assert friction.sigma == pytest.approx(model["Fs1"].sigma)
+    physics = physics_of(model, Original())
+    assert np.allclose(physics.machine.K @ physics.now.chi, model.beta, rtol=1e-12, atol=1e-13)
+    C = physics.machine.K @ physics.now.covariance @ physics.machine.K.T
+    assert np.allclose(C, model.covariance, rtol=1e-6, atol=1e-9 * np.abs(model.covariance).max())
+    # A sigma by random draws of the ten parameters.
+    places = physics.ten_places("1")
+    rng = np.random.default_rng()
+    tens = rng.multivariate_normal(physics.now.chi[places], 1e-4 * physics.now.covariance[np.ix_(places, places)], 4000)  # noqa: E501
+    centre = tens[:, 6] / tens[:, 9]
+    fresh = {(v.part, v.quantity): v for v in export(model, to="urdf").values}
+    assert fresh["link_1", "centre x"].sigma == pytest.approx(1e2 * centre.std(), rel=0.1)
+
+
+def test_the_comment_and_the_tables_tell_it(fitted, tmp_path) -> None:
+    place, _, model = fitted
+    found = export(model, tmp_path / "better.urdf", like=place)
+    text = (tmp_path / "better.urdf").read_bytes()
+    comment = text[text.index(b"<!-- modeler export") : text.index(b"-->")].decode()
+    assert "--" not in comment.removeprefix("<!--") and "+-" in comment
+    assert "shoulder friction:" in comment and "was 0.7" in comment
+    assert "cannot hold" not in found.summary() and "numbers changed" in found.summary()
+    table = found.to_frame()
+    assert list(table.columns[:2]) == ["part", "quantity"]
+    assert found.to_dict()["values"][0]["changed"] in (True, False)
+
+
+def test_what_a_format_cannot_hold_is_told_with_its_share(tmp_path) -> None:
+    robot = load("demo-arm")
+    log = simulate(robot, duration=6.0, rate=300.0, seed=3)
+    model = identify(robot, log)
+    exact = {(x.effect, x.joint): x for x in export(model, to="urdf").not_held}
+    assert {effect for effect, _ in exact} == {"rotor_inertia", "offset"}
+    rows = model._rows
+    part = np.zeros_like(model.beta)
+    names = [base.name for base in model.spec.base]
+    part[names.index("Ia3")] = exact["rotor_inertia", "3"].values["Ia3"]
+    share = np.linalg.norm(np.where(rows.used, rows.predicted(part), 0.0)[:, 2])
+    share /= np.linalg.norm(np.where(rows.used, rows.predicted(model.beta), 0.0)[:, 2])
+    assert exact["rotor_inertia", "3"].share == pytest.approx(share)
+    assert exact["rotor_inertia", "3"].of == "the torque of joint 3"
+    alone = dataclasses.replace(model, given=())
+    about = {(x.effect, x.joint): x for x in export(alone, to="urdf").not_held}
+    assert about["offset", "1"].of == "all torques" and 0.0 < about["offset", "1"].share < 1.0
+    assert {x.effect for x in export(model, to="mjcf").not_held} == {"offset"}
+    assert "offset of joint" in export(model, to="mjcf").summary()
+
+
+def a_link(rng) -> np.ndarray:
+    points = np.c_[rng.normal(scale=0.1, size=(9, 3)), np.ones(9)]
+    return parameters_of(np.einsum("ki,k,kj->ij", points, rng.uniform(0.1, 0.4, 9), points))
+
+
+def test_the_nearest_machine_is_the_nearest() -> None:
+    """Against 2000 possible ones, in the metric of the completion."""
+    rng = np.random.default_rng()
+    ten = a_link(rng)
+    K = np.zeros((4, 10))
+    K[range(4), [0, 5, 6, 9]] = 1.0
+    machine = Machine(tuple("abcdefghij"), K, {"1": np.arange(10)}, {})
+    S = np.diag((0.3 * np.maximum(np.abs(ten), 0.01)) ** 2)
+    beta = K @ ten
+    beta[1] = -0.2 * beta[1]  # ZZ below 0
+    C = np.diag((0.05 * np.abs(K @ ten)) ** 2)
+    found = conditioned(K, Beforehand(ten, S), beta, C)
+    assert np.allclose(K @ found.chi, beta, rtol=1e-12)
+    size = {"1": np.linalg.inv(np.linalg.cholesky(pseudo_inertia_of(ten)))}
+    best = buildable(machine, found, beta, C, size, {})
+    assert best is not None and best.moved > 1.0
+    assert np.linalg.eigvalsh(pseudo_inertia_of(best.chi))[0] > 0.0
+    L = np.linalg.cholesky(found.covariance)
+
+    def far(chi) -> float:
+        return float(np.linalg.norm(np.linalg.solve(L, chi - found.chi)))
+
+    least = far(best.chi)
+    others = [best.chi + t * L @ rng.normal(size=10) for t in np.geomspace(1e-3, 1.0, 20) for _ in range(100)]
+    for chi in others:
+        if np.linalg.eigvalsh(pseudo_inertia_of(chi))[0] > 1e-9:
+            assert far(chi) > least * (1.0 - 1e-4)
+
+
+def test_a_fit_that_could_not_be_built_becomes_one_that_could(fitted) -> None:
+    place, _, model = fitted
+    values = list(model.fit.parameters)
+    at = next(i for i, p in enumerate(values) if p.name == "Fs2")
+    values[at] = dataclasses.replace(values[at], value=-3.0 * values[at].sigma)
+    broken = dataclasses.replace(model, fit=dataclasses.replace(model.fit, parameters=tuple(values)))
+    found = export(broken, like=place)
+    assert found.moved == pytest.approx(3.0, rel=0.2) and "moved by 3" in found.summary()
+    elbow = [v for v in found.values if (v.part, v.quantity) == ("elbow", "friction")]
+    assert elbow[0].now >= 0.0
+
+
+def test_what_hangs_on_a_link_changes_only_where_it_must(tmp_path) -> None:
+    """The finger weighs 0.2 kg, and the fit says that slider and finger come to less."""
+    box = b'<mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/>'
+    arm = URDF.replace(b'<link name="slider"/>', b'<link name="slider"><inertial>' + box + b"</inertial></link>")
+    place = written(tmp_path, "arm.urdf", arm)
+    robot = read_robot(place)
+    masses = {}
+    for share in (1.2, 0.5):
+        light = {f"{p}3": share * robot.parameters[f"{p}3"] for p in PREFIXES}
+        truth = dataclasses.replace(robot, parameters=robot.parameters | light)
+        model = identify(robot, simulate(truth, duration=8.0, rate=300.0, seed=5))
+        found = export(model, like=place)
+        again = read_robot(written(tmp_path, "again.urdf", found.data))
+        assert again.parameters["M3"] == pytest.approx(0.3 * share, rel=0.05)
+        masses[share] = {v.part: v.now for v in found.values if v.quantity == "mass"}
+        assert any("changed with it: finger" in note for note in found.notes) == (share < 1.0)
+    assert masses[1.2]["slider"] == pytest.approx(0.16, rel=0.1) and "finger" not in masses[1.2]
+    assert 0.0 < masses[0.5]["slider"] < 0.1 and 0.0 < masses[0.5]["finger"] < 0.2
+
+
+def test_links_without_values_get_capsules_and_it_is_told() -> None:
+    robot = load("scara")
+    bare = robot_from_text(robot.text, "scara.toml")
+    model = identify(bare, simulate(robot, duration=6.0, rate=300.0, seed=2))
+    found = export(model, to="mjcf")
+    assert any("that of a capsule" in note for note in found.notes)
+    rng = np.random.default_rng()
+    q, qd, qdd = (rng.uniform(-0.5, 0.5, (50, 4)) for _ in range(3))
+    left = tuple({p.name.rstrip("0123456789") for p in model.spec.standard if p.kind == "offset"} | {"Fs"})
+    names = [f"joint_{joint.name}" for joint in robot.moving]
+    ours = torques_without(model, q, qd, qdd, left)
+    assert close(mujoco_torques(found.data, names, q, qd, qdd), ours)
