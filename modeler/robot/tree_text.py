@@ -47,7 +47,10 @@ _SPEED = {JointKind.REVOLUTE: 2.0, JointKind.PRISMATIC: 0.5}
 """rad/s, m/s where a file states none."""
 _ACCELERATION = 4.0
 """Over the speed, 1/s: no such file states it."""
-_LIMITS = "[limits]                              # lower, upper, speed, acceleration"
+_LIMITS = (
+    "[limits]                              # lower, upper, speed; acceleration: "
+    f"{_ACCELERATION:g} times that, no file states it"
+)
 
 
 def tree_to_toml(tree: BodyTree, where: str) -> Converted:
@@ -312,11 +315,6 @@ class _Writing:
             speed = speed or _SPEED[joint.kind]
             cells = [number(x) for x in (lower, upper, speed, _ACCELERATION * speed)]
             lines.append(f"{name} = [{', '.join(cells)}]")
-        if lines:
-            self.symbols.notes.append(
-                f"accelerations in [limits] are {_ACCELERATION:g} times the speeds, for the file "
-                "states none"
-            )
         return lines
 
 
