@@ -175,6 +175,19 @@ def test_printed_quaternions(printed: str, turns: tuple | None, tmp_path: Path) 
         assert np.allclose(rotation, expected, rtol=0, atol=1e-15)
 
 
+@pytest.mark.parametrize("printed", ['axisangle="0.5 0 0.866025 1.5708"', 'euler="1e-8 0 -3.1416"'])
+def test_other_printed_orientations(printed: str, tmp_path: Path) -> None:
+    """What is made good is what the digits round, and is exact."""
+    text = edited(('quat="0.707107 0.707107 0 0"', printed))
+    rotation = read(tmp_path, text).joints[0].pose.rotation
+    as_printed = read(tmp_path, text, exact_decimals=True).joints[0].pose.rotation
+    assert 1e-7 < np.abs(rotation - as_printed).max() < 1e-5
+    c, s = 0.5, math.sqrt(0.75)  # a right angle about (c, 0, s)
+    right = np.array([[c * c, -s, c * s], [s, 0, -c], [c * s, c, s * s]])
+    expected = right if "axis" in printed else np.diag([-1, -1, 1])
+    assert np.allclose(rotation, expected, rtol=0, atol=4e-16)
+
+
 def test_degrees_frames_includes_and_names(tmp_path: Path) -> None:
     (tmp_path / "part.xml").write_text(
         '<mujocoinclude><body pos="1 0 0"><joint range="-90 30"/><geom size="0.1"/></body>'
