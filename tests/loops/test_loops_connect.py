@@ -62,6 +62,13 @@ TEXTS = {
         "rod slider 0.1 0.05 0.4",
         "arm",
     ),
+    "pinned to the world": (
+        PLANAR,
+        CRANK.replace("</body></body>", """<body name="last" pos="0.45 0 0.1"><joint name="last"/>
+        <geom fromto="0 0 0 0.02 0 -0.35"/></body></body></body>"""),
+        "last - 0.02 0 -0.35",
+        "crank",
+    ),
     "parallelogram": (
         PLANAR,
         CRANK.replace("0.45 0 0.1", "0.4 0 0") + (ROCKER % "").replace("0.05 0 0.3", "0 0 0.2"),
@@ -77,7 +84,8 @@ def mjcf(name):
     ties = ""
     for meeting in meetings.split("; "):
         one, two, *anchor = meeting.split()
-        ties += f'<connect body1="{one}" body2="{two}" anchor="{" ".join(anchor)}"/>'
+        other = "" if two == "-" else f'body2="{two}"'
+        ties += f'<connect body1="{one}" {other} anchor="{" ".join(anchor)}"/>'
     motors = "".join(f'<motor joint="{motor}"/>' for motor in motors.split())
     return (
         f'<mujoco model="{name}"><compiler angle="radian"/><option gravity="0.4 0.2 -9.81"/>'
