@@ -70,7 +70,9 @@ class Completed:
         return np.asarray(self.root @ self.root.T)
 
 
-def conditioned(K: np.ndarray, before: Beforehand, beta: np.ndarray, C: np.ndarray) -> Completed:
+def conditioned(
+    K: np.ndarray, before: Beforehand, beta: np.ndarray, C: np.ndarray
+) -> Completed:
     """The Gaussian completion; K chi = beta wherever what is known beforehand lets chi move."""
     mean, S = before.mean, before.S
     G = S @ K.T @ _inverse(K @ S @ K.T)

@@ -14,7 +14,14 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.export.bodies import Physics, rest_of, written
 from modeler.export.capsules import Capsule, capsules
-from modeler.export.linkage import BASE, closed, row_pose, sense, to_quaternion, variables
+from modeler.export.linkage import (
+    BASE,
+    closed,
+    row_pose,
+    sense,
+    to_quaternion,
+    variables,
+)
 from modeler.robot import Joint, JointKind, Pose, linear_form, roll_pitch_yaw, turned
 
 LINK, JOINT = "link_", "joint_"
@@ -127,9 +134,7 @@ def numbers(values: Iterable[float]) -> str:
 
 
 def _add(parent: ET.Element, tag: str, **attributes: object) -> ET.Element:
-    texts = {
-        k: v if isinstance(v, str) else numbers(np.atleast_1d(v)) for k, v in attributes.items()
-    }  # type: ignore[arg-type]  # noqa: E501
+    texts = {k: v if isinstance(v, str) else numbers(np.atleast_1d(v)) for k, v in attributes.items()}  # type: ignore[arg-type]  # noqa: E501
     return ET.SubElement(parent, tag, texts)
 
 
@@ -320,9 +325,7 @@ def _sdf(physics: Physics, parts: list[Part]) -> ET.Element:
         _pose(inertial, Pose(part.body[1:4]))
         _text(inertial, "mass", part.body[0])
         tensor = _add(inertial, "inertia")
-        for key, value in zip(
-            ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), part.body[4:], strict=True
-        ):
+        for key, value in zip(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), part.body[4:], strict=True):
             _text(tensor, key, value)
         for k, capsule in enumerate(part.drawn):
             visual = _add(link, "visual", name=f"capsule{k}")

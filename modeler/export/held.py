@@ -87,3 +87,4 @@ def _share(
         place, of = joints.index(joint), f"the torque of joint {joint}"
     size = float(np.linalg.norm(every[:, place]))
     return (float(np.linalg.norm(part[:, place])) / size if size else None), of
+

@@ -67,9 +67,7 @@ class Edited:
         child = parent.children[0] if parent.children else None
         at = child.opening[0] if child and first else parent.closing[0]
         line = data.rfind(b"\n", 0, at) + 1
-        inner = (
-            data[data.rfind(b"\n", 0, child.opening[0]) + 1 : child.opening[0]] if child else b""
-        )
+        inner = data[data.rfind(b"\n", 0, child.opening[0]) + 1 : child.opening[0]] if child else b""
         own = data[line:at]
         if own.strip() or inner.strip() or not child:
             self.changes[at, at] = self.changes.get((at, at), "") + text
@@ -196,9 +194,7 @@ class _Urdf:
         link = self.elements["link", body.name]
         inertial = first(link, "inertial")
         if inertial is None:
-            tensor = " ".join(
-                f'{k}="{numbers([x])}"' for k, x in zip(_TENSOR, new[4:], strict=True)
-            )
+            tensor = " ".join(f'{k}="{numbers([x])}"' for k, x in zip(_TENSOR, new[4:], strict=True))
             self.edited.child(
                 link,
                 f'<inertial><origin xyz="{numbers(new[1:4])}" rpy="0 0 0"/>'

@@ -7,7 +7,16 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from modeler.core.errors import DataError
-from modeler.robot import Joint, JointKind, LinkFrame, Loop, Pose, Robot, linear_form, turned
+from modeler.robot import (
+    Joint,
+    JointKind,
+    LinkFrame,
+    Loop,
+    Pose,
+    Robot,
+    linear_form,
+    turned,
+)
 
 BASE = "0"
 """Name of the frame that stands still."""
@@ -53,11 +62,7 @@ def row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
         for cell in (joint.gamma, joint.b, joint.alpha, joint.d, joint.theta, joint.r)
     )
     foot = Pose(b * _Z, turned(_Z, gamma))
-    return (
-        foot
-        @ Pose(d * (turned(_X, alpha) @ _X), turned(_X, alpha))
-        @ Pose(r * _Z, turned(_Z, theta))
-    )
+    return foot @ Pose(d * (turned(_X, alpha) @ _X), turned(_X, alpha)) @ Pose(r * _Z, turned(_Z, theta))
 
 
 def sense(joint: Joint, symbols: Mapping[str, float]) -> float:

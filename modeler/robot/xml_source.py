@@ -59,10 +59,6 @@ class Element:
         """Its first child of that tag."""
         return next(iter(self.named(tag)), None)
 
-    def first(self, tag: str) -> "Element | None":
-        """Its first child of that tag."""
-        return next(iter(self.named(tag)), None)
-
     def walk(self) -> "Iterator[Element]":
         """Itself, and all elements in it, in file order."""
         waiting = [self]

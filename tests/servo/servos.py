@@ -16,7 +16,7 @@ COUNTS = 4096  # of the encoder, a turn
 
 @dataclass(frozen=True)
 class Servo:
-    """What moves a joint, SI: the bridge, the motor, the gear, and the gain of the position loop."""
+    """What moves a joint, SI: bridge, motor, gear, and the gain of the position loop."""
 
     voltage: float
     resistance: float
