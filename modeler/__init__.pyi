@@ -32,6 +32,7 @@ from .api import (
     compare as compare,
     compile_model as compile_model,
     contest as contest,
+    convert as convert,
     derive as derive,
     diagnose as diagnose,
     estimators as estimators,

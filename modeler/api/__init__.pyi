@@ -56,6 +56,7 @@ from .reexports import (
 from .workflow import (
     AnyLog as AnyLog,
     compile_model as compile_model,
+    convert as convert,
     derive as derive,
     effects as effects,
     estimators as estimators,

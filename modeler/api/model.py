@@ -425,7 +425,7 @@ def open_model(path: str | Path) -> Model:
 
 
 def open_robot(robot: str | Path) -> Robot:
-    """The robot of a file (ours, or .par), or the built-in robot of that name.
+    """The robot of a file (ours, URDF, MJCF, .par), or the built-in robot of that name.
 
     >>> open_robot("emps").joints[0].name
     '1'

@@ -33,6 +33,7 @@ from modeler.estimation import (
 from modeler.logs import Frame, LogMap, blocks_of
 from modeler.robot import (
     Robot,
+    convert as convert,
     new_robot as new_robot,
     read_robot,
     robot_from_text,

@@ -6,17 +6,8 @@ from pathlib import Path
 
 from modeler.cli.console import Json, print_error, say, say_lines, show_next
 from modeler.core.builtin import CONVENTIONS, TEMPLATES
-from modeler.core.errors import ModelerError, RobotError
-from modeler.core.files import Kind, destination, write_atomically
-from modeler.robot import (
-    Robot,
-    check_new_robot,
-    converted,
-    lock_values,
-    new_robot,
-    robot_from_text,
-    template_robot,
-)
+from modeler.core.errors import RobotError
+from modeler.robot import Robot, check_new_robot, convert, lock_values, new_robot, template_robot
 
 _FILES = (
     "a URDF, MJCF or SYMORO file needs no new one: every command reads it, or `modeler convert`"
@@ -72,19 +63,11 @@ def _asked(question: str, usual: str, key: str) -> str:
 
 def run_convert(args: argparse.Namespace) -> Json:
     """Writes the robot file, when it has been read as one; prints the notes."""
-    found = converted(
-        Path(args.file), args.base, args.tip, lock_values(args.lock), args.exact_decimals
-    )
-    out = Path(args.out)
-    robot = robot_from_text(found.text, f"{args.file}, as a robot file")
-    there = destination(out).kind is Kind.FILE
-    if not args.force and there and out.read_bytes() != found.text.encode():
-        raise ModelerError(
-            f"--out {out}: there is such a file with another content; choose another name, or "
-            "write over it with --force"
-        )
-    write_atomically(out, found.text)
+    lock = lock_values(args.lock)
+    robot = convert(args.file, args.out, args.base, args.tip, lock, args.exact_decimals, args.force)
     loops = f", {len(robot.loops)} loops" if robot.loops else ""
-    say(f"{robot.name}: {len(robot.moving)} joints{loops}, written to {out}")
-    say_lines(found.notes, "* ")
-    return {**_about(robot, out), "file": str(args.file), "notes": list(found.notes)}
+    say(f"{robot.name}: {len(robot.moving)} joints{loops}, written to {args.out}")
+    say_lines(robot.readings, "* ")
+    return {
+        **_about(robot, Path(args.out)), "file": str(args.file), "notes": list(robot.readings)
+    }  # fmt: skip

@@ -13,7 +13,6 @@ from .conventions import (
     written_letter as written_letter,
     written_table as written_table,
 )
-from .convert import converted as converted
 from .edit import (
     home_lines as home_lines,
     robot_with_effects as robot_with_effects,
@@ -51,6 +50,7 @@ from .robot import (
 )
 from .start import (
     check_new_robot as check_new_robot,
+    convert as convert,
     new_robot as new_robot,
     template_robot as template_robot,
 )

@@ -19,7 +19,7 @@ from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.angles import told_angles
 from modeler.robot.cells import check_name_length, read_gravity, read_symbols
 from modeler.robot.conventions import read_convention
-from modeler.robot.convert import converted, is_robot_xml
+from modeler.robot.conversion import converted, is_robot_xml
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.loops import (
     expanded,

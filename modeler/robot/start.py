@@ -1,7 +1,9 @@
-"""Robot files to start from: templates that derive as they are."""
+"""Robot files to start from: templates that derive as they are, and files of other programs."""
 
+import dataclasses
 import re
 import string
+from collections.abc import Mapping
 from pathlib import Path
 
 from modeler.core.builtin import TEMPLATES, template_text
@@ -9,8 +11,10 @@ from modeler.core.errors import DataError, RobotError
 from modeler.core.files import Kind, destination, write_atomically
 from modeler.robot.cells import robot_name
 from modeler.robot.conventions import CONVENTIONS, GEOMETRY, STEPS
+from modeler.robot.conversion import converted
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
+from modeler.robot.robot_text import aligned
 
 MOST_JOINTS = 20
 SERIAL = "serial"
@@ -52,6 +56,50 @@ def new_robot(
     robot = robot_from_text(text, str(place))
     write_atomically(place, text)
     return robot
+
+
+def convert(
+    file: str | Path,
+    out: str | Path | None = None,
+    base: str = "",
+    tip: str = "",
+    lock: Mapping[str, str | float] | None = None,
+    exact_decimals: bool = False,
+    force: bool = False,
+) -> Robot:
+    """The robot of a URDF, MJCF or SYMORO file; written as a robot file if `out` says where.
+
+    >>> exported = export(model, "arm.urdf")
+    >>> convert("arm.urdf", "arm.toml").moving[1].name
+    '2'
+
+    Args:
+        file: of the other program.
+        out: robot file to write.
+        base: link that stands still; by default the first.
+        tip: last link of the chain that is meant; by default all branches are.
+        lock: joint -> position at which it is held: rad, m, or text such as "30 deg".
+        exact_decimals: take printed angles and lengths as they are: 1.5708 is no pi/2.
+        force: write over a file that is there and holds something else.
+
+    Returns:
+        The robot; its `readings` say what was decided and what was left out.
+
+    Raises:
+        RobotError: no such file, a format that is not read, or a mistake in it.
+        DataError: a file that is there.
+    """
+    found = converted(file, base, tip, lock, exact_decimals)
+    robot = robot_from_text(found.text, f"{file}, as a robot file")
+    if out is not None:
+        there = destination(Path(out)).kind is Kind.FILE
+        if not force and there and Path(out).read_bytes() != found.text.encode():
+            raise DataError(
+                f"{out}: there is such a file with another content; choose another name, or write "
+                "over it with --force (force=True)"
+            )
+        write_atomically(Path(out), found.text)
+    return dataclasses.replace(robot, readings=(*found.notes, *robot.readings))
 
 
 def check_new_robot(place: Path, force: bool) -> None:
@@ -121,11 +169,7 @@ def _serial(kinds: str, convention: str) -> dict[str, str]:
     cells += [
         [row[c] if c != "j" and row[c] in "01" else f'"{row[c]}"' for c in columns] for row in rows
     ]
-    widths = [max(map(len, column)) + 2 for column in zip(*cells, strict=True)]
-    head, *lines = [
-        "".join(f"{cell},".ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip(" ,")
-        for row in cells
-    ]
+    head, *lines = aligned(cells)
     stated = f'convention = "{convention}"\n' if convention != "khalil" else ""
     body = "".join(f"          [{line}],\n" for line in lines)
     symbols = [f"{name} = {worth}".ljust(38) + "# m" for name, worth in lengths.items()]

@@ -224,8 +224,8 @@ class _Writing:
         silent = [effect for effect, key in names.items() if not those(key)]
         if silent:
             self.symbols.notes.append(
-                f"{', '.join(silent)} of the joints is added, of which the file says nothing: a "
-                "fit without it would be wrong"
+                f"added to the joints: {', '.join(silent)}, of which the file says nothing; a fit "
+                "without would be wrong"
             )
         lines = effect_lines({k: v for k, v in (rotors | rubbing).items() if v}, self.driven)
         springs = [

@@ -15,7 +15,7 @@ from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import regressor_values
-from modeler.robot.convert import converted
+from modeler.robot.conversion import converted
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.robot.robot import INERTIAL, Robot
 from tests.elementary_motions import row_pose
