@@ -11,14 +11,7 @@ import numpy as np
 from modeler.core.errors import RobotError
 from modeler.core.toml_cells import listed
 from modeler.robot.angles import pi_multiple
-from modeler.robot.body_tree import (
-    BodyTree,
-    Inertial,
-    MovingLink,
-    TreeJoint,
-    about_origin,
-    moving_links,
-)
+from modeler.robot.body_tree import BodyTree, Inertial, MovingLink, about_origin, moving_links
 from modeler.robot.cells import robot_name
 from modeler.robot.conventions import ANGLES
 from modeler.robot.mdh_rows import MdhRow, exact_length, mdh_table, roll_pitch_yaw, towards
@@ -43,11 +36,21 @@ from modeler.robot.sections import FRAME_COLUMNS
 
 UNCERTAINTY = 0.3
 """How sure masses, centres and inertias of another program's file are, over their scale."""
+_EFFECTS = {
+    "rotor_inertia": ("armature", "Ia"),
+    "viscous": ("damping", "Fv"),
+    "coulomb": ("friction", "Fs"),
+    "spring": ("stiffness", "Ks"),
+}
+"""Effect -> attribute of a joint, and its parameter."""
 _SPEED = {JointKind.REVOLUTE: 2.0, JointKind.PRISMATIC: 0.5}
 """rad/s, m/s where a file states none."""
 _ACCELERATION = 4.0
 """Over the speed, 1/s: no such file states it."""
-_LIMITS = "[limits]                              # lower, upper, speed, acceleration"
+_LIMITS = (
+    "[limits]                              # lower, upper, speed; acceleration: "
+    f"{_ACCELERATION:g} times that, no file states it"
+)
 
 
 def tree_to_toml(tree: BodyTree, where: str) -> Converted:
@@ -99,7 +102,8 @@ class _Writing:
         self.table = mdh_table(self.links, points)
         self.symbols = Symbols(notes=list(tree.notes))
         self._equal: dict[float, str] = {}
-        self.joints = {f"{k}": joint for k, joint in enumerate(self._joints(), start=1)}
+        moved = [link.joint for link in self.links if link.joint is not None]
+        self.joints = {f"{k}": joint for k, joint in enumerate(moved, start=1)}
         self.row_of = {joint.name: name for name, joint in self.joints.items()}
         free = [name for name, joint in self.joints.items() if not joint.leader]
         self.driven = [name for name in free if self.joints[name].actuated]
@@ -111,9 +115,6 @@ class _Writing:
         self.loops = self._loops()
         entries = tuple(repr(float(entry)) for entry in tree.gravity)
         self.gravity = gravity(entries, self.symbols, Place(where))
-
-    def _joints(self) -> list[TreeJoint]:
-        return [link.joint for link in self.links if link.joint is not None]
 
     def _row(self, row: MdhRow) -> TextRow:
         cells = {c: self._cell(c, worth, row.name) for c, worth in row.cells.items()}
@@ -202,45 +203,43 @@ class _Writing:
 
     def without_mass(self) -> list[str]:
         """Links between the joints of one body: they are nothing."""
-        return [f"{k} = []" for k, link in self._moved() if link.bodies.keys() <= self.tree.hidden]
+        return [f"{k} = []" for k, link in enumerate(self.links) if self._is_hidden(link)]
 
-    def _moved(self) -> list[tuple[int, MovingLink]]:
-        return list(enumerate(self.links))[1:]
+    def _is_hidden(self, link: MovingLink) -> bool:
+        return link.bodies.keys() <= self.tree.hidden
+
+    def _having(self, key: str) -> list[str]:
+        """Rows of the joints that have what an attribute says: friction and rotors all of them."""
+        every = {"armature": self.driven, "stiffness": []}.get(key, self.free)
+        return [n for n, joint in self.joints.items() if getattr(joint, key) or n in every]
 
     def effects(self) -> list[str]:
-        """Friction of every joint, and what else the file states."""
-
-        def those(key: str, everywhere: bool = False) -> list[str]:
-            return [
-                name
-                for name, joint in self.joints.items()
-                if getattr(joint, key) or (everywhere and name in self.free)
-            ]
-
-        rubbing = {"viscous": those("damping", True), "coulomb": those("friction", True)}
-        turning = {*those("armature"), *self.driven}
-        rotors = {"rotor_inertia": [name for name in self.joints if name in turning]}
-        names = {"viscous": "damping", "coulomb": "friction", "rotor_inertia": "armature"}
-        silent = [effect for effect, key in names.items() if not those(key)]
-        if silent:
-            self.symbols.notes.append(
-                f"added to the joints: {', '.join(silent)}, of which the file says nothing; a fit "
-                "without would be wrong"
-            )
-        lines = effect_lines({k: v for k, v in (rotors | rubbing).items() if v}, self.driven)
+        """Friction and rotors of every joint, and springs that the file states."""
+        having = {effect: self._having(key) for effect, (key, _) in _EFFECTS.items()}
         springs = [
             f'{{joint = "{name}", q0 = {number(self.joints[name].rest)}, h = 0}}'
-            for name in those("stiffness")
+            for name in having.pop("spring")
         ]
+        silent = [
+            effect
+            for effect in having
+            if not any(getattr(joint, _EFFECTS[effect][0]) for joint in self.joints.values())
+        ]
+        if silent:
+            self.symbols.notes.append(
+                f"added to the joints: {listed(silent)}, of which the file says nothing; a fit "
+                "without would be wrong"
+            )
+        lines = effect_lines({k: v for k, v in having.items() if v}, self.driven)
         return lines + ([f"spring = [{', '.join(springs)}]"] if springs else [])
 
     def parameters(self) -> list[str]:
         """Nominal values, and how sure those of the links are."""
         lines, missing, doubted = list[str](), list[str](), list[str]()
-        for k, link in self._moved():
-            if link.bodies.keys() <= self.tree.hidden:
-                continue
+        for k, link in enumerate(self.links):
             whole = link.inertial
+            if k == 0 or self._is_hidden(link):
+                continue
             if whole is None or not (whole.mass or whole.inertia.any()):
                 missing.append(f"{k}")
             elif not self._is_body(link, whole):
@@ -252,7 +251,7 @@ class _Writing:
                     f"{prefix}{k} = {number(worth if abs(worth) > small else 0.0)}"
                     for prefix, worth in zip(INERTIAL, ten, strict=True)
                 ]
-        bodies = bool(lines)
+        prior = [f"inertial = {UNCERTAINTY}"] if lines else []
         lines += self._of_joints()
         notes = self.symbols.notes
         if missing:
@@ -262,8 +261,7 @@ class _Writing:
                 f"the links of rows {listed(doubted)} have no values, for a body of theirs can not "
                 "be what the file says"
             )
-        prior = [f"inertial = {UNCERTAINTY}"] if bodies else []
-        if bodies:
+        if prior:
             notes.append(
                 f"masses, centres and inertias are a prior, sure to {UNCERTAINTY:.0%} of their "
                 "scale; all other values are nominal only"
@@ -281,19 +279,13 @@ class _Writing:
         return harmless and whole.mass > 0.0 and bool(whole.inertia.any())
 
     def _of_joints(self) -> list[str]:
-        """Friction, rotors and springs of the joints that have them."""
-        lines = []
-        for name, joint in self.joints.items():
-            free = name in self.free
-            for prefix, worth, always in (
-                ("Ia", joint.armature, name in self.driven),
-                ("Fv", joint.damping, free),
-                ("Fs", joint.friction, free),
-                ("Ks", joint.stiffness, False),
-            ):
-                if worth is not None and (worth or always):
-                    lines.append(f"{prefix}{name} = {number(worth)}")
-        return lines
+        """What the file states of friction, rotors and springs."""
+        return [
+            f"{prefix}{name} = {number(worth)}"
+            for key, prefix in _EFFECTS.values()
+            for name in self._having(key)
+            if (worth := getattr(self.joints[name], key)) is not None
+        ]
 
     def limits(self) -> list[str]:
         """Ranges of motion of the joints for which the file states some."""
@@ -308,11 +300,6 @@ class _Writing:
             speed = speed or _SPEED[joint.kind]
             cells = [number(x) for x in (lower, upper, speed, _ACCELERATION * speed)]
             lines.append(f"{name} = [{', '.join(cells)}]")
-        if lines:
-            self.symbols.notes.append(
-                f"accelerations in [limits] are {_ACCELERATION:g} times the speeds, for the file "
-                "states none"
-            )
         return lines
 
 

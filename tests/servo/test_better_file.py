@@ -1,4 +1,4 @@
-"""A file spoilt by 30 % and logs in, two commands, and MuJoCo follows the logs with the new file."""
+"""A file spoilt by 30 % and logs in, two commands, and MuJoCo follows them with the new file."""
 
 import re
 from pathlib import Path

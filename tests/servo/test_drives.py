@@ -153,7 +153,7 @@ def test_gains_of_duties_can_be_sought(arm):
         ("1 = {gain = 1, resistance = 2}", "voltage: got 0; expected a number above 0"),
         ("1 = {gain = 1, k_e = 2}", "voltage: got 0; expected a number above 0"),
         ("1 = {gain = 1, voltage = -12, resistance = 2}", "voltage: got -12; expected a number"),
-        ("1 = {gain = 1, voltage = 12, resistance = 2, k_e = -1}", "k_e: got -1; expected the sign"),
+        ("1 = {gain = 1, voltage = 9, resistance = 2, k_e = -1}", "k_e: got -1; expected the sign"),
         ("1 = {gain = nan}", "expected a finite number"),
         ("1 = {gain = 1}\n[drive_gains]\n1 = 2.0", "stands in [drive_gains] too"),
     ],

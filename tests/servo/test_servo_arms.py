@@ -86,7 +86,7 @@ def test_a_data_set_without_loads_is_refused(arm, tmp_path):
 
 
 def test_the_table_places_links_as_the_file_does():
-    """Lengths of the arms: the shoulder's height, the links, and zero angles, by plain trigonometry."""
+    """Lengths and zero angles of the arms, by plain trigonometry."""
     for name, reach in (("so101", (0.11600, 0.13500)), ("vx300s", (0.30585, None))):
         robot = load(name)
         values = robot.symbol_values()
