@@ -194,8 +194,8 @@ _EXPORT = Command(
     "the identified robot for another program: URDF, MJCF, SDF",
     "Writes the masses, mass centres, inertias, friction and rotor inertias of MODEL as a machine "
     "that could be built: into the bytes of an ORIGINAL, of which nothing else changes, or into a "
-    "file of its own whose links are capsules. Says what every number was and is, and which effects "
-    "the format cannot hold.",
+    "file of its own whose links are capsules. Says what every number was and is, and which "
+    "effects the format cannot hold.",
     "modeler export arm.model.json --like arm.urdf --out better.urdf",
     (
         value("source", "MODEL|ROBOT", places.RobotOrModel, _ROBOT_OR_MODEL),

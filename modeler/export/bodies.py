@@ -18,14 +18,7 @@ from modeler.estimation import (
     pseudo_inertia_of,
 )
 from modeler.export.capsules import weights
-from modeler.export.completion import (
-    Beforehand,
-    Completed,
-    buildable,
-    conditioned,
-    distance,
-    impossible,
-)
+from modeler.export.completion import Beforehand, Completed, buildable, conditioned, impossible
 from modeler.robot import Pose, Robot, robot_from_text
 
 SHARE = 0.3
@@ -225,7 +218,9 @@ def physics_of(thing: Robot | IdentifiedModel, original: Original) -> Physics:
     before, stated, notes = beforehand(machine, robot, original, beta, C)
     found = conditioned(machine.K, before, beta, C)
     if fit.standard:
-        chi = np.array([fit.standard.get(n, x) for n, x in zip(machine.names, found.chi)])
+        chi = np.array(
+            [fit.standard.get(n, x) for n, x in zip(machine.names, found.chi, strict=True)]
+        )
         found = dataclasses.replace(found, chi=chi)
     aside = [p.name for p in fit.parameters if p.sigma is None]
     if aside:
@@ -245,12 +240,12 @@ def _of_robot(robot: Robot, original: Original) -> Physics:
     names = [f"{prefix}{link}" for link in links for prefix in PREFIXES]
     own = [name for row in robot.moving for terms in _every_name(robot, row.name) for name in terms]
     names += [name for name in own if name in values]
-    if not any(f"M{link}" in values or f"ZZ{link}" in values for link in links):
-        if not original.whole or not any(name in values for name in own):
-            raise DataError(
-                f"{robot.name}: a robot without values; write [parameters] into its file, or "
-                "export a model of `modeler fit`"
-            )
+    heavy = any(f"M{link}" in values or f"ZZ{link}" in values for link in links)
+    if not heavy and not (original.whole and any(name in values for name in own)):
+        raise DataError(
+            f"{robot.name}: a robot without values; write [parameters] into its file, or export a "
+            "model of `modeler fit`"
+        )
     place = {name: i for i, name in enumerate(names)}
     given = [name for name in names if name in values]
     K = np.eye(len(names))[[place[name] for name in given]]
@@ -409,13 +404,13 @@ def _settled(
     own = nearest(original.hung)
     if own is not None and own.moved <= whole.moved + 1.0:
         return own, frozenset(), notes
-    loose = {link: ten for link, ten in original.hung.items() if link not in tight}
-    return nearest(loose) or whole, frozenset(tight), notes
+    rest = {link: ten for link, ten in original.hung.items() if link not in tight}
+    return nearest(rest) or whole, frozenset(tight), notes
 
 
 @dataclass(frozen=True, eq=False)
 class _Nearest:
-    """The nearest that can be built: with the base parameters as they are, if it is hardly farther."""
+    """The nearest that can be built; with base parameters as they are, if it is hardly farther."""
 
     machine: Machine
     before: Beforehand

@@ -1,8 +1,8 @@
 """Self-standing URDF, MJCF and SDF of any table: link frames are its frames, links are capsules.
 
-A joint turns about, or slides along, the z axis of its row, or its opposite where the table has the
-variable with a minus. MJCF is written in a posture in which the loops are closed (`ref`), and closes
-them by points that meet.
+A joint turns about, or slides along, the z axis of its row, or its opposite where the table has
+the variable with a minus. MJCF is written in a posture in which the loops are closed (`ref`), and
+closes them by points that meet.
 """
 
 import xml.etree.ElementTree as ET
@@ -14,14 +14,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.export.bodies import Physics, rest_of, written
 from modeler.export.capsules import Capsule, capsules
-from modeler.export.linkage import (
-    BASE,
-    closed,
-    row_pose,
-    sense,
-    to_quaternion,
-    variables,
-)
+from modeler.export.linkage import BASE, closed, row_pose, sense, to_quaternion, variables
 from modeler.robot import Joint, JointKind, Pose, linear_form, roll_pitch_yaw, turned
 
 LINK, JOINT = "link_", "joint_"
@@ -133,9 +126,15 @@ def numbers(values: Iterable[float]) -> str:
     return " ".join(repr(float(x) + 0.0).removesuffix(".0") for x in values)
 
 
-def _add(parent: ET.Element, tag: str, **attributes: object) -> ET.Element:
-    texts = {k: v if isinstance(v, str) else numbers(np.atleast_1d(v)) for k, v in attributes.items()}  # type: ignore[arg-type]  # noqa: E501
-    return ET.SubElement(parent, tag, texts)
+Number = float | np.ndarray
+
+
+def _add(parent: ET.Element, tag: str, **attributes: str | Number) -> ET.Element:
+    return ET.SubElement(parent, tag, {key: _written(x) for key, x in attributes.items()})
+
+
+def _written(value: str | Number) -> str:
+    return value if isinstance(value, str) else numbers(np.ravel(value))
 
 
 def _upright(gravity: np.ndarray) -> np.ndarray:
@@ -203,7 +202,7 @@ def _urdf(physics: Physics, parts: list[Part]) -> ET.Element:
 
 
 def _origin(parent: ET.Element, pose: Pose) -> None:
-    _add(parent, "origin", xyz=pose.position, rpy=roll_pitch_yaw(pose.rotation))
+    _add(parent, "origin", xyz=pose.position, rpy=np.array(roll_pitch_yaw(pose.rotation)))
 
 
 def _along(capsule: Capsule) -> Pose:
@@ -249,7 +248,7 @@ def _mjcf(physics: Physics, parts: list[Part]) -> ET.Element:
             _add(body, "inertial", pos=part.body[1:4], mass=part.body[0], fullinertia=full)
         kind = "slide" if part.row.kind is JointKind.PRISMATIC else "hinge"
         keys = {"friction": "frictionloss", "rest": "springref"}
-        more: dict[str, object] = {keys.get(q, q): x for q, x in part.drive.items()}
+        more: dict[str, str | Number] = {keys.get(q, q): x for q, x in part.drive.items()}
         if limits := robot.limits.get(part.row.name):
             more["range"] = np.array([limits.lower, limits.upper])
         if part.zero:
@@ -258,7 +257,7 @@ def _mjcf(physics: Physics, parts: list[Part]) -> ET.Element:
         for capsule in part.drawn:
             if capsule.length:
                 ends = np.array([*np.zeros(3), *capsule.end])
-                shape: dict[str, object] = {"type": "capsule", "fromto": ends}
+                shape: dict[str, str | Number] = {"type": "capsule", "fromto": ends}
             else:
                 shape = {"type": "sphere"}
             _add(body, "geom", **shape, size=capsule.radius, mass=0.0, contype="0", conaffinity="0")
@@ -325,7 +324,9 @@ def _sdf(physics: Physics, parts: list[Part]) -> ET.Element:
         _pose(inertial, Pose(part.body[1:4]))
         _text(inertial, "mass", part.body[0])
         tensor = _add(inertial, "inertia")
-        for key, value in zip(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), part.body[4:], strict=True):
+        for key, value in zip(
+            ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), part.body[4:], strict=True
+        ):
             _text(tensor, key, value)
         for k, capsule in enumerate(part.drawn):
             visual = _add(link, "visual", name=f"capsule{k}")
@@ -363,6 +364,5 @@ def _pose(parent: ET.Element, pose: Pose, **attributes: str) -> None:
     _add(parent, "pose", **attributes).text = numbers(place)
 
 
-def _text(parent: ET.Element, tag: str, value: object) -> None:
-    text = value if isinstance(value, str) else numbers(np.atleast_1d(value))  # type: ignore[arg-type]
-    _add(parent, tag).text = text
+def _text(parent: ET.Element, tag: str, value: str | Number) -> None:
+    _add(parent, tag).text = _written(value)

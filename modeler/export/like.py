@@ -1,7 +1,7 @@
 """The bytes of an original with other numbers: masses, centres, inertias, what resists its joints.
 
-All that is no such number stays as it is, byte for byte. A number that the file does not have is put
-in the smallest way: an attribute, or one element.
+All that is no such number stays as it is, byte for byte. A number that the file does not have is
+put in the smallest way: an attribute, or one element.
 """
 
 import re
@@ -11,18 +11,17 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.export.bodies import Physics, carried, rest_of, written
+from modeler.export.bodies import Physics, carried, written
 from modeler.export.fresh import numbers
 from modeler.export.linkage import from_rpy
 from modeler.export.original import Placed, Source, first, joint_rows, sdf_pose, shared_out
 from modeler.export.result import Value, body_values, drive_values, plain_values
-from modeler.robot import Element, Inertial, Pose, about_origin, replaced
+from modeler.robot import Element, Inertial, about_origin, replaced
 
 _SAME = 1e-10  # of a body's scale: what is nearer has not changed
 _TURNED = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
 _TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _RESCALED = ("settotalmass", "boundmass", "boundinertia")
-_NAMES = {"friction": "frictionloss", "stiffness": "stiffness"}
 
 
 @dataclass(eq=False)
@@ -60,14 +59,16 @@ class Edited:
 
     def child(self, parent: Element, text: str, first: bool = False) -> None:
         """Puts an element into another, before its first child or behind its last."""
-        data, (start, end) = self.source.data, parent.opening
+        data, end = self.source.data, parent.opening[1]
         if data[end - 2 : end] == b"/>":
             self.changes[end - 2, end] = f">{text}</{parent.tag}>"
             return
         child = parent.children[0] if parent.children else None
         at = child.opening[0] if child and first else parent.closing[0]
         line = data.rfind(b"\n", 0, at) + 1
-        inner = data[data.rfind(b"\n", 0, child.opening[0]) + 1 : child.opening[0]] if child else b""
+        inner = (
+            data[data.rfind(b"\n", 0, child.opening[0]) + 1 : child.opening[0]] if child else b""
+        )
         own = data[line:at]
         if own.strip() or inner.strip() or not child:
             self.changes[at, at] = self.changes.get((at, at), "") + text
@@ -107,7 +108,9 @@ def rewritten(
         DataError: MJCF that states no numbers itself, or changes those that it states.
     """
     edited, values = Edited(source), list[Value]()
-    kind = {"urdf": _Urdf, "mjcf": _Mjcf, "sdf": _Sdf}[source.format](edited)
+    kinds: dict[str, type[_Urdf] | type[_Mjcf] | type[_Sdf]]
+    kinds = {"urdf": _Urdf, "mjcf": _Mjcf, "sdf": _Sdf}
+    kind = kinds[source.format](edited)
     for row, own in links.items():
         ten = physics.ten(row)
         if ten is None or (physics.fit is None and row not in physics.stated):
@@ -149,14 +152,18 @@ def rewritten(
     joints = {joint.name: joint for joint in source.tree.joints} if source.tree else {}
     for name, row in rows.items():
         stated = joints.get(name)
-        was = {
+        resists = {
             quantity: float(getattr(stated, quantity) or 0.0)
             for quantity in ("damping", "friction", "armature", "stiffness")
         } if stated else kind.stated(name)  # fmt: skip
-        found = list(drive_values(physics, physics.robot.joint(row), name, source.format, was))
-        for value in found:
-            if abs(value.now - (value.was or 0.0)) > 1e-12 * abs(value.now):
-                kind.drive(name, value.quantity, value.now)
+        found = list(drive_values(physics, physics.robot.joint(row), name, source.format, resists))
+        moved = {
+            value.quantity: value.now
+            for value in found
+            if abs(value.now - (value.was or 0.0)) > 1e-12 * abs(value.now)
+        }
+        if moved:
+            kind.drive(name, moved)
         values += found
     return edited.bytes(), values
 
@@ -182,7 +189,7 @@ class _Urdf:
         }
 
     def axes(self, link: str) -> np.ndarray | None:
-        """(3, 3) those along which the file states the inertia of a link; None: those of its frame."""
+        """(3, 3) those along which the inertia of a link is stated; None: those of its frame."""
         inertial = first(self.elements["link", link], "inertial")
         origin = first(inertial, "origin") if inertial else None
         angles = origin.attributes.get("rpy") if origin else None
@@ -194,11 +201,13 @@ class _Urdf:
         link = self.elements["link", body.name]
         inertial = first(link, "inertial")
         if inertial is None:
-            tensor = " ".join(f'{k}="{numbers([x])}"' for k, x in zip(_TENSOR, new[4:], strict=True))
+            entries = " ".join(
+                f'{k}="{numbers([x])}"' for k, x in zip(_TENSOR, new[4:], strict=True)
+            )
             self.edited.child(
                 link,
                 f'<inertial><origin xyz="{numbers(new[1:4])}" rpy="0 0 0"/>'
-                f'<mass value="{numbers(new[:1])}"/><inertia {tensor}/></inertial>',
+                f'<mass value="{numbers(new[:1])}"/><inertia {entries}/></inertial>',
                 first=True,
             )
             return
@@ -221,23 +230,17 @@ class _Urdf:
         """What a joint states; the reader tells it."""
         return {}
 
-    def drive(self, joint: str, quantity: str, value: float) -> None:
-        """Puts damping or friction of a joint."""
+    def drive(self, joint: str, values: Mapping[str, float]) -> None:
+        """Puts damping and friction of a joint."""
         element = self.elements["joint", joint]
         dynamics = first(element, "dynamics")
-        if dynamics is not None:
-            self.edited.attribute(dynamics, quantity, numbers([value]))
+        texts = {quantity: numbers([value]) for quantity, value in values.items()}
+        if dynamics is None:
+            told = " ".join(f'{quantity}="{text}"' for quantity, text in texts.items())
+            self.edited.child(element, f"<dynamics {told}/>")
             return
-        # Both in one element: the second finds the first's text.
-        again = [k for k, text in self.edited.changes.items()
-                 if k[0] == k[1] and "<dynamics" in text and element.opening[0] < k[0] <= element.closing[1]]  # fmt: skip
-        if again:
-            text = self.edited.changes[again[0]]
-            self.edited.changes[again[0]] = text.replace(
-                "<dynamics", f'<dynamics {quantity}="{numbers([value])}"'
-            )
-        else:
-            self.edited.child(element, f'<dynamics {quantity}="{numbers([value])}"/>')
+        for quantity, text in texts.items():
+            self.edited.attribute(dynamics, quantity, text)
 
 
 class _Mjcf:
@@ -263,8 +266,8 @@ class _Mjcf:
         path, said = self.edited.source.path, compiler.attributes
         if said.get("inertiafromgeom") == "true":
             raise DataError(
-                f'--like {path}: line {compiler.line}: inertiafromgeom="true" takes all masses from '
-                'geoms; write "auto" there'
+                f'--like {path}: line {compiler.line}: inertiafromgeom="true" takes all masses '
+                'from geoms; write "auto" there'
             )
         for key in _RESCALED:
             if float(said.get(key, "0")) > 0.0:
@@ -276,9 +279,9 @@ class _Mjcf:
     def _element(self, found: Mapping[str, Element], kind: str, name: str) -> Element:
         if name not in found:
             raise DataError(
-                f"--like {self.edited.source.path}: {kind} {name} does not stand in the file itself "
-                "(<include>, <attach>, <replicate>); save it as one file (mj_saveLastXML) and give "
-                "that"
+                f"--like {self.edited.source.path}: {kind} {name} does not stand in the file "
+                "itself (<include>, <attach>, <replicate>); save it as one file (mj_saveLastXML) "
+                "and give that"
             )
         return found[name]
 
@@ -317,17 +320,18 @@ class _Mjcf:
         """What a joint states; the reader tells it."""
         return {}
 
-    def drive(self, joint: str, quantity: str, value: float) -> None:
+    def drive(self, joint: str, values: Mapping[str, float]) -> None:
         """Puts what resists a joint."""
-        if self.inner and quantity in ("armature", "damping"):
+        if self.inner and {"armature", "damping"} & values.keys():
             raise DataError(
                 f"--like {self.edited.source.path}: actuators state armature or damping of their "
                 f"own, and {joint} would have it twice; move it to the joints (times gear^2)"
             )
         element = self._element(self.joints, "joint", joint)
-        name = _NAMES.get(quantity, quantity)
-        _, *further = element.attributes.get(name, "0").split()
-        self.edited.attribute(element, name, " ".join([numbers([value]), *further]))
+        for quantity, value in values.items():
+            name = "frictionloss" if quantity == "friction" else quantity
+            _, *further = element.attributes.get(name, "0").split()
+            self.edited.attribute(element, name, " ".join([numbers([value]), *further]))
 
 
 def _joints_of(body: Element) -> Iterator[Element]:
@@ -404,14 +408,17 @@ class _Sdf:
             names.get(child.tag, child.tag): float(child.text) for child in children if child.text
         }
 
-    def drive(self, joint: str, quantity: str, value: float) -> None:
+    def drive(self, joint: str, values: Mapping[str, float]) -> None:
         """Puts what resists a joint."""
         axis, dynamics = self._dynamics(joint)
-        tag = {"stiffness": "spring_stiffness"}.get(quantity, quantity)
+        names = {"stiffness": "spring_stiffness"}
+        texts = {names.get(q, q): numbers([value]) for q, value in values.items()}
         if dynamics is not None:
-            self._put(dynamics, tag, numbers([value]))
+            for tag, text in texts.items():
+                self._put(dynamics, tag, text)
         elif axis is not None:
-            self.edited.child(axis, f"<dynamics><{tag}>{numbers([value])}</{tag}></dynamics>")
+            inner = "".join(f"<{tag}>{text}</{tag}>" for tag, text in texts.items())
+            self.edited.child(axis, f"<dynamics>{inner}</dynamics>")
 
 
 def _moved(new: np.ndarray, was: np.ndarray) -> bool:

@@ -81,7 +81,8 @@ def source_of(path: Path) -> Source:
     root = parse_xml(data, str(path))
     if root.tag not in FORMATS:
         raise DataError(
-            f"--like {path}: got <{root.tag[:40]}>; expected <robot> (URDF), <mujoco> (MJCF) or <sdf>"
+            f"--like {path}: got <{root.tag[:40]}>; expected <robot> (URDF), <mujoco> (MJCF) or "
+            "<sdf>"
         )
     kind = FORMATS[root.tag]
     if kind == "sdf":
@@ -156,7 +157,9 @@ def joint_rows(source: Source, robot: Robot) -> dict[str, str]:
     """Row by the name of the joint in the file."""
     if robot.frames:
         return {frame.joint: frame.row for frame in robot.frames.values() if frame.joint}
-    names = [link.joint.name for link in moving_links(source.tree) if link.joint] if source.tree else []
+    names = (
+        [link.joint.name for link in moving_links(source.tree) if link.joint] if source.tree else []
+    )
     return dict(zip(names, _rows(robot), strict=False))
 
 
@@ -226,7 +229,9 @@ def _check_tree(
             ours = (at[before] @ there).inverse() @ at[row] @ own
             theirs = joint.at(values[f"q{row}"] if joint.kind is not JointKind.FIXED else 0.0)
             if not _alike(ours, theirs):
-                raise _differs(source, robot, f"link {joint.child} is placed otherwise on {joint.parent}")
+                raise _differs(
+                    source, robot, f"link {joint.child} is placed otherwise on {joint.parent}"
+                )
 
 
 def _check_sdf(source: Source, robot: Robot, on: Mapping[str, tuple[str, Pose]]) -> None:
@@ -249,7 +254,9 @@ def _matched(source: Source, robot: Robot) -> tuple[dict[str, tuple[str, Pose]],
         raise _differs(source, robot, "the robot file has no [frames], and SDF is matched by names")
     links, rows = moving_links(source.tree), _rows(robot)
     if len(links) - 1 != len(rows):
-        raise _differs(source, robot, f"it has {len(links) - 1} moving joints, and the table {len(rows)}")
+        raise _differs(
+            source, robot, f"it has {len(links) - 1} moving joints, and the table {len(rows)}"
+        )
     rng, seen = np.random.default_rng(0), dict[int, Pose]()
     for _ in range(_POSTURES):
         q = {row: rng.uniform(-1.0, 1.0) for row in rows}
@@ -277,9 +284,7 @@ def _alike(one: Pose, other: Pose) -> bool:
     return max(float(apart), float(np.abs(one.rotation - other.rotation).max())) < _SAME
 
 
-def shared_out(
-    bodies: Mapping[str, np.ndarray], whole: np.ndarray
-) -> dict[str, np.ndarray]:
+def shared_out(bodies: Mapping[str, np.ndarray], whole: np.ndarray) -> dict[str, np.ndarray]:
     """Bodies that hang together, changed alike so that they come to a given whole.
 
     With P' = A P A^T of the wholes, every part becomes A P_k A^T: they add up, and what could be

@@ -10,7 +10,7 @@ from modeler.export.fresh import JOINT, LINK, fresh
 from modeler.export.held import Torques, not_held
 from modeler.export.like import rewritten
 from modeler.export.original import original_of, placed, source_of
-from modeler.export.result import Exported, body_values, drive_values, with_comment
+from modeler.export.result import Exported, Value, body_values, drive_values, with_comment
 from modeler.robot import Robot, robot_from_text
 
 ENDINGS = {".urdf": "urdf", ".xml": "mjcf", ".mjcf": "mjcf", ".sdf": "sdf"}
@@ -58,7 +58,7 @@ def exported(
     assert isinstance(robot, Robot)
     if like is None:
         physics = physics_of(thing, Original())
-        notes, data, values = list(physics.notes), fresh(physics, to), []
+        notes, data, values = list(physics.notes), fresh(physics, to), list[Value]()
         for joint in robot.moving:
             if physics.ten_places(joint.name):
                 given = physics.stated_before(joint.name)
