@@ -8,6 +8,7 @@ from pathlib import PurePath
 
 import numpy as np
 
+import modeler.robot.robot_text as toml
 from modeler.core.errors import RobotError
 from modeler.core.toml_cells import listed
 from modeler.robot.angles import pi_multiple
@@ -17,21 +18,7 @@ from modeler.robot.conventions import ANGLES
 from modeler.robot.mdh_rows import MdhRow, exact_length, mdh_table, roll_pitch_yaw, towards
 from modeler.robot.par_table import LETTER, Symbols, gravity
 from modeler.robot.robot import INERTIAL, JointKind, Place
-from modeler.robot.robot_text import (
-    LINKS,
-    PARAMETERS,
-    Converted,
-    TextRow,
-    columns_and_rows,
-    effect_lines,
-    head_lines,
-    joined,
-    loop_lines,
-    mdh_lines,
-    number,
-    section,
-    symbol_lines,
-)
+from modeler.robot.robot_text import Converted, TextRow
 from modeler.robot.sections import FRAME_COLUMNS
 
 UNCERTAINTY = 0.3
@@ -72,22 +59,22 @@ def tree_to_toml(tree: BodyTree, where: str) -> Converted:
         )
     made = _Writing(tree, where)
     parts = [
-        *section("[symbols]", symbol_lines(made.symbols.values, made.symbols.comments)),
-        *mdh_lines(made.rows),
-        *section("[relations]", made.relations()),
-        *loop_lines(made.loops),
-        *section("[home]", made.home()),
+        *toml.section("[symbols]", toml.symbol_lines(made.symbols.values, made.symbols.comments)),
+        *toml.mdh_lines(made.rows),
+        *toml.section("[relations]", made.relations()),
+        *toml.loop_lines(made.loops),
+        *toml.section("[home]", made.home()),
         *made.frames(),
-        *section(LINKS, made.without_mass()),
-        *section("[effects]", made.effects()),
+        *toml.section(toml.LINKS, made.without_mass()),
+        *toml.section("[effects]", made.effects()),
         *made.parameters(),
-        *section(_LIMITS, made.limits()),
+        *toml.section(_LIMITS, made.limits()),
     ]
     name = robot_name(tree.name, PurePath(where).stem)[:40]
     source = f"{tree.format} {PurePath(where).name}"
     notes = made.symbols.notes
-    head = head_lines(name, tree.name, source, notes, made.gravity)
-    return Converted(joined([*head, *parts]), tuple(notes))
+    head = toml.head_lines(name, tree.name, source, notes, made.gravity)
+    return Converted(toml.joined([*head, *parts]), tuple(notes))
 
 
 class _Writing:
@@ -113,7 +100,7 @@ class _Writing:
         self.free = self.driven if tree.meetings else free
         self.rows = [self._row(row) for row in self.table.rows]
         self.loops = self._loops()
-        entries = tuple(repr(float(entry)) for entry in tree.gravity)
+        entries = tuple(repr(exact_length(float(entry))) for entry in tree.gravity)
         self.gravity = gravity(entries, self.symbols, Place(where))
 
     def _row(self, row: MdhRow) -> TextRow:
@@ -173,7 +160,7 @@ class _Writing:
         if not self.loops:
             return []
         places = {joint.name: joint.zero for joint in self.joints.values()} | dict(self.tree.home)
-        return [f"q{name} = {number(places[j.name])}" for name, j in self.joints.items()]
+        return [f"q{name} = {toml.number(places[j.name])}" for name, j in self.joints.items()]
 
     def relations(self) -> list[str]:
         """Joints that follow others."""
@@ -199,7 +186,7 @@ class _Writing:
                 names = [json.dumps(text, ensure_ascii=False) for text in (body, f"{k}", joint)]
                 cells.append([*names, *numbers, *angles])
         head = "[frames]                              # links of the file on their rows: m, rad"
-        return [head, *columns_and_rows(FRAME_COLUMNS, cells)]
+        return [head, *toml.columns_and_rows(FRAME_COLUMNS, cells)]
 
     def without_mass(self) -> list[str]:
         """Links between the joints of one body: they are nothing."""
@@ -221,7 +208,7 @@ class _Writing:
         if self.loops and any(joint.stiffness for joint in self.joints.values()):
             self.symbols.notes.append("springs are left out: robots with loops have none here")
         springs = [
-            f'{{joint = "{name}", q0 = {number(self.joints[name].rest)}, h = 0}}'
+            f'{{joint = "{name}", q0 = {toml.number(self.joints[name].rest)}, h = 0}}'
             for name in having.pop("spring")
         ]
         silent = [
@@ -234,7 +221,7 @@ class _Writing:
                 f"added to the joints: {listed(silent)}, of which the file says nothing; a fit "
                 "without would be wrong"
             )
-        lines = effect_lines({k: v for k, v in having.items() if v}, self.driven)
+        lines = toml.effect_lines({k: v for k, v in having.items() if v}, self.driven)
         return lines + ([f"spring = [{', '.join(springs)}]"] if springs else [])
 
     def parameters(self) -> list[str]:
@@ -252,7 +239,7 @@ class _Writing:
                 ten = about_origin(whole.seen_from(self.table.places[k]))
                 small = 1e-15 * np.abs(ten).max()
                 lines += [
-                    f"{prefix}{k} = {number(worth if abs(worth) > small else 0.0)}"
+                    f"{prefix}{k} = {toml.number(worth if abs(worth) > small else 0.0)}"
                     for prefix, worth in zip(INERTIAL, ten, strict=True)
                 ]
         prior = [f"inertial = {UNCERTAINTY}"] if lines else []
@@ -271,8 +258,10 @@ class _Writing:
                 "scale; all other values are nominal only"
             )
         return [
-            *section(PARAMETERS, lines),
-            *section("[parameters.uncertainty]              # over the scale of a body", prior),
+            *toml.section(toml.PARAMETERS, lines),
+            *toml.section(
+                "[parameters.uncertainty]              # over the scale of a body", prior
+            ),
         ]
 
     def _is_body(self, link: MovingLink, whole: Inertial) -> bool:
@@ -285,7 +274,7 @@ class _Writing:
     def _of_joints(self) -> list[str]:
         """What the file states of friction, rotors and springs."""
         return [
-            f"{prefix}{name} = {number(worth)}"
+            f"{prefix}{name} = {toml.number(worth)}"
             for key, prefix in _EFFECTS.values()
             for name in self._having(key)
             if (worth := getattr(self.joints[name], key)) is not None
@@ -302,7 +291,7 @@ class _Writing:
                     continue
                 lower, upper = -math.pi, math.pi
             speed = speed or _SPEED[joint.kind]
-            cells = [number(x) for x in (lower, upper, speed, _ACCELERATION * speed)]
+            cells = [toml.number(x) for x in (lower, upper, speed, _ACCELERATION * speed)]
             lines.append(f"{name} = [{', '.join(cells)}]")
         return lines
 
