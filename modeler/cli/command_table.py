@@ -30,8 +30,8 @@ NOMINAL = ""
 
 # What several commands share.
 
-_ROBOT_FILE = "a robot file, or the name of a built-in robot"
-_ROBOT_OR_MODEL = "a robot file, the name of a built-in robot, or a model file of `modeler fit`"
+_ROBOT_FILE = "a robot file, URDF or MJCF, or the name of a built-in robot"
+_ROBOT_OR_MODEL = f"{_ROBOT_FILE}, or a model file of `modeler fit`"
 _WINDOW = "FILE@START:END takes the rows between these seconds"
 _LOGS = f"Parquet, CSV, MAT, HDF5 or MCAP logs, ROS bags; {_WINDOW}"
 _EFFECTS = 'effects instead of those of the file, for all joints: "viscous,coulomb"'
@@ -194,8 +194,8 @@ _EXPORT = Command(
     "the identified robot for another program: URDF, MJCF, SDF",
     "Writes the masses, mass centres, inertias, friction and rotor inertias of MODEL as a machine "
     "that could be built: into the bytes of an ORIGINAL, of which nothing else changes, or into a "
-    "file of its own whose links are capsules. Says what every number was and is, and which effects "
-    "the format cannot hold.",
+    "file of its own whose links are capsules. Says what every number was and is, and which "
+    "effects the format cannot hold.",
     "modeler export arm.model.json --like arm.urdf --out better.urdf",
     (
         value("source", "MODEL|ROBOT", places.RobotOrModel, _ROBOT_OR_MODEL),

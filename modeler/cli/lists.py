@@ -130,8 +130,10 @@ def robot_with_effects(args: argparse.Namespace) -> Robot:
 def read_robot_with_notes(name: str) -> Robot:
     """The robot of that name or file; what reading it decided or left out, on stderr."""
     robot = read_robot(name)
-    for line in robot.readings:
-        note(f"{name}: {line}")
+    if len(robot.readings) > 1:
+        note("\n  * ".join([f"{name}, read as a robot file:", *robot.readings]))
+    elif robot.readings:
+        note(f"{name}: {robot.readings[0]}")
     return robot
 
 

@@ -81,7 +81,7 @@ def machine_of(spec: ModuleSpec) -> Machine:
 
 
 def _prefix(parameter: ParameterSpec) -> str:
-    """"XX" of XX21, and of XX2 that similar legs share."""
+    """The XX of XX21, and of XX2 that similar legs share."""
     own = parameter.name.removesuffix(parameter.joint)
     return own if own in PREFIXES else next(p for p in PREFIXES if parameter.name.startswith(p))
 

@@ -18,14 +18,7 @@ from modeler.estimation import (
     pseudo_inertia_of,
 )
 from modeler.export.capsules import weights
-from modeler.export.completion import (
-    Beforehand,
-    Completed,
-    buildable,
-    conditioned,
-    distance,
-    impossible,
-)
+from modeler.export.completion import Beforehand, Completed, buildable, conditioned, impossible
 from modeler.robot import Pose, Robot, robot_from_text
 
 SHARE = 0.3
@@ -179,7 +172,10 @@ def written(ten: np.ndarray, axes: np.ndarray | None = None) -> np.ndarray:
     about = tensor - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
     if axes is not None:
         about = axes.T @ about @ axes
-    return np.concatenate([[mass], centre, about[np.triu_indices(3)]])
+    found = np.concatenate([[mass], centre, about[np.triu_indices(3)]])
+    for own in (found[1:4], found[4:]):  # what differences leave of 0
+        own[np.abs(own) < 1e-15 * np.abs(own).max()] = 0.0
+    return found
 
 
 def deviations(
@@ -225,7 +221,9 @@ def physics_of(thing: Robot | IdentifiedModel, original: Original) -> Physics:
     before, stated, notes = beforehand(machine, robot, original, beta, C)
     found = conditioned(machine.K, before, beta, C)
     if fit.standard:
-        chi = np.array([fit.standard.get(n, x) for n, x in zip(machine.names, found.chi)])
+        chi = np.array(
+            [fit.standard.get(n, x) for n, x in zip(machine.names, found.chi, strict=True)]
+        )
         found = dataclasses.replace(found, chi=chi)
     aside = [p.name for p in fit.parameters if p.sigma is None]
     if aside:
@@ -240,43 +238,33 @@ def physics_of(thing: Robot | IdentifiedModel, original: Original) -> Physics:
 
 
 def _of_robot(robot: Robot, original: Original) -> Physics:
+    """The stated values as they are, what is not stated beside them."""
     values = values_of(robot)
-    links = [j.name for j in robot.moving if robot.inertial(j.name)]
+    links = [joint.name for joint in robot.moving if robot.inertial(joint.name)]
+    effects = [(row.name, e) for row in robot.moving for e in robot.effects_on(row.name)]
+    own = [f"{column.prefix}{row}{instance.label}"
+           for row, (_, form, instance) in effects for column in form.columns]  # fmt: skip
     names = [f"{prefix}{link}" for link in links for prefix in PREFIXES]
-    own = [name for row in robot.moving for terms in _every_name(robot, row.name) for name in terms]
     names += [name for name in own if name in values]
-    if not any(f"M{link}" in values or f"ZZ{link}" in values for link in links):
-        if not original.whole or not any(name in values for name in own):
-            raise DataError(
-                f"{robot.name}: a robot without values; write [parameters] into its file, or "
-                "export a model of `modeler fit`"
-            )
+    heavy = any(f"M{link}" in values or f"ZZ{link}" in values for link in links)
+    if not heavy and not (original.whole and any(name in values for name in own)):
+        raise DataError(
+            f"{robot.name}: a robot without values; write [parameters] into its file, or export a "
+            "model of `modeler fit`"
+        )
     place = {name: i for i, name in enumerate(names)}
     given = [name for name in names if name in values]
     K = np.eye(len(names))[[place[name] for name in given]]
     tens = {link: np.array([place[f"{p}{link}"] for p in PREFIXES]) for link in links}
-    positive = {
-        name: place[name]
-        for row in robot.moving
-        for terms in held_by_joint(robot, row.name).values()
-        for name in terms
-        if name in place and not name.startswith("Ks")
-    }
-    machine = Machine(tuple(names), K, tens, positive)
-    beta = np.array([values[name] for name in given])
-    C = np.zeros((len(given), len(given)))
+    loss = {n for row in robot.moving for n, q in _held_names(robot, row.name) if q != "stiffness"}
+    machine = Machine(tuple(names), K, tens, {n: place[n] for n in names if n in loss})
+    beta, C = np.array([values[name] for name in given]), np.zeros((len(given),) * 2)
     before, stated, notes = beforehand(machine, robot, original, beta, C)
     found = conditioned(K, before, beta, C)
     if original.whole:  # what the original states stays as it is, whatever it is
         return Physics(robot, machine, found, stated, values)
     settled, released, more = _settled(robot, machine, before, found, (beta, C), original)
     return Physics(robot, machine, settled, stated, values, None, released, (*notes, *more))
-
-
-def _every_name(robot: Robot, row: str) -> Iterator[list[str]]:
-    """Names of the parameters of each effect of a row."""
-    for _, form, instance in robot.effects_on(row):
-        yield [f"{column.prefix}{row}{instance.label}" for column in form.columns]
 
 
 def values_of(robot: Robot) -> dict[str, float]:
@@ -409,13 +397,13 @@ def _settled(
     own = nearest(original.hung)
     if own is not None and own.moved <= whole.moved + 1.0:
         return own, frozenset(), notes
-    loose = {link: ten for link, ten in original.hung.items() if link not in tight}
-    return nearest(loose) or whole, frozenset(tight), notes
+    rest = {link: ten for link, ten in original.hung.items() if link not in tight}
+    return nearest(rest) or whole, frozenset(tight), notes
 
 
 @dataclass(frozen=True, eq=False)
 class _Nearest:
-    """The nearest that can be built: with the base parameters as they are, if it is hardly farther."""
+    """The nearest that can be built; with base parameters as they are, if it is hardly farther."""
 
     machine: Machine
     before: Beforehand

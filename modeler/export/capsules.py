@@ -46,7 +46,7 @@ def capsules(robot: Robot, q: Mapping[str, float]) -> dict[str, tuple[Capsule, .
         robot: its table.
         q: posture in which lengths are taken.
     """
-    at, ends = poses(robot, q), {}
+    at, ends = poses(robot, q), dict[str, list[np.ndarray]]()
     for joint in robot.joints:
         there = at[joint.antecedent].inverse().place(at[joint.name].position)
         ends.setdefault(joint.antecedent, []).append(there)

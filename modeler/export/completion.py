@@ -70,9 +70,7 @@ class Completed:
         return np.asarray(self.root @ self.root.T)
 
 
-def conditioned(
-    K: np.ndarray, before: Beforehand, beta: np.ndarray, C: np.ndarray
-) -> Completed:
+def conditioned(K: np.ndarray, before: Beforehand, beta: np.ndarray, C: np.ndarray) -> Completed:
     """The Gaussian completion; K chi = beta wherever what is known beforehand lets chi move."""
     mean, S = before.mean, before.S
     G = S @ K.T @ _inverse(K @ S @ K.T)
@@ -114,7 +112,7 @@ def buildable(
     deviation = np.linalg.norm(L, axis=1)
     z = cp.Variable(L.shape[1])
     bounds = []
-    for name, place in machine.positive.items():
+    for place in machine.positive.values():
         scale = max(abs(found.chi[place]), deviation[place]) or 1.0
         if L[place].any():
             bounds.append((found.chi[place] + L[place] @ z) / scale >= 0.0)

@@ -1,8 +1,8 @@
 """What a format cannot hold, and how much of the torque that is.
 
 The parameters chi_e of an effect put K chi_e into beta, and W K chi_e into the torques of a motion.
-Where the logs of the fit are at hand, its share is that of the root mean squares over their rows, at
-its joint. Without them about what it was in the fit is told by beta and its covariance C, for
+Where the logs of the fit are at hand, its share is that of the root mean squares over their rows,
+at its joint. Without them about what it was in the fit is told by beta and its covariance C, for
 W^T W is C^-1 but for the noise: sqrt((K chi_e)^T C^-1 K chi_e / beta^T C^-1 beta), of all torques.
 """
 
@@ -82,9 +82,8 @@ def _share(
         return (distance(own, C) / whole if whole else None), "all torques"
     part, joints = torques(own)
     every, _ = torques(beta)
-    place, of = slice(None), "all torques"
+    place, of = [*range(len(joints))], "all torques"
     if joint in joints:
-        place, of = joints.index(joint), f"the torque of joint {joint}"
+        place, of = [joints.index(joint)], f"the torque of joint {joint}"
     size = float(np.linalg.norm(every[:, place]))
     return (float(np.linalg.norm(part[:, place])) / size if size else None), of
-

@@ -7,16 +7,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from modeler.core.errors import DataError
-from modeler.robot import (
-    Joint,
-    JointKind,
-    LinkFrame,
-    Loop,
-    Pose,
-    Robot,
-    linear_form,
-    turned,
-)
+from modeler.robot import Joint, JointKind, LinkFrame, Loop, Pose, Robot, linear_form, turned
 
 BASE = "0"
 """Name of the frame that stands still."""
@@ -26,7 +17,7 @@ _CLOSED = 1e-9  # m, rad: what may be left of a loop
 
 
 def to_quaternion(rotation: np.ndarray) -> np.ndarray:
-    """(4,) w, x, y, z of a rotation, w >= 0: eigenvector of Bar-Itzhack's symmetric matrix (2000)."""
+    """(4,) w, x, y, z of a rotation: an eigenvector of a symmetric matrix (Bar-Itzhack 2000)."""
     R = rotation
     skew = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
     K = np.empty((4, 4))
@@ -62,7 +53,11 @@ def row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
         for cell in (joint.gamma, joint.b, joint.alpha, joint.d, joint.theta, joint.r)
     )
     foot = Pose(b * _Z, turned(_Z, gamma))
-    return foot @ Pose(d * (turned(_X, alpha) @ _X), turned(_X, alpha)) @ Pose(r * _Z, turned(_Z, theta))
+    return (
+        foot
+        @ Pose(d * (turned(_X, alpha) @ _X), turned(_X, alpha))
+        @ Pose(r * _Z, turned(_Z, theta))
+    )
 
 
 def sense(joint: Joint, symbols: Mapping[str, float]) -> float:

@@ -10,7 +10,7 @@ from modeler.export.fresh import JOINT, LINK, fresh
 from modeler.export.held import Torques, not_held
 from modeler.export.like import rewritten
 from modeler.export.original import original_of, placed, source_of
-from modeler.export.result import Exported, body_values, drive_values, with_comment
+from modeler.export.result import Exported, Value, body_values, drive_values, with_comment
 from modeler.robot import Robot, robot_from_text
 
 ENDINGS = {".urdf": "urdf", ".xml": "mjcf", ".mjcf": "mjcf", ".sdf": "sdf"}
@@ -58,13 +58,18 @@ def exported(
     assert isinstance(robot, Robot)
     if like is None:
         physics = physics_of(thing, Original())
-        notes, data, values = list(physics.notes), fresh(physics, to), []
+        notes, data, values = list(physics.notes), fresh(physics, to), list[Value]()
         for joint in robot.moving:
             if physics.ten_places(joint.name):
                 given = physics.stated_before(joint.name)
                 was = None if given is None else written(given)
                 values += body_values(physics, joint.name, LINK + joint.name, was)
-            values += drive_values(physics, joint, JOINT + joint.name, to, {})
+            stated = {
+                quantity: sum(c * physics.nominal[name] for name, c in terms.items())
+                for quantity, terms in physics.drive(joint.name, to).items()
+                if terms.keys() <= physics.nominal.keys()
+            }
+            values += drive_values(physics, joint, JOINT + joint.name, to, stated)
     else:
         source = source_of(like)
         if to and to != source.format:

@@ -98,7 +98,9 @@ def test_every_command_reads_a_par(capsys, par, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     status, out, err = run(capsys, "derive", par, "--no-terms")
     assert status == 0 and "ZZ1R = ZZ1 + L**2*M2" in out
-    assert all(line.startswith(f"modeler: {par}: ") for line in err.splitlines())
+    first, *others = err.splitlines()
+    assert first == f"modeler: {par}, read as a robot file:"
+    assert others and all(line.startswith("  * ") for line in others)
     assert "no values in the file: L" in err
     assert run(capsys, "simulate", par, "--duration", "6", "--out", "a.parquet")[0] == 0
     assert run(capsys, "fit", par, "a.parquet", "--out", "m.json")[0] == 0
@@ -135,7 +137,9 @@ def test_a_urdf_is_known_by_its_first_element(capsys, tmp_path, name):
     path.write_text("<?xml version='1.0'?>\n<!-- made by hand -->\n" + TURN)
     status, out, err = run(capsys, "derive", path, "--no-terms")
     assert status == 0 and out.startswith("turn\n") and "ZZ1R = ZZ1 + Ia1 + YY2 + D2**2*M2" in out
-    assert all(line.startswith(f"modeler: {path}: ") for line in err.splitlines())
+    first, *others = err.splitlines()
+    assert first == f"modeler: {path}, read as a robot file:"
+    assert others and all(line.startswith("  * ") for line in others)
 
 
 def test_another_program_s_ending_with_our_text_is_no_urdf(capsys, tmp_path):

@@ -1,11 +1,13 @@
-"""A small arm as URDF, MJCF and SDF, written as people write them; and what is needed to compare."""
+"""A small arm as URDF, MJCF and SDF, written as people write them; what is needed to compare."""
 
+import dataclasses
 import re
 from pathlib import Path
 
 import numpy as np
 
 from modeler.api import compile_model, derive, generate
+from modeler.estimation import PREFIXES
 from modeler.robot import Robot, read_robot
 
 URDF = b"""<?xml version='1.0'?>
@@ -26,7 +28,8 @@ URDF = b"""<?xml version='1.0'?>
     <dynamics friction="0.7" damping="1.2"/>
   </joint>
   <link name="fore">
-    <inertial><mass value="1.5"/><inertia ixx="0.02" iyy="0.02" izz="0.004" ixy="0" ixz="0" iyz="0"/></inertial>
+    <inertial><mass value="1.5"/>
+      <inertia ixx="0.02" iyy="0.02" izz="0.004" ixy="0" ixz="0" iyz="0"/></inertial>
   </link>
   <joint name="elbow" type="continuous">
     <parent link="upper"/><child link="fore"/>
@@ -45,7 +48,8 @@ URDF = b"""<?xml version='1.0'?>
       <inertia ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.0004"/>
     </inertial>
   </link>
-  <joint name="glue" type="fixed"><parent link="fore"/><child link="tool"/><origin xyz="0 0 0.1"/></joint>
+  <joint name="glue" type="fixed"><parent link="fore"/><child link="tool"/>
+    <origin xyz="0 0 0.1"/></joint>
   <link name="finger">
     <inertial><origin xyz="0.02 0 0"/><mass value="0.2"/>
       <inertia ixx="0.0002" ixy="0" ixz="0" iyy="0.0003" iyz="0" izz="0.0003"/></inertial>
@@ -53,8 +57,8 @@ URDF = b"""<?xml version='1.0'?>
   <joint name="tip" type="fixed"><parent link="slider"/><child link="finger"/></joint>
 </robot>
 """
-"""Quotes of both kinds, an element in one line, turned inertia, a tool and a finger on fixed joints, a
-slide that moves a link without mass, joints without dynamics."""
+"""Quotes of both kinds, elements in one line, turned inertia, a tool and a finger on fixed joints,
+a slide that moves a link without mass, joints without dynamics."""
 
 MJCF = b"""<mujoco model="arm">
   <compiler angle="degree" eulerseq="zyx"/>
@@ -99,9 +103,11 @@ SDF = b"""<?xml version="1.0"?>
   </joint>
   <link name="fore">
     <pose relative_to="upper">0.05 0 0.3 1.5708 0 0</pose>
-    <inertial><mass>1.5</mass><inertia><ixx>0.02</ixx><iyy>0.02</iyy><izz>0.004</izz></inertia></inertial>
+    <inertial><mass>1.5</mass>
+      <inertia><ixx>0.02</ixx><iyy>0.02</iyy><izz>0.004</izz></inertia></inertial>
   </link>
-  <joint name="elbow" type="revolute"><parent>upper</parent><child>fore</child><axis><xyz>0 0 -1</xyz></axis></joint>
+  <joint name="elbow" type="revolute"><parent>upper</parent><child>fore</child>
+    <axis><xyz>0 0 -1</xyz></axis></joint>
   <link name="slider"><pose relative_to="fore">0 0.1 0.2 0 0 0</pose></link>
 </model></sdf>
 """
@@ -128,10 +134,6 @@ def without_comment(data: bytes) -> bytes:
 
 def changed(robot: Robot, rng: np.random.Generator, rows: str = "") -> Robot:
     """Heavier or lighter bodies, that hang elsewhere; other friction."""
-    import dataclasses
-
-    from modeler.estimation import PREFIXES
-
     values = dict(robot.parameters)
     for row in [joint.name for joint in robot.moving]:
         names = [f"{prefix}{row}" for prefix in PREFIXES]

@@ -43,14 +43,16 @@ spring = [{joint = "3", q0 = 0.2, h = 0}]
 def a_body(rng: np.random.Generator) -> np.ndarray:
     """Ten parameters of points of mass."""
     points, mass = rng.normal(scale=0.1, size=(12, 3)), rng.uniform(0.05, 0.5, 12)
-    tensor = sum(m * (p @ p * np.eye(3) - np.outer(p, p)) for m, p in zip(mass, points, strict=True))
+    tensor = sum(
+        m * (p @ p * np.eye(3) - np.outer(p, p)) for m, p in zip(mass, points, strict=True)
+    )
     return np.array([*tensor[np.triu_indices(3)], *(mass @ points), mass.sum()])
 
 
 @pytest.fixture(scope="module")
 def tree() -> Robot:
     rng = np.random.default_rng()
-    prefixes = "XX XY XZ YY YZ ZZ MX MY MZ M".split()
+    prefixes = ["XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"]
     lines = [f"{p}{row} = {x!r}" for row in "12345"
              for p, x in zip(prefixes, a_body(rng).tolist(), strict=True)]  # fmt: skip
     lines += [f"{p}{row} = {rng.uniform(0.1, 2.0)!r}" for row in "1234" for p in ("Fv", "Ia")]
@@ -146,10 +148,12 @@ def test_joints_that_follow_are_held_there_by_mujoco(tree) -> None:
 def test_built_in_robots_weigh_in_both_what_they_state(name) -> None:
     robot = load(name)
     rigid = dataclasses.replace(robot, effects=(), motors={}, relations={}, parameters={
-        k: v for k, v in robot.parameters.items() if not k.startswith(("Ia", "Fv", "Fs", "Off"))})  # fmt: skip
+        k: v for k, v in robot.parameters.items()
+        if not k.startswith(("Ia", "Fv", "Fs", "Off"))})  # fmt: skip
     if robot.motors:
-        rigid = dataclasses.replace(rigid, joints=tuple(
-            dataclasses.replace(j, actuated=True) for j in robot.joints if j.name not in robot.motors))  # fmt: skip
+        own = [j for j in robot.joints if j.name not in robot.motors]
+        joints = tuple(dataclasses.replace(joint, actuated=True) for joint in own)
+        rigid = dataclasses.replace(rigid, joints=joints)
     q, qd, qdd = states(rigid)
     ours = torques(rigid, q, qd, qdd)
     names = [f"joint_{joint.name}" for joint in rigid.moving]
@@ -173,7 +177,7 @@ def test_loops_in_mujoco_need_the_torques_of_our_loop_model(name) -> None:
         mujoco.mj_mulJacVec(model, data, column, unit)
         J[:, k] = column
     kept = [model.joint(f"joint_{j.name}").dofadr[0] for j in robot.coordinates]
-    U, s, Vt = np.linalg.svd(J)
+    _, s, Vt = np.linalg.svd(J)
     free = Vt[np.sum(s > 1e-9 * s[0]) :].T
     G = free @ np.linalg.inv(free[kept])
     compiled = compile_model(generate(derive(robot)))
@@ -181,7 +185,9 @@ def test_loops_in_mujoco_need_the_torques_of_our_loop_model(name) -> None:
     M = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, M)
     values = physics_values(robot)
-    beta = np.array([sum(t.value * values[t.parameter] for t in b.terms) for b in compiled.spec.base])
+    beta = np.array(
+        [sum(t.value * values[t.parameter] for t in b.terms) for b in compiled.spec.base]
+    )
     assert close(G.T @ M @ G, compiled.inertia_matrix(q, beta)[0], 1e-6)
     data.qvel[:] = 0.0
     mujoco.mj_forward(model, data)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from modeler.api import export, identify, load, recompile, simulate
+from modeler.estimation import PREFIXES, Machine, parameters_of, pseudo_inertia_of
 from modeler.export.bodies import Original, physics_of
 from modeler.export.completion import Beforehand, buildable, conditioned
-from modeler.estimation import PREFIXES, Machine, parameters_of, pseudo_inertia_of
 from modeler.robot import read_robot, robot_from_text
 from tests.export.arms import URDF, changed, written
 from tests.export.test_fresh_files import close, mujoco_torques, pinocchio_torques
@@ -23,7 +23,9 @@ def fitted(tmp_path_factory):
     folder = tmp_path_factory.mktemp("arm")
     place = written(folder, "arm.urdf", URDF)
     truth = changed(read_robot(place), np.random.default_rng())
-    log = simulate(truth, duration=8.0, rate=500.0, seed=int(np.random.default_rng().integers(1000)))
+    log = simulate(
+        truth, duration=8.0, rate=500.0, seed=int(np.random.default_rng().integers(1000))
+    )
     return place, truth, identify(read_robot(place), log)
 
 
@@ -38,7 +40,7 @@ def torques_without(model, q, qd, qdd, left_out) -> np.ndarray:
 
 
 def test_the_exported_file_has_the_torques_of_the_fit(fitted) -> None:
-    place, truth, model = fitted
+    place, _, model = fitted
     found = export(model, like=place)
     assert found.moved == 0.0 and not found.not_held
     rng = np.random.default_rng()
@@ -54,7 +56,7 @@ def test_the_exported_file_has_the_torques_of_the_fit(fitted) -> None:
 
 
 def test_values_have_the_sigmas_of_the_fit(fitted) -> None:
-    place, truth, model = fitted
+    place, _, model = fitted
     values = {(v.part, v.quantity): v for v in export(model, like=place).values}
     friction = values["shoulder", "friction"]
     assert friction.was == 0.7 and friction.now == pytest.approx(model["Fs1"].value)
@@ -66,7 +68,9 @@ def test_values_have_the_sigmas_of_the_fit(fitted) -> None:
     # A sigma by random draws of the ten parameters.
     places = physics.ten_places("1")
     rng = np.random.default_rng()
-    tens = rng.multivariate_normal(physics.now.chi[places], 1e-4 * physics.now.covariance[np.ix_(places, places)], 4000)  # noqa: E501
+    tens = rng.multivariate_normal(
+        physics.now.chi[places], 1e-4 * physics.now.covariance[np.ix_(places, places)], 4000
+    )
     centre = tens[:, 6] / tens[:, 9]
     fresh = {(v.part, v.quantity): v for v in export(model, to="urdf").values}
     assert fresh["link_1", "centre x"].sigma == pytest.approx(1e2 * centre.std(), rel=0.1)
@@ -134,7 +138,11 @@ def test_the_nearest_machine_is_the_nearest() -> None:
         return float(np.linalg.norm(np.linalg.solve(L, chi - found.chi)))
 
     least = far(best.chi)
-    others = [best.chi + t * L @ rng.normal(size=10) for t in np.geomspace(1e-3, 1.0, 20) for _ in range(100)]
+    others = [
+        best.chi + t * L @ rng.normal(size=10)
+        for t in np.geomspace(1e-3, 1.0, 20)
+        for _ in range(100)
+    ]
     for chi in others:
         if np.linalg.eigvalsh(pseudo_inertia_of(chi))[0] > 1e-9:
             assert far(chi) > least * (1.0 - 1e-4)
@@ -145,7 +153,9 @@ def test_a_fit_that_could_not_be_built_becomes_one_that_could(fitted) -> None:
     values = list(model.fit.parameters)
     at = next(i for i, p in enumerate(values) if p.name == "Fs2")
     values[at] = dataclasses.replace(values[at], value=-3.0 * values[at].sigma)
-    broken = dataclasses.replace(model, fit=dataclasses.replace(model.fit, parameters=tuple(values)))
+    broken = dataclasses.replace(
+        model, fit=dataclasses.replace(model.fit, parameters=tuple(values))
+    )
     found = export(broken, like=place)
     assert found.moved == pytest.approx(3.0, rel=0.2) and "moved by 3" in found.summary()
     elbow = [v for v in found.values if (v.part, v.quantity) == ("elbow", "friction")]
@@ -155,7 +165,9 @@ def test_a_fit_that_could_not_be_built_becomes_one_that_could(fitted) -> None:
 def test_what_hangs_on_a_link_changes_only_where_it_must(tmp_path) -> None:
     """The finger weighs 0.2 kg, and the fit says that slider and finger come to less."""
     box = b'<mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/>'
-    arm = URDF.replace(b'<link name="slider"/>', b'<link name="slider"><inertial>' + box + b"</inertial></link>")
+    arm = URDF.replace(
+        b'<link name="slider"/>', b'<link name="slider"><inertial>' + box + b"</inertial></link>"
+    )
     place = written(tmp_path, "arm.urdf", arm)
     robot = read_robot(place)
     masses = {}
@@ -180,7 +192,9 @@ def test_links_without_values_get_capsules_and_it_is_told() -> None:
     assert any("that of a capsule" in note for note in found.notes)
     rng = np.random.default_rng()
     q, qd, qdd = (rng.uniform(-0.5, 0.5, (50, 4)) for _ in range(3))
-    left = tuple({p.name.rstrip("0123456789") for p in model.spec.standard if p.kind == "offset"} | {"Fs"})
+    left = tuple(
+        {p.name.rstrip("0123456789") for p in model.spec.standard if p.kind == "offset"} | {"Fs"}
+    )
     names = [f"joint_{joint.name}" for joint in robot.moving]
     ours = torques_without(model, q, qd, qdd, left)
     assert close(mujoco_torques(found.data, names, q, qd, qdd), ours)
