@@ -113,7 +113,7 @@ class _Writing:
         self.free = self.driven if tree.meetings else free
         self.rows = [self._row(row) for row in self.table.rows]
         self.loops = self._loops()
-        entries = tuple(repr(float(entry)) for entry in tree.gravity)
+        entries = tuple(repr(exact_length(float(entry))) for entry in tree.gravity)
         self.gravity = gravity(entries, self.symbols, Place(where))
 
     def _row(self, row: MdhRow) -> TextRow:
