@@ -520,10 +520,11 @@ class _Reading:
         model, first = self._model, int(self._model.tendon_adr[tendon])
         parts = range(first, first + int(model.tendon_num[tendon]))
         joints = [int(model.wrap_objid[p]) for p in parts]
-        if other >= 0 or len(joints) != 2 or any(model.wrap_type[p] != _WRAP_JOINT for p in parts):
+        shares = [float(model.wrap_prm[p]) for p in parts]
+        fixed = all(model.wrap_type[p] == _WRAP_JOINT for p in parts) and other < 0
+        if not fixed or len(joints) != 2 or not all(shares):
             raise self._refused(f"{name} holds a tendon; expected a fixed one over two joints")
-        first_share, second_share = (float(model.wrap_prm[p]) for p in parts)
-        return joints[0], joints[1], -second_share / first_share, constant / first_share
+        return joints[0], joints[1], -shares[1] / shares[0], constant / shares[0]
 
     def _meetings(self) -> Iterator[Meeting]:
         """Points that `connect` holds together."""
@@ -575,25 +576,25 @@ class _Reading:
         idle = model.neq - int(np.sum(model.eq_active0))
         lifted = [n for n, share in zip(self._bodies, model.body_gravcomp, strict=True) if share]
         fluid = model.opt.density or model.opt.viscosity or np.any(model.opt.wind)
-        passive = ("stiffness", "damping", "frictionloss", "armature")
+        of_tendons = [
+            getattr(model, f"tendon_{p}") for p in ("stiffness", "damping", "frictionloss")
+        ]
         curved = np.any(model.jnt_stiffnesspoly) or np.any(model.dof_dampingpoly)
         driven = [i for j in self._kept for i in self._motors(j)]
         gear = np.any(model.actuator_gear[driven, 0] != 1) and np.any(model.dof_armature)
         inner = np.any(model.actuator_armature[driven]) or np.any(model.actuator_damping[driven])
-        for is_so, what in (
-            (idle, f"{idle} inactive equalities are left out"),
-            (lifted, f"gravcomp of {_some(lifted)} is left out: torques here carry gravity"),
-            (fluid, "forces of the fluid (density, viscosity, wind) are left out"),
-            (
-                any(np.any(getattr(model, f"tendon_{p}")) for p in passive),
-                "springs, damping, friction and armature of tendons are left out",
+        notes = {
+            f"{idle} inactive equalities are left out": idle,
+            f"gravcomp of {_some(lifted)} is left out: torques here carry gravity": lifted,
+            "forces of the fluid (density, viscosity, wind) are left out": fluid,
+            "springs, damping, friction and armature of tendons are left out": any(
+                np.any(values) for values in (*of_tendons, model.tendon_armature)
             ),
-            (curved, "of polynomial springs and damping the linear term is taken"),
-            (inner, "armature and damping of actuators are the motor's: gear^2 as much at a joint"),
-            (gear, "armature of joints is taken at the joint; gear scales commands alone"),
-        ):
-            if is_so:
-                self._notes.append(what)
+            "of polynomial springs and damping the linear term is taken": curved,
+            "armature and damping of actuators are the motor's: gear^2 as much at a joint": inner,
+            "armature of joints is taken at the joint; gear scales commands alone": gear,
+        }
+        self._notes += [what for what, is_so in notes.items() if is_so]
 
 
 def _named(kind: str, names: list[str]) -> list[str]:

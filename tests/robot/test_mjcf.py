@@ -239,6 +239,16 @@ def test_linear_equalities_are_relations(
     joint = joints(read(tmp_path, text))[follower]
     assert (joint.leader, joint.actuated) == (leader, False)
     assert (joint.ratio, joint.offset) == pytest.approx((ratio, offset))
+    # MuJoCo's own residual is 0 where the relation holds, and only there.
+    bare = re.sub(r"<asset>.*</asset>|<geom type=.mesh.[^>]*>", "", text, flags=re.S)
+    model = mujoco.MjModel.from_xml_string(bare)
+    data = mujoco.MjData(model)
+    for slip in (0.0, 0.1):
+        data.joint(leader).qpos = 0.3
+        data.joint(follower).qpos = joint.ratio * 0.3 + joint.offset + slip
+        mujoco.mj_forward(model, data)
+        (residual,) = data.efc_pos[data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY]
+        assert (abs(residual) < 1e-12) == (slip == 0.0)
 
 
 def test_chains_of_equalities_and_joints_that_stand_still(tmp_path: Path) -> None:
